@@ -1,0 +1,36 @@
+#pragma once
+/// The label map that everything starts from, and the tissues in it.
+
+#include "Grid.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+using Label = std::uint16_t; ///< 0 is background
+
+struct Tissue
+{
+  std::string name;                           ///< empty if unknown
+  std::array<double, 3> color{ 0.8, 0.8, 0.8 }; ///< RGB in [0, 1]
+};
+
+/// Names and colours by label.
+using TissueTable = std::map<Label, Tissue>;
+
+struct TissueMap
+{
+  Grid grid;                 ///< axes permuted and flipped to run along +L, +P, +S as nearly as they can
+  std::vector<Label> labels; ///< grid.voxelCount() labels, i fastest
+  TissueTable table;         ///< names and colours the file itself carried (.seg.nrrd), else empty
+};
+
+/// Labels present in the map, ascending, without background.
+std::vector<Label> presentLabels(const TissueMap& map);
+
+} // namespace surgicalmesher
