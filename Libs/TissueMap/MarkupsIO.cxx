@@ -1,0 +1,167 @@
+#include "TissueMapIO.h"
+
+#include "Errors.h"
+#include "TextFile.h"
+
+#include <rapidjson/document.h>
+#include <rapidjson/error/en.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+using Points = std::vector<Vec3>;
+using Json = rapidjson::Value;
+
+/// Whether positions in this coordinate system are RAS, else LPS. Older files write a number for it.
+bool isRas(const std::string& system, const std::string& file)
+{
+  if (system == "RAS" || system == "0") return true;
+  if (system == "LPS" || system == "1") return false;
+  throw InputError(file + ": coordinate system \"" + system + "\", expected LPS or RAS");
+}
+
+Vec3 toLps(const Vec3& p, bool ras) { return ras ? Vec3{ -p.x, -p.y, p.z } : p; }
+
+const Json* member(const Json& object, const char* name)
+{
+  const auto found = object.FindMember(name);
+  return found == object.MemberEnd() ? nullptr : &found->value;
+}
+
+std::string textMember(const Json& object, const char* name, const std::string& missing)
+{
+  const Json* value = member(object, name);
+  if (value && value->IsString()) return value->GetString();
+  if (value && value->IsInt()) return std::to_string(value->GetInt());
+  return missing;
+}
+
+Vec3 readPosition(const Json& controlPoint, const std::string& file)
+{
+  const Json* position = controlPoint.IsObject() ? member(controlPoint, "position") : nullptr;
+  Vec3 p;
+  bool good = position && position->IsArray() && position->Size() == 3;
+  for (int axis = 0; good && axis < 3; ++axis)
+  {
+    const Json& value = (*position)[axis];
+    good = value.IsNumber() && std::isfinite(value.GetDouble());
+    if (good) p[axis] = value.GetDouble();
+  }
+  if (!good) throw InputError(file + ": a control point without a position of three numbers");
+  return p;
+}
+
+/// The control points that are placed: Slicer also keeps points "undefined", "missing" and "preview".
+Points readMarkup(const Json& markup, const std::string& file)
+{
+  const Json* controlPoints = markup.IsObject() ? member(markup, "controlPoints") : nullptr;
+  if (!controlPoints || !controlPoints->IsArray()) throw InputError(file + ": a markup without controlPoints");
+  const bool ras = isRas(textMember(markup, "coordinateSystem", "LPS"), file);
+  const std::string units = textMember(markup, "coordinateUnits", "mm");
+  if (units != "mm") throw InputError(file + ": coordinates in \"" + units + "\", expected mm");
+  Points points;
+  for (const Json& controlPoint : controlPoints->GetArray())
+  {
+    if (controlPoint.IsObject() && textMember(controlPoint, "positionStatus", "defined") != "defined") continue;
+    points.push_back(toLps(readPosition(controlPoint, file), ras));
+  }
+  const bool isClosed = textMember(markup, "type", "") == "ClosedCurve";
+  if (isClosed && points.size() > 1) points.push_back(points.front());
+  return points;
+}
+
+std::vector<Points> readJson(const std::string& file)
+{
+  rapidjson::Document document;
+  document.Parse<rapidjson::kParseFullPrecisionFlag>(readTextFile(file).c_str());
+  if (document.HasParseError())
+  {
+    throw InputError(file + ": not valid JSON at byte " + std::to_string(document.GetErrorOffset()) + " (" +
+                     rapidjson::GetParseError_En(document.GetParseError()) + ")");
+  }
+  const Json* markups = document.IsObject() ? member(document, "markups") : nullptr;
+  if (!markups || !markups->IsArray()) throw InputError(file + ": no array \"markups\", expected a markups file");
+  std::vector<Points> lists;
+  for (const Json& markup : markups->GetArray()) lists.push_back(readMarkup(markup, file));
+  return lists;
+}
+
+/// What follows `# key = ` in a comment line of an .fcsv, or nothing.
+std::string commentValue(const std::string& line, const std::string& key)
+{
+  const std::size_t equal = line.find('=');
+  if (equal == std::string::npos || trimmed(line.substr(1, equal - 1)) != key) return {};
+  return trimmed(line.substr(equal + 1));
+}
+
+/// Where the column is called x; y and z follow it.
+std::size_t firstCoordinate(const std::string& columns, const std::string& file)
+{
+  const std::vector<std::string> names = splitFields(columns);
+  const auto x = std::find(names.begin(), names.end(), "x");
+  if (names.end() - x < 3 || x[1] != "y" || x[2] != "z")
+  {
+    throw InputError(file + ": columns \"" + columns + "\", expected x,y,z among them");
+  }
+  return std::size_t(x - names.begin());
+}
+
+/// Version 3 files (label,x,y,z,sel,vis) and version 4 files (id,x,y,z,ow,...) both have x second and both default to RAS.
+std::vector<Points> readFcsv(const std::string& file)
+{
+  bool ras = true;
+  std::size_t x = 1;
+  Points points;
+  const std::vector<std::string> lines = splitLines(readTextFile(file));
+  for (std::size_t n = 0; n < lines.size(); ++n)
+  {
+    const std::string& line = lines[n];
+    if (trimmed(line).empty()) continue;
+    if (line[0] == '#')
+    {
+      const std::string system = commentValue(line, "CoordinateSystem");
+      const std::string columns = commentValue(line, "columns");
+      if (!system.empty()) ras = isRas(system, file);
+      if (!columns.empty()) x = firstCoordinate(columns, file);
+      continue;
+    }
+    const std::vector<std::string> fields = splitFields(line);
+    Vec3 p;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+    {
+      if (x + axis < fields.size() && parseNumber(fields[x + axis], p[int(axis)])) continue;
+      throw InputError(file + ":" + std::to_string(n + 1) + ": \"" + line.substr(0, 60) +
+                       "\", expected three finite coordinates");
+    }
+    points.push_back(toLps(p, ras));
+  }
+  return { points };
+}
+
+bool endsWith(const std::string& text, const std::string& end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+} // namespace
+
+std::vector<std::vector<Vec3>> readMarkups(const std::string& file)
+{
+  const std::string name = lowerCase(file);
+  requireReadableFile(file);
+  std::vector<Points> lists;
+  if (endsWith(name, ".json")) lists = readJson(file);
+  else if (endsWith(name, ".fcsv")) lists = readFcsv(file);
+  else throw InputError(file + ": not a markups file, expected .mrk.json or .fcsv");
+  lists.erase(std::remove_if(lists.begin(), lists.end(), [](const Points& points) { return points.empty(); }), lists.end());
+  if (lists.empty()) throw InputError(file + ": no control point, expected at least one with a defined position");
+  return lists;
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,562 @@
+#include "TissueMapIO.h"
+
+#include "Errors.h"
+#include "TextFile.h"
+
+#include <itkGiplImageIO.h>
+#include <itkMRCImageIO.h>
+#include <itkMetaDataObject.h>
+#include <itkMetaImageIO.h>
+#include <itkNiftiImageIO.h>
+#include <itkNrrdImageIO.h>
+#include <itkVTKImageIO.h>
+#include <itksys/SystemTools.hxx>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+using MetaData = std::map<std::string, std::string>;
+
+constexpr double maximumVoxelCount = 2147483648.0; // 2^31: 4 GB of labels
+
+/// An image file as it lies in memory after reading, and how to walk it in the order of the canonical grid.
+struct Volume
+{
+  std::string file;
+  Grid grid;                             ///< canonical: see TissueMap::grid
+  std::ptrdiff_t first = 0;              ///< voxel of the file that is voxel (0, 0, 0) of the grid
+  std::array<std::ptrdiff_t, 3> stride;  ///< voxels of the file from one voxel of the grid to the next along i, j, k
+  int components = 1;                    ///< values per voxel, interleaved
+  itk::IOComponentEnum type = itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE;
+  std::unique_ptr<char[]> data;
+  MetaData metaData;
+};
+
+/// Keeps what the image libraries print on C++ streams away from stdout and stderr, which carry progress and errors.
+class Silence
+{
+public:
+  Silence() : m_Err(std::cerr.rdbuf(&m_Sink)), m_Out(std::cout.rdbuf(&m_Sink)) {}
+  ~Silence()
+  {
+    std::cerr.rdbuf(m_Err);
+    std::cout.rdbuf(m_Out);
+  }
+  Silence(const Silence&) = delete;
+  void operator=(const Silence&) = delete;
+
+private:
+  std::stringbuf m_Sink;
+  std::streambuf* m_Err;
+  std::streambuf* m_Out;
+};
+
+std::string asText(double value)
+{
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  stream.precision(10);
+  stream << value;
+  return stream.str();
+}
+
+/// What an ITK exception says, on one line.
+std::string oneLine(const std::exception& error)
+{
+  const auto* itkError = dynamic_cast<const itk::ExceptionObject*>(&error);
+  std::string line;
+  for (const std::string& word : splitWords(itkError ? itkError->GetDescription() : error.what()))
+  {
+    for (const std::string& part : splitLines(word)) line += (line.empty() ? "" : " ") + part;
+  }
+  return line.substr(0, 300);
+}
+
+std::vector<itk::ImageIOBase::Pointer> imageFormats()
+{
+  return { itk::NrrdImageIO::New().GetPointer(), itk::NiftiImageIO::New().GetPointer(),
+    itk::MetaImageIO::New().GetPointer(), itk::GiplImageIO::New().GetPointer(), itk::VTKImageIO::New().GetPointer(),
+    itk::MRCImageIO::New().GetPointer() };
+}
+
+const char* const formatNames = "NRRD, NIfTI, MetaImage, GIPL, legacy VTK or MRC";
+
+itk::ImageIOBase::Pointer openImage(const std::string& file)
+{
+  requireReadableFile(file);
+  const Silence silence;
+  for (const itk::ImageIOBase::Pointer& io : imageFormats())
+  {
+    try
+    {
+      if (!io->CanReadFile(file.c_str())) continue;
+      io->SetFileName(file);
+      io->ReadImageInformation();
+      return io;
+    }
+    catch (const std::exception& error)
+    {
+      throw InputError(file + ": the image header cannot be read (" + oneLine(error) + ")");
+    }
+  }
+  throw InputError(file + ": not an image that can be read, expected " + formatNames);
+}
+
+/// Throws unless the image is a volume of at most 2^31 voxels with at least one in each direction.
+std::array<int, 3> volumeSize(const itk::ImageIOBase& io, const std::string& file)
+{
+  const unsigned int dimension = io.GetNumberOfDimensions();
+  std::string found;
+  for (unsigned int axis = 0; axis < dimension; ++axis)
+  {
+    found += (axis ? " x " : "") + std::to_string(io.GetDimensions(axis));
+  }
+  const bool isVolume = dimension == 3 || (dimension == 4 && io.GetDimensions(3) == 1);
+  if (!isVolume)
+  {
+    throw InputError(file + ": an image of " + std::to_string(dimension) + " dimensions (" + found + "), expected 3");
+  }
+  double count = 1;
+  for (int axis = 0; axis < 3; ++axis) count *= double(io.GetDimensions(axis));
+  if (!(count >= 1 && count <= maximumVoxelCount))
+  {
+    throw InputError(file + ": a grid of " + found + " voxels, expected 1 to 2^31 voxels");
+  }
+  std::array<int, 3> size;
+  for (int axis = 0; axis < 3; ++axis) size[axis] = int(io.GetDimensions(axis));
+  return size;
+}
+
+/// The nearest orthonormal frame, by Newton's iteration for the polar decomposition.
+std::array<Vec3, 3> orthonormalised(std::array<Vec3, 3> a)
+{
+  for (int iteration = 0; iteration < 10; ++iteration)
+  {
+    const Vec3 normals[3] = { cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1]) };
+    const double determinant = dot(a[0], normals[0]);
+    for (int axis = 0; axis < 3; ++axis) a[axis] = 0.5 * (a[axis] + normals[axis] / determinant);
+  }
+  return a;
+}
+
+/// The grid in the order of the file; its axes may be left-handed.
+Grid fileGrid(const itk::ImageIOBase& io, const std::string& file)
+{
+  Grid grid;
+  grid.size = volumeSize(io, file);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::vector<double> direction = io.GetDirection(axis);
+    Vec3 column{ direction[0], direction[1], direction[2] };
+    grid.origin[axis] = io.GetOrigin(axis);
+    grid.spacing[axis] = io.GetSpacing(axis) * norm(column);
+    if (!std::isfinite(grid.origin[axis])) throw InputError(file + ": the origin is not finite");
+    if (!(std::isfinite(grid.spacing[axis]) && grid.spacing[axis] > 0))
+    {
+      throw InputError(file + ": voxel spacing " + asText(grid.spacing[axis]) + " along axis " + std::to_string(axis) +
+                       ", expected more than 0 mm");
+    }
+    grid.axes[axis] = column / norm(column);
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double cosine = dot(grid.axes[axis], grid.axes[(axis + 1) % 3]);
+    if (!(std::abs(cosine) < 1e-3)) throw InputError(file + ": the voxel axes are not perpendicular to each other");
+  }
+  grid.axes = orthonormalised(grid.axes);
+  return grid;
+}
+
+/// How the axes of a file go onto those of the canonical grid: w runs along or against file axis source[w].
+struct AxisOrder
+{
+  std::array<int, 3> source;
+  std::array<int, 3> sign;
+};
+
+/// The right-handed order whose axes lie nearest to +L, +P, +S: of the 24, the one of largest trace. Where two are equally
+/// near, the choice depends on the directions in space alone, so that permuted and flipped copies of a map end alike.
+AxisOrder canonicalOrder(const std::array<Vec3, 3>& axes)
+{
+  constexpr double tolerance = 1e-6;
+  AxisOrder best{};
+  std::vector<double> bestKey;
+  std::array<int, 3> source{ 0, 1, 2 };
+  do
+  {
+    for (int signs = 0; signs < 8; ++signs)
+    {
+      AxisOrder order{ source, { signs & 1 ? -1 : 1, signs & 2 ? -1 : 1, signs & 4 ? -1 : 1 } };
+      std::array<Vec3, 3> frame;
+      for (int w = 0; w < 3; ++w) frame[w] = order.sign[w] * axes[source[w]];
+      if (dot(cross(frame[0], frame[1]), frame[2]) < 0) continue;
+      std::vector<double> key{ frame[0].x + frame[1].y + frame[2].z };
+      for (const Vec3& axis : frame) key.insert(key.end(), { axis.x, axis.y, axis.z });
+      const auto difference = std::mismatch(key.begin(), key.end(), bestKey.begin(), bestKey.end(),
+        [=](double a, double b) { return std::abs(a - b) < tolerance; });
+      if (bestKey.empty() || (difference.first != key.end() && *difference.first > *difference.second))
+      {
+        best = order;
+        bestKey = key;
+      }
+    }
+  } while (std::next_permutation(source.begin(), source.end()));
+  return best;
+}
+
+void canonicalise(const Grid& in, Volume& volume)
+{
+  const std::ptrdiff_t strides[3] = { 1, in.size[0], std::ptrdiff_t(in.size[0]) * in.size[1] };
+  const AxisOrder order = canonicalOrder(in.axes);
+  volume.grid.origin = in.origin;
+  volume.first = 0;
+  for (int w = 0; w < 3; ++w)
+  {
+    const int source = order.source[w];
+    volume.grid.size[w] = in.size[source];
+    volume.grid.spacing[w] = in.spacing[source];
+    volume.grid.axes[w] = order.sign[w] * in.axes[source];
+    volume.stride[w] = order.sign[w] * strides[source];
+    if (order.sign[w] > 0) continue;
+    volume.first += (in.size[source] - 1) * strides[source];
+    volume.grid.origin += ((in.size[source] - 1) * in.spacing[source]) * in.axes[source];
+  }
+}
+
+MetaData readMetaData(const itk::ImageIOBase& io)
+{
+  MetaData metaData;
+  for (const std::string& key : io.GetMetaDataDictionary().GetKeys())
+  {
+    std::string value;
+    if (itk::ExposeMetaData(io.GetMetaDataDictionary(), key, value)) metaData[key] = value;
+  }
+  return metaData;
+}
+
+Volume readVolume(const std::string& file)
+{
+  const itk::ImageIOBase::Pointer io = openImage(file);
+  Volume volume;
+  volume.file = file;
+  canonicalise(fileGrid(*io, file), volume);
+  volume.components = int(io->GetNumberOfComponents());
+  volume.type = io->GetComponentType();
+  volume.metaData = readMetaData(*io);
+
+  const unsigned int dimension = io->GetNumberOfDimensions();
+  itk::ImageIORegion region(dimension);
+  for (unsigned int axis = 0; axis < dimension; ++axis) region.SetSize(axis, io->GetDimensions(axis));
+  io->SetIORegion(region);
+  const Silence silence;
+  try
+  {
+    volume.data.reset(new char[volume.grid.voxelCount() * volume.components * io->GetComponentSize()]);
+    io->Read(volume.data.get());
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw InputError(file + ": not enough memory for the grid that its header promises");
+  }
+  catch (const std::exception& error)
+  {
+    throw InputError(file + ": the image data cannot be read, truncated or damaged (" + oneLine(error) + ")");
+  }
+  return volume;
+}
+
+/// Calls function(const T* data) with the type of the file's values.
+template <typename Function>
+void visitData(const Volume& volume, Function function)
+{
+  const auto call = [&](auto zero) { function(reinterpret_cast<const decltype(zero)*>(volume.data.get())); };
+  using Type = itk::IOComponentEnum;
+  switch (volume.type)
+  {
+    case Type::UCHAR: return call((unsigned char)0);
+    case Type::CHAR: return call((signed char)0);
+    case Type::USHORT: return call((unsigned short)0);
+    case Type::SHORT: return call(short(0));
+    case Type::UINT: return call(0u);
+    case Type::INT: return call(0);
+    case Type::ULONG: return call(0ul);
+    case Type::LONG: return call(0l);
+    case Type::ULONGLONG: return call(0ull);
+    case Type::LONGLONG: return call(0ll);
+    case Type::FLOAT: return call(0.f);
+    case Type::DOUBLE: return call(0.);
+    default: throw InputError(volume.file + ": voxels of an unknown type, expected integers or floats");
+  }
+}
+
+/// convert(const T* voxel) of every voxel, in the order of the canonical grid.
+template <typename Out, typename Convert>
+std::vector<Out> gather(const Volume& volume, Convert convert)
+{
+  std::vector<Out> values(volume.grid.voxelCount());
+  visitData(volume, [&](const auto* data) {
+    Out* out = values.data();
+    const std::array<int, 3>& size = volume.grid.size;
+    for (int k = 0; k < size[2]; ++k)
+    {
+      for (int j = 0; j < size[1]; ++j)
+      {
+        const std::ptrdiff_t row = volume.first + j * volume.stride[1] + k * volume.stride[2];
+        for (int i = 0; i < size[0]; ++i) *out++ = convert(data + (row + i * volume.stride[0]) * volume.components);
+      }
+    }
+  });
+  return values;
+}
+
+/// The label that a voxel value stands for; throws for values that are none.
+template <typename T>
+Label toLabel(T value, const std::string& file)
+{
+  const double number = double(value);
+  if (number >= 0 && number <= 65535 && number == double(Label(number))) return Label(number);
+  throw InputError(file + ": a voxel of value " + asText(number) + ", expected labels: integers from 0 to 65535");
+}
+
+/// One segment of a .seg.nrrd: the voxels of value `value` in layer `layer`.
+struct Segment
+{
+  int layer = 0;
+  Label value = 1;
+  Tissue tissue;
+};
+
+const std::string* find(const MetaData& metaData, const std::string& key)
+{
+  const auto found = metaData.find(key);
+  return found == metaData.end() ? nullptr : &found->second;
+}
+
+long segmentNumber(const Volume& volume, const std::string& key, long minimum, long maximum, long missing)
+{
+  const std::string* text = find(volume.metaData, key);
+  long number = missing;
+  if (text && !parseInteger(trimmed(*text), minimum, maximum, number))
+  {
+    throw InputError(volume.file + ": " + key + " is \"" + *text + "\", expected an integer from " +
+                     std::to_string(minimum) + " to " + std::to_string(maximum));
+  }
+  return number;
+}
+
+/// The segments that the header lists, in its order; none if the file is no segmentation. Headers older than shared layers
+/// name neither layer nor value: segment N is then the ones of layer N.
+std::vector<Segment> readSegments(const Volume& volume)
+{
+  std::vector<Segment> segments;
+  for (int n = 0; find(volume.metaData, "Segment" + std::to_string(n) + "_ID"); ++n)
+  {
+    const std::string prefix = "Segment" + std::to_string(n);
+    Segment segment;
+    segment.layer = int(segmentNumber(volume, prefix + "_Layer", 0, volume.components - 1, n));
+    segment.value = Label(segmentNumber(volume, prefix + "_LabelValue", 1, 65535, 1));
+    if (segment.layer >= volume.components)
+    {
+      throw InputError(volume.file + ": " + prefix + " has no layer among the " + std::to_string(volume.components) +
+                       " of the file");
+    }
+    if (const std::string* name = find(volume.metaData, prefix + "_Name")) segment.tissue.name = trimmed(*name);
+    if (const std::string* color = find(volume.metaData, prefix + "_Color"))
+    {
+      const std::vector<std::string> words = splitWords(*color);
+      for (std::size_t c = 0; c < 3 && c < words.size(); ++c) parseNumber(words[c], segment.tissue.color[c]);
+    }
+    segments.push_back(segment);
+  }
+  return segments;
+}
+
+/// The label of every segment: its value in the file, or, where two layers use the same value, 1, 2, 3 ... in the order
+/// of the header.
+std::vector<Label> segmentLabels(const std::vector<Segment>& segments)
+{
+  std::vector<Label> labels;
+  for (const Segment& segment : segments) labels.push_back(segment.value);
+  std::vector<Label> sorted = labels;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+  {
+    for (std::size_t n = 0; n < labels.size(); ++n) labels[n] = Label(n + 1);
+  }
+  return labels;
+}
+
+/// Several layers become one map; where segments overlap, the later one in the header wins.
+std::vector<Label> mergeLayers(const Volume& volume, const std::vector<Segment>& segments,
+  const std::vector<Label>& segmentLabel)
+{
+  std::vector<std::vector<int>> rank(volume.components); // by layer and value: segment + 1, or 0
+  for (std::size_t n = 0; n < segments.size(); ++n)
+  {
+    std::vector<int>& layer = rank[segments[n].layer];
+    if (layer.size() <= segments[n].value) layer.resize(segments[n].value + 1, 0);
+    layer[segments[n].value] = int(n) + 1;
+  }
+  return gather<Label>(volume, [&](const auto* voxel) {
+    int winner = 0;
+    for (int c = 0; c < volume.components; ++c)
+    {
+      const Label value = toLabel(voxel[c], volume.file);
+      const int candidate = value < rank[c].size() ? rank[c][value] : 0;
+      if (value != 0 && candidate == 0)
+      {
+        throw InputError(volume.file + ": layer " + std::to_string(c) + " has a voxel of value " +
+                         std::to_string(value) + ", which no segment of the header has");
+      }
+      winner = std::max(winner, candidate);
+    }
+    return winner == 0 ? Label(0) : segmentLabel[winner - 1];
+  });
+}
+
+itk::ImageIOBase::Pointer imageWriter(const std::string& file)
+{
+  for (const itk::ImageIOBase::Pointer& io : imageFormats())
+  {
+    if (io->CanWriteFile(file.c_str())) return io;
+  }
+  throw InputError(file + ": cannot be written as an image, expected the extension of " + formatNames);
+}
+
+void writeVolume(const Grid& grid, itk::IOComponentEnum type, const void* data, const MetaData& metaData,
+  const std::string& file)
+{
+  const itk::ImageIOBase::Pointer io = imageWriter(file);
+  io->SetFileName(file);
+  io->SetNumberOfDimensions(3);
+  itk::ImageIORegion region(3);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    io->SetDimensions(axis, grid.size[axis]);
+    io->SetSpacing(axis, grid.spacing[axis]);
+    io->SetOrigin(axis, grid.origin[axis]);
+    io->SetDirection(axis, std::vector<double>{ grid.axes[axis].x, grid.axes[axis].y, grid.axes[axis].z });
+    region.SetSize(axis, grid.size[axis]);
+  }
+  io->SetIORegion(region);
+  io->SetPixelType(itk::IOPixelEnum::SCALAR);
+  io->SetNumberOfComponents(1);
+  io->SetComponentType(type);
+  io->SetUseCompression(true);
+  for (const auto& entry : metaData) itk::EncapsulateMetaData(io->GetMetaDataDictionary(), entry.first, entry.second);
+  const Silence silence;
+  try
+  {
+    io->Write(data);
+  }
+  catch (const std::exception& error)
+  {
+    throw InputError(file + ": cannot be written (" + oneLine(error) + ")");
+  }
+}
+
+/// Names and colours as Slicer's segmentations carry them.
+MetaData segmentMetaData(const TissueTable& table)
+{
+  MetaData metaData;
+  int n = 0;
+  for (const auto& entry : table)
+  {
+    const std::string prefix = "Segment" + std::to_string(n++);
+    const std::array<double, 3>& color = entry.second.color;
+    metaData[prefix + "_ID"] = "Segment_" + std::to_string(entry.first);
+    metaData[prefix + "_LabelValue"] = std::to_string(entry.first);
+    metaData[prefix + "_Layer"] = "0";
+    metaData[prefix + "_Name"] = entry.second.name.empty() ? std::to_string(entry.first) : entry.second.name;
+    metaData[prefix + "_Color"] = asText(color[0]) + " " + asText(color[1]) + " " + asText(color[2]);
+  }
+  return metaData;
+}
+
+} // namespace
+
+TissueMap readTissueMap(const std::string& file)
+{
+  const Volume volume = readVolume(file);
+  const std::vector<Segment> segments = readSegments(volume);
+  if (volume.components > 1 && segments.empty())
+  {
+    throw InputError(file + ": " + std::to_string(volume.components) + " values per voxel, expected one label");
+  }
+  TissueMap map;
+  map.grid = volume.grid;
+  const std::vector<Label> labels = segmentLabels(segments);
+  for (std::size_t n = 0; n < segments.size(); ++n) map.table[labels[n]] = segments[n].tissue;
+  map.labels = volume.components > 1
+    ? mergeLayers(volume, segments, labels)
+    : gather<Label>(volume, [&](const auto* voxel) { return toLabel(*voxel, file); });
+  if (std::all_of(map.labels.begin(), map.labels.end(), [](Label label) { return label == 0; }))
+  {
+    throw InputError(file + ": no voxel but background (label 0), expected at least one tissue");
+  }
+  return map;
+}
+
+void writeTissueMap(const TissueMap& map, const std::string& file)
+{
+  writeVolume(map.grid, itk::IOComponentEnum::USHORT, map.labels.data(), segmentMetaData(map.table), file);
+}
+
+ScaleField readScale(const std::string& file)
+{
+  const Volume volume = readVolume(file);
+  if (volume.components > 1)
+  {
+    throw InputError(file + ": " + std::to_string(volume.components) + " values per voxel, expected one edge length");
+  }
+  ScaleField scale;
+  scale.grid = volume.grid;
+  scale.lengths = gather<float>(volume, [&](const auto* voxel) {
+    const float length = float(*voxel);
+    if (std::isfinite(length) && length > 0) return length;
+    throw InputError(file + ": an edge length of " + asText(double(*voxel)) + ", expected more than 0 mm everywhere");
+  });
+  return scale;
+}
+
+void writeScale(const ScaleField& scale, const std::string& file)
+{
+  writeVolume(scale.grid, itk::IOComponentEnum::FLOAT, scale.lengths.data(), {}, file);
+}
+
+void requireCover(const ScaleField& scale, const Grid& grid, const std::string& scaleFile)
+{
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    Vec3 p;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      p[axis] = ((corner >> axis) & 1 ? grid.size[axis] - 0.5 : -0.5) * grid.spacing[axis];
+    }
+    const Vec3 world = grid.gridToWorld(p);
+    const Vec3 q = scale.grid.worldToGrid(world);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      constexpr double tolerance = 1e-3; // voxels: headers are rounded
+      const double index = q[axis] / scale.grid.spacing[axis];
+      if (index >= -0.5 - tolerance && index <= scale.grid.size[axis] - 0.5 + tolerance) continue;
+      throw InputError(scaleFile + ": the scale volume leaves out part of the label map, whose corner (" +
+                       asText(world.x) + ", " + asText(world.y) + ", " + asText(world.z) +
+                       ") mm LPS lies outside, expected it to cover the whole map");
+    }
+  }
+}
+
+} // namespace surgicalmesher

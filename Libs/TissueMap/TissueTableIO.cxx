@@ -1,0 +1,76 @@
+#include "TissueMapIO.h"
+
+#include "Errors.h"
+#include "TextFile.h"
+
+#include <algorithm>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// Whether words[from .. from + count) are numbers in [0, maximum].
+bool parseNumbers(const std::vector<std::string>& words, std::size_t from, std::size_t count, double maximum, double* out)
+{
+  if (from + count > words.size()) return false;
+  for (std::size_t n = 0; n < count; ++n)
+  {
+    if (!parseNumber(words[from + n], out[n]) || out[n] < 0 || out[n] > maximum) return false;
+  }
+  return true;
+}
+
+/// The words [from, to), with the underscores that colour tables write for blanks turned back.
+std::string joined(const std::vector<std::string>& words, std::size_t from, std::size_t to)
+{
+  std::string name;
+  for (std::size_t n = from; n < to; ++n) name += (n > from ? " " : "") + words[n];
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+/// One line in one of three forms, told apart by where the numbers are:
+///   label R G B A visible mesh "name"   ITK-SNAP: colours to 255, A to 1
+///   label name R G B A                  Slicer: colours to 255
+///   label name                          atlases; a number after the name is dropped
+bool parseTissue(const std::vector<std::string>& words, Tissue& tissue)
+{
+  double rgba[6] = { 0, 0, 0, 0, 0, 0 };
+  double index = 0;
+  const std::size_t count = words.size();
+  const bool isSnap = count == 8 && parseNumbers(words, 1, 6, 255, rgba);
+  const bool isSlicer = !isSnap && count >= 6 && parseNumbers(words, count - 4, 4, 255, rgba);
+  if (isSnap || isSlicer) tissue.color = { rgba[0] / 255, rgba[1] / 255, rgba[2] / 255 };
+  if (isSnap) tissue.name = words.back();
+  else if (isSlicer) tissue.name = joined(words, 1, count - 4);
+  else tissue.name = joined(words, 1, count > 2 && parseNumber(words.back(), index) ? count - 1 : count);
+  return count >= 2;
+}
+
+} // namespace
+
+TissueTable readTissueTable(const std::string& file)
+{
+  TissueTable table;
+  const std::vector<std::string> lines = splitLines(readTextFile(file));
+  for (std::size_t n = 0; n < lines.size(); ++n)
+  {
+    const std::string line = trimmed(lines[n]);
+    if (line.empty() || line[0] == '#') continue;
+    const std::vector<std::string> words = splitWords(line);
+    long label = 0;
+    Tissue tissue;
+    if (!parseInteger(words[0], 0, 65535, label) || !parseTissue(words, tissue))
+    {
+      throw InputError(file + ":" + std::to_string(n + 1) + ": \"" + line.substr(0, 60) +
+                       "\", expected a label from 0 to 65535, a name and a colour");
+    }
+    if (label != 0) table[Label(label)] = tissue;
+  }
+  if (table.empty()) throw InputError(file + ": no tissue, expected lines of a label, a name and a colour");
+  return table;
+}
+
+} // namespace surgicalmesher
