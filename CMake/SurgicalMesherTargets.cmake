@@ -1,9 +1,13 @@
 # The kinds of target the project is made of, each with one function.
 #   surgicalmesher_add_library(NAME SOURCES ... [LINK ...])       static library of host-independent code
-#   surgicalmesher_add_cli(NAME [LINK ...])                       NAME.cxx + NAME.xml in the current folder
+#   surgicalmesher_add_cli(NAME [LINK ...])                       NAME.cxx + NAME.xml in the current folder; goes to
+#                                                                 SurgicalMesher_CLI_OUTPUT_DIRECTORY
+#   surgicalmesher_add_nipype_test(NAME)                          runs module NAME through an interface nipype generates
 #   surgicalmesher_add_test(NAME SOURCES ... [LINK ...])          GoogleTest executable, each test known to CTest
 
-include(GNUInstallDirs)
+# Debian's packages are those of Debian's own interpreter, not of one that comes first on the path.
+find_program(SurgicalMesher_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(SurgicalMesher_PYTHON NAMES python3)
 
 add_library(SurgicalMesherFlags INTERFACE)
 target_compile_options(SurgicalMesherFlags INTERFACE
@@ -19,16 +23,43 @@ function(surgicalmesher_add_library name)
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE SurgicalMesherFlags)
 endfunction()
 
+# The description is compiled in, for --xml, and lies beside the executable, where Slicer looks first.
 function(surgicalmesher_add_cli name)
   cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
   set(xml ${CMAKE_CURRENT_SOURCE_DIR}/${name}.xml)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${xml})
   file(READ ${xml} SURGICALMESHER_XML)
+  if(NOT SURGICALMESHER_XML MATCHES "<version>${PROJECT_VERSION}</version>")
+    message(FATAL_ERROR "${xml}: <version>${PROJECT_VERSION}</version> expected, the project's version")
+  endif()
   configure_file(${PROJECT_SOURCE_DIR}/CMake/ModuleXML.h.in ${CMAKE_CURRENT_BINARY_DIR}/${name}XML.h @ONLY)
   add_executable(${name} ${name}.cxx)
   target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
   target_link_libraries(${name} PRIVATE SurgicalMesherFlags SurgicalMesherCommandLine ${ARG_LINK})
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${SurgicalMesher_CLI_OUTPUT_DIRECTORY})
+  add_custom_command(TARGET ${name} POST_BUILD
+    COMMAND ${CMAKE_COMMAND} -E copy_if_different ${xml} $<TARGET_FILE_DIR:${name}>/${name}.xml)
+  install(TARGETS ${name} RUNTIME DESTINATION ${SurgicalMesher_CLI_INSTALL_DIRECTORY} COMPONENT RuntimeLibraries)
+  install(FILES ${xml} DESTINATION ${SurgicalMesher_CLI_INSTALL_DIRECTORY} COMPONENT RuntimeLibraries)
+  if(BUILD_TESTING)
+    surgicalmesher_add_description_test(${name})
+  endif()
+endfunction()
+
+# Description, parser and source agree: whatever the .cxx asks for is in the .xml and the other way round, and the
+# executable accepts each parameter, refuses wrong values of it, and lists it in --help.
+function(surgicalmesher_add_description_test name)
+  add_test(NAME ${name}Description
+    COMMAND ${SurgicalMesher_PYTHON} ${PROJECT_SOURCE_DIR}/Testing/Python/test_description.py
+      $<TARGET_FILE:${name}> ${CMAKE_CURRENT_SOURCE_DIR}/${name}.cxx)
+endfunction()
+
+# nipype's own generator of Slicer interfaces makes one from the module's --xml, and that interface runs the module.
+function(surgicalmesher_add_nipype_test name)
+  add_test(NAME ${name}Nipype
+    COMMAND ${SurgicalMesher_PYTHON} ${PROJECT_SOURCE_DIR}/Testing/Python/test_nipype.py
+      ${name} $<TARGET_FILE_DIR:${name}> ${CMAKE_CURRENT_BINARY_DIR}/nipype-${name})
+  set_tests_properties(${name}Nipype PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
 endfunction()
 
 function(surgicalmesher_add_test name)

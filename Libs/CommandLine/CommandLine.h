@@ -4,17 +4,20 @@
 ///
 ///     int main(int argc, char** argv)
 ///     {
-///       return surgicalmesher::runModule(argc, argv, xml, [](CommandLine& line) { ... });
+///       return surgicalmesher::runModule(argc, argv, surgicalmesher::moduleXML, [](CommandLine& line) { ... });
 ///     }
 ///
 /// runModule answers --xml, --help and --version, parses and checks the options, hands them to the function, renames the
 /// outputs into place when it returns, and turns what it throws into one line on stderr and an exit status:
 /// 0 done, 1 InputError, 2 UsageError, 3 EngineError or anything else. Outputs appear whole or not at all.
+///
+/// While the function runs, what libraries write to stderr is discarded, unless the environment variable
+/// SURGICALMESHER_DEBUG is set.
 
 #include "Progress.h"
+#include "Vec3.h"
 
 #include <functional>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,33 +30,40 @@ class CommandLine
 public:
   /// Parameters are named as in the XML's <name>. Asking for a parameter the XML lacks, or for another type than it
   /// declares, is a programming error (std::logic_error). Without a value on the command line the XML's default is returned.
+  ///
+  /// Slicer passes every number and choice, also those the user left alone: for them `given` tells nothing, and a value of
+  /// their range has to mean "not used".
   bool given(const std::string& name) const;
   bool flag(const std::string& name) const;
   int integer(const std::string& name) const;
   double number(const std::string& name) const;
-  std::string text(const std::string& name) const;              ///< strings, enumerations and input files
-  std::vector<std::string> texts(const std::string& name) const; ///< parameters with multiple="true"
+  std::string text(const std::string& name) const;               ///< strings, enumerations and input files; "" if there is none
+  std::vector<std::string> texts(const std::string& name) const; ///< input files with multiple="true"
+  std::vector<double> numbers(const std::string& name) const;    ///< integer and double vectors
+  std::vector<Vec3> points(const std::string& name) const;       ///< type point, in the XML's coordinateSystem, mm
 
   /// Where to write output `name` now: a temporary file in its final folder, with its final extension, renamed into
-  /// place after the module function has returned. Throws InputError if the folder can't be written to. Empty if the
-  /// output was not asked for.
+  /// place after the module function has returned. Empty if the output was not asked for. That the place can be written to
+  /// has been checked before the function was called; an output that was asked for has to be written.
   std::string outputFile(const std::string& name);
   std::vector<std::string> outputFiles(const std::string& name); ///< multiple="true"
-  /// The same for a file the XML doesn't list (a sidecar next to an output).
+  /// The same for a file the XML doesn't list (a sidecar next to an output). Throws InputError if it can't be created.
   std::string outputPath(const std::string& finalPath);
 
-  /// A simple output parameter (channel output, no file): written to --returnparameterfile as `name = value`.
+  /// A simple output parameter (channel output, no flag): written to --returnparameterfile as `name = value`.
   void returnValue(const std::string& name, const std::string& value);
 
-  /// XML tags as Slicer reads them when stdout is a pipe, a progress bar on a terminal.
+  /// XML tags as Slicer reads them when stdout is a pipe, a progress bar on a terminal. Valid as long as this object.
   Progress progress();
+  /// A line on stdout that keeps clear of the progress bar.
+  void message(const std::string& line);
 
   ~CommandLine();
 
 private:
   friend int runModule(int, char**, const std::string&, const std::function<void(CommandLine&)>&);
-  CommandLine();
   struct Private;
+  explicit CommandLine(std::unique_ptr<Private> data);
   std::unique_ptr<Private> d;
 };
 

@@ -1,0 +1,153 @@
+#include "Arguments.h"
+
+#include "Errors.h"
+#include "Text.h"
+
+#include <cctype>
+#include <filesystem>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+bool looksLikeFlag(const std::string& argument)
+{
+  // Negative numbers begin with a dash, too.
+  return argument.size() > 1 && argument[0] == '-' && !std::isdigit(static_cast<unsigned char>(argument[1])) &&
+    argument[1] != '.';
+}
+
+class Parser
+{
+public:
+  Parser(const ModuleDescription& description, const std::vector<std::string>& arguments)
+    : m_Description(description), m_Arguments(arguments)
+  {
+  }
+
+  Arguments parse()
+  {
+    std::vector<std::string> positionals;
+    while (m_Next < m_Arguments.size())
+    {
+      const std::string argument = m_Arguments[m_Next++];
+      if (argument == "--")
+      {
+        positionals.insert(positionals.end(), m_Arguments.begin() + m_Next, m_Arguments.end());
+        break;
+      }
+      if (looksLikeFlag(argument)) parseFlag(argument);
+      else positionals.push_back(argument);
+    }
+    assignPositionals(positionals);
+    return m_Result;
+  }
+
+private:
+  void parseFlag(const std::string& argument)
+  {
+    const std::size_t equals = argument.find('=');
+    const std::string flag = argument.substr(0, equals);
+    const std::string* attached = nullptr;
+    std::string value;
+    if (equals != std::string::npos)
+    {
+      value = argument.substr(equals + 1);
+      attached = &value;
+    }
+
+    if (flag == "--echo" && !attached) m_Result.echo = true;
+    else if (flag == "--returnparameterfile") setReturnParameterFile(takeValue(flag, "a file", attached));
+    else if (flag == "--processinformationaddress") takeValue(flag, "an address", attached);
+    else parseParameter(findByFlag(flag), flag, attached);
+  }
+
+  void setReturnParameterFile(const std::string& file)
+  {
+    if (file.empty()) throw UsageError("--returnparameterfile: no value found, a file expected");
+    if (!m_Result.returnParameterFile.empty()) throw UsageError("--returnparameterfile: given twice, once expected");
+    m_Result.returnParameterFile = file;
+  }
+
+  const Parameter& findByFlag(const std::string& flag) const
+  {
+    for (const Parameter* parameter : m_Description.parameters())
+    {
+      const bool isLong = !parameter->longFlag.empty() && flag == "--" + parameter->longFlag;
+      const bool isShort = !parameter->flag.empty() && flag == "-" + parameter->flag;
+      if (isLong || isShort) return *parameter;
+    }
+    throw UsageError(flag + ": unknown flag found, one of those that --help lists expected");
+  }
+
+  std::string takeValue(const std::string& flag, const std::string& expected, const std::string* attached)
+  {
+    if (attached) return *attached;
+    if (m_Next >= m_Arguments.size() || looksLikeFlag(m_Arguments[m_Next]))
+    {
+      throw UsageError(flag + ": no value found, " + expected + " expected");
+    }
+    return m_Arguments[m_Next++];
+  }
+
+  void parseParameter(const Parameter& parameter, const std::string& flag, const std::string* attached)
+  {
+    if (parameter.type == "boolean")
+    {
+      if (attached) throw UsageError(flag + ": value '" + *attached + "' found, none expected");
+      store(parameter, parameter.defaultValue == "true" ? "false" : "true");
+    }
+    else
+    {
+      store(parameter, takeValue(flag, expectation(parameter), attached));
+    }
+  }
+
+  void assignPositionals(const std::vector<std::string>& given)
+  {
+    const std::vector<const Parameter*> wanted = m_Description.positionals();
+    if (given.size() < wanted.size())
+    {
+      const Parameter& missing = *wanted[given.size()];
+      throw UsageError(missing.name + ": argument not found, " + expectation(missing) + " expected");
+    }
+    for (std::size_t i = 0; i < given.size(); ++i)
+    {
+      const bool surplus = i >= wanted.size() && (wanted.empty() || !wanted.back()->multiple);
+      if (surplus)
+      {
+        throw UsageError("'" + given[i] + "': surplus argument found, " + std::to_string(wanted.size()) +
+          " without a flag expected");
+      }
+      store(*wanted[std::min(i, wanted.size() - 1)], given[i]);
+    }
+  }
+
+  void store(const Parameter& parameter, const std::string& value)
+  {
+    std::vector<std::string>& values = m_Result.values[parameter.name];
+    if (!values.empty() && !parameter.multiple) throw UsageError(parameter.spelling() + ": given twice, once expected");
+    const bool isList = parameter.multiple && parameter.isFile() && !std::filesystem::exists(value);
+    for (const std::string& part : isList ? splitQuoted(value) : std::vector<std::string>{ value })
+    {
+      checkValue(parameter, part);
+      values.push_back(part);
+    }
+  }
+
+  const ModuleDescription& m_Description;
+  const std::vector<std::string>& m_Arguments;
+  std::size_t m_Next = 0;
+  Arguments m_Result;
+};
+
+} // namespace
+
+Arguments parseArguments(const ModuleDescription& description, const std::vector<std::string>& arguments)
+{
+  return Parser(description, arguments).parse();
+}
+
+} // namespace surgicalmesher
