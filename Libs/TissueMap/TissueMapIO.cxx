@@ -1,15 +1,14 @@
 #include "TissueMapIO.h"
 
 #include "Errors.h"
+#include "ImageData.h"
 #include "TextFile.h"
 
 #include <itkGiplImageIO.h>
-#include <itkMRCImageIO.h>
 #include <itkMetaDataObject.h>
 #include <itkMetaImageIO.h>
 #include <itkNiftiImageIO.h>
 #include <itkNrrdImageIO.h>
-#include <itkVTKImageIO.h>
 #include <itksys/SystemTools.hxx>
 
 #include <algorithm>
@@ -72,6 +71,12 @@ std::string asText(double value)
   return stream.str();
 }
 
+const std::string* find(const MetaData& metaData, const std::string& key)
+{
+  const auto found = metaData.find(key);
+  return found == metaData.end() ? nullptr : &found->second;
+}
+
 /// What an ITK exception says, on one line.
 std::string oneLine(const std::exception& error)
 {
@@ -87,11 +92,10 @@ std::string oneLine(const std::exception& error)
 std::vector<itk::ImageIOBase::Pointer> imageFormats()
 {
   return { itk::NrrdImageIO::New().GetPointer(), itk::NiftiImageIO::New().GetPointer(),
-    itk::MetaImageIO::New().GetPointer(), itk::GiplImageIO::New().GetPointer(), itk::VTKImageIO::New().GetPointer(),
-    itk::MRCImageIO::New().GetPointer() };
+    itk::MetaImageIO::New().GetPointer(), itk::GiplImageIO::New().GetPointer() };
 }
 
-const char* const formatNames = "NRRD, NIfTI, MetaImage, GIPL, legacy VTK or MRC";
+const char* const formatNames = "NRRD, NIfTI, MetaImage or GIPL";
 
 itk::ImageIOBase::Pointer openImage(const std::string& file)
 {
@@ -151,30 +155,69 @@ std::array<Vec3, 3> orthonormalised(std::array<Vec3, 3> a)
   return a;
 }
 
+bool arePerpendicular(const std::array<Vec3, 3>& axes)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Vec3& a = axes[axis];
+    const Vec3& b = axes[(axis + 1) % 3];
+    if (!(std::abs(dot(a, b)) < 1e-3 * norm(a) * norm(b))) return false;
+  }
+  return true;
+}
+
+/// The sform of a NIfTI header in LPS: whether there is one, and it is a placement of perpendicular axes. Where a file has
+/// an sform and a qform that differ, ITK takes the qform unless the sform is of the scanner; nearly everybody else, and
+/// this project, takes the sform, in which atlases are aligned.
+bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& columns)
+{
+  const std::string* code = find(metaData, "sform_code");
+  if (!code || trimmed(*code) == "0") return false;
+  const char* const keys[3] = { "srow_x", "srow_y", "srow_z" };
+  for (int row = 0; row < 3; ++row)
+  {
+    const std::string* text = find(metaData, keys[row]);
+    const std::vector<std::string> words = text ? splitWords(*text) : std::vector<std::string>();
+    const double sign = row < 2 ? -1 : 1; // NIfTI's world is RAS
+    double value[4];
+    if (words.size() != 4) return false;
+    for (int column = 0; column < 4; ++column)
+    {
+      if (!parseNumber(words[column], value[column])) return false;
+    }
+    for (int column = 0; column < 3; ++column) columns[column][row] = sign * value[column];
+    origin[row] = sign * value[3];
+  }
+  return arePerpendicular(columns);
+}
+
 /// The grid in the order of the file; its axes may be left-handed.
-Grid fileGrid(const itk::ImageIOBase& io, const std::string& file)
+Grid fileGrid(const itk::ImageIOBase& io, const MetaData& metaData, const std::string& file)
 {
   Grid grid;
   grid.size = volumeSize(io, file);
+  std::array<Vec3, 3> columns;
+  if (!readSform(metaData, grid.origin, columns))
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const std::vector<double> direction = io.GetDirection(axis);
+      columns[axis] = io.GetSpacing(axis) * Vec3{ direction[0], direction[1], direction[2] };
+      grid.origin[axis] = io.GetOrigin(axis);
+    }
+  }
   for (int axis = 0; axis < 3; ++axis)
   {
-    const std::vector<double> direction = io.GetDirection(axis);
-    Vec3 column{ direction[0], direction[1], direction[2] };
-    grid.origin[axis] = io.GetOrigin(axis);
-    grid.spacing[axis] = io.GetSpacing(axis) * norm(column);
+    grid.spacing[axis] = norm(columns[axis]);
     if (!std::isfinite(grid.origin[axis])) throw InputError(file + ": the origin is not finite");
     if (!(std::isfinite(grid.spacing[axis]) && grid.spacing[axis] > 0))
     {
       throw InputError(file + ": voxel spacing " + asText(grid.spacing[axis]) + " along axis " + std::to_string(axis) +
                        ", expected more than 0 mm");
     }
-    grid.axes[axis] = column / norm(column);
+    grid.axes[axis] = columns[axis] / grid.spacing[axis];
   }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double cosine = dot(grid.axes[axis], grid.axes[(axis + 1) % 3]);
-    if (!(std::abs(cosine) < 1e-3)) throw InputError(file + ": the voxel axes are not perpendicular to each other");
-  }
+  if (!arePerpendicular(grid.axes)) throw InputError(file + ": the voxel axes are not perpendicular to each other");
   grid.axes = orthonormalised(grid.axes);
   return grid;
 }
@@ -227,7 +270,7 @@ void canonicalise(const Grid& in, Volume& volume)
     const int source = order.source[w];
     volume.grid.size[w] = in.size[source];
     volume.grid.spacing[w] = in.spacing[source];
-    volume.grid.axes[w] = order.sign[w] * in.axes[source];
+    volume.grid.axes[w] = order.sign[w] * in.axes[source] + Vec3{}; // no negative zeros
     volume.stride[w] = order.sign[w] * strides[source];
     if (order.sign[w] > 0) continue;
     volume.first += (in.size[source] - 1) * strides[source];
@@ -246,15 +289,27 @@ MetaData readMetaData(const itk::ImageIOBase& io)
   return metaData;
 }
 
+/// Bytes of the file's data, those before the first voxel included. A NIfTI header tells; its voxels may be smaller in
+/// the file than in memory, where its slope and intercept make them floats.
+std::uint64_t bytesOnDisk(const MetaData& metaData, std::size_t voxelCount, std::size_t bytesInMemory)
+{
+  const std::string* bits = find(metaData, "bitpix");
+  const std::string* offset = find(metaData, "vox_offset");
+  double bitsPerVoxel = 0;
+  double firstVoxel = 0;
+  if (!bits || !offset || !parseNumber(*bits, bitsPerVoxel) || !parseNumber(*offset, firstVoxel)) return bytesInMemory;
+  return std::uint64_t(double(voxelCount) * bitsPerVoxel / 8 + std::max(0.0, firstVoxel));
+}
+
 Volume readVolume(const std::string& file)
 {
   const itk::ImageIOBase::Pointer io = openImage(file);
   Volume volume;
   volume.file = file;
-  canonicalise(fileGrid(*io, file), volume);
+  volume.metaData = readMetaData(*io);
+  canonicalise(fileGrid(*io, volume.metaData, file), volume);
   volume.components = int(io->GetNumberOfComponents());
   volume.type = io->GetComponentType();
-  volume.metaData = readMetaData(*io);
 
   const unsigned int dimension = io->GetNumberOfDimensions();
   itk::ImageIORegion region(dimension);
@@ -263,8 +318,14 @@ Volume readVolume(const std::string& file)
   const Silence silence;
   try
   {
-    volume.data.reset(new char[volume.grid.voxelCount() * volume.components * io->GetComponentSize()]);
+    const std::size_t byteCount = volume.grid.voxelCount() * volume.components * io->GetComponentSize();
+    requireImageData(file, bytesOnDisk(volume.metaData, volume.grid.voxelCount(), byteCount));
+    volume.data.reset(new char[byteCount]);
     io->Read(volume.data.get());
+  }
+  catch (const InputError&)
+  {
+    throw;
   }
   catch (const std::bad_alloc&)
   {
@@ -337,12 +398,6 @@ struct Segment
   Label value = 1;
   Tissue tissue;
 };
-
-const std::string* find(const MetaData& metaData, const std::string& key)
-{
-  const auto found = metaData.find(key);
-  return found == metaData.end() ? nullptr : &found->second;
-}
 
 long segmentNumber(const Volume& volume, const std::string& key, long minimum, long maximum, long missing)
 {

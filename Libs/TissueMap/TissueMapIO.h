@@ -11,25 +11,34 @@
 namespace surgicalmesher
 {
 
-/// Reads NRRD, .seg.nrrd (shared-label layers; names and colours from its header), NIfTI, MetaImage and whatever else ITK
-/// reads. The axes are brought to LPS order (see TissueMap::grid). Refused: missing file, directory, truncated data,
-/// more than three dimensions, several components, non-integers, negative labels, labels over 65535, no voxel but background.
+/// Reads NRRD, .seg.nrrd, NIfTI, Analyze, MetaImage and GIPL. The axes are brought to LPS order (see TissueMap::grid).
+/// A NIfTI file lies where its sform says, or its qform if it has no sform of perpendicular axes. Segmentations: names and
+/// colours come from the header; several layers become one map, in which the later segment wins where two overlap, and
+/// labels are the header's values unless two layers share one: then 1, 2, 3 ... in the header's order.
+/// Refused: missing file, directory, truncated data, more than three dimensions (a fourth of size 1 is dropped), several
+/// components, non-integers, negative labels, labels over 65535, no voxel but background, more than 2^31 voxels, spacing
+/// that is not positive, axes that are not finite and perpendicular.
 TissueMap readTissueMap(const std::string& file);
 
-/// Writes a compressed NRRD (or what the extension says) in the frame of map.grid.
+/// Writes a compressed NRRD (or what the extension says) in the frame of map.grid. An NRRD carries map.table as Slicer's
+/// segmentations do.
 void writeTissueMap(const TissueMap& map, const std::string& file);
 
+/// Reads any of the same formats; every value has to be finite and positive.
 ScaleField readScale(const std::string& file);
 void writeScale(const ScaleField& scale, const std::string& file);
 
 /// Throws InputError if the volume of `scale` (voxel centres plus half a voxel) leaves out part of `grid`.
 void requireCover(const ScaleField& scale, const Grid& grid, const std::string& scaleFile);
 
-/// Names and colours from a Slicer colour table (.ctbl, .txt) or an ITK-SNAP label file.
+/// Names and colours from a Slicer colour table (.ctbl, .txt), an ITK-SNAP label file or an atlas's list of labels and
+/// names. Background (label 0) is left out; underscores in names become blanks again.
 TissueTable readTissueTable(const std::string& file);
 
 /// Control points of every markup in a .mrk.json (Fiducial, Curve, ClosedCurve, Line) or .fcsv file, in LPS mm, whatever
-/// the file's own coordinate system; a ClosedCurve ends with its first point again. One list per markup.
+/// the file's own coordinate system; a ClosedCurve ends with its first point again. One list per markup that has points;
+/// points that are not placed (positionStatus) are left out. Refused: no point at all, coordinates that are no finite
+/// numbers, another unit than mm.
 std::vector<std::vector<Vec3>> readMarkups(const std::string& file);
 
 } // namespace surgicalmesher

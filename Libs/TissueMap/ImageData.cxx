@@ -1,0 +1,150 @@
+#include "ImageData.h"
+
+#include "Errors.h"
+#include "TextFile.h"
+
+#include <itk_zlib.h>
+#include <itksys/SystemTools.hxx>
+
+#include <algorithm>
+#include <fstream>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// Where the voxels lie: `headerBytes` of the (decompressed) data come before the first voxel.
+struct DataBlock
+{
+  std::string file;
+  std::uint64_t offset = 0; ///< in the file
+  std::uint64_t headerBytes = 0;
+  bool compressed = false;
+};
+
+bool hasExtension(const std::string& file, const std::string& extension)
+{
+  const std::string name = lowerCase(file);
+  return name.size() >= extension.size() && name.compare(name.size() - extension.size(), extension.size(), extension) == 0;
+}
+
+bool isGzip(const std::string& file)
+{
+  std::ifstream stream(file.c_str(), std::ios::binary);
+  return stream.get() == 0x1f && stream.get() == 0x8b;
+}
+
+DataBlock wholeFile(const std::string& file, std::uint64_t headerBytes) { return { file, 0, headerBytes, isGzip(file) }; }
+
+/// A file that the header names, relative to the header's folder.
+std::string besides(const std::string& headerFile, const std::string& name)
+{
+  if (itksys::SystemTools::FileIsFullPath(name)) return name;
+  const std::string folder = itksys::SystemTools::GetFilenamePath(headerFile);
+  return folder.empty() ? name : folder + "/" + name;
+}
+
+/// The file of voxels of a NIfTI or Analyze pair.
+std::string pairedImage(const std::string& file)
+{
+  const bool isGz = hasExtension(file, ".gz");
+  const std::string stem = file.substr(0, file.size() - (isGz ? 7 : 4)); // .hdr, .img
+  const std::string image = stem + ".img";
+  return itksys::SystemTools::FileExists(image, true) ? image : image + ".gz";
+}
+
+/// Reads `key: value` or `key = value` lines up to the one after which voxels follow, or the end of the file.
+DataBlock textHeader(const std::string& file, char separator, const std::string& dataKey, const std::string& compressionKey)
+{
+  DataBlock block{ file, 0, 0, false };
+  bool attached = true;
+  std::ifstream stream(file.c_str(), std::ios::binary);
+  for (std::string line; std::getline(stream, line);)
+  {
+    line = trimmed(line);
+    if (line.empty()) break;
+    const std::size_t at = line.find(separator);
+    if (at == std::string::npos) continue;
+    const std::string key = lowerCase(trimmed(line.substr(0, at)));
+    const std::string value = trimmed(line.substr(at + 1));
+    const std::string word = lowerCase(value);
+    if (key == compressionKey) block.compressed = word == "true" || word == "gzip" || word == "gz";
+    if (key != dataKey) continue;
+    attached = word == "local";
+    if (!attached) block.file = besides(file, value);
+    if (dataKey == "elementdatafile") break; // the last line of a MetaImage header
+  }
+  if (attached) block.offset = std::uint64_t(stream.tellg());
+  return block;
+}
+
+DataBlock findData(const std::string& file)
+{
+  if (hasExtension(file, ".nrrd") || hasExtension(file, ".nhdr")) return textHeader(file, ':', "data file", "encoding");
+  if (hasExtension(file, ".mha") || hasExtension(file, ".mhd"))
+  {
+    return textHeader(file, '=', "elementdatafile", "compresseddata");
+  }
+  if (hasExtension(file, ".gipl") || hasExtension(file, ".gipl.gz")) return wholeFile(file, 256);
+  if (hasExtension(file, ".nii") || hasExtension(file, ".nii.gz")) return wholeFile(file, 0);
+  return wholeFile(pairedImage(file), 0);
+}
+
+/// Bytes that the compressed stream holds, counted up to `enough`; 0 if it ends early or its check sum is wrong.
+std::uint64_t inflatedSize(std::istream& stream, std::uint64_t enough)
+{
+  constexpr int anyHeader = 47; // zlib's or gzip's, as found
+  std::vector<unsigned char> in(1 << 16);
+  std::vector<unsigned char> out(1 << 18);
+  std::uint64_t size = 0;
+  z_stream state{};
+  if (inflateInit2(&state, anyHeader) != Z_OK) return 0;
+  int status = Z_OK;
+  while (status == Z_OK)
+  {
+    if (state.avail_in == 0)
+    {
+      stream.read(reinterpret_cast<char*>(in.data()), std::streamsize(in.size()));
+      state.next_in = in.data();
+      state.avail_in = uInt(stream.gcount());
+      if (state.avail_in == 0) break;
+    }
+    state.next_out = out.data();
+    state.avail_out = uInt(out.size());
+    status = inflate(&state, Z_NO_FLUSH);
+    size += out.size() - state.avail_out;
+    if (status == Z_STREAM_END && size < enough) status = inflateReset(&state); // another member follows
+  }
+  inflateEnd(&state);
+  return status == Z_STREAM_END ? size : 0;
+}
+
+} // namespace
+
+void requireImageData(const std::string& imageFile, std::uint64_t byteCount)
+{
+  const DataBlock block = findData(imageFile);
+  std::ifstream stream(block.file.c_str(), std::ios::binary);
+  if (!stream)
+  {
+    throw InputError(imageFile + ": its voxels are not to be found, expected one file of voxels, " + block.file);
+  }
+  const std::uint64_t expected = block.headerBytes + byteCount;
+  if (block.compressed)
+  {
+    stream.seekg(std::streamoff(block.offset));
+    if (inflatedSize(stream, expected) >= expected) return;
+    throw InputError(block.file + ": the compressed voxels are truncated or damaged, expected " +
+                     std::to_string(byteCount) + " bytes of them");
+  }
+  stream.seekg(0, std::ios::end);
+  const std::uint64_t size = std::uint64_t(stream.tellg());
+  if (size >= block.offset + expected) return;
+  throw InputError(block.file + ": truncated, " + std::to_string(size) + " bytes, expected " +
+                   std::to_string(block.offset + expected));
+}
+
+} // namespace surgicalmesher
