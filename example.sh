@@ -2,6 +2,7 @@
 # Meshes a 189-tissue brain atlas around a surgical target, from label map to finite elements.
 # usage: ./example.sh [OUTDIR]      (default build/example)
 # Installs Debian packages that are missing, builds the three modules, and leaves the meshes, a report and pictures.
+# With SURGICALMESHER_BIN set to a folder of modules already built, it uses these.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")" && pwd)
@@ -9,8 +10,10 @@ folder=${1:-$root/build/example}
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 
-"$root/CMake/build.sh" SurgicalPathScaleCLI SimplexMesherCLI FuchsTetrahedralizerCLI
-export PATH="$root/build/bin:$PATH"
+if [[ -z ${SURGICALMESHER_BIN:-} ]]; then
+  "$root/CMake/build.sh" SurgicalPathScaleCLI SimplexMesherCLI FuchsTetrahedralizerCLI
+fi
+export PATH="${SURGICALMESHER_BIN:-$root/build/bin}:$PATH"
 cd "$folder"
 rm -f -- scale.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu {scale,surface,mesh,report}.json ./*.png log.txt
 

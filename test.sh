@@ -5,4 +5,4 @@ cd "$(dirname "$0")"
 
 CMake/build.sh
 cd build
-ctest --output-on-failure --parallel "$(nproc)"
+ctest --output-on-failure --no-tests=error --parallel "$(nproc)"

@@ -15,4 +15,3 @@ include(${Slicer_USE_FILE})
 
 set(SurgicalMesher_CLI_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/${Slicer_CLIMODULES_BIN_DIR})
 set(SurgicalMesher_CLI_INSTALL_DIRECTORY ${Slicer_INSTALL_CLIMODULES_BIN_DIR})
-set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME RuntimeLibraries) # what the extension's package is made of
