@@ -1,9 +1,16 @@
 #pragma once
-/// Betti numbers of every tissue of a label map, under (6, 26) connectivity.
+/// Digital topology of a label map: its face-connected regions, and the Betti numbers of every tissue under (6, 26)
+/// connectivity (voxels of a tissue are neighbours across faces, those of its complement across corners as well).
+///
+/// Everything is found for all labels together, in time and memory that grow with the number of *runs* (stretches of
+/// equal label along i) rather than with the number of tissues.
 
 #include "TissueMap.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <vector>
 
 namespace surgicalmesher
 {
@@ -25,5 +32,33 @@ inline bool operator==(const Betti& a, const Betti& b)
 /// Topology of every tissue present (background excluded), in one pass over the grid plus union-find; voxels beyond the
 /// grid count as background.
 std::map<Label, Betti> tissueTopology(const TissueMap& map);
+
+/// A face-connected set of voxels of one label.
+struct Region
+{
+  Label label = 0;
+  std::size_t voxels = 0;
+};
+
+/// A longest stretch of equal label along i; it ends where the next run of its row begins, or with the row.
+struct Run
+{
+  std::uint32_t begin = 0;  ///< i of its first voxel
+  std::uint32_t region = 0; ///< index into Regions::list
+};
+
+/// All regions of a map, background included. Region 0 is the background outside: what is face-connected to the space
+/// beyond the grid; it exists even when it has no voxel. The others are numbered in the order of their first voxels.
+struct Regions
+{
+  std::vector<Region> list;
+  std::vector<Run> runs;              ///< row by row
+  std::vector<std::size_t> rowBegins; ///< first run of row (j, k) at [k * size[1] + j]; one more entry ends the last row
+};
+
+Regions connectedRegions(const TissueMap& map);
+
+/// Topology of each region taken alone, by its index in `regions.list`; region 0 is left at zeros.
+std::vector<Betti> regionTopology(const TissueMap& map, const Regions& regions);
 
 } // namespace surgicalmesher

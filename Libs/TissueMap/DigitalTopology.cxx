@@ -1,0 +1,342 @@
+#include "DigitalTopology.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using Index = std::uint32_t;
+using Edge = std::pair<Index, Index>; // ascending region indices
+
+/// Sets of runs; every set is represented by its first run.
+class DisjointSets
+{
+public:
+  Index add()
+  {
+    m_Parent.push_back(Index(m_Parent.size()));
+    return m_Parent.back();
+  }
+
+  Index find(Index a)
+  {
+    while (m_Parent[a] != a)
+    {
+      m_Parent[a] = m_Parent[m_Parent[a]];
+      a = m_Parent[a];
+    }
+    return a;
+  }
+
+  void unite(Index a, Index b)
+  {
+    a = find(a);
+    b = find(b);
+    m_Parent[std::max(a, b)] = std::min(a, b);
+  }
+
+private:
+  std::vector<Index> m_Parent;
+};
+
+/// The runs of a map, their sets still being united: set 0 is the outside, set r + 1 that of run r.
+struct RunUnion
+{
+  const TissueMap& map;
+  Regions regions;
+  DisjointSets sets;
+
+  const Label* row(std::size_t row) const { return map.labels.data() + row * map.grid.size[0]; }
+  Index end(std::size_t run, std::size_t row) const
+  {
+    return run + 1 < regions.rowBegins[row + 1] ? regions.runs[run + 1].begin : Index(map.grid.size[0]);
+  }
+};
+
+void appendRow(RunUnion& u, std::size_t row, bool atBorder)
+{
+  const Label* labels = u.row(row);
+  const Index size = Index(u.map.grid.size[0]);
+  for (Index i = 0; i < size;)
+  {
+    const Index begin = i;
+    while (i < size && labels[i] == labels[begin]) ++i;
+    u.regions.runs.push_back({ begin, 0 });
+    const Index set = u.sets.add();
+    if (labels[begin] == 0 && (atBorder || begin == 0 || i == size)) u.sets.unite(set, 0);
+  }
+  u.regions.rowBegins.push_back(u.regions.runs.size());
+}
+
+/// Unites the overlapping runs of equal label in two neighbouring rows.
+void uniteRows(RunUnion& u, std::size_t rowA, std::size_t rowB)
+{
+  const auto& runs = u.regions.runs;
+  std::size_t a = u.regions.rowBegins[rowA], b = u.regions.rowBegins[rowB];
+  const std::size_t endA = u.regions.rowBegins[rowA + 1], endB = u.regions.rowBegins[rowB + 1];
+  while (a < endA && b < endB)
+  {
+    if (u.row(rowA)[runs[a].begin] == u.row(rowB)[runs[b].begin]) u.sets.unite(Index(a + 1), Index(b + 1));
+    const Index stopA = u.end(a, rowA), stopB = u.end(b, rowB);
+    a += stopA <= stopB;
+    b += stopB <= stopA;
+  }
+}
+
+/// Numbers the sets in the order of their first runs and counts their voxels.
+void numberRegions(RunUnion& u)
+{
+  u.regions.list.assign(1, {});
+  for (std::size_t row = 0; row + 1 < u.regions.rowBegins.size(); ++row)
+  {
+    for (std::size_t r = u.regions.rowBegins[row]; r < u.regions.rowBegins[row + 1]; ++r)
+    {
+      Run& run = u.regions.runs[r];
+      const Index set = u.sets.find(Index(r + 1));
+      if (set == r + 1)
+      {
+        run.region = Index(u.regions.list.size());
+        u.regions.list.push_back({ u.row(row)[run.begin], 0 });
+      }
+      else
+      {
+        run.region = set == 0 ? 0 : u.regions.runs[set - 1].region;
+      }
+      u.regions.list[run.region].voxels += u.end(r, row) - run.begin;
+    }
+  }
+}
+
+/// One slice of region indices, with a margin of one voxel of outside.
+class RegionSlice
+{
+public:
+  explicit RegionSlice(const Grid& grid)
+    : m_Size(grid.size), m_Stride(grid.size[0] + 2), m_Regions(m_Stride * (grid.size[1] + 2), 0)
+  {
+  }
+
+  const Index* row(int j) const { return m_Regions.data() + (j + 1) * m_Stride; }
+
+  /// Slices -1 and size[2] are outside.
+  void load(const Regions& regions, int k)
+  {
+    std::fill(m_Regions.begin(), m_Regions.end(), 0);
+    if (k < 0 || k >= m_Size[2]) return;
+    for (int j = 0; j < m_Size[1]; ++j)
+    {
+      const std::size_t row = std::size_t(k) * m_Size[1] + j;
+      Index* out = m_Regions.data() + (j + 1) * m_Stride + 1;
+      for (std::size_t r = regions.rowBegins[row]; r < regions.rowBegins[row + 1]; ++r)
+      {
+        const Index end = r + 1 < regions.rowBegins[row + 1] ? regions.runs[r + 1].begin : Index(m_Size[0]);
+        std::fill(out + regions.runs[r].begin, out + end, regions.runs[r].region);
+      }
+    }
+  }
+
+private:
+  std::array<int, 3> m_Size;
+  std::size_t m_Stride;
+  std::vector<Index> m_Regions;
+};
+
+/// What the 2x2x2 blocks of regions tell: Euler numbers, and which regions share a block (26-adjacency).
+class BlockCounts
+{
+public:
+  explicit BlockCounts(std::size_t regions) : euler(regions, 0) { m_Recent.fill({ 0, 0 }); }
+
+  std::vector<int> euler; ///< of each region; that of the outside without the space beyond the grid
+
+  /// Corner 0 is the voxel with the lowest i, j, k; bit 0 of a corner's number is i, bit 1 j, bit 2 k.
+  void add(const std::array<Index, 8>& block)
+  {
+    countEuler(block);
+    for (int a = 0; a < 8; ++a)
+    {
+      for (int b = a + 1; b < 8; ++b)
+      {
+        if (block[a] != block[b]) addEdge(std::minmax(block[a], block[b]));
+      }
+    }
+  }
+
+  /// Every pair of adjacent regions once, ascending.
+  std::vector<Edge> takeEdges()
+  {
+    std::sort(m_Edges.begin(), m_Edges.end());
+    m_Edges.erase(std::unique(m_Edges.begin(), m_Edges.end()), m_Edges.end());
+    return std::move(m_Edges);
+  }
+
+private:
+  /// Voxels - face pairs + squares - cubes of one region, each counted at its lowest corner.
+  void countEuler(const std::array<Index, 8>& block)
+  {
+    const auto same = [&](int corner) { return block[corner] == block[0]; };
+    const int pairs = same(1) + same(2) + same(4);
+    const bool ij = same(1) && same(2) && same(3), ik = same(1) && same(4) && same(5), jk = same(2) && same(4) && same(6);
+    euler[block[0]] += 1 - pairs + ij + ik + jk - (ij && ik && jk && same(7));
+  }
+
+  /// A small memory of recent pairs keeps most repetitions out of the list.
+  void addEdge(const Edge& edge)
+  {
+    Edge& recent = m_Recent[(edge.first * 31 + edge.second) % m_Recent.size()];
+    if (recent == edge) return;
+    recent = edge;
+    m_Edges.push_back(edge);
+  }
+
+  std::array<Edge, 4096> m_Recent;
+  std::vector<Edge> m_Edges;
+};
+
+/// Adds the blocks between rows `a`, `b` (at j, j + 1) and `c`, `d` (the same one slice up) that are not uniform.
+void addBlockRow(BlockCounts& counts, const std::array<const Index*, 4>& rows, std::size_t size, std::vector<Index>& differs)
+{
+  const auto [a, b, c, d] = rows;
+  for (std::size_t i = 0; i < size; ++i) differs[i] = (a[i] ^ b[i]) | (a[i] ^ c[i]) | (a[i] ^ d[i]);
+  for (std::size_t i = 0; i + 1 < size; ++i)
+  {
+    if ((differs[i] | differs[i + 1] | (a[i] ^ a[i + 1])) == 0) continue;
+    counts.add({ a[i], a[i + 1], b[i], b[i + 1], c[i], c[i + 1], d[i], d[i + 1] });
+  }
+}
+
+BlockCounts countBlocks(const Grid& grid, const Regions& regions)
+{
+  BlockCounts counts(regions.list.size());
+  RegionSlice below(grid), above(grid);
+  const std::size_t rowSize = grid.size[0] + 2;
+  std::vector<Index> differs(rowSize);
+  for (int k = -1; k < grid.size[2]; ++k)
+  {
+    std::swap(below, above);
+    above.load(regions, k + 1);
+    for (int j = -1; j < grid.size[1]; ++j)
+    {
+      addBlockRow(counts, { below.row(j), below.row(j + 1), above.row(j), above.row(j + 1) }, rowSize, differs);
+    }
+  }
+  return counts;
+}
+
+/// Neighbours of every region, in one pool.
+struct Adjacency
+{
+  std::vector<std::size_t> begins;
+  std::vector<Index> neighbours;
+};
+
+Adjacency adjacency(std::size_t regions, const std::vector<Edge>& edges)
+{
+  Adjacency result;
+  result.begins.assign(regions + 1, 0);
+  for (const Edge& e : edges)
+  {
+    ++result.begins[e.first + 1];
+    ++result.begins[e.second + 1];
+  }
+  for (std::size_t r = 0; r < regions; ++r) result.begins[r + 1] += result.begins[r];
+  result.neighbours.resize(2 * edges.size());
+  auto next = result.begins;
+  for (const Edge& e : edges)
+  {
+    result.neighbours[next[e.first]++] = e.second;
+    result.neighbours[next[e.second]++] = e.first;
+  }
+  return result;
+}
+
+/// How many parts each region cuts off from the outside: the components that the connected graph falls into without the
+/// region, minus one. Depth-first search from the outside after Hopcroft and Tarjan 1973, without recursion.
+std::vector<int> enclosedParts(const Adjacency& graph)
+{
+  const std::size_t count = graph.begins.size() - 1;
+  std::vector<int> enclosed(count, 0);
+  std::vector<Index> order(count, 0), low(count, 0), path{ 0 };
+  auto next = graph.begins;
+  Index visited = 1;
+  order[0] = low[0] = visited;
+  while (!path.empty())
+  {
+    const Index region = path.back();
+    if (next[region] < graph.begins[region + 1])
+    {
+      const Index neighbour = graph.neighbours[next[region]++];
+      if (order[neighbour] == 0)
+      {
+        order[neighbour] = low[neighbour] = ++visited;
+        path.push_back(neighbour);
+      }
+      low[region] = std::min(low[region], order[neighbour]);
+      continue;
+    }
+    path.pop_back();
+    if (path.empty()) break;
+    const Index parent = path.back();
+    low[parent] = std::min(low[parent], low[region]);
+    if (low[region] >= order[parent]) ++enclosed[parent];
+  }
+  return enclosed;
+}
+
+} // namespace
+
+Regions connectedRegions(const TissueMap& map)
+{
+  const auto [sizeI, sizeJ, sizeK] = map.grid.size;
+  (void)sizeI;
+  RunUnion u{ map, {}, {} };
+  u.sets.add();
+  u.regions.rowBegins.assign(1, 0);
+  for (int k = 0; k < sizeK; ++k)
+  {
+    for (int j = 0; j < sizeJ; ++j)
+    {
+      const std::size_t row = std::size_t(k) * sizeJ + j;
+      appendRow(u, row, j == 0 || k == 0 || j + 1 == sizeJ || k + 1 == sizeK);
+      if (j > 0) uniteRows(u, row - 1, row);
+      if (k > 0) uniteRows(u, row - sizeJ, row);
+    }
+  }
+  numberRegions(u);
+  return std::move(u.regions);
+}
+
+std::vector<Betti> regionTopology(const TissueMap& map, const Regions& regions)
+{
+  BlockCounts counts = countBlocks(map.grid, regions);
+  // Regions are disjoint sets in the continuous sense too, so each one's cavities are the parts that it alone cuts off.
+  const std::vector<int> cavities = enclosedParts(adjacency(regions.list.size(), counts.takeEdges()));
+  std::vector<Betti> result(regions.list.size());
+  for (std::size_t r = 1; r < result.size(); ++r)
+  {
+    result[r] = { 1, 1 + cavities[r] - counts.euler[r], cavities[r] };
+  }
+  return result;
+}
+
+std::map<Label, Betti> tissueTopology(const TissueMap& map)
+{
+  const Regions regions = connectedRegions(map);
+  const std::vector<Betti> topology = regionTopology(map, regions);
+  std::map<Label, Betti> result;
+  for (std::size_t r = 1; r < topology.size(); ++r)
+  {
+    if (regions.list[r].label == 0) continue;
+    Betti& tissue = result[regions.list[r].label];
+    tissue.components += topology[r].components;
+    tissue.tunnels += topology[r].tunnels;
+    tissue.cavities += topology[r].cavities;
+  }
+  return result;
+}
+
+} // namespace surgicalmesher
