@@ -2,44 +2,48 @@
 /// Preparation of the tissue map: what the surface will be faithful to.
 ///
 /// A map is *well-composed* when no tissue, background included, touches itself only along a voxel edge or corner:
-/// 6-, 18- and 26-connectivity then agree on every tissue, and every tissue's boundary is a 2-manifold.
+/// 6-, 18- and 26-connectivity then agree on every tissue, and every tissue's boundary is a 2-manifold
+/// (L. J. Latecki, "3D well-composed pictures", Graphical Models and Image Processing 59, 1997). The test is local: in every
+/// 2x2x2 block, the voxels of each label are face-connected within the block, and so are the others. A block that fails is
+/// *critical*.
 
 #include "Progress.h"
 #include "TissueMap.h"
 
 #include <cstddef>
 #include <map>
-#include <string>
-#include <vector>
 
 namespace surgicalmesher
 {
 
 struct PreparationOptions
 {
-  double minimumIslandVolume = 0; ///< mm^3; face-connected components of a tissue smaller than this go to their neighbours
+  /// mm^3; face-connected components of a tissue smaller than this go to the labels around them. The largest component of
+  /// a tissue always stays, however small, and so do pockets of background.
+  double minimumIslandVolume = 0;
 };
 
 struct TissueChanges
 {
-  std::size_t islandsRemoved = 0;     ///< components
-  std::size_t islandVoxels = 0;       ///< voxels in them
-  std::size_t voxelsLost = 0;         ///< to other labels, while resolving contacts
-  std::size_t voxelsGained = 0;       ///< from other labels, while resolving contacts
+  std::size_t islandsRemoved = 0; ///< components of the given map
+  std::size_t islandVoxels = 0;   ///< voxels in them that belong to another label now
+  std::size_t voxelsLost = 0;     ///< to other labels, while resolving contacts
+  std::size_t voxelsGained = 0;   ///< from other labels, while resolving contacts
 };
 
 struct PreparationReport
 {
   std::map<Label, TissueChanges> changes; ///< only tissues with a change; background is label 0
-  std::size_t criticalBlocksBefore = 0;   ///< 2x2x2 blocks in which a label touches itself only along an edge or a corner
-  std::size_t contactVoxelsChanged = 0;
+  std::size_t criticalBlocksBefore = 0;   ///< after the islands went, before any contact was resolved
+  std::size_t contactVoxelsChanged = 0;   ///< with the islandVoxels of all tissues: every voxel that differs
 };
 
-/// Number of 2x2x2 blocks (the map padded by one layer of background) that are not well-composed.
+/// Number of critical 2x2x2 blocks of the map, padded by one layer of background.
 std::size_t countCriticalBlocks(const TissueMap& map);
 
-/// Removes islands, then resolves every diagonal contact; afterwards countCriticalBlocks() is 0. Deterministic.
-/// Throws EngineError if a contact cannot be resolved, with its place in mm.
+/// Removes islands, then resolves every contact; afterwards countCriticalBlocks() is 0, and every tissue that was present
+/// still is. Without islands to remove only voxels near critical blocks change. Deterministic.
+/// Throws EngineError if a contact cannot be resolved, with its place in mm; the map is then as it was.
 PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, const Progress& progress = {});
 
 } // namespace surgicalmesher
