@@ -281,8 +281,8 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
     installSignalHandlers();
     const QuietStderr quiet;
     silenceVTK();
-    line.d->prepareOutputs();
     if (line.d->arguments.echo) line.d->echo();
+    line.d->prepareOutputs();
     try
     {
       module(line);

@@ -35,7 +35,7 @@ std::string placeholder(const Parameter& parameter)
   if (parameter.type == "directory") return " FOLDER";
   if (parameter.isFile()) return " FILE";
   if (parameter.type == "point") return " X,Y,Z";
-  if (parameter.isEnumeration()) return " " + joined(parameter.choices, "|");
+  if (parameter.isEnumeration()) return " CHOICE";
   if (parameter.isInteger()) return " INTEGER";
   if (parameter.isNumber()) return " NUMBER";
   return parameter.isVector() || parameter.isPoint() ? " LIST" : " TEXT";

@@ -1,5 +1,6 @@
 #include "ModuleDescription.h"
 
+#include "Errors.h"
 #include "Text.h"
 
 #include <vtkSmartPointer.h>
@@ -102,7 +103,14 @@ void checkParameter(const Parameter& parameter)
   }
   else if (!parameter.defaultValue.empty())
   {
-    checkValue(parameter, parameter.defaultValue);
+    try
+    {
+      checkValue(parameter, parameter.defaultValue);
+    }
+    catch (const UsageError& error)
+    {
+      refuse(std::string("default of ") + error.what());
+    }
   }
   else if (parameter.index < 0 && (parameter.isInteger() || parameter.isNumber() || parameter.isEnumeration()))
   {

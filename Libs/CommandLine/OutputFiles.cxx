@@ -23,8 +23,12 @@ fs::path resolved(const std::string& finalPath)
 {
   std::error_code error;
   fs::path path = fs::absolute(finalPath, error);
-  if (fs::is_symlink(path, error)) path = fs::weakly_canonical(path, error);
-  return path;
+  // The limit ends a circle of links; its file can't be created, and that is said then.
+  for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links)
+  {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
+  return path.lexically_normal();
 }
 
 void requireWritablePlace(const fs::path& path, const std::string& finalPath)

@@ -2,6 +2,7 @@
 
 #include <cctype>
 #include <cmath>
+#include <iomanip>
 #include <locale>
 #include <sstream>
 
@@ -90,7 +91,7 @@ std::string formatNumber(double value)
 {
   std::ostringstream stream;
   stream.imbue(std::locale::classic());
-  stream << value;
+  stream << std::setprecision(10) << value;
   return stream.str();
 }
 

@@ -18,6 +18,6 @@ std::string joined(const std::vector<std::string>& parts, const std::string& sep
 
 std::optional<int> parseInteger(const std::string& text);
 std::optional<double> parseNumber(const std::string& text); ///< finite
-std::string formatNumber(double value);                     ///< shortest form that keeps six digits
+std::string formatNumber(double value);                     ///< shortest form that keeps ten digits
 
 } // namespace surgicalmesher

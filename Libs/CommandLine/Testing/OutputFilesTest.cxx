@@ -1,0 +1,171 @@
+// Outputs appear whole or not at all, and leave no trace of an attempt.
+#include "Errors.h"
+#include "OutputFiles.h"
+#include "Platform.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+namespace fs = std::filesystem;
+using namespace surgicalmesher;
+
+namespace
+{
+
+void write(const fs::path& file, const std::string& text)
+{
+  std::ofstream(file) << text;
+}
+
+std::string read(const fs::path& file)
+{
+  std::ifstream stream(file);
+  return { std::istreambuf_iterator<char>(stream), {} };
+}
+
+class OutputFilesTest : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    folder = fs::temp_directory_path() / ("OutputFilesTest-" + std::string(test->name()) + "-" + std::to_string(processId()));
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  std::set<std::string> content() const
+  {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+    return names;
+  }
+
+  fs::path folder;
+};
+
+using Names = std::set<std::string>;
+
+} // namespace
+
+TEST_F(OutputFilesTest, extensionsMayBeCompound)
+{
+  EXPECT_EQ(fullExtension("a.vtp"), ".vtp");
+  EXPECT_EQ(fullExtension("/x.y/a.b.vtp"), ".vtp");
+  EXPECT_EQ(fullExtension("a.nii.gz"), ".nii.gz");
+  EXPECT_EQ(fullExtension("a.seg.nrrd"), ".seg.nrrd");
+  EXPECT_EQ(fullExtension("a.mrk.json"), ".mrk.json");
+  EXPECT_EQ(fullExtension("a"), "");
+}
+
+TEST_F(OutputFilesTest, areRenamedTogether)
+{
+  OutputFiles outputs;
+  const fs::path first = outputs.temporary((folder / "a.nii.gz").string());
+  const fs::path second = outputs.temporary((folder / "b").string());
+  EXPECT_EQ(first.parent_path(), folder);
+  EXPECT_EQ(fullExtension(first.string()), ".nii.gz");
+  EXPECT_EQ(outputs.temporary((folder / "a.nii.gz").string()), first);
+  write(first, "1");
+  write(second, "2");
+  EXPECT_FALSE(fs::exists(folder / "a.nii.gz"));
+  outputs.commit();
+  EXPECT_EQ(content(), (Names{ "a.nii.gz", "b" }));
+  EXPECT_EQ(read(folder / "a.nii.gz"), "1");
+}
+
+TEST_F(OutputFilesTest, leaveNothingWithoutCommit)
+{
+  {
+    OutputFiles outputs;
+    write(outputs.temporary((folder / "a.vtp").string()), "half");
+  }
+  EXPECT_EQ(content(), Names{});
+}
+
+TEST_F(OutputFilesTest, replaceAnOlderFileOnlyAtTheEnd)
+{
+  write(folder / "a.vtp", "old");
+  {
+    OutputFiles outputs;
+    write(outputs.temporary((folder / "a.vtp").string()), "new");
+    EXPECT_EQ(read(folder / "a.vtp"), "old");
+  }
+  EXPECT_EQ(read(folder / "a.vtp"), "old");
+  OutputFiles outputs;
+  write(outputs.temporary((folder / "a.vtp").string()), "new");
+  outputs.commit();
+  EXPECT_EQ(read(folder / "a.vtp"), "new");
+}
+
+TEST_F(OutputFilesTest, oneThatWasNotWrittenKeepsAllBack)
+{
+  {
+    OutputFiles outputs;
+    write(outputs.temporary((folder / "a.vtp").string()), "1");
+    outputs.temporary((folder / "b.vtp").string());
+    EXPECT_THROW(outputs.commit(), EngineError);
+  }
+  EXPECT_EQ(content(), Names{});
+}
+
+TEST_F(OutputFilesTest, oneThatCanNotBeRenamedTakesTheOthersBack)
+{
+  {
+    OutputFiles outputs;
+    write(outputs.temporary((folder / "a.vtp").string()), "1");
+    write(outputs.temporary((folder / "b.vtp").string()), "2");
+    fs::create_directories(folder / "b.vtp" / "in the way");
+    EXPECT_THROW(outputs.commit(), InputError);
+  }
+  EXPECT_EQ(content(), Names{ "b.vtp" });
+}
+
+TEST_F(OutputFilesTest, refuseImpossiblePlaces)
+{
+  OutputFiles outputs;
+  EXPECT_THROW(outputs.temporary(folder.string()), InputError);
+  EXPECT_THROW(outputs.temporary((folder / "missing" / "a.vtp").string()), InputError);
+  write(folder / "file", "x");
+  EXPECT_THROW(outputs.temporary((folder / "file" / "a.vtp").string()), InputError);
+  EXPECT_EQ(content(), Names{ "file" });
+}
+
+#ifndef _WIN32
+TEST_F(OutputFilesTest, refuseDevicesAndFoldersThatNobodyCanWriteTo)
+{
+  OutputFiles outputs;
+  EXPECT_THROW(outputs.temporary("/dev/null"), InputError);
+  EXPECT_THROW(outputs.temporary("/proc/a.vtp"), InputError);
+}
+
+TEST_F(OutputFilesTest, goThroughSymbolicLinks)
+{
+  fs::create_directories(folder / "elsewhere");
+  fs::create_symlink(folder / "elsewhere" / "a.vtp", folder / "a.vtp");
+  OutputFiles outputs;
+  write(outputs.temporary((folder / "a.vtp").string()), "1");
+  outputs.commit();
+  EXPECT_TRUE(fs::is_symlink(folder / "a.vtp"));
+  EXPECT_EQ(read(folder / "elsewhere" / "a.vtp"), "1");
+}
+#endif
+
+TEST_F(OutputFilesTest, removeWhatKilledRunsLeftOfTheSameFileAndNothingElse)
+{
+  // No process can have this id: it is beyond what any kernel hands out.
+  const std::string dead = hostName() + "-2147483646", alive = hostName() + "-" + std::to_string(processId());
+  const Names kept{ ".a.vtp." + alive + ".partial.vtp.bak", ".a.vtp.elsewhere-2147483646.partial.vtp",
+    ".b.vtp." + dead + ".partial.vtp", ".a.vtp." + hostName() + "-1.partial.vtp", ".a.vtp." + dead + ".partial.vtu" };
+  for (const std::string& name : kept) write(folder / name, "x");
+  write(folder / (".a.vtp." + dead + ".partial.vtp"), "x");
+  {
+    OutputFiles outputs;
+    outputs.temporary((folder / "a.vtp").string());
+  }
+  EXPECT_EQ(content(), kept);
+}

@@ -1,0 +1,203 @@
+"""What only a process shows: exit status, streams, signals, files left behind.
+
+Usage: test_runtime.py CommandLineTestModule
+"""
+import os
+import pty
+import re
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.dom.minidom
+
+MODULE = os.path.abspath(sys.argv.pop(1))
+
+
+class Runtime(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp()
+        self.result = os.path.join(self.folder, "result.vtp")
+        self.extra = os.path.join(self.folder, "extra.nii.gz")
+
+    def tearDown(self):
+        shutil.rmtree(self.folder)
+
+    def run_module(self, *arguments, **options):
+        return subprocess.run([MODULE, *arguments], capture_output=True, text=True, timeout=120, **options)
+
+    def act(self, what, *arguments, **options):
+        return self.run_module("--act", what, "--extra", self.extra, *arguments, "in", self.result, **options)
+
+    def assert_failure(self, done, status, message):
+        """One line on stderr that says it, and no file."""
+        self.assertEqual(done.returncode, status, done.stderr)
+        self.assertEqual(done.stderr, "CommandLineTestModule: " + message + "\n")
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_success_writes_all_outputs_and_nothing_else(self):
+        done = self.act("succeed", "--count", "2", "--text", "x")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["extra.nii.gz", "result.vtp"])
+        with open(self.result) as file:
+            self.assertEqual(file.read(), "x\nx\n6.750000 off\n")
+
+    def test_outputs_get_the_permissions_of_any_new_file(self):
+        self.act("succeed", preexec_fn=lambda: os.umask(0o027))
+        self.assertEqual(os.stat(self.result).st_mode & 0o777, 0o640)
+
+    def test_exit_statuses(self):
+        self.assert_failure(self.act("inputError"), 1, "in: nothing found, something expected")
+        self.assert_failure(self.act("usageError"), 2, "--act: 'usageError' found, something else expected")
+        self.assert_failure(self.act("engineError"), 3, "stage two: gave up at (1, 2, 3) mm")
+        self.assert_failure(self.act("outOfMemory"), 3, "out of memory")
+        self.assert_failure(self.act("longException"), 3, "first line second line")
+        self.assert_failure(self.act("number"), 3, "unknown failure of a library")
+
+    def test_misuse_by_the_module_is_an_engine_failure(self):
+        self.assertEqual(self.act("unknownName").returncode, 3)
+        self.assertEqual(self.act("wrongType").returncode, 3)
+        self.assert_failure(self.act("forget"), 3, self.result + ": output was not written")
+
+    def test_libraries_are_silent_unless_asked(self):
+        self.assertEqual(self.act("chatter").stderr, "")
+        loud = self.act("chatter", env=dict(os.environ, SURGICALMESHER_DEBUG="1")).stderr
+        self.assertIn("a library says something", loud)
+        self.assertIn("and something else", loud)
+
+    def test_xml_is_the_description_beside_the_source(self):
+        done = self.run_module("--xml")
+        source = os.path.join(os.path.dirname(os.path.abspath(__file__)), "CommandLineTestModule.xml")
+        with open(source) as file:
+            self.assertEqual(done.stdout, file.read())
+        xml.dom.minidom.parseString(done.stdout)
+
+    def test_help_and_version(self):
+        self.assertEqual(self.run_module("--version").stdout, "CommandLineTestModule 1.2.3\n")
+        for question in ("--help", "-h"):
+            done = self.run_module(question)
+            self.assertEqual(done.returncode, 0)
+            self.assertIn("Usage: CommandLineTestModule [options] input result", done.stdout)
+
+    def test_returned_values(self):
+        file = os.path.join(self.folder, "r.params")
+        done = self.act("succeed", "--returnparameterfile", file)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(file) as lines:
+            self.assertEqual(lines.read(), "written = %d\n" % os.path.getsize(self.result))
+        os.remove(file), os.remove(self.result), os.remove(self.extra)
+        self.assert_failure(
+            self.act("noReturnValue", "--returnparameterfile", file), 3, "no value for written was returned")
+
+    def test_echo(self):
+        done = self.act("succeed", "--echo", "--length=7")
+        self.assertIn("\nlength: 7\n", done.stdout)
+        self.assertIn("\nratio: 0.25\n", done.stdout)
+
+    def test_progress_in_a_pipe(self):
+        done = self.act("succeed")
+        comments = re.findall(r"<filter-comment>([^<]*)</filter-comment>", done.stdout)
+        self.assertEqual(comments, [' "Writing &lt;all>" ', ' "Ending" '])
+        progress = [float(value) for value in re.findall(r"<filter-progress>([^<]*)</filter-progress>", done.stdout)]
+        self.assertEqual(progress, sorted(progress))
+        self.assertEqual(progress[-1], 1)
+
+    def test_progress_on_a_terminal(self):
+        parent, child = pty.openpty()
+        done = subprocess.run([MODULE, "in", self.result], stdout=child, stderr=subprocess.PIPE, timeout=120)
+        os.close(child)
+        text = os.read(parent, 1 << 20).decode()
+        os.close(parent)
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(text, r"\r\[#{30}\] 100 % Ending *\r?\n$")
+        self.assertNotIn("<filter", text)
+
+    def test_places_that_can_not_be_written_to(self):
+        missing = os.path.join(self.folder, "missing")
+        done = self.run_module("in", os.path.join(missing, "a.vtp"))
+        self.assert_failure(
+            done, 1, "%s/a.vtp: folder %s not found, a writable folder expected" % (missing, missing))
+        taken = os.path.join(self.folder, "taken.vtp")
+        os.mkdir(taken)
+        done = self.run_module("--extra", self.extra, "in", taken)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(os.listdir(self.folder), ["taken.vtp"])
+
+    def test_an_input_is_no_output(self):
+        with open(self.result, "w") as file:
+            file.write("precious")
+        done = self.run_module(self.result, self.result)
+        self.assertEqual(done.returncode, 2)
+        link = os.path.join(self.folder, "link.vtp")
+        os.symlink(self.result, link)
+        self.assertEqual(self.run_module(link, self.result).returncode, 2)
+        with open(self.result) as file:
+            self.assertEqual(file.read(), "precious")
+
+    def test_one_file_for_two_outputs_is_refused(self):
+        same = os.path.join(self.folder, "a.nrrd.vtp")
+        os.symlink(same, os.path.join(self.folder, "link.nrrd"))
+        self.assertEqual(self.run_module("--extra", self.folder + "/link.nrrd", "in", same).returncode, 2)
+
+    def test_a_write_that_fails_half_way(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+
+        done = self.act("succeed", "--count", "10000", preexec_fn=limit, restore_signals=False)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_a_full_disk(self):
+        script = (
+            'mount -t tmpfs -o size=64k none "$1" || exit 99; shift; "$@"; status=$?; ls -A "$0" >&2; exit $status')
+        done = subprocess.run(
+            ["unshare", "-rm", "sh", "-c", script, self.folder, self.folder, MODULE, "--count", "100000", "in", self.result],
+            capture_output=True, text=True, timeout=120)
+        if done.returncode not in (0, 1, 2, 3):
+            self.skipTest("no small file system can be mounted here: " + done.stderr.strip())
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+    def wait_for_half(self, folder):
+        process = subprocess.Popen(
+            [MODULE, "--act", "wait", "--extra", self.extra, "in", self.result], stdout=subprocess.PIPE, text=True)
+        for line in process.stdout:
+            if line == "waiting\n":
+                break
+        self.assertEqual(len(os.listdir(folder)), 2)
+        return process
+
+    def end(self, process, how):
+        process.send_signal(how)
+        process.wait(timeout=60)
+        process.stdout.close()
+        self.assertEqual(process.returncode, -how)
+
+    def test_cancelled_half_way(self):
+        for how in (signal.SIGTERM, signal.SIGINT):
+            self.end(self.wait_for_half(self.folder), how)
+            self.assertEqual(os.listdir(self.folder), [])
+
+    def test_killed_half_way_and_run_again(self):
+        self.end(self.wait_for_half(self.folder), signal.SIGKILL)
+        left = os.listdir(self.folder)
+        self.assertEqual(len(left), 2)
+        for name in left:
+            self.assertRegex(name, r"^\.(result\.vtp\..*\.partial\.vtp|extra\.nii\.gz\..*\.partial\.nii\.gz)$")
+        self.assertEqual(self.act("succeed").returncode, 0)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["extra.nii.gz", "result.vtp"])
+
+    def test_two_runs_at_once_do_not_disturb_each_other(self):
+        first = self.wait_for_half(self.folder)
+        self.assertEqual(self.act("succeed").returncode, 0)
+        self.assertEqual(len(os.listdir(self.folder)), 4)
+        self.end(first, signal.SIGTERM)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["extra.nii.gz", "result.vtp"])
+
+
+if __name__ == "__main__":
+    unittest.main()
