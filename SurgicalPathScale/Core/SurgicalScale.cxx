@@ -1,0 +1,217 @@
+#include "SurgicalScale.h"
+
+#include "Errors.h"
+
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+std::string asText(double value)
+{
+  std::ostringstream stream;
+  stream << value;
+  return stream.str();
+}
+
+void require(bool good, const char* what, double found, const char* expected)
+{
+  if (!good) throw UsageError(std::string(what) + " is " + asText(found) + ", expected " + expected);
+}
+
+void checkRange(const LengthRange& range)
+{
+  const auto isLength = [](double length) { return std::isfinite(length) && length > 0; };
+  require(isLength(range.minimum), "the minimum edge length", range.minimum, "a finite number above 0 mm");
+  require(isLength(range.maximum), "the maximum edge length", range.maximum, "a finite number above 0 mm");
+  if (range.minimum <= range.maximum) return;
+  throw UsageError("the minimum edge length, " + asText(range.minimum) + " mm, is above the maximum, " +
+                   asText(range.maximum) + " mm");
+}
+
+void checkFalloff(const Falloff& falloff)
+{
+  require(std::isfinite(falloff.childRadius) && falloff.childRadius >= 0, "the child radius", falloff.childRadius,
+    "a finite number of at least 0 mm");
+  require(std::isfinite(falloff.decayLength) && falloff.decayLength > 0, "the decay length", falloff.decayLength,
+    "a finite number above 0 mm");
+}
+
+void checkFocus(Combination combination, const std::vector<Vec3>& targets, const std::vector<Path>& paths)
+{
+  if (targets.empty() && paths.empty()) throw UsageError("neither a target nor a path is given, expected one or more");
+  if (combination == Combination::Targets && targets.empty()) throw UsageError("the targets alone count, but none is given");
+  if (combination == Combination::Paths && paths.empty()) throw UsageError("the paths alone count, but none is given");
+  for (const Path& path : paths)
+  {
+    if (path.size() < 2) throw InputError("a path of one point, expected two points or more");
+  }
+}
+
+int voxelsAlong(const Grid& map, int axis, double spacing)
+{
+  const double extent = map.size[axis] * map.spacing[axis];
+  return int(std::ceil(extent / spacing - 1e-4)) + 2; // rounded headers of one map must not differ here
+}
+
+/// Lengths at one distance from the targets and one from the paths.
+class LengthFunction
+{
+public:
+  LengthFunction(const SurgicalScaleOptions& options, const Vec3& x, const std::vector<Vec3>& targets,
+    const std::vector<Path>& paths)
+    : m_Options(options)
+  {
+    if (options.combination != Combination::Paths) m_ToTarget = distanceToPoints(x, targets);
+    if (options.combination != Combination::Targets) m_ToPath = distanceToPaths(x, paths);
+  }
+
+  double general() const { return within(m_Options.range); }
+  double inTissue(Label label) const
+  {
+    const auto own = m_Options.tissues.find(label);
+    return own == m_Options.tissues.end() ? general() : own->second.factor * within(own->second.range);
+  }
+
+private:
+  double within(const LengthRange& range) const
+  {
+    return std::min(edgeLength(m_ToTarget, range, m_Options.targetFalloff),
+      edgeLength(m_ToPath, range, m_Options.pathFalloff));
+  }
+
+  const SurgicalScaleOptions& m_Options;
+  double m_ToTarget = HUGE_VAL;
+  double m_ToPath = HUGE_VAL;
+};
+
+/// The labels of the map in the box of two scale voxels' side around a point of the map's grid frame, each at least once.
+void labelsInBox(const TissueMap& map, const Vec3& centre, double halfSide, std::vector<Label>& labels)
+{
+  std::array<int, 3> from;
+  std::array<int, 3> to;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double spacing = map.grid.spacing[axis];
+    from[axis] = std::max(0, int(std::ceil((centre[axis] - halfSide) / spacing - 0.5)));
+    to[axis] = std::min(map.grid.size[axis] - 1, int(std::floor((centre[axis] + halfSide) / spacing + 0.5)));
+  }
+  labels.clear();
+  for (int k = from[2]; k <= to[2]; ++k)
+  {
+    for (int j = from[1]; j <= to[1]; ++j)
+    {
+      Label last = 0;
+      for (int i = from[0]; i <= to[0]; ++i)
+      {
+        const Label label = map.labels[map.grid.index(i, j, k)];
+        if (label == last || label == 0) continue;
+        last = label;
+        if (std::find(labels.begin(), labels.end(), label) == labels.end()) labels.push_back(label);
+      }
+    }
+  }
+}
+
+std::vector<Vec3> toGridFrame(const Grid& grid, std::vector<Vec3> points)
+{
+  for (Vec3& point : points) point = grid.worldToGrid(point);
+  return points;
+}
+
+} // namespace
+
+double edgeLength(double distance, const LengthRange& range, const Falloff& falloff)
+{
+  const double beyond = std::max(0.0, distance - falloff.childRadius);
+  return range.minimum - (range.maximum - range.minimum) * std::expm1(-beyond / falloff.decayLength);
+}
+
+void checkScaleOptions(const SurgicalScaleOptions& options, const Grid& map, const std::vector<Vec3>& targets,
+  const std::vector<Path>& paths)
+{
+  checkRange(options.range);
+  checkFalloff(options.targetFalloff);
+  checkFalloff(options.pathFalloff);
+  for (const auto& tissue : options.tissues)
+  {
+    checkRange(tissue.second.range);
+    require(std::isfinite(tissue.second.factor) && tissue.second.factor > 0, "a tissue's factor", tissue.second.factor,
+      "a finite number above 0");
+  }
+  require(std::isfinite(options.gradation) && options.gradation >= 0, "the gradation limit", options.gradation,
+    "a finite number of at least 0");
+  require(std::isfinite(options.spacing) && options.spacing > 0, "the spacing of the scale volume", options.spacing,
+    "a finite number above 0 mm");
+  double count = 1;
+  for (int axis = 0; axis < 3; ++axis) count *= map.size[axis] * map.spacing[axis] / options.spacing + 2;
+  require(count < 2147483648.0, "the spacing of the scale volume", options.spacing,
+    "a spacing that makes fewer than 2^31 voxels of this label map");
+  checkFocus(options.combination, targets, paths);
+}
+
+Grid scaleGrid(const Grid& map, double spacing)
+{
+  Grid grid;
+  grid.axes = map.axes;
+  grid.spacing = { spacing, spacing, spacing };
+  Vec3 corner;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    grid.size[axis] = voxelsAlong(map, axis, spacing);
+    corner[axis] = ((map.size[axis] - 1) * map.spacing[axis] - (grid.size[axis] - 1) * spacing) / 2;
+  }
+  grid.origin = map.gridToWorld(corner);
+  return grid;
+}
+
+ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
+  const SurgicalScaleOptions& options, const Progress& progress)
+{
+  checkScaleOptions(options, map.grid, targets, paths);
+  ScaleField scale;
+  scale.grid = scaleGrid(map.grid, options.spacing);
+  scale.lengths.resize(scale.grid.voxelCount());
+  // In the grid frame a map and its rotated copy have the same coordinates to rounding.
+  const std::vector<Vec3> gridTargets = toGridFrame(map.grid, targets);
+  std::vector<Path> gridPaths;
+  for (const Path& path : paths) gridPaths.push_back(toGridFrame(map.grid, path));
+  const Vec3 first = map.grid.worldToGrid(scale.grid.origin);
+
+  report(progress, 0, "edge lengths");
+  vtkSMPTools::For(0, scale.grid.size[2], [&](vtkIdType begin, vtkIdType end) {
+    std::vector<Label> labels;
+    for (int k = int(begin); k < int(end); ++k)
+    {
+      for (int j = 0; j < scale.grid.size[1]; ++j)
+      {
+        for (int i = 0; i < scale.grid.size[0]; ++i)
+        {
+          const Vec3 x = first + options.spacing * Vec3{ double(i), double(j), double(k) };
+          const LengthFunction length(options, x, gridTargets, gridPaths);
+          if (!options.tissues.empty()) labelsInBox(map, x, options.spacing, labels);
+          double smallest = labels.empty() ? length.general() : HUGE_VAL;
+          for (const Label label : labels) smallest = std::min(smallest, length.inTissue(label));
+          scale.lengths[scale.grid.index(i, j, k)] = float(smallest);
+        }
+      }
+    }
+  });
+  if (options.gradation > 0)
+  {
+    report(progress, 0.5, "gradation");
+    limitGradation(scale, options.gradation);
+  }
+  report(progress, 1, "edge lengths");
+  return scale;
+}
+
+} // namespace surgicalmesher
