@@ -1,0 +1,389 @@
+#include "MeshQuality.h"
+
+#include "FaceNeighbours.h"
+
+#include <rapidjson/prettywriter.h>
+#include <rapidjson/stringbuffer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <numeric>
+#include <sstream>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+constexpr double kDegrees = 57.295779513082321;
+
+// ---- groups ---------------------------------------------------------------------------------------------------------
+
+struct Samples
+{
+  std::vector<double> dihedral, minimumDihedral, radiusRatio, scaledJacobian, volume, edgeOverTarget, valence;
+};
+
+/// Label at each point if all tetrahedra around it have it and it is not on the hull of the mesh, else -1.
+std::vector<std::int32_t> innerPoints(const TetraMesh& mesh)
+{
+  constexpr std::int32_t unseen = -2, mixed = -1;
+  std::vector<std::int32_t> label(mesh.points.size(), unseen);
+  const FaceNeighbours neighbours = faceNeighbours(mesh);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    for (const std::int32_t id : mesh.tetrahedra[t])
+    {
+      if (label[id] == unseen) label[id] = mesh.labels[t];
+      else if (label[id] != mesh.labels[t]) label[id] = mixed;
+    }
+  }
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    for (int f = 0; f < 4; ++f)
+    {
+      if (neighbours.across[t][f] >= 0) continue;
+      for (const int c : kFaceCorners[f]) label[mesh.tetrahedra[t][c]] = mixed;
+    }
+  }
+  return label;
+}
+
+std::vector<std::int32_t> valences(const TetraMesh& mesh)
+{
+  std::vector<std::int32_t> result(mesh.points.size(), 0);
+  for (const auto& tetrahedron : mesh.tetrahedra)
+  {
+    for (const std::int32_t id : tetrahedron) ++result[id];
+  }
+  return result;
+}
+
+/// What every group is assessed from, found once.
+struct Context
+{
+  const TetraMesh& mesh;
+  const std::function<double(const Vec3&)>& edgeLength;
+  std::vector<std::int32_t> inner = innerPoints(mesh);
+  std::vector<std::int32_t> valence = valences(mesh);
+};
+
+std::vector<double> edgesOverTarget(const Context& context, const std::vector<std::int32_t>& tetrahedra)
+{
+  std::vector<double> result;
+  if (!context.edgeLength) return result;
+  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
+  edges.reserve(6 * tetrahedra.size());
+  for (const std::int32_t t : tetrahedra)
+  {
+    for (const auto& [i, j] : kEdgeCorners)
+    {
+      const std::int32_t a = context.mesh.tetrahedra[t][i], b = context.mesh.tetrahedra[t][j];
+      edges.emplace_back(std::min(a, b), std::max(a, b));
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  for (const auto& [i, j] : edges)
+  {
+    const Vec3 &a = context.mesh.points[i], &b = context.mesh.points[j];
+    result.push_back(norm(b - a) / context.edgeLength(0.5 * (a + b)));
+  }
+  return result;
+}
+
+Samples samplesOf(const Context& context, const std::vector<std::int32_t>& tetrahedra)
+{
+  Samples samples;
+  std::vector<std::int32_t> inGroup;
+  for (const std::int32_t t : tetrahedra)
+  {
+    const auto& ids = context.mesh.tetrahedra[t];
+    const Vec3 &a = context.mesh.points[ids[0]], &b = context.mesh.points[ids[1]];
+    const Vec3 &c = context.mesh.points[ids[2]], &d = context.mesh.points[ids[3]];
+    const std::array<double, 6> angles = dihedralAngles(a, b, c, d);
+    samples.dihedral.insert(samples.dihedral.end(), angles.begin(), angles.end());
+    samples.minimumDihedral.push_back(*std::min_element(angles.begin(), angles.end()));
+    samples.radiusRatio.push_back(radiusRatio(a, b, c, d));
+    samples.scaledJacobian.push_back(scaledJacobian(a, b, c, d));
+    samples.volume.push_back(orient(a, b, c, d) / 6);
+    inGroup.insert(inGroup.end(), ids.begin(), ids.end());
+  }
+  std::sort(inGroup.begin(), inGroup.end());
+  for (std::size_t begin = 0, end; begin < inGroup.size(); begin = end)
+  {
+    for (end = begin + 1; end < inGroup.size() && inGroup[end] == inGroup[begin];) ++end;
+    const std::int32_t id = inGroup[begin];
+    const auto count = static_cast<std::int32_t>(end - begin);
+    if (context.inner[id] >= 0 && count == context.valence[id]) samples.valence.push_back(count);
+  }
+  samples.edgeOverTarget = edgesOverTarget(context, tetrahedra);
+  return samples;
+}
+
+std::size_t countPoints(const TetraMesh& mesh, const std::vector<std::int32_t>& tetrahedra)
+{
+  std::vector<bool> used(mesh.points.size(), false);
+  for (const std::int32_t t : tetrahedra)
+  {
+    for (const std::int32_t id : mesh.tetrahedra[t]) used[id] = true;
+  }
+  return std::count(used.begin(), used.end(), true);
+}
+
+QualityGroup groupOf(const Context& context, const std::vector<std::int32_t>& tetrahedra, const Samples& samples)
+{
+  QualityGroup group;
+  group.tetrahedra = tetrahedra.size();
+  group.points = countPoints(context.mesh, tetrahedra);
+  group.volume = std::accumulate(samples.volume.begin(), samples.volume.end(), 0.0);
+  group.dihedral = distributionOf(samples.dihedral);
+  group.minimumDihedral = distributionOf(samples.minimumDihedral);
+  group.radiusRatio = distributionOf(samples.radiusRatio);
+  group.scaledJacobian = distributionOf(samples.scaledJacobian);
+  group.tetrahedronVolume = distributionOf(samples.volume);
+  group.edgeOverTarget = distributionOf(samples.edgeOverTarget);
+  group.valence = distributionOf(samples.valence);
+  const auto near = std::count_if(samples.edgeOverTarget.begin(), samples.edgeOverTarget.end(),
+    [](double ratio) { return ratio > 0.7 && ratio < 1.4; });
+  if (!samples.edgeOverTarget.empty()) group.edgesNearTarget = double(near) / double(samples.edgeOverTarget.size());
+  return group;
+}
+
+Histogram histogramOf(const std::vector<double>& values, double low, double high, int bins)
+{
+  Histogram result{ low, high, std::vector<std::size_t>(bins, 0) };
+  for (const double value : values)
+  {
+    const double place = (value - low) / (high - low) * bins;
+    ++result.counts[static_cast<std::size_t>(std::clamp(place, 0.0, bins - 1.0))];
+  }
+  return result;
+}
+
+// ---- text -----------------------------------------------------------------------------------------------------------
+
+using Writer = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
+
+void number(Writer& writer, const char* key, double value)
+{
+  writer.Key(key);
+  writer.Double(value);
+}
+
+void count(Writer& writer, const char* key, std::size_t value)
+{
+  writer.Key(key);
+  writer.Uint64(value);
+}
+
+void write(Writer& writer, const char* key, const Distribution& d)
+{
+  writer.Key(key);
+  writer.StartObject();
+  count(writer, "count", d.count);
+  number(writer, "minimum", d.minimum);
+  number(writer, "percentile1", d.percentile1);
+  number(writer, "percentile5", d.percentile5);
+  number(writer, "median", d.median);
+  number(writer, "percentile95", d.percentile95);
+  number(writer, "percentile99", d.percentile99);
+  number(writer, "maximum", d.maximum);
+  number(writer, "mean", d.mean);
+  writer.EndObject();
+}
+
+void write(Writer& writer, const char* key, const Histogram& histogram)
+{
+  writer.Key(key);
+  writer.StartObject();
+  number(writer, "low", histogram.low);
+  number(writer, "high", histogram.high);
+  writer.Key("counts");
+  writer.StartArray();
+  for (const std::size_t value : histogram.counts) writer.Uint64(value);
+  writer.EndArray();
+  writer.EndObject();
+}
+
+void writeMembers(Writer& writer, const QualityGroup& group)
+{
+  count(writer, "tetrahedra", group.tetrahedra);
+  count(writer, "points", group.points);
+  number(writer, "volume", group.volume);
+  write(writer, "dihedral", group.dihedral);
+  write(writer, "minimumDihedral", group.minimumDihedral);
+  write(writer, "radiusRatio", group.radiusRatio);
+  write(writer, "scaledJacobian", group.scaledJacobian);
+  write(writer, "tetrahedronVolume", group.tetrahedronVolume);
+  write(writer, "edgeOverTarget", group.edgeOverTarget);
+  number(writer, "edgesNearTarget", group.edgesNearTarget);
+  write(writer, "valence", group.valence);
+}
+
+std::string nameOf(Label label, const TissueTable& tissues)
+{
+  const auto found = tissues.find(label);
+  return found == tissues.end() ? std::string() : found->second.name;
+}
+
+std::string quoted(const std::string& text)
+{
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return result + "\"";
+}
+
+void writeRow(std::ostream& stream, const std::string& kind, int id, const std::string& name, const QualityGroup& group)
+{
+  stream << kind << ',' << id << ',' << quoted(name) << ',' << group.tetrahedra << ',' << group.points << ','
+         << group.volume << ',' << group.dihedral.minimum << ',' << group.dihedral.maximum << ','
+         << group.minimumDihedral.mean << ',' << group.radiusRatio.minimum << ',' << group.radiusRatio.mean << ','
+         << group.scaledJacobian.minimum << ',' << group.scaledJacobian.mean << ',' << group.tetrahedronVolume.minimum
+         << ',' << group.edgeOverTarget.mean << ',' << group.edgesNearTarget << ',' << group.valence.median << '\n';
+}
+
+} // namespace
+
+std::array<double, 6> dihedralAngles(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+  const std::array<Vec3, 4> p{ a, b, c, d };
+  std::array<Vec3, 4> normals;
+  for (int f = 0; f < 4; ++f)
+  {
+    const auto& [i, j, k] = kFaceCorners[f];
+    normals[f] = cross(p[j] - p[i], p[k] - p[i]);
+  }
+  std::array<double, 6> result;
+  for (int e = 0; e < 6; ++e)
+  {
+    const auto& [k, l] = kEdgeCorners[5 - e]; // the faces opposite k and l meet at edge e
+    // atan2 keeps its precision at flat angles, where acos loses half the digits
+    result[e] = 180 - kDegrees * std::atan2(norm(cross(normals[k], normals[l])), dot(normals[k], normals[l]));
+  }
+  return result;
+}
+
+double radiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  const double sixVolumes = dot(cross(u, v), w);
+  const double twoAreas = norm(cross(u, v)) + norm(cross(v, w)) + norm(cross(w, u)) + norm(cross(v - u, w - u));
+  const Vec3 circumcentre = squaredNorm(u) * cross(v, w) + squaredNorm(v) * cross(w, u) + squaredNorm(w) * cross(u, v);
+  const double denominator = twoAreas * norm(circumcentre);
+  // r = sixVolumes / twoAreas, R = |circumcentre| / (2 sixVolumes)
+  return denominator > 0 ? 6 * sixVolumes * std::abs(sixVolumes) / denominator : 0;
+}
+
+double scaledJacobian(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+  const double ab = norm(b - a), ac = norm(c - a), ad = norm(d - a), bc = norm(c - b), bd = norm(d - b), cd = norm(d - c);
+  const double largest = std::max({ ab * ac * ad, ab * bc * bd, ac * bc * cd, ad * bd * cd });
+  return largest > 0 ? std::sqrt(2.0) * orient(a, b, c, d) / largest : 0;
+}
+
+Distribution distributionOf(std::vector<double> values)
+{
+  Distribution result;
+  if (values.empty()) return result;
+  std::sort(values.begin(), values.end());
+  const auto percentile = [&](double share) { return values[static_cast<std::size_t>(share * double(values.size() - 1) + 0.5)]; };
+  result.count = values.size();
+  result.minimum = values.front();
+  result.percentile1 = percentile(0.01);
+  result.percentile5 = percentile(0.05);
+  result.median = percentile(0.5);
+  result.percentile95 = percentile(0.95);
+  result.percentile99 = percentile(0.99);
+  result.maximum = values.back();
+  result.mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
+  return result;
+}
+
+MeshQuality assessQuality(const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh,
+  const std::function<double(const Vec3&)>& edgeLength)
+{
+  const Context context{ mesh, edgeLength };
+  std::vector<std::int32_t> all(mesh.tetrahedra.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::map<Label, std::vector<std::int32_t>> byTissue;
+  std::map<std::int32_t, std::vector<std::int32_t>> bySubMesh;
+  for (const std::int32_t t : all)
+  {
+    byTissue[mesh.labels[t]].push_back(t);
+    if (!subMesh.empty()) bySubMesh[subMesh[t]].push_back(t);
+  }
+  MeshQuality result;
+  const Samples samples = samplesOf(context, all);
+  result.whole = groupOf(context, all, samples);
+  result.dihedral = histogramOf(samples.dihedral, 0, 180, 90);
+  result.edgeOverTarget = histogramOf(samples.edgeOverTarget, 0, 2.5, 100);
+  result.valence = histogramOf(samples.valence, 0, 60, 60);
+  for (const auto& [label, tetrahedra] : byTissue)
+  {
+    result.tissues[label] = groupOf(context, tetrahedra, samplesOf(context, tetrahedra));
+  }
+  for (const auto& [id, tetrahedra] : bySubMesh)
+  {
+    result.subMeshes[id] = groupOf(context, tetrahedra, samplesOf(context, tetrahedra));
+  }
+  return result;
+}
+
+std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues)
+{
+  rapidjson::StringBuffer buffer;
+  Writer writer(buffer);
+  writer.StartObject();
+  writer.Key("whole");
+  writer.StartObject();
+  writeMembers(writer, quality.whole);
+  writer.EndObject();
+  writer.Key("tissues");
+  writer.StartArray();
+  for (const auto& [label, group] : quality.tissues)
+  {
+    writer.StartObject();
+    count(writer, "label", label);
+    writer.Key("name");
+    writer.String(nameOf(label, tissues).c_str());
+    writeMembers(writer, group);
+    writer.EndObject();
+  }
+  writer.EndArray();
+  writer.Key("subMeshes");
+  writer.StartArray();
+  for (const auto& [id, group] : quality.subMeshes)
+  {
+    writer.StartObject();
+    count(writer, "subMesh", static_cast<std::size_t>(id));
+    writeMembers(writer, group);
+    writer.EndObject();
+  }
+  writer.EndArray();
+  writer.Key("histograms");
+  writer.StartObject();
+  write(writer, "dihedral", quality.dihedral);
+  write(writer, "edgeOverTarget", quality.edgeOverTarget);
+  write(writer, "valence", quality.valence);
+  writer.EndObject();
+  writer.EndObject();
+  return buffer.GetString();
+}
+
+std::string qualityCSV(const MeshQuality& quality, const TissueTable& tissues)
+{
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  stream.precision(9);
+  stream << "group,id,name,tetrahedra,points,volume,dihedral minimum,dihedral maximum,minimum dihedral mean,"
+            "radius ratio minimum,radius ratio mean,scaled Jacobian minimum,scaled Jacobian mean,"
+            "tetrahedron volume minimum,edge over target mean,edges near target,valence median\n";
+  writeRow(stream, "mesh", 0, "", quality.whole);
+  for (const auto& [label, group] : quality.tissues) writeRow(stream, "tissue", label, nameOf(label, tissues), group);
+  for (const auto& [id, group] : quality.subMeshes) writeRow(stream, "subMesh", id, id == 0 ? "parent" : "child", group);
+  return stream.str();
+}
+
+} // namespace surgicalmesher

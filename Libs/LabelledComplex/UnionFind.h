@@ -1,0 +1,35 @@
+#pragma once
+/// Disjoint sets over 0..n-1; the representative of a set is its smallest member, whatever the order of the unions.
+
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+class UnionFind
+{
+public:
+  explicit UnionFind(std::size_t count) : m_Parent(count) { std::iota(m_Parent.begin(), m_Parent.end(), 0u); }
+
+  std::uint32_t find(std::uint32_t i)
+  {
+    while (m_Parent[i] != i) i = m_Parent[i] = m_Parent[m_Parent[i]];
+    return i;
+  }
+
+  void unite(std::uint32_t a, std::uint32_t b)
+  {
+    a = find(a);
+    b = find(b);
+    if (a > b) std::swap(a, b);
+    m_Parent[b] = a;
+  }
+
+private:
+  std::vector<std::uint32_t> m_Parent;
+};
+
+} // namespace surgicalmesher
