@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 """Draws the example's pictures. usage: pictures.py FOLDER X Y Z
 
-Reads scale.nrrd, prepared.nrrd, surface.vtp and mesh.vtu in FOLDER and writes surface.png, tetrahedra.png, scale.png and
-histograms.png beside them. X Y Z is the target (LPS, mm). Needs a display: on a machine without one, run it by xvfb-run.
+Reads scale.nrrd, prepared.nrrd, surface.vtp, mesh.vtu and mesh.json in FOLDER and writes surface.png, tetrahedra.png,
+scale.png and histograms.png beside them. X Y Z is the target (LPS, mm). Needs a display: on a machine without one, run
+it by xvfb-run.
 """
 import colorsys
+import json
 import os
 import sys
 
@@ -15,7 +17,7 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-from meshfiles import cell_array, dihedral_angles, edge_ratios, read_dataset, read_mesh, read_nrrd, valences
+from meshfiles import cell_array, interpolated, read_dataset, read_nrrd
 
 SIZE = (1400, 1050)
 HEADER = 120  # pixels kept for the title
@@ -105,7 +107,7 @@ def caption(text, x, y, size):
 
 
 def camera_view(renderer, direction, width, height, header):
-    """Looks along `direction`, cranial side up, in parallel projection; all actors fit below the `header` pixels at the top."""
+    """Looks along `direction`, cranial side up, in parallel; all actors fit below `header` pixels at the top."""
     direction = np.asarray(direction, float) / np.linalg.norm(direction)
     right = np.cross(direction, (0, 0, 1))
     right /= np.linalg.norm(right)
@@ -184,7 +186,8 @@ def draw_tetrahedra(folder, target):
     whole.AddActor(actor_of(extracted(mesh, behind & ~child), edges=True))
     whole.AddActor(actor_of(extracted(mesh, behind & child), edges=True, color=CHILD_COLOR))
     camera_view(whole, view, share * SIZE[0], SIZE[1], HEADER)
-    whole.AddActor2D(caption(f"Tetrahedra behind a plane through the target\n{len(child):,} in all", 30, SIZE[1] - 95, 28))
+    title = f"Tetrahedra behind a plane through the target\n{len(child):,} in all"
+    whole.AddActor2D(caption(title, 30, SIZE[1] - 95, 28))
 
     apart = vtk.vtkRenderer()
     apart.SetViewport(share, 0, 1, 1)
@@ -192,20 +195,6 @@ def draw_tetrahedra(folder, target):
     camera_view(apart, view, (1 - share) * SIZE[0], SIZE[1], HEADER)
     apart.AddActor2D(caption(f"Child mesh, same cut, enlarged\n{child.sum():,} tetrahedra", 20, SIZE[1] - 95, 28))
     save([whole, apart], os.path.join(folder, "tetrahedra.png"))
-
-
-def interpolated(volume, indices):
-    """Trilinear values of `volume` at continuous (i, j, k, ...); beyond the volume, those of its border."""
-    last = np.array(volume.shape) - 1
-    indices = np.clip(indices[..., :3], 0, last)
-    low = np.minimum(indices.astype(int), np.maximum(last - 1, 0))
-    share = indices - low
-    values = np.zeros(indices.shape[:-1])
-    for corner in np.ndindex(2, 2, 2):
-        weight = np.prod(np.where(corner, share, 1 - share), axis=-1)
-        at = np.minimum(low + corner, last)
-        values += weight * volume[at[..., 0], at[..., 1], at[..., 2]]
-    return values
 
 
 def draw_scale(folder, target):
@@ -216,7 +205,7 @@ def draw_scale(folder, target):
     i, j = np.meshgrid(np.arange(labels.shape[0]), np.arange(labels.shape[1]), indexing="ij")
     voxels = np.stack([i, j, np.full_like(i, slice_at), np.ones_like(i)], axis=-1)
     world = voxels @ affine.T
-    lengths = interpolated(scale, world @ np.linalg.inv(scale_affine).T)
+    lengths = interpolated(scale, scale_affine, world[..., :3])
 
     figure, axes = plt.subplots(figsize=(11, 11.5), dpi=100)
     shown = axes.pcolormesh(world[..., 0], world[..., 1], lengths, cmap="viridis", shading="nearest")
@@ -233,7 +222,7 @@ def draw_scale(folder, target):
     axes.invert_yaxis()
     axes.set_xlabel("L (mm), patient's left to the right")
     axes.set_ylabel("P (mm), anterior at the top")
-    axes.set_title(f"Target edge length over the tissue boundaries, slice S = {world[0, 0, 2]:.0f} mm", fontsize=16, pad=14)
+    axes.set_title(f"Target edge length and tissue boundaries, slice S = {world[0, 0, 2]:.0f} mm", fontsize=16, pad=14)
     axes.legend(loc="upper right", fontsize=13)
     figure.colorbar(shown, ax=axes, label="target edge length (mm)", shrink=0.8)
     figure.tight_layout()
@@ -242,26 +231,31 @@ def draw_scale(folder, target):
 
 
 def draw_histograms(folder):
-    mesh = read_mesh(os.path.join(folder, "mesh.vtu"))
-    angles, ratios, valence = dihedral_angles(mesh).ravel(), edge_ratios(mesh), valences(mesh)
+    """The three histograms of Audette et al. 2007, figure 10, from the mesh's report."""
+    with open(os.path.join(folder, "mesh.json"), encoding="utf-8") as file:
+        quality = json.load(file)["quality"]
+    whole, histograms = quality["whole"], quality["histograms"]
+    angles, valence = whole["dihedral"], whole["valence"]
     panels = [
-        ("Dihedral angles", "degrees", angles, np.arange(0, 181, 2.5), (60, 90),
-         f"{angles.min():.1f} to {angles.max():.1f}"),
-        ("Edge length over target", "ratio", ratios, np.arange(0, 2.51, 0.05), (1,),
-         f"{100 * np.mean((ratios >= 0.7) & (ratios <= 1.4)):.1f} % within 0.7 to 1.4"),
-        ("Tetrahedra per vertex", "tetrahedra at a vertex inside a tissue", valence, np.arange(3, 62, 2), (24,),
-         f"mean {valence.mean():.1f}, the last bar holds the rest" if len(valence) else "no vertex inside a tissue"),
+        ("dihedral", "Dihedral angles", "degrees", (60, 90), f"{angles['minimum']:.1f} to {angles['maximum']:.1f}"),
+        ("edgeOverTarget", "Edge length over target", "ratio", (1,),
+         f"{100 * whole['edgesNearTarget']:.1f} % within 0.7 to 1.4"),
+        ("valence", "Tetrahedra per vertex", "tetrahedra at a vertex inside a tissue", (24,),
+         f"median {valence['median']:.0f}"),
     ]
     figure, columns = plt.subplots(1, 3, figsize=(18, 6), dpi=100)
-    for axes, (title, unit, values, bins, ideals, note) in zip(columns, panels):
-        axes.hist(np.clip(values, bins[0], bins[-1]), bins, color="#4c78a8", edgecolor="white", linewidth=0.4)
-        for n, ideal in enumerate(ideals):
-            axes.axvline(ideal, color="#e45756", linestyle="--", linewidth=1.5, label=None if n else "canonical tetrahedron")
+    for axes, (name, title, unit, ideals, note) in zip(columns, panels):
+        counts = histograms[name]["counts"]
+        edges = np.linspace(histograms[name]["low"], histograms[name]["high"], len(counts) + 1)
+        axes.bar(edges[:-1], counts, np.diff(edges), align="edge", color="#4c78a8", edgecolor="white", linewidth=0.4)
+        for ideal in ideals:
+            line = axes.axvline(ideal, color="#e45756", linestyle="--", linewidth=1.5)
+        line.set_label("canonical tetrahedron")
         axes.set_title(f"{title}\n{note}", fontsize=15)
         axes.set_xlabel(unit, fontsize=13)
         axes.set_ylabel("count", fontsize=13)
         axes.legend(loc="upper right", fontsize=11)
-    figure.suptitle(f"Quality of {len(mesh.tetrahedra):,} tetrahedra", fontsize=18)
+    figure.suptitle(f"Quality of {whole['tetrahedra']:,} tetrahedra", fontsize=18)
     figure.tight_layout()
     figure.savefig(os.path.join(folder, "histograms.png"))
     plt.close(figure)

@@ -9,17 +9,14 @@ import sys
 import unittest
 
 import numpy as np
+from vtk.util.numpy_support import vtk_to_numpy
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
-from meshfiles import TETRAHEDRON_FACES, cell_array, read_dataset, read_mesh, read_nrrd  # noqa: E402
+from measures import TETRAHEDRON_FACES, dihedral_angles, edge_ratios, signed_volumes, valences  # noqa: E402
+from meshfiles import cell_array, interpolated, read_dataset, read_mesh, read_nrrd  # noqa: E402
 
 BIN, OUTDIR = sys.argv[1:3]
-
-
-def signed_volumes(mesh):
-    a, b, c, d = np.moveaxis(mesh.points[mesh.tetrahedra], 1, 0)
-    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
 
 
 class ExampleTest(unittest.TestCase):
@@ -50,7 +47,7 @@ class ExampleTest(unittest.TestCase):
 
     def test_surface_closes_around_every_tissue(self):
         surface = read_dataset(os.path.join(OUTDIR, "surface.vtp"))
-        ids = np.array([[surface.GetCell(n).GetPointId(k) for k in range(3)] for n in range(surface.GetNumberOfCells())])
+        ids = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
         labels = cell_array(surface, "BoundaryLabels")
         # Directed edges of the triangles that bound a tissue, all seen from inside it: each is met once each way.
         side = np.concatenate([labels[:, 0], labels[:, 1]])
@@ -81,6 +78,17 @@ class ExampleTest(unittest.TestCase):
             report = json.load(file)
         self.assertEqual(set(report), {"scale", "surface", "mesh", "seconds"})
         self.assertEqual(set(report["seconds"]), {"scale", "surface", "mesh", "pictures"})
+        whole = report["mesh"]["quality"]["whole"]
+        angles = dihedral_angles(self.mesh)
+        scale, affine = read_nrrd(os.path.join(OUTDIR, "scale.nrrd"))
+        ratios = edge_ratios(self.mesh, lambda middles: interpolated(scale, affine, middles))
+        self.assertEqual(whole["tetrahedra"], len(self.mesh.tetrahedra))
+        self.assertAlmostEqual(whole["dihedral"]["minimum"], angles.min(), 3)
+        self.assertAlmostEqual(whole["dihedral"]["maximum"], angles.max(), 3)
+        self.assertAlmostEqual(whole["minimumDihedral"]["mean"], angles.min(axis=1).mean(), 3)
+        self.assertAlmostEqual(whole["edgeOverTarget"]["mean"], ratios.mean(), 3)
+        self.assertAlmostEqual(whole["edgesNearTarget"], np.mean((ratios >= 0.7) & (ratios <= 1.4)), 3)
+        self.assertAlmostEqual(whole["valence"]["mean"], valences(self.mesh).mean(), 3)
         self.assertRegex(self.output, rf"tetrahedra +{len(self.mesh.tetrahedra):,}\n")
 
     def test_pictures_show_something(self):

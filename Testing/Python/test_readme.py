@@ -15,7 +15,8 @@ def text_of(*path):
 
 def readme_commands():
     blocks = re.findall(r"^```(\w*)\n(.*?)^```", text_of("README.md"), re.M | re.S)
-    return [line.strip() for language, block in blocks if language == "sh" for line in block.splitlines() if line.strip()]
+    lines = [line.strip() for language, block in blocks if language == "sh" for line in block.splitlines()]
+    return [line for line in lines if line]
 
 
 def example_commands():
@@ -52,8 +53,9 @@ class ReadmeTest(unittest.TestCase):
         text = text_of("README.md")
         for target in re.findall(r"\]\(([^)]+)\)", text):
             if target.startswith("#"):
-                headings = [re.sub(r"[^\w -]", "", h).lower().replace(" ", "-") for h in re.findall(r"^#+ (.*)$", text, re.M)]
-                self.assertIn(target[1:], headings)
+                headings = re.findall(r"^#+ (.*)$", text, re.M)
+                anchors = [re.sub(r"[^\w -]", "", heading).lower().replace(" ", "-") for heading in headings]
+                self.assertIn(target[1:], anchors)
             elif "://" not in target:
                 self.assertTrue(os.path.exists(os.path.join(ROOT, target)), target)
 

@@ -1,4 +1,4 @@
-"""The measures behind the example's table and histograms, on meshes whose measures are known."""
+"""The measures the example is judged by, on a mesh whose measures are known, and its reader of volumes."""
 import gzip
 import os
 import sys
@@ -10,8 +10,8 @@ import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
+import measures  # noqa: E402
 import meshfiles  # noqa: E402
-import pictures  # noqa: E402
 
 
 def bcc_mesh(cells):
@@ -41,7 +41,7 @@ def bcc_mesh(cells):
                 ring.append(vertex(tuple(corner)))
             ends = vertex(tuple(below)), vertex(tuple(above))
             tetrahedra += [(ends[0], ends[1], ring[k], ring[(k + 1) % 4]) for k in range(4)]
-    return SimpleNamespace(points=np.array(points), tetrahedra=np.array(tetrahedra), target=np.ones(len(points)),
+    return SimpleNamespace(points=np.array(points), tetrahedra=np.array(tetrahedra),
                            tissue=np.ones(len(tetrahedra), int))
 
 
@@ -50,29 +50,29 @@ class CanonicalLatticeTest(unittest.TestCase):
         self.mesh = bcc_mesh(4)
 
     def test_dihedral_angles_are_four_times_60_and_twice_90(self):
-        angles = np.sort(meshfiles.dihedral_angles(self.mesh), axis=1)
+        angles = np.sort(measures.dihedral_angles(self.mesh), axis=1)
         np.testing.assert_allclose(angles, np.tile([60, 60, 60, 60, 90, 90], (len(angles), 1)), atol=1e-9)
 
     def test_edges_are_1_and_half_the_root_of_3(self):
-        np.testing.assert_allclose(np.unique(meshfiles.edge_ratios(self.mesh).round(9)), [np.sqrt(3) / 2, 1], atol=1e-9)
+        ratios = measures.edge_ratios(self.mesh, lambda middles: np.full(len(middles), 2.0))
+        np.testing.assert_allclose(np.unique(ratios.round(9)), [np.sqrt(3) / 4, 0.5], atol=1e-9)
 
-    def test_target_is_the_mean_of_both_ends(self):
-        pair = SimpleNamespace(points=np.eye(4, 3), tetrahedra=np.array([[0, 1, 2, 3]]), target=np.array([1, 3, 1, 1]))
-        expected = {(0, 1): 2, (1, 2): 2, (1, 3): 2, (0, 2): 1, (0, 3): 1, (2, 3): 1}
-        edges = meshfiles.unique_edges(pair.tetrahedra)
-        lengths = np.linalg.norm(pair.points[edges[:, 0]] - pair.points[edges[:, 1]], axis=1)
-        np.testing.assert_allclose(lengths / meshfiles.edge_ratios(pair), [expected[tuple(edge)] for edge in edges])
+    def test_target_is_that_of_the_middle(self):
+        corners = np.array([[0.0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 4]])
+        one = SimpleNamespace(points=corners, tetrahedra=np.array([[0, 1, 2, 3]]))
+        ratios = measures.edge_ratios(one, lambda middles: 1 + middles[:, 0])
+        np.testing.assert_allclose(np.sort(ratios), np.sort([4 / 3, 4, 4, 32**0.5 / 3, 32**0.5 / 3, 32**0.5]))
 
     def test_inner_vertices_have_24_tetrahedra(self):
-        valence = meshfiles.valences(self.mesh)
+        valence = measures.valences(self.mesh)
         self.assertGreater(len(valence), 0)
         self.assertTrue(np.all(valence == 24))
 
     def test_vertices_between_tissues_are_not_inner(self):
         half = self.mesh.points[self.mesh.tetrahedra].mean(axis=1)[:, 0] < 2
-        inner_before = len(meshfiles.valences(self.mesh))
+        inner_before = len(measures.valences(self.mesh))
         self.mesh.tissue[half] = 2
-        valence = meshfiles.valences(self.mesh)
+        valence = measures.valences(self.mesh)
         self.assertLess(len(valence), inner_before)
         self.assertTrue(np.all(valence == 24))
 
@@ -107,9 +107,12 @@ class VolumeTest(unittest.TestCase):
     def test_interpolation_reproduces_linear_functions_and_holds_the_border(self):
         i, j, k = np.meshgrid(np.arange(5), np.arange(4), np.arange(3), indexing="ij")
         volume = 2.0 * i - 3.0 * j + 0.5 * k
+        affine = np.array([[0, -1, 0, 10], [2, 0, 0, 20], [0, 0, 3, 30], [0, 0, 0, 1.0]])
         at = np.random.default_rng(7).uniform(0, 1, (50, 3)) * [4, 3, 2]
-        np.testing.assert_allclose(pictures.interpolated(volume, at), at @ [2, -3, 0.5], atol=1e-12)
-        self.assertEqual(pictures.interpolated(volume, np.array([-5.0, 9, 1])), volume[0, 3, 1])
+        places = at @ affine[:3, :3].T + affine[:3, 3]
+        np.testing.assert_allclose(meshfiles.interpolated(volume, affine, places), at @ [2, -3, 0.5], atol=1e-12)
+        beyond = affine @ [-5, 9, 1, 1]
+        self.assertEqual(meshfiles.interpolated(volume, affine, beyond[:3]), volume[0, 3, 1])
 
 
 if __name__ == "__main__":

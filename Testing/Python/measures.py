@@ -1,0 +1,43 @@
+"""Measures of a tetrahedral mesh, to hold the project's own against. Meshes are as meshfiles.read_mesh gives them."""
+import numpy as np
+
+TETRAHEDRON_EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
+TETRAHEDRON_FACES = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])  # face f is opposite vertex f
+
+
+def signed_volumes(mesh):
+    a, b, c, d = np.moveaxis(mesh.points[mesh.tetrahedra], 1, 0)
+    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
+
+
+def unique_edges(tetrahedra):
+    """Every edge once: (e, 2) point ids, ascending."""
+    return np.unique(np.sort(tetrahedra[:, TETRAHEDRON_EDGES].reshape(-1, 2), axis=1), axis=0)
+
+
+def dihedral_angles(mesh):
+    """The six dihedral angles (degrees) of every tetrahedron: (m, 6)."""
+    corners = mesh.points[mesh.tetrahedra]
+    normals = [np.cross(corners[:, b] - corners[:, a], corners[:, c] - corners[:, a]) for a, b, c in TETRAHEDRON_FACES]
+    normals = [n / np.linalg.norm(n, axis=1, keepdims=True) for n in normals]
+    cosines = [-np.sum(normals[k] * normals[l], axis=1) for k, l in TETRAHEDRON_EDGES]
+    return np.degrees(np.arccos(np.clip(cosines, -1, 1))).T
+
+
+def edge_ratios(mesh, target_length):
+    """Length over target of every edge; target_length maps positions (n, 3) to mm, asked at the edges' middles."""
+    ends = mesh.points[unique_edges(mesh.tetrahedra)]
+    return np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) / target_length(ends.mean(axis=1))
+
+
+def valences(mesh):
+    """Tetrahedra per vertex, of vertices inside a tissue only: those whose tetrahedra have one label and close up."""
+    faces = np.sort(mesh.tetrahedra[:, TETRAHEDRON_FACES].reshape(-1, 3), axis=1)
+    tissue = np.repeat(mesh.tissue, 4)
+    order = np.lexsort(faces.T)
+    faces, tissue = faces[order], tissue[order]
+    shared = np.all(faces[1:] == faces[:-1], axis=1) & (tissue[1:] == tissue[:-1])
+    inside_a_tissue = np.r_[shared, False] | np.r_[False, shared]
+    inner = np.ones(len(mesh.points), bool)
+    inner[faces[~inside_a_tissue]] = False
+    return np.bincount(mesh.tetrahedra.ravel(), minlength=len(mesh.points))[inner]
