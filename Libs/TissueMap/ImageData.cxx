@@ -27,7 +27,7 @@ struct DataBlock
 
 bool hasExtension(const std::string& file, const std::string& extension)
 {
-  const std::string name = lowerCase(file);
+  const std::string name = text::lowerCase(file);
   return name.size() >= extension.size() && name.compare(name.size() - extension.size(), extension.size(), extension) == 0;
 }
 
@@ -64,13 +64,13 @@ DataBlock textHeader(const std::string& file, char separator, const std::string&
   std::ifstream stream(file.c_str(), std::ios::binary);
   for (std::string line; std::getline(stream, line);)
   {
-    line = trimmed(line);
+    line = text::trimmed(line);
     if (line.empty()) break;
     const std::size_t at = line.find(separator);
     if (at == std::string::npos) continue;
-    const std::string key = lowerCase(trimmed(line.substr(0, at)));
-    const std::string value = trimmed(line.substr(at + 1));
-    const std::string word = lowerCase(value);
+    const std::string key = text::lowerCase(text::trimmed(line.substr(0, at)));
+    const std::string value = text::trimmed(line.substr(at + 1));
+    const std::string word = text::lowerCase(value);
     if (key == compressionKey) block.compressed = word == "true" || word == "gzip" || word == "gz";
     if (key != dataKey) continue;
     attached = word == "local";

@@ -79,7 +79,7 @@ Points readMarkup(const Json& markup, const std::string& file)
 std::vector<Points> readJson(const std::string& file)
 {
   rapidjson::Document document;
-  document.Parse<rapidjson::kParseFullPrecisionFlag>(readTextFile(file).c_str());
+  document.Parse<rapidjson::kParseFullPrecisionFlag>(text::readTextFile(file).c_str());
   if (document.HasParseError())
   {
     throw InputError(file + ": not valid JSON at byte " + std::to_string(document.GetErrorOffset()) + " (" +
@@ -96,14 +96,14 @@ std::vector<Points> readJson(const std::string& file)
 std::string commentValue(const std::string& line, const std::string& key)
 {
   const std::size_t equal = line.find('=');
-  if (equal == std::string::npos || trimmed(line.substr(1, equal - 1)) != key) return {};
-  return trimmed(line.substr(equal + 1));
+  if (equal == std::string::npos || text::trimmed(line.substr(1, equal - 1)) != key) return {};
+  return text::trimmed(line.substr(equal + 1));
 }
 
 /// Where the column is called x; y and z follow it.
 std::size_t firstCoordinate(const std::string& columns, const std::string& file)
 {
-  const std::vector<std::string> names = splitFields(columns);
+  const std::vector<std::string> names = text::splitFields(columns);
   const auto x = std::find(names.begin(), names.end(), "x");
   if (names.end() - x < 3 || x[1] != "y" || x[2] != "z")
   {
@@ -118,11 +118,11 @@ std::vector<Points> readFcsv(const std::string& file)
   bool ras = true;
   std::size_t x = 1;
   Points points;
-  const std::vector<std::string> lines = splitLines(readTextFile(file));
+  const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
   for (std::size_t n = 0; n < lines.size(); ++n)
   {
     const std::string& line = lines[n];
-    if (trimmed(line).empty()) continue;
+    if (text::trimmed(line).empty()) continue;
     if (line[0] == '#')
     {
       const std::string system = commentValue(line, "CoordinateSystem");
@@ -131,11 +131,11 @@ std::vector<Points> readFcsv(const std::string& file)
       if (!columns.empty()) x = firstCoordinate(columns, file);
       continue;
     }
-    const std::vector<std::string> fields = splitFields(line);
+    const std::vector<std::string> fields = text::splitFields(line);
     Vec3 p;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      if (x + axis < fields.size() && parseNumber(fields[x + axis], p[int(axis)])) continue;
+      if (x + axis < fields.size() && text::parseNumber(fields[x + axis], p[int(axis)])) continue;
       throw InputError(file + ":" + std::to_string(n + 1) + ": \"" + line.substr(0, 60) +
                        "\", expected three finite coordinates");
     }
@@ -153,8 +153,8 @@ bool endsWith(const std::string& text, const std::string& end)
 
 std::vector<std::vector<Vec3>> readMarkups(const std::string& file)
 {
-  const std::string name = lowerCase(file);
-  requireReadableFile(file);
+  const std::string name = text::lowerCase(file);
+  text::requireReadableFile(file);
   std::vector<Points> lists;
   if (endsWith(name, ".json")) lists = readJson(file);
   else if (endsWith(name, ".fcsv")) lists = readFcsv(file);

@@ -11,6 +11,8 @@
 
 namespace surgicalmesher
 {
+namespace text
+{
 
 namespace
 {
@@ -133,4 +135,5 @@ bool parseInteger(const std::string& text, long minimum, long maximum, long& val
   return true;
 }
 
+} // namespace text
 } // namespace surgicalmesher

@@ -6,6 +6,8 @@
 
 namespace surgicalmesher
 {
+namespace text
+{
 
 /// The whole file, without a byte order mark. Throws InputError if it is missing, a directory or unreadable.
 std::string readTextFile(const std::string& file);
@@ -31,4 +33,5 @@ bool parseInteger(const std::string& text, long minimum, long maximum, long& val
 /// Throws InputError unless `file` is a regular file that can be read.
 void requireReadableFile(const std::string& file);
 
+} // namespace text
 } // namespace surgicalmesher

@@ -82,9 +82,9 @@ std::string oneLine(const std::exception& error)
 {
   const auto* itkError = dynamic_cast<const itk::ExceptionObject*>(&error);
   std::string line;
-  for (const std::string& word : splitWords(itkError ? itkError->GetDescription() : error.what()))
+  for (const std::string& word : text::splitWords(itkError ? itkError->GetDescription() : error.what()))
   {
-    for (const std::string& part : splitLines(word)) line += (line.empty() ? "" : " ") + part;
+    for (const std::string& part : text::splitLines(word)) line += (line.empty() ? "" : " ") + part;
   }
   return line.substr(0, 300);
 }
@@ -99,7 +99,7 @@ const char* const formatNames = "NRRD, NIfTI, MetaImage or GIPL";
 
 itk::ImageIOBase::Pointer openImage(const std::string& file)
 {
-  requireReadableFile(file);
+  text::requireReadableFile(file);
   const Silence silence;
   for (const itk::ImageIOBase::Pointer& io : imageFormats())
   {
@@ -172,18 +172,18 @@ bool arePerpendicular(const std::array<Vec3, 3>& axes)
 bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& columns)
 {
   const std::string* code = find(metaData, "sform_code");
-  if (!code || trimmed(*code) == "0") return false;
+  if (!code || text::trimmed(*code) == "0") return false;
   const char* const keys[3] = { "srow_x", "srow_y", "srow_z" };
   for (int row = 0; row < 3; ++row)
   {
     const std::string* text = find(metaData, keys[row]);
-    const std::vector<std::string> words = text ? splitWords(*text) : std::vector<std::string>();
+    const std::vector<std::string> words = text ? text::splitWords(*text) : std::vector<std::string>();
     const double sign = row < 2 ? -1 : 1; // NIfTI's world is RAS
     double value[4];
     if (words.size() != 4) return false;
     for (int column = 0; column < 4; ++column)
     {
-      if (!parseNumber(words[column], value[column])) return false;
+      if (!text::parseNumber(words[column], value[column])) return false;
     }
     for (int column = 0; column < 3; ++column) columns[column][row] = sign * value[column];
     origin[row] = sign * value[3];
@@ -297,7 +297,7 @@ std::uint64_t bytesOnDisk(const MetaData& metaData, std::size_t voxelCount, std:
   const std::string* offset = find(metaData, "vox_offset");
   double bitsPerVoxel = 0;
   double firstVoxel = 0;
-  if (!bits || !offset || !parseNumber(*bits, bitsPerVoxel) || !parseNumber(*offset, firstVoxel)) return bytesInMemory;
+  if (!bits || !offset || !text::parseNumber(*bits, bitsPerVoxel) || !text::parseNumber(*offset, firstVoxel)) return bytesInMemory;
   return std::uint64_t(double(voxelCount) * bitsPerVoxel / 8 + std::max(0.0, firstVoxel));
 }
 
@@ -403,7 +403,7 @@ long segmentNumber(const Volume& volume, const std::string& key, long minimum, l
 {
   const std::string* text = find(volume.metaData, key);
   long number = missing;
-  if (text && !parseInteger(trimmed(*text), minimum, maximum, number))
+  if (text && !text::parseInteger(text::trimmed(*text), minimum, maximum, number))
   {
     throw InputError(volume.file + ": " + key + " is \"" + *text + "\", expected an integer from " +
                      std::to_string(minimum) + " to " + std::to_string(maximum));
@@ -427,11 +427,11 @@ std::vector<Segment> readSegments(const Volume& volume)
       throw InputError(volume.file + ": " + prefix + " has no layer among the " + std::to_string(volume.components) +
                        " of the file");
     }
-    if (const std::string* name = find(volume.metaData, prefix + "_Name")) segment.tissue.name = trimmed(*name);
+    if (const std::string* name = find(volume.metaData, prefix + "_Name")) segment.tissue.name = text::trimmed(*name);
     if (const std::string* color = find(volume.metaData, prefix + "_Color"))
     {
-      const std::vector<std::string> words = splitWords(*color);
-      for (std::size_t c = 0; c < 3 && c < words.size(); ++c) parseNumber(words[c], segment.tissue.color[c]);
+      const std::vector<std::string> words = text::splitWords(*color);
+      for (std::size_t c = 0; c < 3 && c < words.size(); ++c) text::parseNumber(words[c], segment.tissue.color[c]);
     }
     segments.push_back(segment);
   }
@@ -515,6 +515,11 @@ void writeVolume(const Grid& grid, itk::IOComponentEnum type, const void* data, 
   try
   {
     io->Write(data);
+    requireImageData(file, grid.voxelCount() * io->GetComponentSize()); // the libraries don't notice a full disk
+  }
+  catch (const InputError&)
+  {
+    throw InputError(file + ": cannot be written whole, expected room for it on the disk");
   }
   catch (const std::exception& error)
   {

@@ -17,7 +17,7 @@ bool parseNumbers(const std::vector<std::string>& words, std::size_t from, std::
   if (from + count > words.size()) return false;
   for (std::size_t n = 0; n < count; ++n)
   {
-    if (!parseNumber(words[from + n], out[n]) || out[n] < 0 || out[n] > maximum) return false;
+    if (!text::parseNumber(words[from + n], out[n]) || out[n] < 0 || out[n] > maximum) return false;
   }
   return true;
 }
@@ -45,7 +45,7 @@ bool parseTissue(const std::vector<std::string>& words, Tissue& tissue)
   if (isSnap || isSlicer) tissue.color = { rgba[0] / 255, rgba[1] / 255, rgba[2] / 255 };
   if (isSnap) tissue.name = words.back();
   else if (isSlicer) tissue.name = joined(words, 1, count - 4);
-  else tissue.name = joined(words, 1, count > 2 && parseNumber(words.back(), index) ? count - 1 : count);
+  else tissue.name = joined(words, 1, count > 2 && text::parseNumber(words.back(), index) ? count - 1 : count);
   return count >= 2;
 }
 
@@ -54,15 +54,15 @@ bool parseTissue(const std::vector<std::string>& words, Tissue& tissue)
 TissueTable readTissueTable(const std::string& file)
 {
   TissueTable table;
-  const std::vector<std::string> lines = splitLines(readTextFile(file));
+  const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
   for (std::size_t n = 0; n < lines.size(); ++n)
   {
-    const std::string line = trimmed(lines[n]);
+    const std::string line = text::trimmed(lines[n]);
     if (line.empty() || line[0] == '#') continue;
-    const std::vector<std::string> words = splitWords(line);
+    const std::vector<std::string> words = text::splitWords(line);
     long label = 0;
     Tissue tissue;
-    if (!parseInteger(words[0], 0, 65535, label) || !parseTissue(words, tissue))
+    if (!text::parseInteger(words[0], 0, 65535, label) || !parseTissue(words, tissue))
     {
       throw InputError(file + ":" + std::to_string(n + 1) + ": \"" + line.substr(0, 60) +
                        "\", expected a label from 0 to 65535, a name and a colour");

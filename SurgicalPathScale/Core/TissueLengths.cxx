@@ -34,7 +34,7 @@ Columns readHeader(const std::vector<std::string>& fields, const std::string& wh
   Columns columns{ -1, -1, -1, -1 };
   for (std::size_t n = 0; n < fields.size(); ++n)
   {
-    const std::string name = lowerCase(fields[n]);
+    const std::string name = text::lowerCase(fields[n]);
     int column = ColumnCount;
     if (name == "label" || name == "name") column = ColumnTissue;
     else if (name == "minimum") column = ColumnMinimum;
@@ -54,7 +54,7 @@ double readValue(const std::vector<std::string>& fields, int column, double miss
 {
   if (column < 0 || column >= int(fields.size()) || fields[column].empty()) return missing;
   double value = 0;
-  if (!parseNumber(fields[column], value) || value <= 0)
+  if (!text::parseNumber(fields[column], value) || value <= 0)
   {
     fail(where, "\"" + fields[column] + "\", expected a finite number above 0");
   }
@@ -64,7 +64,7 @@ double readValue(const std::vector<std::string>& fields, int column, double miss
 std::string comparable(std::string name)
 {
   std::replace(name.begin(), name.end(), '_', ' ');
-  return trimmed(name);
+  return text::trimmed(name);
 }
 
 } // namespace
@@ -72,7 +72,7 @@ std::string comparable(std::string name)
 bool findTissue(const std::string& text, const TissueTable& names, Label& label)
 {
   long number = 0;
-  if (parseInteger(text, 0, 65535, number))
+  if (text::parseInteger(text, 0, 65535, number))
   {
     label = Label(number);
     return true;
@@ -92,13 +92,13 @@ std::map<Label, TissueLength> readTissueLengths(const std::string& file, const L
   std::map<Label, TissueLength> lengths;
   Columns columns{};
   bool hasHeader = false;
-  const std::vector<std::string> lines = splitLines(readTextFile(file));
+  const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
   for (std::size_t n = 0; n < lines.size(); ++n)
   {
-    const std::string line = trimmed(lines[n]);
+    const std::string line = text::trimmed(lines[n]);
     if (line.empty() || line[0] == '#') continue;
     const std::string where = file + ":" + std::to_string(n + 1);
-    const std::vector<std::string> fields = splitFields(line);
+    const std::vector<std::string> fields = text::splitFields(line);
     if (!hasHeader)
     {
       columns = readHeader(fields, where);

@@ -1,0 +1,360 @@
+// SurgicalPathScaleCLI: label map, targets and paths in; scale volume, null-displacement map and size estimate out.
+
+#include "CommandLine.h"
+#include "Errors.h"
+#include "MeshSizeEstimate.h"
+#include "NullDisplacement.h"
+#include "SurgicalPathScaleCLIXML.h"
+#include "SurgicalScale.h"
+#include "TextFile.h"
+#include "TissueLengths.h"
+#include "TissueMapIO.h"
+
+#include <rapidjson/ostreamwrapper.h>
+#include <rapidjson/prettywriter.h>
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+using namespace surgicalmesher;
+
+namespace
+{
+
+using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
+
+struct Focus
+{
+  std::vector<Vec3> targets;
+  std::vector<Path> paths;
+};
+
+/// What the run found out, besides its outputs.
+struct Results
+{
+  std::size_t tissueCount = 0;
+  float shortest = 0;
+  float longest = 0;
+  NullDisplacement nullDisplacement;
+  MeshSizeEstimate estimate;
+  std::vector<std::string> warnings;
+};
+
+std::string rounded(double value, int digits)
+{
+  std::ostringstream stream;
+  stream.precision(digits);
+  stream << value;
+  return stream.str();
+}
+
+/// To three significant digits, without an exponent.
+std::string roundedCount(double count)
+{
+  const double unit = count < 1000 ? 1 : std::pow(10.0, std::floor(std::log10(count)) - 2);
+  return std::to_string(std::llround(count / unit) * std::llround(unit));
+}
+
+Focus readFocus(const CommandLine& line)
+{
+  Focus focus;
+  focus.targets = line.points("targetPoint");
+  for (const std::string& file : line.texts("targets"))
+  {
+    for (const std::vector<Vec3>& points : readMarkups(file))
+    {
+      focus.targets.insert(focus.targets.end(), points.begin(), points.end());
+    }
+  }
+  const Path typed = line.points("pathPoint");
+  if (typed.size() == 1) throw UsageError("--pathPoint is given once, expected two points or more");
+  if (!typed.empty()) focus.paths.push_back(typed);
+  for (const std::string& file : line.texts("path"))
+  {
+    for (const Path& path : readMarkups(file))
+    {
+      if (path.size() < 2) throw InputError(file + ": a path of one point, expected two points or more");
+      focus.paths.push_back(path);
+    }
+  }
+  return focus;
+}
+
+Combination readCombination(const CommandLine& line)
+{
+  const std::string combine = line.text("combine");
+  if (combine == "targets") return Combination::Targets;
+  return combine == "path" ? Combination::Paths : Combination::Smaller;
+}
+
+/// Everything but the tissues' own lengths, which need the map's names.
+SurgicalScaleOptions readOptions(const CommandLine& line)
+{
+  const auto orElse = [](double value, double fallback) { return value > 0 ? value : fallback; };
+  SurgicalScaleOptions options;
+  options.range = { line.number("minimumEdgeLength"), line.number("maximumEdgeLength") };
+  options.targetFalloff = { line.number("childRadius"), line.number("decayLength") };
+  options.pathFalloff.childRadius = orElse(line.number("pathChildRadius"), options.targetFalloff.childRadius);
+  options.pathFalloff.decayLength = orElse(line.number("pathDecayLength"), options.targetFalloff.decayLength);
+  options.combination = readCombination(line);
+  options.gradation = line.number("gradation");
+  options.spacing = line.number("spacing");
+  return options;
+}
+
+NullDisplacementOptions readNullDisplacement(const CommandLine& line, const TissueTable& names)
+{
+  NullDisplacementOptions options;
+  options.targetRadius = line.number("nullDisplacementRadius");
+  options.pathDistance = line.number("nullDisplacementPathDistance");
+  options.pathDistanceAtTarget = line.number("nullDisplacementPathDistanceAtTarget");
+  const std::string tissues = line.text("nullDisplacementTissues");
+  if (text::trimmed(tissues).empty()) return options;
+  for (const std::string& tissue : text::splitFields(tissues))
+  {
+    Label label = 0;
+    if (!findTissue(tissue, names, label))
+    {
+      throw UsageError("--nullDisplacementTissues: \"" + tissue + "\" is neither a label nor the name of a tissue");
+    }
+    options.tissues.insert(label);
+  }
+  return options;
+}
+
+/// Adds the names of the --names file, and forgets those of tissues that the map does not have.
+void completeTable(const CommandLine& line, TissueMap& map)
+{
+  const std::string file = line.text("names");
+  if (!file.empty())
+  {
+    for (const auto& entry : readTissueTable(file)) map.table[entry.first] = entry.second;
+  }
+  TissueTable present;
+  for (const Label label : presentLabels(map))
+  {
+    const auto entry = map.table.find(label);
+    if (entry != map.table.end()) present.insert(*entry);
+  }
+  map.table = present;
+}
+
+bool isInside(const Grid& grid, const Vec3& world)
+{
+  const Vec3 p = grid.worldToGrid(world);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double index = p[axis] / grid.spacing[axis];
+    if (index < -0.5 || index > grid.size[axis] - 0.5) return false;
+  }
+  return true;
+}
+
+std::vector<std::string> findOddities(const TissueMap& map, const Focus& focus, const SurgicalScaleOptions& options)
+{
+  std::vector<std::string> warnings;
+  const auto warnIfOutside = [&](const char* what, const std::vector<Vec3>& points) {
+    for (const Vec3& p : points)
+    {
+      if (isInside(map.grid, p)) continue;
+      warnings.push_back(std::string(what) + " (" + rounded(p.x, 6) + ", " + rounded(p.y, 6) + ", " + rounded(p.z, 6) +
+                         ") mm LPS lies outside the label map");
+    }
+  };
+  warnIfOutside("target", focus.targets);
+  for (const Path& path : focus.paths) warnIfOutside("path point", path);
+  const std::vector<Label> present = presentLabels(map);
+  for (const auto& tissue : options.tissues)
+  {
+    if (std::binary_search(present.begin(), present.end(), tissue.first)) continue;
+    warnings.push_back("tissue " + std::to_string(tissue.first) + " has lengths of its own, but no voxel in the label map");
+  }
+  return warnings;
+}
+
+void write(JsonWriter& json, const char* key, double value)
+{
+  json.Key(key);
+  json.Double(value);
+}
+
+void write(JsonWriter& json, const char* key, std::int64_t value)
+{
+  json.Key(key);
+  json.Int64(value);
+}
+
+void write(JsonWriter& json, const char* key, const std::string& value)
+{
+  json.Key(key);
+  json.String(value.c_str());
+}
+
+void write(JsonWriter& json, const char* key, const std::array<int, 3>& values)
+{
+  json.Key(key);
+  json.StartArray();
+  for (const int value : values) json.Int(value);
+  json.EndArray();
+}
+
+void write(JsonWriter& json, const char* key, const std::vector<Vec3>& points)
+{
+  json.Key(key);
+  json.StartArray();
+  for (const Vec3& point : points)
+  {
+    json.StartArray();
+    for (int axis = 0; axis < 3; ++axis) json.Double(point[axis]);
+    json.EndArray();
+  }
+  json.EndArray();
+}
+
+void writeParameters(JsonWriter& json, const SurgicalScaleOptions& options, const CommandLine& line)
+{
+  json.Key("parameters");
+  json.StartObject();
+  write(json, "minimumEdgeLength", options.range.minimum);
+  write(json, "maximumEdgeLength", options.range.maximum);
+  write(json, "childRadius", options.targetFalloff.childRadius);
+  write(json, "decayLength", options.targetFalloff.decayLength);
+  write(json, "pathChildRadius", options.pathFalloff.childRadius);
+  write(json, "pathDecayLength", options.pathFalloff.decayLength);
+  write(json, "combine", line.text("combine"));
+  write(json, "spacing", options.spacing);
+  write(json, "gradation", options.gradation);
+  write(json, "tissuesWithOwnLengths", std::int64_t(options.tissues.size()));
+  write(json, "nullDisplacementRadius", line.number("nullDisplacementRadius"));
+  write(json, "nullDisplacementPathDistance", line.number("nullDisplacementPathDistance"));
+  write(json, "nullDisplacementPathDistanceAtTarget", line.number("nullDisplacementPathDistanceAtTarget"));
+  json.EndObject();
+}
+
+void writeFocus(JsonWriter& json, const Focus& focus)
+{
+  write(json, "targets", focus.targets);
+  json.Key("paths");
+  json.StartArray();
+  for (const Path& path : focus.paths)
+  {
+    json.StartObject();
+    write(json, "length", pathLength(path));
+    write(json, "points", path);
+    json.EndObject();
+  }
+  json.EndArray();
+}
+
+void writeResults(JsonWriter& json, const Results& results, const Grid& map, const Grid& scale)
+{
+  const double voxelVolume = map.spacing.x * map.spacing.y * map.spacing.z;
+  json.Key("map");
+  json.StartObject();
+  write(json, "size", map.size);
+  write(json, "tissues", std::int64_t(results.tissueCount));
+  json.EndObject();
+  json.Key("scale");
+  json.StartObject();
+  write(json, "size", scale.size);
+  write(json, "shortest", results.shortest);
+  write(json, "longest", results.longest);
+  json.EndObject();
+  json.Key("nullDisplacement");
+  json.StartObject();
+  write(json, "label", std::int64_t(results.nullDisplacement.label));
+  write(json, "voxels", std::int64_t(results.nullDisplacement.voxelCount));
+  write(json, "volume", double(results.nullDisplacement.voxelCount) * voxelVolume);
+  json.EndObject();
+  json.Key("estimate");
+  json.StartObject();
+  write(json, "triangles", std::int64_t(std::llround(results.estimate.triangles)));
+  write(json, "tetrahedra", std::int64_t(std::llround(results.estimate.tetrahedra)));
+  json.EndObject();
+  json.Key("warnings");
+  json.StartArray();
+  for (const std::string& warning : results.warnings) json.String(warning.c_str());
+  json.EndArray();
+}
+
+/// Lengths in mm, points in LPS, volumes in mm^3.
+void writeReport(const std::string& file, const CommandLine& line, const Focus& focus, const SurgicalScaleOptions& options,
+  const Results& results, const Grid& map, const Grid& scale)
+{
+  std::ofstream stream(file.c_str(), std::ios::binary);
+  rapidjson::OStreamWrapper wrapper(stream);
+  JsonWriter json(wrapper);
+  json.SetMaxDecimalPlaces(6);
+  json.StartObject();
+  write(json, "module", std::string("SurgicalPathScale"));
+  write(json, "labelMap", line.text("labelMap"));
+  writeFocus(json, focus);
+  writeParameters(json, options, line);
+  writeResults(json, results, map, scale);
+  json.EndObject();
+  stream << '\n' << std::flush;
+  if (!stream) throw InputError(file + ": the report cannot be written whole");
+}
+
+void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, Results& results)
+{
+  const std::string file = line.outputFile("outputLabelMap");
+  if (file.empty()) return;
+  results.nullDisplacement =
+    markNullDisplacement(map, focus.targets, focus.paths, readNullDisplacement(line, map.table));
+  completeTable(line, map);
+  if (results.nullDisplacement.voxelCount == 0) results.warnings.push_back("no voxel is far enough to become null displacement");
+  line.message("null displacement: " + std::to_string(results.nullDisplacement.voxelCount) + " voxels, label " +
+               std::to_string(results.nullDisplacement.label));
+  writeTissueMap(map, file);
+}
+
+void returnEstimate(CommandLine& line, const MeshSizeEstimate& estimate)
+{
+  line.returnValue("estimatedTriangles", std::to_string(std::llround(estimate.triangles)));
+  line.returnValue("estimatedTetrahedra", std::to_string(std::llround(estimate.tetrahedra)));
+  line.message("estimate: about " + roundedCount(estimate.triangles) + " triangles and " +
+               roundedCount(estimate.tetrahedra) + " tetrahedra");
+}
+
+void run(CommandLine& line)
+{
+  vtkSMPTools::Initialize(line.integer("threads"));
+  const Progress progress = line.progress();
+  report(progress, 0, "reading");
+  const Focus focus = readFocus(line);
+  SurgicalScaleOptions options = readOptions(line);
+  TissueMap map = readTissueMap(line.text("labelMap"));
+  completeTable(line, map);
+  const std::string lengthsFile = line.text("tissueLengths");
+  if (!lengthsFile.empty()) options.tissues = readTissueLengths(lengthsFile, options.range, map.table);
+  checkScaleOptions(options, map.grid, focus.targets, focus.paths);
+
+  Results results;
+  results.warnings = findOddities(map, focus, options);
+  results.tissueCount = presentLabels(map).size();
+  const ScaleField scale = computeSurgicalScale(map, focus.targets, focus.paths, options, subProgress(progress, 0.2, 0.6));
+  const auto extremes = std::minmax_element(scale.lengths.begin(), scale.lengths.end());
+  results.shortest = *extremes.first;
+  results.longest = *extremes.second;
+  report(progress, 0.6, "writing the scale");
+  writeScale(scale, line.outputFile("scale"));
+  report(progress, 0.7, "null displacement");
+  markFarTissue(line, map, focus, results);
+  report(progress, 0.8, "estimating the size of the mesh");
+  results.estimate = estimateMeshSize(map, scale);
+
+  for (const std::string& warning : results.warnings) line.message("warning: " + warning);
+  line.message("edge lengths: " + rounded(results.shortest, 4) + " to " + rounded(results.longest, 4) + " mm");
+  returnEstimate(line, results.estimate);
+  const std::string reportFile = line.outputFile("report");
+  if (!reportFile.empty()) writeReport(reportFile, line, focus, options, results, map.grid, scale.grid);
+  report(progress, 1, "done");
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return runModule(argc, argv, moduleXML, run); }
