@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
 #include <mutex>
 
 #ifdef _WIN32
@@ -24,13 +25,14 @@ namespace surgicalmesher
 namespace
 {
 
-/// A list that the signal handler can walk while the program adds to it: nodes are only ever put in front.
+/// A list that the signal handler can walk while the program adds to it: nodes are only ever put in front, and
+/// none is freed.
 struct Doomed
 {
   std::string file;
-  Doomed* next;
+  const Doomed* next;
 };
-std::atomic<Doomed*> doomedFiles{ nullptr };
+std::atomic<const Doomed*> doomedFiles{ nullptr };
 
 extern "C" void removeDoomedFiles(int signal)
 {
@@ -51,13 +53,14 @@ extern "C" void removeDoomedFiles(int signal)
 void removeOnSignal(const std::string& file)
 {
   static std::mutex mutex;
+  static auto& all = *new std::deque<Doomed>; // outlives every handler
   const std::lock_guard<std::mutex> lock(mutex);
-  doomedFiles.store(new Doomed{ file, doomedFiles.load() });
+  all.push_back({ file, doomedFiles.load() });
+  doomedFiles.store(&all.back());
 }
 
 void keepOnSignal()
 {
-  // Freeing the nodes could pull them from under a handler that is walking them.
   doomedFiles.store(nullptr);
 }
 

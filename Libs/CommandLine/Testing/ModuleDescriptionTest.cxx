@@ -48,8 +48,9 @@ TEST(ModuleDescription, isReadWhole)
 
 TEST(ModuleDescription, helpListsEveryParameterWithDefaultAndRange)
 {
-  const std::string help = helpText(parseModuleDescription(moduleXML), "Test");
-  for (const Parameter* parameter : parseModuleDescription(moduleXML).parameters())
+  const ModuleDescription description = parseModuleDescription(moduleXML);
+  const std::string help = helpText(description, "Test");
+  for (const Parameter* parameter : description.parameters())
   {
     EXPECT_NE(help.find(parameter->spelling()), std::string::npos) << parameter->name;
   }

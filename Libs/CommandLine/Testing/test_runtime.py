@@ -165,6 +165,9 @@ class Runtime(unittest.TestCase):
     def wait_for_half(self, folder):
         process = subprocess.Popen(
             [MODULE, "--act", "wait", "--extra", self.extra, "in", self.result], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(process.stdout.close)
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
         for line in process.stdout:
             if line == "waiting\n":
                 break
@@ -174,7 +177,6 @@ class Runtime(unittest.TestCase):
     def end(self, process, how):
         process.send_signal(how)
         process.wait(timeout=60)
-        process.stdout.close()
         self.assertEqual(process.returncode, -how)
 
     def test_cancelled_half_way(self):
