@@ -264,8 +264,10 @@ bool answerQuestion(const std::vector<std::string>& arguments, const std::string
 int runModule(int argc, char** argv, const std::string& xml, const std::function<void(CommandLine&)>& module)
 {
   const std::string executable = argc > 0 ? std::filesystem::path(argv[0]).stem().string() : std::string("module");
+  std::unique_ptr<CommandLine> line;
   const auto failed = [&](int status, const std::string& message) {
-    std::cerr << executable << ": " << oneLine(message) << "\n" << std::flush;
+    const std::string text = line ? line->d->outputs.withFinalNames(message) : message;
+    std::cerr << executable << ": " << oneLine(text) << "\n" << std::flush;
     return status;
   };
   const auto run = [&] {
@@ -276,25 +278,25 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
     data->description = parseModuleDescription(xml);
     data->arguments = parseArguments(data->description, arguments);
     data->progress = std::make_unique<ProgressReport>(std::cout, stdoutIsTerminal(), data->description.title);
-    CommandLine line(std::move(data));
+    line.reset(new CommandLine(std::move(data)));
 
     installSignalHandlers();
     const QuietStderr quiet;
     silenceVTK();
-    if (line.d->arguments.echo) line.d->echo();
-    line.d->prepareOutputs();
+    if (line->d->arguments.echo) line->d->echo();
+    line->d->prepareOutputs();
     try
     {
-      module(line);
+      module(*line);
     }
     catch (...)
     {
-      line.d->progress->finish();
+      line->d->progress->finish();
       throw;
     }
-    line.d->writeReturnParameterFile();
-    line.d->outputs.commit();
-    line.d->progress->finish();
+    line->d->writeReturnParameterFile();
+    line->d->outputs.commit();
+    line->d->progress->finish();
   };
 
   try

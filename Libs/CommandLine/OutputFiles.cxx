@@ -111,6 +111,15 @@ std::string OutputFiles::temporary(const std::string& finalPath)
   return temporary;
 }
 
+std::string OutputFiles::withFinalNames(std::string message) const
+{
+  for (const auto& [path, temporary] : m_TemporaryByFinal)
+  {
+    for (std::size_t at; (at = message.find(temporary)) != message.npos;) message.replace(at, temporary.size(), path);
+  }
+  return message;
+}
+
 void OutputFiles::commit()
 {
   for (const auto& [path, temporary] : m_TemporaryByFinal) requireWritten(temporary, path);

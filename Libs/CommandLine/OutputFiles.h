@@ -21,6 +21,9 @@ public:
   /// or can't be written to, or if the path is taken by something other than a regular file.
   std::string temporary(const std::string& finalPath);
 
+  /// `message` with every temporary name replaced by the final one: what the user knows.
+  std::string withFinalNames(std::string message) const;
+
   /// Renames every file into place. Throws EngineError if one was not written, InputError if the disk refuses it; no file
   /// is then left under its final name.
   void commit();
