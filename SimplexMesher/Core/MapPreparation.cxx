@@ -1,7 +1,8 @@
 #include "MapPreparation.h"
 
-#include "DigitalTopology.h"
 #include "Errors.h"
+#include "PaddedMap.h"
+#include "RegionRemoval.h"
 
 #include <algorithm>
 #include <array>
@@ -84,7 +85,7 @@ int criticalBlocks(const Neighbourhood& n)
 /// face count. One means that the centre can join or leave the label without changing how its surroundings hang together.
 int partsAround(const Neighbourhood& n, Label label)
 {
-  constexpr std::array<int, 6> faces{ 4, 10, 12, 14, 16, 22 };
+  const auto& faces = faceNeighbours;
   std::array<int, 27> part;
   for (int v = 0; v < 27; ++v) part[v] = v != centre && n[v] == label ? v : -1;
   int parts = 0;
@@ -110,46 +111,23 @@ int partsAround(const Neighbourhood& n, Label label)
 
 int faceContacts(const Neighbourhood& n, Label label)
 {
-  return (n[4] == label) + (n[10] == label) + (n[12] == label) + (n[14] == label) + (n[16] == label) + (n[22] == label);
+  int contacts = 0;
+  for (const int face : faceNeighbours) contacts += n[face] == label;
+  return contacts;
 }
 
-/// A copy of the map with a margin of one voxel of background, so that every voxel of the map has 26 neighbours.
-TissueMap padded(const TissueMap& map)
+/// Steps from the lowest corner of a block to its corners.
+std::array<std::ptrdiff_t, 8> cornerSteps(const Grid& grid)
 {
-  TissueMap result;
-  result.grid = map.grid;
-  for (int& size : result.grid.size) size += 2;
-  result.labels.assign(result.grid.voxelCount(), 0);
-  for (int k = 0; k < map.grid.size[2]; ++k)
-  {
-    for (int j = 0; j < map.grid.size[1]; ++j)
-    {
-      const Label* row = map.labels.data() + map.grid.index(0, j, k);
-      std::copy(row, row + map.grid.size[0], result.labels.data() + result.grid.index(1, j + 1, k + 1));
-    }
-  }
-  return result;
+  const std::ptrdiff_t j = grid.size[0], k = j * grid.size[1];
+  return { 0, 1, j, j + 1, k, k + 1, k + j, k + j + 1 };
 }
-
-/// Offsets from a voxel of a padded map to others near it.
-struct Offsets
-{
-  std::array<std::ptrdiff_t, 8> corners; ///< from the lowest corner of a block
-  std::array<std::ptrdiff_t, 27> around;
-
-  explicit Offsets(const Grid& grid)
-  {
-    const std::ptrdiff_t j = grid.size[0], k = j * grid.size[1];
-    for (int c = 0; c < 8; ++c) corners[c] = (c & 1) + (c >> 1 & 1) * j + (c >> 2) * k;
-    for (int n = 0; n < 27; ++n) around[n] = (n % 3 - 1) + (n / 3 % 3 - 1) * j + (n / 9 - 1) * k;
-  }
-};
 
 template <std::size_t N>
-std::array<Label, N> gather(const TissueMap& map, std::size_t voxel, const std::array<std::ptrdiff_t, N>& offsets)
+std::array<Label, N> gather(const TissueMap& map, std::size_t voxel, const std::array<std::ptrdiff_t, N>& steps)
 {
   std::array<Label, N> result;
-  for (std::size_t n = 0; n < N; ++n) result[n] = map.labels[voxel + offsets[n]];
+  for (std::size_t n = 0; n < N; ++n) result[n] = map.labels[voxel + steps[n]];
   return result;
 }
 
@@ -157,7 +135,7 @@ std::array<Label, N> gather(const TissueMap& map, std::size_t voxel, const std::
 std::vector<std::size_t> findCriticalBlocks(const TissueMap& map)
 {
   const auto& size = map.grid.size;
-  const Offsets offsets(map.grid);
+  const auto corners = cornerSteps(map.grid);
   std::vector<std::size_t> result;
   std::vector<Label> differs(size[0]);
   for (int k = 0; k + 1 < size[2]; ++k)
@@ -166,7 +144,7 @@ std::vector<std::size_t> findCriticalBlocks(const TissueMap& map)
     {
       const std::size_t begin = map.grid.index(0, j, k);
       const Label* a = map.labels.data() + begin;
-      const Label *b = a + offsets.corners[2], *c = a + offsets.corners[4], *d = a + offsets.corners[6];
+      const Label *b = a + corners[2], *c = a + corners[4], *d = a + corners[6];
       for (int i = 0; i < size[0]; ++i) differs[i] = (a[i] ^ b[i]) | (a[i] ^ c[i]) | (a[i] ^ d[i]);
       for (int i = 0; i + 1 < size[0]; ++i)
       {
@@ -178,139 +156,20 @@ std::vector<std::size_t> findCriticalBlocks(const TissueMap& map)
   return result;
 }
 
-/// Removes small components from a padded map.
-class IslandRemover
+/// Regions of a padded map that are under the volume asked for.
+std::vector<bool> findIslands(const Regions& regions, const Grid& grid, const PreparationOptions& options)
 {
-public:
-  IslandRemover(TissueMap& map, double minimumVolume)
-    : m_Map(map), m_Offsets(map.grid), m_MinimumVolume(minimumVolume)
+  const double voxelVolume = grid.spacing.x * grid.spacing.y * grid.spacing.z;
+  std::vector<bool> isIsland = largestRegions(regions);
+  for (std::size_t r = 0; r < regions.list.size(); ++r)
   {
-    const Vec3& s = map.grid.spacing;
-    m_FaceAreas = { s.x * s.y, s.x * s.z, s.y * s.z };
-    m_VoxelVolume = s.x * s.y * s.z;
+    const auto [label, voxels] = regions.list[r];
+    const bool isLargest = isIsland[r] && label != 0;
+    const double minimum = label == 0 ? options.minimumPocketVolume : options.minimumIslandVolume;
+    isIsland[r] = r != 0 && !isLargest && voxels * voxelVolume < minimum && !options.untouchedIslands.count(label);
   }
-
-  struct Islands
-  {
-    std::map<Label, std::size_t> components; ///< by tissue
-    std::vector<std::size_t> voxels;         ///< ascending
-    std::vector<Label> labels;               ///< that the voxels had
-  };
-
-  Islands run()
-  {
-    Islands islands = find();
-    m_Open.assign(m_Map.labels.size(), false);
-    for (const std::size_t v : islands.voxels) m_Open[v] = true;
-    std::vector<std::size_t> open = islands.voxels;
-    while (!open.empty()) open = peel(open);
-    return islands;
-  }
-
-private:
-  Islands find() const
-  {
-    const Regions regions = connectedRegions(m_Map);
-    std::map<Label, std::size_t> largest;
-    for (std::size_t r = 1; r < regions.list.size(); ++r)
-    {
-      const auto [entry, isNew] = largest.emplace(regions.list[r].label, r);
-      if (!isNew && regions.list[entry->second].voxels < regions.list[r].voxels) entry->second = r;
-    }
-    std::vector<bool> isIsland(regions.list.size(), false);
-    Islands islands;
-    for (std::size_t r = 1; r < regions.list.size(); ++r)
-    {
-      const auto [label, voxels] = regions.list[r];
-      isIsland[r] = label != 0 && voxels * m_VoxelVolume < m_MinimumVolume && largest[label] != r;
-      if (isIsland[r]) ++islands.components[label];
-    }
-    collect(regions, isIsland, islands);
-    return islands;
-  }
-
-  void collect(const Regions& regions, const std::vector<bool>& isIsland, Islands& islands) const
-  {
-    const std::size_t size = m_Map.grid.size[0];
-    for (std::size_t row = 0; row + 1 < regions.rowBegins.size(); ++row)
-    {
-      for (std::size_t r = regions.rowBegins[row]; r < regions.rowBegins[row + 1]; ++r)
-      {
-        if (!isIsland[regions.runs[r].region]) continue;
-        const std::size_t end = r + 1 < regions.rowBegins[row + 1] ? regions.runs[r + 1].begin : size;
-        for (std::size_t i = regions.runs[r].begin; i < end; ++i) islands.voxels.push_back(row * size + i);
-      }
-    }
-    for (const std::size_t v : islands.voxels) islands.labels.push_back(m_Map.labels[v]);
-  }
-
-  /// Gives every open voxel that touches settled ones to the label it shares most surface with; returns the others.
-  std::vector<std::size_t> peel(const std::vector<std::size_t>& open)
-  {
-    std::vector<std::size_t> rest, settled;
-    std::vector<Label> labels;
-    for (const std::size_t v : open)
-    {
-      Label label;
-      if (adopter(v, label))
-      {
-        settled.push_back(v);
-        labels.push_back(label);
-      }
-      else
-      {
-        rest.push_back(v);
-      }
-    }
-    for (std::size_t s = 0; s < settled.size(); ++s)
-    {
-      m_Map.labels[settled[s]] = labels[s];
-      m_Open[settled[s]] = false;
-    }
-    return rest;
-  }
-
-  /// The label with most face contact to voxel `v`, then with most of the 26 neighbours, then the lowest.
-  bool adopter(std::size_t v, Label& result) const
-  {
-    double bestArea = 0;
-    int bestCount = 0;
-    for (const int face : { 4, 10, 12, 14, 16, 22 })
-    {
-      const std::size_t neighbour = v + m_Offsets.around[face];
-      if (m_Open[neighbour]) continue;
-      const Label label = m_Map.labels[neighbour];
-      const auto [area, count] = contact(v, label);
-      if (area < bestArea || (area == bestArea && (count < bestCount || (count == bestCount && label > result)))) continue;
-      bestArea = area;
-      bestCount = count;
-      result = label;
-    }
-    return bestArea > 0;
-  }
-
-  /// Shared surface in mm^2, and number of the 26 neighbours.
-  std::pair<double, int> contact(std::size_t v, Label label) const
-  {
-    std::pair<double, int> result{ 0, 0 };
-    for (int n = 0; n < 27; ++n)
-    {
-      const std::size_t neighbour = v + m_Offsets.around[n];
-      if (n == centre || m_Open[neighbour] || m_Map.labels[neighbour] != label) continue;
-      ++result.second;
-      if (n == 4 || n == 22) result.first += m_FaceAreas[0];
-      if (n == 10 || n == 16) result.first += m_FaceAreas[1];
-      if (n == 12 || n == 14) result.first += m_FaceAreas[2];
-    }
-    return result;
-  }
-
-  TissueMap& m_Map;
-  Offsets m_Offsets;
-  double m_MinimumVolume, m_VoxelVolume;
-  std::array<double, 3> m_FaceAreas; ///< across k, j, i
-  std::vector<bool> m_Open;
-};
+  return isIsland;
+}
 
 /// Empties a queue of critical blocks of a padded map, one voxel at a time.
 ///
@@ -321,7 +180,7 @@ class ContactResolver
 {
 public:
   explicit ContactResolver(TissueMap& map)
-    : m_Map(map), m_Offsets(map.grid), m_States(map.labels.size(), 0), m_Voxels(std::numeric_limits<Label>::max() + 1, 0)
+    : m_Map(map), m_Corners(cornerSteps(map.grid)), m_Around(neighbourSteps(map.grid)), m_States(map.labels.size(), 0), m_Voxels(std::numeric_limits<Label>::max() + 1, 0)
   {
     for (const Label label : map.labels) ++m_Voxels[label];
   }
@@ -333,7 +192,7 @@ public:
     m_Queue.push_back(block);
   }
 
-  void updateAfter(const IslandRemover::Islands& removed)
+  void updateAfter(const RemovedVoxels& removed)
   {
     for (std::size_t v = 0; v < removed.voxels.size(); ++v)
     {
@@ -350,7 +209,7 @@ public:
     {
       const std::size_t block = m_Queue[head];
       m_States[block] &= ~queued;
-      if (!isCritical(gather(m_Map, block, m_Offsets.corners))) continue;
+      if (!isCritical(gather(m_Map, block, m_Corners))) continue;
       const Change change = bestChange(block);
       if (changesLeft-- == 0 || change.cost == std::numeric_limits<int>::max()) throwUnresolved(block);
       apply(change);
@@ -373,9 +232,9 @@ private:
   /// Queues the critical ones of the eight blocks around a voxel.
   void enqueueAround(std::size_t voxel)
   {
-    for (const std::ptrdiff_t c : m_Offsets.corners)
+    for (const std::ptrdiff_t c : m_Corners)
     {
-      if (isCritical(gather(m_Map, voxel - c, m_Offsets.corners))) enqueue(voxel - c);
+      if (isCritical(gather(m_Map, voxel - c, m_Corners))) enqueue(voxel - c);
     }
   }
 
@@ -390,12 +249,12 @@ private:
   Change bestChange(std::size_t block) const
   {
     Change best;
-    const Block labels = gather(m_Map, block, m_Offsets.corners);
+    const Block labels = gather(m_Map, block, m_Corners);
     for (int c = 0; c < 8; ++c)
     {
-      const std::size_t voxel = block + m_Offsets.corners[c];
+      const std::size_t voxel = block + m_Corners[c];
       if (inMargin(voxel) || (labels[c] != 0 && m_Voxels[labels[c]] == 1)) continue;
-      const Neighbourhood around = gather(m_Map, voxel, m_Offsets.around);
+      const Neighbourhood around = gather(m_Map, voxel, m_Around);
       const int price = changesOf(voxel) - criticalBlocks(around);
       for (int l = 0; l < 8; ++l)
       {
@@ -466,29 +325,17 @@ private:
   }
 
   TissueMap& m_Map;
-  Offsets m_Offsets;
+  std::array<std::ptrdiff_t, 8> m_Corners;
+  std::array<std::ptrdiff_t, 27> m_Around;
   std::vector<std::uint8_t> m_States;
   std::vector<std::size_t> m_Voxels; ///< of each label
   std::vector<std::size_t> m_Queue;
 };
 
-void copyInside(const TissueMap& from, TissueMap& map)
-{
-  for (int k = 0; k < map.grid.size[2]; ++k)
-  {
-    for (int j = 0; j < map.grid.size[1]; ++j)
-    {
-      const Label* row = from.labels.data() + from.grid.index(1, j + 1, k + 1);
-      std::copy(row, row + map.grid.size[0], map.labels.data() + map.grid.index(0, j, k));
-    }
-  }
-}
-
 /// Books every voxel that differs: as an island's if it was in an island of the given map, else as a contact's.
-void countChanges(const TissueMap& map, const TissueMap& prepared, const IslandRemover::Islands& islands,
+void countChanges(const TissueMap& map, const TissueMap& prepared, const std::vector<std::size_t>& islandVoxels,
                   PreparationReport& report)
 {
-  for (const auto& [label, components] : islands.components) report.changes[label].islandsRemoved = components;
   const auto& size = map.grid.size;
   for (int k = 0; k < size[2]; ++k)
   {
@@ -500,7 +347,7 @@ void countChanges(const TissueMap& map, const TissueMap& prepared, const IslandR
       {
         const Label after = prepared.labels[row + i];
         if (before[i] == after) continue;
-        if (std::binary_search(islands.voxels.begin(), islands.voxels.end(), row + i))
+        if (std::binary_search(islandVoxels.begin(), islandVoxels.end(), row + i))
         {
           ++report.changes[before[i]].islandVoxels;
           continue;
@@ -517,18 +364,26 @@ void countChanges(const TissueMap& map, const TissueMap& prepared, const IslandR
 
 std::size_t countCriticalBlocks(const TissueMap& map)
 {
-  return findCriticalBlocks(padded(map)).size();
+  return findCriticalBlocks(padded(map, 1)).size();
 }
 
 PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, const Progress& progress)
 {
   report(progress, 0, "Removing islands");
-  TissueMap work = padded(map);
-  IslandRemover remover(work, options.minimumIslandVolume);
-  const IslandRemover::Islands islands = remover.run();
+  PreparationReport result;
+  TissueMap work = padded(map, 1);
+  const auto removeIslands = [&](bool count) {
+    const Regions regions = connectedRegions(work);
+    const std::vector<bool> isIsland = findIslands(regions, work.grid, options);
+    for (std::size_t r = 0; count && r < isIsland.size(); ++r)
+    {
+      if (isIsland[r]) ++result.changes[regions.list[r].label].islandsRemoved;
+    }
+    return removeRegions(work, regions, isIsland);
+  };
+  const RemovedVoxels islands = removeIslands(true);
 
   report(progress, 0.3, "Resolving contacts");
-  PreparationReport result;
   ContactResolver resolver(work);
   const std::vector<std::size_t> blocks = findCriticalBlocks(work);
   result.criticalBlocksBefore = blocks.size();
@@ -540,14 +395,14 @@ PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, 
   for (int round = 0; round < maximumRounds; ++round)
   {
     report(progress, 0.6 + 0.3 * round / maximumRounds, "Resolving contacts");
-    const IslandRemover::Islands cutOff = remover.run();
+    const RemovedVoxels cutOff = removeIslands(false);
     if (cutOff.voxels.empty()) break;
     resolver.updateAfter(cutOff);
     resolver.run();
   }
-  countChanges(map, work, islands, result);
+  countChanges(map, work, islands.voxels, result);
   report(progress, 1, "Resolving contacts");
-  copyInside(work, map);
+  copyWithoutMargin(work, 1, map);
   return result;
 }
 

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 
 namespace surgicalmesher
 {
@@ -19,13 +20,15 @@ namespace surgicalmesher
 struct PreparationOptions
 {
   /// mm^3; face-connected components of a tissue smaller than this go to the labels around them. The largest component of
-  /// a tissue always stays, however small, and so do pockets of background.
+  /// a tissue always stays, however small.
   double minimumIslandVolume = 0;
+  double minimumPocketVolume = 0;   ///< mm^3; the same for enclosed background
+  std::set<Label> untouchedIslands; ///< tissues (or background) whose islands all stay
 };
 
 struct TissueChanges
 {
-  std::size_t islandsRemoved = 0; ///< components of the given map
+  std::size_t islandsRemoved = 0; ///< components of the given map; pockets, for background
   std::size_t islandVoxels = 0;   ///< voxels in them that belong to another label now
   std::size_t voxelsLost = 0;     ///< to other labels, while resolving contacts
   std::size_t voxelsGained = 0;   ///< from other labels, while resolving contacts

@@ -37,6 +37,13 @@ TissueMap noise(std::mt19937& random, int maximumSize)
   return map;
 }
 
+PreparationOptions islandsUnder(double volume)
+{
+  PreparationOptions options;
+  options.minimumIslandVolume = volume;
+  return options;
+}
+
 /// Latecki's definition, label by label: no 2x2 square holds just two diagonal voxels of the label or lacks just two, and
 /// no 2x2x2 block holds just two opposite corners or lacks just two.
 bool blockIsCritical(const TissueMap& map, int i, int j, int k)
@@ -142,7 +149,7 @@ TEST(MapPreparation, SmallestMapKeepsItsTissues)
 {
   TissueMap map = makeMap(2, 2, 1, { 1, 2, //
                                      2, 1 });
-  prepareMap(map, { 10.0 });
+  prepareMap(map, islandsUnder(10));
   EXPECT_EQ(countCriticalBlocks(map), 0u);
   EXPECT_EQ(presentLabels(map), (std::vector<Label>{ 1, 2 }));
 }
@@ -185,7 +192,7 @@ TEST(MapPreparation, IslandsUnderTheVolumeGoToWhatSurroundsThem)
   for (const int i : { 1, 4, 5 }) map.labels[map.grid.index(i, 2, 2)] = 2;   // components of 2 and 4 mm^3
   for (const int i : { 8, 9, 10 }) map.labels[map.grid.index(i, 2, 2)] = 2;  // and of 6
   map.labels[map.grid.index(6, 0, 0)] = 0;
-  const PreparationReport report = prepareMap(map, { 4.0 });
+  const PreparationReport report = prepareMap(map, islandsUnder(4));
   EXPECT_EQ(at(map, 1, 2, 2), 1);
   EXPECT_EQ(at(map, 4, 2, 2), 2);
   EXPECT_EQ(at(map, 6, 0, 0), 0);
@@ -205,7 +212,7 @@ TEST(MapPreparation, IslandWithinIslandIsFilledFromOutside)
   }
   const TissueMap withoutIslands = map;
   for (int v = 0; v < 27; ++v) map.labels[map.grid.index(4 + v % 3, 2 + v / 3 % 3, 2 + v / 9)] = v == 13 ? 3 : 2;
-  const PreparationReport report = prepareMap(map, { 30.0 });
+  const PreparationReport report = prepareMap(map, islandsUnder(30));
   EXPECT_EQ(map.labels, withoutIslands.labels);
   EXPECT_EQ(report.changes.at(2).islandVoxels, 26u);
   EXPECT_EQ(report.changes.at(3).islandVoxels, 1u);
@@ -217,9 +224,31 @@ TEST(MapPreparation, LargestComponentOfATissueStays)
   map.labels[map.grid.index(1, 1, 1)] = 5;
   map.labels[map.grid.index(4, 1, 1)] = 5;
   map.labels[map.grid.index(5, 1, 1)] = 5;
-  const PreparationReport report = prepareMap(map, { 100.0 });
+  const PreparationReport report = prepareMap(map, islandsUnder(100));
   EXPECT_EQ(std::count(map.labels.begin(), map.labels.end(), 5), 2);
   EXPECT_EQ(report.changes.at(5).islandsRemoved, 1u);
+}
+
+TEST(MapPreparation, IslandsAndPocketsGoOrStayAsAsked)
+{
+  TissueMap map = makeMap(12, 5, 5);
+  for (Label& label : map.labels) label = 1;
+  for (const int i : { 2, 8, 9 }) map.labels[map.grid.index(i, 2, 2)] = 2;
+  map.labels[map.grid.index(5, 2, 2)] = 0;
+  const TissueMap before = map;
+
+  PreparationOptions options;
+  options.minimumIslandVolume = options.minimumPocketVolume = 10;
+  options.untouchedIslands = { 0, 2 };
+  prepareMap(map, options);
+  EXPECT_EQ(map.labels, before.labels);
+
+  options.untouchedIslands = { 2 };
+  const PreparationReport report = prepareMap(map, options);
+  EXPECT_EQ(at(map, 5, 2, 2), 1);
+  EXPECT_EQ(at(map, 2, 2, 2), 2);
+  EXPECT_EQ(report.changes.at(0).islandsRemoved, 1u);
+  EXPECT_EQ(report.changes.at(0).islandVoxels, 1u);
 }
 
 TEST(MapPreparation, KeepsItsPromisesOnNoise)
@@ -229,7 +258,7 @@ TEST(MapPreparation, KeepsItsPromisesOnNoise)
   {
     const TissueMap before = noise(random, 12);
     TissueMap map = before;
-    const PreparationOptions options{ trial % 3 * 6.0 };
+    const PreparationOptions options = islandsUnder(trial % 3 * 6.0);
     const PreparationReport report = prepareMap(map, options);
     ASSERT_EQ(countCriticalBlocks(map), 0u) << "trial " << trial;
     EXPECT_EQ(presentLabels(map), presentLabels(before)) << "trial " << trial;
@@ -258,7 +287,7 @@ TEST(MapPreparation, CancellingLeavesTheMap)
   const Progress cancel = [](double fraction, const std::string&) {
     if (fraction == 1) throw std::runtime_error("cancelled");
   };
-  EXPECT_THROW(prepareMap(map, { 5.0 }, cancel), std::runtime_error);
+  EXPECT_THROW(prepareMap(map, islandsUnder(5), cancel), std::runtime_error);
   EXPECT_EQ(map.labels, before.labels);
 }
 
@@ -268,7 +297,7 @@ TEST(MapPreparation, BrainAtlas)
   if (!std::ifstream(file)) GTEST_SKIP() << "Debian's mricron-data is not installed";
   const TissueMap before = readTissueMap(file);
   TissueMap map = before;
-  const PreparationReport report = prepareMap(map, { 30.0 });
+  const PreparationReport report = prepareMap(map, islandsUnder(30));
   EXPECT_EQ(countCriticalBlocks(map), 0u);
   EXPECT_EQ(islandsLeft(map, 30), 0);
   EXPECT_EQ(presentLabels(map), presentLabels(before));
@@ -277,7 +306,7 @@ TEST(MapPreparation, BrainAtlas)
   EXPECT_LT(report.contactVoxelsChanged, 0.0015 * tissueVoxels);
 
   const TissueMap once = map;
-  const PreparationReport again = prepareMap(map, { 30.0 });
+  const PreparationReport again = prepareMap(map, islandsUnder(30));
   EXPECT_EQ(map.labels, once.labels) << "a prepared map needs no preparation";
   EXPECT_TRUE(again.changes.empty());
 }
