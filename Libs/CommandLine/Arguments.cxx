@@ -3,6 +3,7 @@
 #include "Errors.h"
 #include "Text.h"
 
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 
@@ -16,7 +17,7 @@ bool looksLikeFlag(const std::string& argument)
 {
   // Negative numbers begin with a dash, too.
   return argument.size() > 1 && argument[0] == '-' && !std::isdigit(static_cast<unsigned char>(argument[1])) &&
-    argument[1] != '.';
+         argument[1] != '.';
 }
 
 class Parser
@@ -119,7 +120,7 @@ private:
       if (surplus)
       {
         throw UsageError("'" + given[i] + "': surplus argument found, " + std::to_string(wanted.size()) +
-          " without a flag expected");
+                         " without a flag expected");
       }
       store(*wanted[std::min(i, wanted.size() - 1)], given[i]);
     }

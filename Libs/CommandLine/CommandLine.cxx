@@ -18,6 +18,7 @@
 #include <fstream>
 #include <iostream>
 #include <new>
+#include <set>
 #include <stdexcept>
 
 namespace surgicalmesher
@@ -43,10 +44,7 @@ void silenceVTK()
   vtkOutputWindow::SetInstance(window);
 }
 
-[[noreturn]] void misuse(const std::string& what)
-{
-  throw std::logic_error("command line: " + what);
-}
+[[noreturn]] void misuse(const std::string& what) { throw std::logic_error("command line: " + what); }
 
 } // namespace
 
@@ -86,36 +84,40 @@ struct CommandLine::Private
     return all.empty() ? std::string() : all.front();
   }
 
+  void refuseToReplaceInput(const Parameter& output, const std::string& file) const;
   void prepareOutputs();
   void echo() const;
   void writeReturnParameterFile();
 };
 
+/// An output may replace an input of its own kind, as when the host works in place. Of another kind, it is a slip.
+void CommandLine::Private::refuseToReplaceInput(const Parameter& output, const std::string& file) const
+{
+  for (const Parameter* input : description.parameters())
+  {
+    const bool sameKind = input->type == output.type && input->kind == output.kind;
+    if (!input->isFile() || input->output || sameKind) continue;
+    for (const std::string& inputFile : values(*input))
+    {
+      std::error_code error;
+      if (!std::filesystem::equivalent(inputFile, file, error)) continue;
+      throw UsageError(output.spelling() + ": '" + file + "' is an input, too; another file expected");
+    }
+  }
+}
+
 /// Creates the temporaries before the work begins, so that a place that can't be written to shows at once.
 void CommandLine::Private::prepareOutputs()
 {
-  std::vector<std::string> inputs, seen;
-  for (const Parameter* parameter : description.parameters())
-  {
-    if (!parameter->isFile() || parameter->output) continue;
-    for (const std::string& file : values(*parameter)) inputs.push_back(file);
-  }
+  std::set<std::string> temporaries;
   for (const Parameter* parameter : description.parameters())
   {
     if (!parameter->isFile() || !parameter->output) continue;
     for (const std::string& file : values(*parameter))
     {
-      std::error_code error;
-      const bool isInput = std::any_of(inputs.begin(), inputs.end(), [&](const std::string& input) {
-        return std::filesystem::equivalent(input, file, error);
-      });
-      if (isInput) throw UsageError(parameter->spelling() + ": '" + file + "' is an input, too; another file expected");
-      const std::string temporary = outputs.temporary(file);
-      if (std::find(seen.begin(), seen.end(), temporary) != seen.end())
-      {
-        throw UsageError(parameter->spelling() + ": '" + file + "' is another output, too; another file expected");
-      }
-      seen.push_back(temporary);
+      refuseToReplaceInput(*parameter, file);
+      if (temporaries.insert(outputs.temporary(file)).second) continue;
+      throw UsageError(parameter->spelling() + ": '" + file + "' is another output, too; another file expected");
     }
   }
   if (!arguments.returnParameterFile.empty()) outputs.temporary(arguments.returnParameterFile);
@@ -173,17 +175,15 @@ double CommandLine::number(const std::string& name) const
 
 std::string CommandLine::text(const std::string& name) const
 {
-  const auto isText = [](const Parameter& p) {
-    return !p.multiple && !p.output && (p.isFile() || p.type == "string" || p.type == "string-enumeration");
-  };
+  const auto isText = [](const Parameter& p)
+  { return !p.multiple && !p.output && (p.isFile() || p.type == "string" || p.type == "string-enumeration"); };
   return d->value(d->parameter(name, isText, "single text or input file"));
 }
 
 std::vector<std::string> CommandLine::texts(const std::string& name) const
 {
-  const auto isList = [](const Parameter& p) {
-    return !p.output && p.multiple && (p.isFile() || p.type == "string" || p.type == "string-enumeration");
-  };
+  const auto isList = [](const Parameter& p)
+  { return !p.output && p.multiple && (p.isFile() || p.type == "string" || p.type == "string-enumeration"); };
   return d->values(d->parameter(name, isList, "list of texts or input files"));
 }
 
@@ -229,7 +229,8 @@ std::string CommandLine::outputPath(const std::string& finalPath) { return d->ou
 
 void CommandLine::returnValue(const std::string& name, const std::string& value)
 {
-  d->parameter(name, [](const Parameter& p) { return p.isReturnValue(); }, "simple output");
+  d->parameter(
+    name, [](const Parameter& p) { return p.isReturnValue(); }, "simple output");
   d->returnValues[name] = oneLine(value);
 }
 
@@ -265,12 +266,14 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
 {
   const std::string executable = argc > 0 ? std::filesystem::path(argv[0]).stem().string() : std::string("module");
   std::unique_ptr<CommandLine> line;
-  const auto failed = [&](int status, const std::string& message) {
+  const auto failed = [&](int status, const std::string& message)
+  {
     const std::string text = line ? line->d->outputs.withFinalNames(message) : message;
     std::cerr << executable << ": " << oneLine(text) << "\n" << std::flush;
     return status;
   };
-  const auto run = [&] {
+  const auto run = [&]
+  {
     const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
     if (answerQuestion(arguments, xml, executable)) return;
 

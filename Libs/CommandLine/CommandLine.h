@@ -1,15 +1,15 @@
 #pragma once
-/// The runtime of the command-line modules. One XML per module (Slicer's ModuleDescription) is the single source of flags,
-/// types, defaults, ranges and help; a module is that text and a function:
+/// The runtime of the command-line modules. One XML per module (Slicer's ModuleDescription) is the single source of
+/// flags, types, defaults, ranges and help; a module is that text and a function:
 ///
 ///     int main(int argc, char** argv)
 ///     {
 ///       return surgicalmesher::runModule(argc, argv, surgicalmesher::moduleXML, [](CommandLine& line) { ... });
 ///     }
 ///
-/// runModule answers --xml, --help and --version, parses and checks the options, hands them to the function, renames the
-/// outputs into place when it returns, and turns what it throws into one line on stderr and an exit status:
-/// 0 done, 1 InputError, 2 UsageError, 3 EngineError or anything else. Outputs appear whole or not at all.
+/// runModule answers --xml, --help and --version, parses and checks the options, hands them to the function, renames
+/// the outputs into place when it returns, and turns what it throws into one line on stderr and an exit status: 0 done,
+/// 1 InputError, 2 UsageError, 3 EngineError or anything else. Outputs appear whole or not at all.
 ///
 /// While the function runs, what libraries write to stderr is discarded, unless the environment variable
 /// SURGICALMESHER_DEBUG is set.
@@ -29,22 +29,23 @@ class CommandLine
 {
 public:
   /// Parameters are named as in the XML's <name>. Asking for a parameter the XML lacks, or for another type than it
-  /// declares, is a programming error (std::logic_error). Without a value on the command line the XML's default is returned.
+  /// declares, is a programming error (std::logic_error). Without a value on the command line the XML's default is
+  /// returned.
   ///
-  /// Slicer passes every number and choice, also those the user left alone: for them `given` tells nothing, and a value of
-  /// their range has to mean "not used".
+  /// Slicer passes every number and choice, also those the user left alone: for them `given` tells nothing, and a value
+  /// of their range has to mean "not used".
   bool given(const std::string& name) const;
   bool flag(const std::string& name) const;
   int integer(const std::string& name) const;
   double number(const std::string& name) const;
-  std::string text(const std::string& name) const;               ///< strings, enumerations and input files; "" if there is none
+  std::string text(const std::string& name) const; ///< strings, enumerations and input files; "" if there is none
   std::vector<std::string> texts(const std::string& name) const; ///< input files with multiple="true"
   std::vector<double> numbers(const std::string& name) const;    ///< integer and double vectors
   std::vector<Vec3> points(const std::string& name) const;       ///< type point, in the XML's coordinateSystem, mm
 
   /// Where to write output `name` now: a temporary file in its final folder, with its final extension, renamed into
-  /// place after the module function has returned. Empty if the output was not asked for. That the place can be written to
-  /// has been checked before the function was called; an output that was asked for has to be written.
+  /// place after the module function has returned. Empty if the output was not asked for. That the place can be written
+  /// to has been checked before the function was called; an output that was asked for has to be written.
   std::string outputFile(const std::string& name);
   std::vector<std::string> outputFiles(const std::string& name); ///< multiple="true"
   /// The same for a file the XML doesn't list (a sidecar next to an output). Throws InputError if it can't be created.

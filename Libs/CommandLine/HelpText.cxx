@@ -86,7 +86,7 @@ Exit status: 0 done, 1 the input is at fault, 2 the command line is at fault, 3 
 std::string helpText(const ModuleDescription& description, const std::string& executable)
 {
   std::string text = description.title + " " + description.version + "\n" + wrapped(description.description, 0) + "\n" +
-    synopsis(description, executable);
+                     synopsis(description, executable);
   for (const ParameterGroup& group : description.groups)
   {
     text += "\n" + group.label + "\n";

@@ -22,10 +22,7 @@ bool isOneOf(const std::string& word, std::initializer_list<const char*> words)
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-[[noreturn]] void refuse(const std::string& what)
-{
-  throw std::logic_error("module description: " + what);
-}
+[[noreturn]] void refuse(const std::string& what) { throw std::logic_error("module description: " + what); }
 
 std::string childText(vtkXMLDataElement* element, const char* name)
 {
@@ -58,6 +55,7 @@ Parameter readParameter(vtkXMLDataElement* element)
 {
   Parameter parameter;
   parameter.type = element->GetName();
+  parameter.kind = attribute(element, "type");
   parameter.name = childText(element, "name");
   parameter.longFlag = withoutDashes(childText(element, "longflag"));
   parameter.flag = withoutDashes(childText(element, "flag"));
@@ -85,8 +83,9 @@ Parameter readParameter(vtkXMLDataElement* element)
 
 void checkParameter(const Parameter& parameter)
 {
-  const bool known = parameter.isInteger() || parameter.isNumber() || parameter.isEnumeration() || parameter.isVector() ||
-    parameter.isPoint() || parameter.isFile() || isOneOf(parameter.type, { "boolean", "string" });
+  const bool known = parameter.isInteger() || parameter.isNumber() || parameter.isEnumeration() ||
+                     parameter.isVector() || parameter.isPoint() || parameter.isFile() ||
+                     isOneOf(parameter.type, { "boolean", "string" });
   if (!known) refuse("unknown type '" + parameter.type + "'");
   if (parameter.name.empty()) refuse("a parameter of type " + parameter.type + " has no name");
   const std::string who = "parameter '" + parameter.name + "' ";
@@ -98,7 +97,8 @@ void checkParameter(const Parameter& parameter)
   if (parameter.isEnumeration() && parameter.choices.empty()) refuse(who + "has no element to choose from");
   if (parameter.type == "boolean")
   {
-    if (!isOneOf(parameter.defaultValue, { "", "true", "false" })) refuse(who + "has a default other than true or false");
+    if (!isOneOf(parameter.defaultValue, { "", "true", "false" }))
+      refuse(who + "has a default other than true or false");
     if (parameter.index >= 0) refuse(who + "is a boolean with an index");
   }
   else if (!parameter.defaultValue.empty())
@@ -124,7 +124,8 @@ void checkUnique(const ModuleDescription& description)
   for (const Parameter* parameter : description.parameters())
   {
     const bool flagless = parameter->longFlag.empty();
-    if (!seen.insert("name " + parameter->name).second || (!flagless && !seen.insert("--" + parameter->longFlag).second) ||
+    if (!seen.insert("name " + parameter->name).second ||
+        (!flagless && !seen.insert("--" + parameter->longFlag).second) ||
         (!parameter->flag.empty() && !seen.insert("-" + parameter->flag).second))
     {
       refuse("two parameters share the name or the flag of '" + parameter->name + "'");
@@ -134,7 +135,8 @@ void checkUnique(const ModuleDescription& description)
   for (std::size_t i = 0; i < positionals.size(); ++i)
   {
     if (positionals[i]->index != int(i)) refuse("the indices of positional arguments are not 0, 1, ...");
-    if (positionals[i]->multiple && i + 1 < positionals.size()) refuse("only the last positional argument can be multiple");
+    if (positionals[i]->multiple && i + 1 < positionals.size())
+      refuse("only the last positional argument can be multiple");
   }
 }
 
@@ -171,13 +173,9 @@ bool Parameter::isVector() const
 bool Parameter::isPoint() const { return isOneOf(type, { "point", "region" }); }
 bool Parameter::isFile() const
 {
-  return isOneOf(type,
-    { "file", "directory", "image", "geometry", "table", "transform", "measurement", "pointfile" });
+  return isOneOf(type, { "file", "directory", "image", "geometry", "table", "transform", "measurement", "pointfile" });
 }
-bool Parameter::isReturnValue() const
-{
-  return output && !isFile() && index < 0 && longFlag.empty() && flag.empty();
-}
+bool Parameter::isReturnValue() const { return output && !isFile() && index < 0 && longFlag.empty() && flag.empty(); }
 std::string Parameter::spelling() const
 {
   if (!longFlag.empty()) return "--" + longFlag;

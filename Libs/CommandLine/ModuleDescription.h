@@ -11,6 +11,7 @@ namespace surgicalmesher
 struct Parameter
 {
   std::string type; ///< the XML element: integer, double, boolean, image, point, ...
+  std::string kind; ///< the element's type attribute: label, scalar, color, ...; empty if there is none
   std::string name;
   std::string longFlag; ///< without dashes; empty if there is none
   std::string flag;     ///< one letter, without dash; empty if there is none
@@ -24,13 +25,13 @@ struct Parameter
   std::optional<double> minimum, maximum;
   std::vector<std::string> extensions; ///< with their dot, lower case; the first is the usual one
 
-  bool isInteger() const;     ///< integer, integer-enumeration
-  bool isNumber() const;      ///< double, float, double-enumeration, float-enumeration
+  bool isInteger() const; ///< integer, integer-enumeration
+  bool isNumber() const;  ///< double, float, double-enumeration, float-enumeration
   bool isEnumeration() const;
-  bool isVector() const;      ///< a comma separated list: integer-vector, double-vector, float-vector, string-vector
-  bool isPoint() const;       ///< point (x,y,z) and region (x,y,z,rx,ry,rz)
-  bool isFile() const;        ///< whatever is passed as the name of a file or folder
-  bool isReturnValue() const; ///< a simple output, not on the command line but in the return parameter file
+  bool isVector() const;        ///< a comma separated list: integer-vector, double-vector, float-vector, string-vector
+  bool isPoint() const;         ///< point (x,y,z) and region (x,y,z,rx,ry,rz)
+  bool isFile() const;          ///< whatever is passed as the name of a file or folder
+  bool isReturnValue() const;   ///< a simple output, not on the command line but in the return parameter file
   std::string spelling() const; ///< how the user writes it: `--name`, or `name` for a positional argument
 };
 
@@ -52,13 +53,14 @@ struct ModuleDescription
   std::vector<const Parameter*> positionals() const;    ///< by index
 };
 
-/// Throws std::logic_error, with the parameter's name, for XML that is not a valid description: it is part of the program.
+/// Throws std::logic_error, with the parameter's name, for XML that is not a valid description: that is part of the
+/// program.
 ModuleDescription parseModuleDescription(const std::string& xml);
 
 /// What a parameter accepts, in words: "a number from 0 to 500", "one of smaller, targets, path".
 std::string expectation(const Parameter& parameter);
 
-/// Throws UsageError unless `value` is one the parameter accepts. Whether an input file is there, is its reader's matter.
+/// Throws UsageError unless `value` is one the parameter accepts. Whether an input file exists, its reader finds out.
 void checkValue(const Parameter& parameter, const std::string& value);
 
 /// The answer to --help.

@@ -77,7 +77,8 @@ void requireWritten(const fs::path& temporary, const fs::path& path)
   std::error_code error;
   const auto bytes = fs::file_size(temporary, error);
   if (error || bytes == 0) throw EngineError(path.string() + ": output was not written");
-  if (!syncToDevice(temporary.string())) throw InputError(path.string() + ": disk full or failing, room for the file expected");
+  if (!syncToDevice(temporary.string()))
+    throw InputError(path.string() + ": disk full or failing, room for the file expected");
 }
 
 } // namespace
@@ -100,12 +101,14 @@ std::string OutputFiles::temporary(const std::string& finalPath)
   requireWritablePlace(path, finalPath);
   removeLeftovers(path);
   const std::string name = path.filename().string();
-  const std::string temporary = (path.parent_path() /
-    ("." + name + "." + hostName() + "-" + std::to_string(processId()) + partialMark + fullExtension(name))).string();
+  const std::string temporary = (path.parent_path() / ("." + name + "." + hostName() + "-" +
+                                                       std::to_string(processId()) + partialMark + fullExtension(name)))
+                                  .string();
   removeOnSignal(temporary);
   if (!std::ofstream(temporary, std::ios::binary))
   {
-    throw InputError(finalPath + ": can't create a file in " + path.parent_path().string() + ", a writable folder expected");
+    throw InputError(finalPath + ": can't create a file in " + path.parent_path().string() +
+                     ", a writable folder expected");
   }
   m_TemporaryByFinal[path.string()] = temporary;
   return temporary;

@@ -1,9 +1,9 @@
 #pragma once
 /// Output files that appear whole or not at all.
 ///
-/// Each is written as `.<name>.<host>-<process>.partial<extension>` in its final folder and renamed when all are complete,
-/// so that a run that ends half-way, by whatever cause, leaves nothing under a final name. What a killed run left behind is
-/// removed by the next run on the same host that writes the same file.
+/// Each is written as `.<name>.<host>-<process>.partial<extension>` in its final folder and renamed when all are
+/// complete, so that a run that ends half-way, by whatever cause, leaves nothing under a final name. What a killed run
+/// left behind is removed by the next run on the same host that writes the same file.
 
 #include <map>
 #include <string>
@@ -17,15 +17,15 @@ std::string fullExtension(const std::string& fileName);
 class OutputFiles
 {
 public:
-  /// Where to write `finalPath` until commit(); the same for the same file. Throws InputError if the folder does not exist
-  /// or can't be written to, or if the path is taken by something other than a regular file.
+  /// Where to write `finalPath` until commit(); the same for the same file. Throws InputError if the folder does not
+  /// exist or can't be written to, or if the path is taken by something other than a regular file.
   std::string temporary(const std::string& finalPath);
 
   /// `message` with every temporary name replaced by the final one: what the user knows.
   std::string withFinalNames(std::string message) const;
 
-  /// Renames every file into place. Throws EngineError if one was not written, InputError if the disk refuses it; no file
-  /// is then left under its final name.
+  /// Renames every file into place. Throws EngineError if one was not written, InputError if the disk refuses it; no
+  /// file is then left under its final name.
   void commit();
 
   OutputFiles() = default;

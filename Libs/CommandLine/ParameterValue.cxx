@@ -39,11 +39,12 @@ bool isNumber(const Parameter& parameter, const std::string& text)
   return value && inRange(parameter, *value);
 }
 
-bool isNumberList(const Parameter& parameter, const std::string& text, bool (*isItem)(const Parameter&, const std::string&))
+bool isNumberList(const Parameter& parameter, const std::string& text,
+                  bool (*isItem)(const Parameter&, const std::string&))
 {
   const std::vector<std::string> items = split(text, ',');
   return !items.empty() &&
-    std::all_of(items.begin(), items.end(), [&](const std::string& item) { return isItem(parameter, item); });
+         std::all_of(items.begin(), items.end(), [&](const std::string& item) { return isItem(parameter, item); });
 }
 
 bool isPoint(const Parameter& parameter, const std::string& text)
@@ -55,9 +56,11 @@ bool isPoint(const Parameter& parameter, const std::string& text)
 bool hasExtension(const Parameter& parameter, const std::string& file)
 {
   const std::string name = lowerCase(std::filesystem::path(file).filename().string());
-  return std::any_of(parameter.extensions.begin(), parameter.extensions.end(), [&](const std::string& extension) {
-    return name.size() > extension.size() && name.compare(name.size() - extension.size(), name.npos, extension) == 0;
-  });
+  return std::any_of(parameter.extensions.begin(), parameter.extensions.end(),
+                     [&](const std::string& extension) {
+                       return name.size() > extension.size() &&
+                              name.compare(name.size() - extension.size(), name.npos, extension) == 0;
+                     });
 }
 
 bool accepts(const Parameter& parameter, const std::string& value)

@@ -59,10 +59,7 @@ void removeOnSignal(const std::string& file)
   doomedFiles.store(&all.back());
 }
 
-void keepOnSignal()
-{
-  doomedFiles.store(nullptr);
-}
+void keepOnSignal() { doomedFiles.store(nullptr); }
 
 void installSignalHandlers()
 {

@@ -74,15 +74,17 @@ void ProgressReport::beginStage(const std::string& stage)
   m_InStage = true;
   m_StageStart = Clock::now();
   if (m_Terminal) return;
-  m_Stream << "<filter-start>\n<filter-name>" << escaped(m_Title) << "</filter-name>\n<filter-comment> \"" <<
-    escaped(stage) << "\" </filter-comment>\n</filter-start>\n" << std::flush;
+  m_Stream << "<filter-start>\n<filter-name>" << escaped(m_Title) << "</filter-name>\n<filter-comment> \""
+           << escaped(stage) << "\" </filter-comment>\n</filter-start>\n"
+           << std::flush;
 }
 
 void ProgressReport::endStage()
 {
   const double seconds = std::chrono::duration<double>(Clock::now() - m_StageStart).count();
-  m_Stream << "<filter-end>\n<filter-name>" << escaped(m_Title) << "</filter-name>\n<filter-time>" <<
-    formatNumber(seconds) << "</filter-time>\n</filter-end>\n" << std::flush;
+  m_Stream << "<filter-end>\n<filter-name>" << escaped(m_Title) << "</filter-name>\n<filter-time>"
+           << formatNumber(seconds) << "</filter-time>\n</filter-end>\n"
+           << std::flush;
   m_InStage = false;
 }
 
@@ -92,7 +94,7 @@ void ProgressReport::drawBar(double fraction)
   const auto full = std::size_t(std::lround(fraction * cells));
   const std::string percent = std::to_string(std::lround(fraction * 100));
   std::string line = "[" + std::string(full, '#') + std::string(cells - full, '.') + "] " +
-    std::string(3 - percent.size(), ' ') + percent + " % " + m_Stage.substr(0, 40);
+                     std::string(3 - percent.size(), ' ') + percent + " % " + m_Stage.substr(0, 40);
   const std::size_t width = line.size();
   // Blanks wipe what is left of a longer stage name.
   if (width < m_BarWidth) line += std::string(m_BarWidth - width, ' ');

@@ -10,7 +10,7 @@ namespace surgicalmesher
 
 std::string trimmed(const std::string& text);
 std::string lowerCase(std::string text);
-std::string oneLine(const std::string& text); ///< every run of white space becomes one blank
+std::string oneLine(const std::string& text);                            ///< every run of white space becomes one blank
 std::vector<std::string> split(const std::string& text, char separator); ///< empty text: no part
 /// Splits at commas outside double quotes, and drops the quotes: how a list of file names is passed in one argument.
 std::vector<std::string> splitQuoted(const std::string& text);

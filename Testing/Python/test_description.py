@@ -2,8 +2,8 @@
 
 Usage: test_description.py EXECUTABLE SOURCE.cxx
 
-For every parameter in the XML that EXECUTABLE prints: a legal value is accepted and comes back, an illegal one is refused,
---help lists it, and SOURCE.cxx asks for it. SOURCE.cxx asks for nothing else.
+For every parameter in the XML that EXECUTABLE prints: a legal value is accepted and comes back, an illegal one is
+refused, --help lists it, and SOURCE.cxx asks for it. SOURCE.cxx asks for nothing else.
 """
 import os
 import re

@@ -15,10 +15,7 @@ namespace
 
 using Words = std::vector<std::string>;
 
-Arguments parse(Words words)
-{
-  return parseArguments(parseModuleDescription(moduleXML), words);
-}
+Arguments parse(Words words) { return parseArguments(parseModuleDescription(moduleXML), words); }
 
 /// With the positional arguments the test module needs.
 Arguments parseOptions(Words words)
@@ -27,10 +24,7 @@ Arguments parseOptions(Words words)
   return parse(words);
 }
 
-Words valuesOf(const std::string& name, const Words& words)
-{
-  return parseOptions(words).values[name];
-}
+Words valuesOf(const std::string& name, const Words& words) { return parseOptions(words).values[name]; }
 
 std::string refusalOf(const Words& words)
 {
@@ -66,7 +60,7 @@ TEST(Arguments, flagsTakeTheirValueFromTheNextWordOrAfterAnEqualsSign)
 TEST(Arguments, positionalsMayStandAnywhere)
 {
   for (const Words& words : { Words{ "a", "b.vtp", "--length", "2" }, Words{ "a", "--length", "2", "b.vtp" },
-         Words{ "--length", "2", "a", "b.vtp" }, Words{ "--length", "2", "--", "a", "b.vtp" } })
+                              Words{ "--length", "2", "a", "b.vtp" }, Words{ "--length", "2", "--", "a", "b.vtp" } })
   {
     Arguments arguments = parse(words);
     EXPECT_EQ(arguments.values["input"], Words{ "a" });
@@ -123,11 +117,13 @@ TEST(Arguments, theHostsOwnFlagsAreKnown)
 
 TEST(Arguments, refusalsSayWhatWasFoundAndExpected)
 {
-  EXPECT_EQ(refusalOfOptions({ "--lenght", "2" }), "--lenght: unknown flag found, one of those that --help lists expected");
+  EXPECT_EQ(refusalOfOptions({ "--lenght", "2" }),
+            "--lenght: unknown flag found, one of those that --help lists expected");
   EXPECT_EQ(refusalOfOptions({ "--length", "0.1" }), "--length: '0.1' found, a number of at least 0.5 expected");
   EXPECT_EQ(refusalOfOptions({ "--length", "2", "--length", "3" }), "--length: given twice, once expected");
   EXPECT_EQ(refusalOf({ "a", "b.vtp", "--length" }), "--length: no value found, a number of at least 0.5 expected");
-  EXPECT_EQ(refusalOf({ "a", "b.vtp", "--length", "--on" }), "--length: no value found, a number of at least 0.5 expected");
+  EXPECT_EQ(refusalOf({ "a", "b.vtp", "--length", "--on" }),
+            "--length: no value found, a number of at least 0.5 expected");
   EXPECT_EQ(refusalOf({ "a" }), "result: argument not found, a file (.vtp, .vtu) expected");
   EXPECT_EQ(refusalOf({}), "input: argument not found, a file expected");
   EXPECT_EQ(refusalOfOptions({ "c" }), "'out.vtp': surplus argument found, 2 without a flag expected");
@@ -152,11 +148,40 @@ TEST_P(WrongValue, isRefused)
 }
 
 INSTANTIATE_TEST_SUITE_P(Arguments, WrongValue,
-  testing::ValuesIn(std::vector<std::pair<const char*, const char*>>{ { "--length", "" }, { "--length", "nan" },
-    { "--length", "inf" }, { "--length", "-inf" }, { "--length", "1e999" }, { "--length", "1mm" }, { "--length", " 1" },
-    { "--length", "1 " }, { "--length", "1,5" }, { "--length", "0x10" }, { "--length", "one" }, { "--ratio", "1.01" },
-    { "--count", "1.5" }, { "--count", "-1" }, { "--count", "99999999999" }, { "--count", "10000001" }, { "--count", "" },
-    { "--power", "3" }, { "--power", "02" }, { "--act", "Succeed" }, { "--act", "" }, { "--indices", "1,2.5" },
-    { "--indices", "1,,2" }, { "--weights", "1,nan" }, { "--weights", "1," }, { "--point", "1,2" },
-    { "--point", "1,2,3,4" }, { "--point", "1,2,z" }, { "--point", "1 2 3" }, { "--folder", "" }, { "--list", "" },
-    { "--extra", "x.nii" }, { "--echo", "1" }, { "--returnparameterfile", "" }, { "-length", "1" }, { "--written", "1" } }));
+                         testing::ValuesIn(std::vector<std::pair<const char*, const char*>>{
+                           { "--length", "" },
+                           { "--length", "nan" },
+                           { "--length", "inf" },
+                           { "--length", "-inf" },
+                           { "--length", "1e999" },
+                           { "--length", "1mm" },
+                           { "--length", " 1" },
+                           { "--length", "1 " },
+                           { "--length", "1,5" },
+                           { "--length", "0x10" },
+                           { "--length", "one" },
+                           { "--ratio", "1.01" },
+                           { "--count", "1.5" },
+                           { "--count", "-1" },
+                           { "--count", "99999999999" },
+                           { "--count", "10000001" },
+                           { "--count", "" },
+                           { "--power", "3" },
+                           { "--power", "02" },
+                           { "--act", "Succeed" },
+                           { "--act", "" },
+                           { "--indices", "1,2.5" },
+                           { "--indices", "1,,2" },
+                           { "--weights", "1,nan" },
+                           { "--weights", "1," },
+                           { "--point", "1,2" },
+                           { "--point", "1,2,3,4" },
+                           { "--point", "1,2,z" },
+                           { "--point", "1 2 3" },
+                           { "--folder", "" },
+                           { "--list", "" },
+                           { "--extra", "x.nii" },
+                           { "--echo", "1" },
+                           { "--returnparameterfile", "" },
+                           { "-length", "1" },
+                           { "--written", "1" } }));

@@ -21,6 +21,7 @@ std::string content(const CommandLine& line)
   std::string all;
   for (int i = 0; i < line.integer("count"); ++i) all += line.text("text") + "\n";
   for (const std::string& file : line.texts("list")) all += file + "\n";
+  if (line.given("start")) all += "from " + line.text("start") + "\n";
   for (const Vec3& p : line.points("point")) all += std::to_string(p.x + p.y + p.z) + "\n";
   double sum = line.number("length") + line.number("ratio") + line.integer("power");
   for (const double weight : line.numbers("weights")) sum += weight;
@@ -80,7 +81,4 @@ void run(CommandLine& line)
 
 } // namespace
 
-int main(int argc, char** argv)
-{
-  return runModule(argc, argv, moduleXML, run);
-}
+int main(int argc, char** argv) { return runModule(argc, argv, moduleXML, run); }

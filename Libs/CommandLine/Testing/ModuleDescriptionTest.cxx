@@ -1,6 +1,6 @@
 // Descriptions that are read, and those that are refused as a fault of the program.
-#include "CommandLineTestModuleXML.h"
 #include "ModuleDescription.h"
+#include "CommandLineTestModuleXML.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace
 std::string executableWith(const std::string& parameters)
 {
   return "<?xml version=\"1.0\"?><executable><title>T</title><version>1</version><parameters><label>L</label>" +
-    std::string("<description>D</description>") + parameters + "</parameters></executable>";
+         std::string("<description>D</description>") + parameters + "</parameters></executable>";
 }
 
 std::string parameter(const std::string& type, const std::string& rest)
@@ -60,24 +60,30 @@ TEST(ModuleDescription, helpListsEveryParameterWithDefaultAndRange)
 
 TEST(ModuleDescription, faultsAreFaultsOfTheProgram)
 {
-  const std::vector<std::string> faulty{ "", "<executable>", "<other><title>T</title><version>1</version></other>",
+  const std::vector<std::string> faulty{
+    "",
+    "<executable>",
+    "<other><title>T</title><version>1</version></other>",
     executableWith(parameter("integre", "<name>a</name><longflag>a</longflag><default>1</default>")),
     executableWith(parameter("integer", "<name>a</name><longflag>a</longflag>")),
     executableWith(parameter("integer", "<name>a</name><default>1</default>")),
     executableWith(parameter("integer", "<longflag>a</longflag><default>1</default>")),
     executableWith(parameter("integer", "<name>a</name><longflag>a</longflag><default>1.5</default>")),
-    executableWith(parameter("integer",
+    executableWith(parameter(
+      "integer",
       "<name>a</name><longflag>a</longflag><default>1</default><constraints><minimum>2</minimum></constraints>")),
-    executableWith(parameter("integer",
+    executableWith(parameter(
+      "integer",
       "<name>a</name><longflag>a</longflag><default>1</default><constraints><minimum>x</minimum></constraints>")),
     executableWith(parameter("string-enumeration", "<name>a</name><longflag>a</longflag><default>b</default>")),
     executableWith(parameter("boolean", "<name>a</name><longflag>a</longflag><default>yes</default>")),
     executableWith(parameter("file", "<name>a</name><index>1</index>")),
     executableWith("<file><name>a</name><label>L</label><longflag>a</longflag></file>"),
     executableWith(parameter("string", "<name>a</name><longflag>a</longflag>") +
-      parameter("string", "<name>a</name><longflag>b</longflag>")),
+                   parameter("string", "<name>a</name><longflag>b</longflag>")),
     executableWith(parameter("string", "<name>a</name><longflag>a</longflag>") +
-      parameter("string", "<name>b</name><longflag>a</longflag>")) };
+                   parameter("string", "<name>b</name><longflag>a</longflag>"))
+  };
   EXPECT_NO_THROW(parseModuleDescription(
     executableWith(parameter("integer", "<name>a</name><longflag>a</longflag><default>1</default>"))));
   for (const std::string& xml : faulty) EXPECT_THROW(parseModuleDescription(xml), std::logic_error) << xml;

@@ -1,6 +1,6 @@
 // Outputs appear whole or not at all, and leave no trace of an attempt.
-#include "Errors.h"
 #include "OutputFiles.h"
+#include "Errors.h"
 #include "Platform.h"
 
 #include <gtest/gtest.h>
@@ -15,10 +15,7 @@ using namespace surgicalmesher;
 namespace
 {
 
-void write(const fs::path& file, const std::string& text)
-{
-  std::ofstream(file) << text;
-}
+void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
 
 std::string read(const fs::path& file)
 {
@@ -32,7 +29,8 @@ protected:
   void SetUp() override
   {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder = fs::temp_directory_path() / ("OutputFilesTest-" + std::string(test->name()) + "-" + std::to_string(processId()));
+    folder =
+      fs::temp_directory_path() / ("OutputFilesTest-" + std::string(test->name()) + "-" + std::to_string(processId()));
     fs::remove_all(folder);
     fs::create_directories(folder);
   }
@@ -160,7 +158,8 @@ TEST_F(OutputFilesTest, removeWhatKilledRunsLeftOfTheSameFileAndNothingElse)
   // No process can have this id: it is beyond what any kernel hands out.
   const std::string dead = hostName() + "-2147483646", alive = hostName() + "-" + std::to_string(processId());
   const Names kept{ ".a.vtp." + alive + ".partial.vtp.bak", ".a.vtp.elsewhere-2147483646.partial.vtp",
-    ".b.vtp." + dead + ".partial.vtp", ".a.vtp." + hostName() + "-1.partial.vtp", ".a.vtp." + dead + ".partial.vtu" };
+                    ".b.vtp." + dead + ".partial.vtp", ".a.vtp." + hostName() + "-1.partial.vtp",
+                    ".a.vtp." + dead + ".partial.vtu" };
   for (const std::string& name : kept) write(folder / name, "x");
   write(folder / (".a.vtp." + dead + ".partial.vtp"), "x");
   {

@@ -29,10 +29,13 @@ TEST(ProgressReport, namesEveryStageOnceInTags)
   progress.update(1, "Two");
   progress.finish();
   const std::string text = stream.str();
-  EXPECT_EQ(count(text, "<filter-start>\n<filter-name>Module</filter-name>\n<filter-comment> \"[^<]*\" </filter-comment>\n"
-                        "</filter-start>\n"), 2);
+  EXPECT_EQ(count(text,
+                  "<filter-start>\n<filter-name>Module</filter-name>\n<filter-comment> \"[^<]*\" </filter-comment>\n"
+                  "</filter-start>\n"),
+            2);
   EXPECT_EQ(count(text, "<filter-end>\n<filter-name>Module</filter-name>\n<filter-time>[0-9.e-]+</filter-time>\n"
-                        "</filter-end>\n"), 2);
+                        "</filter-end>\n"),
+            2);
   EXPECT_EQ(count(text, "\"One &lt;1>\""), 1);
   EXPECT_EQ(count(text, "<filter-progress>0.5</filter-progress>\n"), 1);
   EXPECT_EQ(count(text, "<filter-progress>1</filter-progress>\n<filter-end>"), 1);

@@ -126,7 +126,15 @@ class Runtime(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(os.listdir(self.folder), ["taken.vtp"])
 
-    def test_an_input_is_no_output(self):
+    def test_an_input_of_the_same_kind_may_be_replaced(self):
+        with open(self.result, "w") as file:
+            file.write("older")
+        done = self.run_module("--start", self.result, "in", self.result)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.result) as file:
+            self.assertIn("from " + self.result, file.read())
+
+    def test_an_input_of_another_kind_is_no_output(self):
         with open(self.result, "w") as file:
             file.write("precious")
         done = self.run_module(self.result, self.result)
@@ -154,7 +162,8 @@ class Runtime(unittest.TestCase):
         script = (
             'mount -t tmpfs -o size=64k none "$1" || exit 99; shift; "$@"; status=$?; ls -A "$0" >&2; exit $status')
         done = subprocess.run(
-            ["unshare", "-rm", "sh", "-c", script, self.folder, self.folder, MODULE, "--count", "100000", "in", self.result],
+            ["unshare", "-rm", "sh", "-c", script, self.folder, self.folder,
+             MODULE, "--count", "100000", "in", self.result],
             capture_output=True, text=True, timeout=120)
         if done.returncode not in (0, 1, 2, 3):
             self.skipTest("no small file system can be mounted here: " + done.stderr.strip())
