@@ -130,8 +130,9 @@ std::vector<EdgeUse> edgeUses(const SurfaceComplex& surface)
   return uses;
 }
 
-/// Triangles at edges where the sides on which `tissue` lies don't alternate as they must around a closed boundary.
-std::vector<std::int32_t> unbalancedTriangles(const SurfaceComplex& surface, Label tissue)
+/// Triangles at the edges of a tissue's boundary that are at fault: those where the sides on which it lies don't alternate
+/// as they must around a closed boundary, or, with `crowded`, those of more than two triangles.
+std::vector<std::int32_t> faultyTriangles(const SurfaceComplex& surface, Label tissue, bool crowded)
 {
   std::vector<std::int32_t> result;
   const std::vector<EdgeUse> uses = edgeUses(surface);
@@ -146,9 +147,50 @@ std::vector<std::int32_t> unbalancedTriangles(const SurfaceComplex& surface, Lab
       balance += uses[end].ascending == (behind == tissue) ? 1 : -1;
       around.push_back(uses[end].triangle);
     }
-    if (balance != 0) result.insert(result.end(), around.begin(), around.end());
+    if (crowded ? around.size() > 2 : balance != 0) result.insert(result.end(), around.begin(), around.end());
   }
   return result;
+}
+
+std::vector<std::int32_t> trianglesAt(const SurfaceComplex& surface, std::int32_t point)
+{
+  std::vector<std::int32_t> result;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+  {
+    const Triangle& ids = surface.triangles[t];
+    if (std::find(ids.begin(), ids.end(), point) != ids.end()) result.push_back(static_cast<std::int32_t>(t));
+  }
+  return result;
+}
+
+void requireManifold(const SurfaceComplex& surface, const std::string& name, Label label, const TissueSurface& tissue)
+{
+  const auto refuseFor = [&](const Defect& defect, const char* what, const char* expected, std::vector<std::int32_t> triangles)
+  {
+    refuse(surface, name,
+      "the surface of tissue " + std::to_string(label) + " has " + std::to_string(defect.count) + " " + what, expected,
+      std::move(triangles), defect.where);
+  };
+  const char* const closed = "a closed surface around every tissue";
+  const char* const manifold = "tissues that don't touch themselves along an edge or at a point";
+  if (tissue.openEdges.count > 0)
+  {
+    refuseFor(tissue.openEdges, "open edges", closed, faultyTriangles(surface, label, false));
+  }
+  if (tissue.misorientedEdges.count > 0)
+  {
+    refuseFor(tissue.misorientedEdges, "edges with BoundaryLabels on mismatched sides", closed,
+      faultyTriangles(surface, label, false));
+  }
+  if (tissue.nonManifoldEdges.count > 0)
+  {
+    refuseFor(tissue.nonManifoldEdges, "edges of more than two triangles", manifold, faultyTriangles(surface, label, true));
+  }
+  if (tissue.nonManifoldVertices.count > 0)
+  {
+    refuseFor(tissue.nonManifoldVertices, "points where parts of it touch", manifold,
+      trianglesAt(surface, tissue.nonManifoldVertices.item));
+  }
 }
 
 /// For each triangle corner c, the triangle across the edge from corner c to the next.
@@ -318,16 +360,7 @@ std::vector<std::pair<std::int32_t, std::int32_t>> selfIntersections(const Surfa
 
 void requireFillable(const SurfaceComplex& surface, const std::string& name)
 {
-  for (const auto& [label, tissue] : checkSurface(surface))
-  {
-    if (tissue.closed()) continue;
-    const bool open = tissue.openEdges.count > 0;
-    const Defect& defect = open ? tissue.openEdges : tissue.misorientedEdges;
-    refuse(surface, name,
-      "the surface of tissue " + std::to_string(label) + " has " + std::to_string(defect.count) +
-        (open ? " open edges" : " edges with BoundaryLabels on mismatched sides"),
-      "a closed surface around every tissue", unbalancedTriangles(surface, label), defect.where);
-  }
+  for (const auto& [label, tissue] : checkSurface(surface)) requireManifold(surface, name, label, tissue);
   requireNoIntersections(surface, name);
 }
 

@@ -12,8 +12,8 @@ namespace surgicalmesher
 /// count as such a pair. Ascending.
 std::vector<std::pair<std::int32_t, std::int32_t>> selfIntersections(const SurfaceComplex& surface);
 
-/// Throws SurfaceRefused, with the place in mm, unless every tissue's boundary is closed with the tissue on matching
-/// sides, no triangle is degenerate and none meets another elsewhere than in a common point or edge.
+/// Throws SurfaceRefused, with the place in mm, unless every tissue's boundary is a closed 2-manifold with the tissue on
+/// matching sides, no triangle is degenerate and none meets another elsewhere than in a common point or edge.
 /// `name` says in messages what the surface is: its file.
 void requireFillable(const SurfaceComplex& surface, const std::string& name);
 

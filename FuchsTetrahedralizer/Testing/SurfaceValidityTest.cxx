@@ -92,6 +92,20 @@ TEST(RequireFillable, RefusesMismatchedLabels)
   EXPECT_NE(std::string(refusalOf(surface).what()).find("open edges"), std::string::npos);
 }
 
+TEST(RequireFillable, RefusesATissueThatTouchesItself)
+{
+  const auto diagonal = [](bool corner)
+  {
+    return interfaceOf(test::tetrahedraOf(
+      test::paintedMap({ 2, 2, 2 }, [=](int i, int j, int k) { return i == j && (corner ? k == i : k == 0); })));
+  };
+  const SurfaceRefused edge = refusalOf(diagonal(false)), corner = refusalOf(diagonal(true));
+  EXPECT_NE(std::string(edge.what()).find("1 edges of more than two"), std::string::npos) << edge.what();
+  EXPECT_EQ(edge.offending().triangles.size(), 4u);
+  EXPECT_NE(std::string(corner.what()).find("1 points where parts of it touch"), std::string::npos) << corner.what();
+  EXPECT_NE(std::string(corner.what()).find("(0.5, 0.5, 0.5) mm"), std::string::npos) << corner.what();
+}
+
 TEST(RequireFillable, RefusesSelfIntersections)
 {
   SurfaceComplex surface = test::sphere({}, 1, 2, 1, 0);

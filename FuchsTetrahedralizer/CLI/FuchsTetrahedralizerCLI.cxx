@@ -1,0 +1,209 @@
+// FuchsTetrahedralizerCLI: multi-tissue surface (and its ambient tetrahedra) in; labelled tetrahedra and their quality out.
+
+#include "AmbientMatch.h"
+#include "CommandLine.h"
+#include "ComplexChecks.h"
+#include "ComplexIO.h"
+#include "Errors.h"
+#include "FaceNeighbours.h"
+#include "FuchsTetrahedralizerCLIXML.h"
+#include "MeshQuality.h"
+#include "SubMeshes.h"
+#include "SurfaceEdgeLength.h"
+#include "SurfaceTetrahedralization.h"
+#include "SurfaceValidity.h"
+#include "TissueMapIO.h"
+
+#include <rapidjson/prettywriter.h>
+#include <rapidjson/stringbuffer.h>
+#include <vtkSMPTools.h>
+
+#include <filesystem>
+#include <sstream>
+
+using namespace surgicalmesher;
+
+namespace
+{
+
+using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
+
+EdgeLength readEdgeLength(const CommandLine& line, const SurfaceFile& content)
+{
+  const std::string scaleFile = line.text("scale");
+  const double uniform = line.number("edgeLength");
+  if (!scaleFile.empty() && uniform > 0) throw UsageError("--scale and --edgeLength are both given, expected one of them");
+  if (uniform > 0) return [uniform](const Vec3&) { return uniform; };
+  if (!scaleFile.empty())
+  {
+    const ScaleField scale = readScale(scaleFile);
+    requireCover(scale, content.surface.points, scaleFile);
+    return scale;
+  }
+  if (content.targetEdgeLength.empty())
+  {
+    throw UsageError("neither --scale nor --edgeLength is given, and " + line.text("surface") +
+                     " has no point array TargetEdgeLength, expected one of them");
+  }
+  return edgeLengthFromPoints(content.surface.points, content.targetEdgeLength);
+}
+
+void makeFillable(SurfaceFile& content, const std::string& name)
+{
+  SurfaceComplex& surface = content.surface;
+  const bool labelled = !surface.labels.empty();
+  surface = labelled ? withoutDuplicatePoints(surface) : closedShellsToTissues(surface, name);
+  if (labelled) requireFillable(surface, name);
+}
+
+/// A refusal's triangles go beside the mesh that was to be, for the user to look at.
+[[noreturn]] void refuseWithTriangles(CommandLine& line, const SurfaceRefused& refusal)
+{
+  const std::filesystem::path folder = std::filesystem::path(line.outputFile("mesh")).parent_path();
+  const std::string stem = std::filesystem::path(line.text("surface")).stem().string();
+  const std::string file = (folder / (stem + ".offending.vtp")).string();
+  SurfaceFile content;
+  content.surface = refusal.offending();
+  try
+  {
+    writeSurface(content, file);
+  }
+  catch (const InputError&)
+  {
+    throw InputError(refusal.what());
+  }
+  throw InputError(std::string(refusal.what()) + "; these triangles are in " + file);
+}
+
+TetraMesh ambientTetrahedra(const CommandLine& line, SurfaceFile& content, const EdgeLength& edgeLength)
+{
+  const std::string surfaceName = line.text("surface"), ambientName = line.text("ambient");
+  if (!ambientName.empty())
+  {
+    if (content.surface.labels.empty())
+    {
+      throw InputError(surfaceName + ": no BoundaryLabels, expected them in a surface with ambient tetrahedra");
+    }
+    TetraMesh ambient = readMesh(ambientName).mesh;
+    requireInterfacesAre(content.surface, surfaceName, ambient, ambientName);
+    return ambient;
+  }
+  makeFillable(content, surfaceName);
+  return tetrahedralize(content.surface, latticePoints(content.surface, edgeLength), surfaceName);
+}
+
+MeshFile assemble(const TetraMesh& ambient, const EdgeLength& edgeLength, const TissueTable& tissues, SubMeshes& division)
+{
+  MeshFile result;
+  result.mesh = withoutOutside(ambient);
+  result.tissues = tissues;
+  division = divideIntoSubMeshes(result.mesh, edgeLength);
+  result.subMesh = division.ofTetrahedron;
+  result.constitutive = constitutiveModels(result.mesh, result.subMesh, tissues);
+  result.subMeshInterface.assign(result.mesh.points.size(), 0);
+  for (const std::int32_t id : division.interfacePoints) result.subMeshInterface[id] = 1;
+  for (const Vec3& p : result.mesh.points) result.targetEdgeLength.push_back(edgeLength(p));
+  return result;
+}
+
+void write(JsonWriter& json, const char* key, const std::vector<std::int32_t>& values)
+{
+  json.Key(key);
+  json.StartArray();
+  for (const std::int32_t value : values) json.Int(value);
+  json.EndArray();
+}
+
+void writeSubMeshes(JsonWriter& json, const SubMeshes& division)
+{
+  json.Key("subMeshes");
+  json.StartObject();
+  json.Key("children");
+  json.Int(division.children);
+  write(json, "pieces", division.pieces);
+  write(json, "interfacePoints", division.interfacePoints);
+  json.EndObject();
+}
+
+void writeTopology(JsonWriter& json, const TetraMesh& mesh)
+{
+  json.Key("topology");
+  json.StartArray();
+  for (const auto& [label, betti] : meshTopology(mesh))
+  {
+    json.StartObject();
+    json.Key("label");
+    json.Int(label);
+    json.Key("components");
+    json.Int(betti.components);
+    json.Key("tunnels");
+    json.Int(betti.tunnels);
+    json.Key("cavities");
+    json.Int(betti.cavities);
+    json.EndObject();
+  }
+  json.EndArray();
+}
+
+std::string reportOf(const MeshFile& content, const SubMeshes& division, const MeshQuality& quality, bool fromAmbient)
+{
+  rapidjson::StringBuffer buffer;
+  JsonWriter json(buffer);
+  json.StartObject();
+  json.Key("start");
+  json.String(fromAmbient ? "ambient tetrahedra" : "constrained Delaunay");
+  writeSubMeshes(json, division);
+  writeTopology(json, content.mesh);
+  json.Key("quality");
+  const std::string qualityText = qualityJSON(quality, content.tissues);
+  json.RawValue(qualityText.c_str(), qualityText.size(), rapidjson::kObjectType);
+  json.EndObject();
+  return std::string(buffer.GetString()) + "\n";
+}
+
+std::string summaryOf(const QualityGroup& whole)
+{
+  std::ostringstream text;
+  text.precision(4);
+  text << whole.tetrahedra << " tetrahedra, " << whole.points << " points, dihedral angles " << whole.dihedral.minimum << " to "
+       << whole.dihedral.maximum << " degrees, " << 100 * whole.edgesNearTarget << " % of edges within 0.7 to 1.4 of their target";
+  return text.str();
+}
+
+void mesh(CommandLine& line)
+{
+  vtkSMPTools::Initialize(line.integer("threads"));
+  const Progress progress = line.progress();
+  report(progress, 0, "reading");
+  SurfaceFile content = readSurface(line.text("surface"));
+  const EdgeLength edgeLength = readEdgeLength(line, content);
+  report(progress, 0.1, "tetrahedra");
+  const TetraMesh ambient = ambientTetrahedra(line, content, edgeLength);
+  report(progress, 0.8, "sub-meshes");
+  SubMeshes division;
+  const MeshFile result = assemble(ambient, edgeLength, content.tissues, division);
+  report(progress, 0.9, "checks");
+  requireSound(result.mesh, "final check");
+  writeMesh(result, line.outputFile("mesh"));
+  const MeshQuality quality = assessQuality(result.mesh, result.subMesh, edgeLength);
+  const std::string reportFile = line.outputFile("report");
+  if (!reportFile.empty()) writeBytes(reportOf(result, division, quality, !line.text("ambient").empty()), reportFile);
+  line.message(summaryOf(quality.whole));
+  report(progress, 1, "done");
+}
+
+void run(CommandLine& line)
+{
+  try
+  {
+    mesh(line);
+  }
+  catch (const SurfaceRefused& refusal)
+  {
+    refuseWithTriangles(line, refusal);
+  }
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return runModule(argc, argv, moduleXML, run); }

@@ -1,0 +1,43 @@
+#include "SurfaceEdgeLength.h"
+
+#include "ComplexChecks.h"
+#include "Errors.h"
+
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStaticPointLocator.h>
+
+namespace surgicalmesher
+{
+
+EdgeLength edgeLengthFromPoints(const std::vector<Vec3>& points, const std::vector<double>& lengths)
+{
+  const auto vtkpoints = vtkSmartPointer<vtkPoints>::New();
+  vtkpoints->SetDataTypeToDouble();
+  for (const Vec3& p : points) vtkpoints->InsertNextPoint(p.x, p.y, p.z);
+  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(vtkpoints);
+  const auto locator = vtkSmartPointer<vtkStaticPointLocator>::New();
+  locator->SetDataSet(data);
+  locator->BuildLocator();
+  return [locator, lengths](const Vec3& p) { return lengths[locator->FindClosestPoint(&p.x)]; };
+}
+
+void requireCover(const ScaleField& scale, const std::vector<Vec3>& points, const std::string& scaleFile)
+{
+  constexpr double tolerance = 1e-3; // voxels: headers are rounded
+  for (const Vec3& p : points)
+  {
+    const Vec3 q = scale.grid.worldToGrid(p);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double index = q[axis] / scale.grid.spacing[axis];
+      if (index >= -0.5 - tolerance && index <= scale.grid.size[axis] - 0.5 + tolerance) continue;
+      throw InputError(
+        scaleFile + ": the scale volume leaves out part of the surface at " + place(p) + ", expected it to cover all of it");
+    }
+  }
+}
+
+} // namespace surgicalmesher
