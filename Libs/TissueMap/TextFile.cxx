@@ -2,9 +2,8 @@
 
 #include "Errors.h"
 
-#include <itksys/SystemTools.hxx>
-
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <locale>
 #include <sstream>
@@ -59,9 +58,11 @@ std::vector<std::string> splitQuoted(const std::string& line, bool merge, IsSepa
 
 void requireReadableFile(const std::string& file)
 {
-  using itksys::SystemTools;
-  if (!SystemTools::PathExists(file)) throw InputError(file + ": no such file");
-  if (SystemTools::FileIsDirectory(file)) throw InputError(file + ": is a directory, expected a file");
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw InputError(file + ": no such file");
+  if (std::filesystem::is_directory(status)) throw InputError(file + ": is a directory, expected a file");
+  if (!std::filesystem::is_regular_file(status)) throw InputError(file + ": is a device or pipe, expected a file");
   if (!std::ifstream(file.c_str(), std::ios::binary)) throw InputError(file + ": cannot be opened for reading");
 }
 

@@ -77,16 +77,18 @@ const std::string* find(const MetaData& metaData, const std::string& key)
   return found == metaData.end() ? nullptr : &found->second;
 }
 
-/// What an ITK exception says, on one line.
-std::string oneLine(const std::exception& error)
+/// The most specific line of what an ITK exception says, without the class and address that it begins with.
+std::string reasonOf(const std::exception& error)
 {
   const auto* itkError = dynamic_cast<const itk::ExceptionObject*>(&error);
-  std::string line;
-  for (const std::string& word : text::splitWords(itkError ? itkError->GetDescription() : error.what()))
+  std::string reason;
+  for (const std::string& line : text::splitLines(itkError ? itkError->GetDescription() : error.what()))
   {
-    for (const std::string& part : text::splitLines(word)) line += (line.empty() ? "" : " ") + part;
+    if (!text::trimmed(line).empty()) reason = text::trimmed(line);
   }
-  return line.substr(0, 300);
+  const std::size_t address = reason.find("(0x");
+  const std::size_t end = address == std::string::npos ? address : reason.find("): ", address);
+  return end == std::string::npos ? reason : reason.substr(end + 3);
 }
 
 std::vector<itk::ImageIOBase::Pointer> imageFormats()
@@ -112,7 +114,7 @@ itk::ImageIOBase::Pointer openImage(const std::string& file)
     }
     catch (const std::exception& error)
     {
-      throw InputError(file + ": the image header cannot be read (" + oneLine(error) + ")");
+      throw InputError(file + ": the image header cannot be read (" + reasonOf(error) + ")");
     }
   }
   throw InputError(file + ": not an image that can be read, expected " + formatNames);
@@ -333,7 +335,7 @@ Volume readVolume(const std::string& file)
   }
   catch (const std::exception& error)
   {
-    throw InputError(file + ": the image data cannot be read, truncated or damaged (" + oneLine(error) + ")");
+    throw InputError(file + ": the image data cannot be read, truncated or damaged (" + reasonOf(error) + ")");
   }
   return volume;
 }
@@ -523,7 +525,7 @@ void writeVolume(const Grid& grid, itk::IOComponentEnum type, const void* data, 
   }
   catch (const std::exception& error)
   {
-    throw InputError(file + ": cannot be written (" + oneLine(error) + ")");
+    throw InputError(file + ": cannot be written (" + reasonOf(error) + ")");
   }
 }
 

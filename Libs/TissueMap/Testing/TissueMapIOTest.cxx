@@ -1,0 +1,514 @@
+#include "TestFiles.h"
+#include "TissueMapIO.h"
+
+#include <algorithm>
+#include <functional>
+#include <random>
+
+#ifdef __unix__
+#include <csignal>
+#include <sys/resource.h>
+#endif
+
+using namespace surgicalmesher;
+using namespace surgicalmesher::test;
+
+namespace
+{
+
+constexpr char jhu189[] = "/usr/share/mricron/templates/jhu189.nii.gz";
+
+/// An anisotropic map of random labels, no two layers alike.
+TissueMap noisyMap()
+{
+  TissueMap map;
+  map.grid.size = { 4, 5, 6 };
+  map.grid.spacing = { 1, 1.5, 2.5 };
+  map.grid.origin = { -20, 7, 3 };
+  std::mt19937 random(7);
+  for (std::size_t n = 0; n < map.grid.voxelCount(); ++n) map.labels.push_back(Label(random() % 9));
+  return map;
+}
+
+/// Too large for one buffer of a library.
+TissueMap largeMap()
+{
+  TissueMap map;
+  map.grid.size = { 64, 64, 64 };
+  std::mt19937 random(11);
+  for (std::size_t n = 0; n < map.grid.voxelCount(); ++n) map.labels.push_back(Label(random() % 9));
+  return map;
+}
+
+Vec3 rotated(const Vec3& v, const Vec3& unitAxis, double angle)
+{
+  return std::cos(angle) * v + std::sin(angle) * cross(unitAxis, v) + (1 - std::cos(angle)) * dot(unitAxis, v) * unitAxis;
+}
+
+Grid rotated(Grid grid, const Vec3& axis, double angle)
+{
+  const Vec3 unit = axis / norm(axis);
+  for (Vec3& a : grid.axes) a = rotated(a, unit, angle);
+  grid.origin = rotated(grid.origin, unit, angle);
+  return grid;
+}
+
+/// The same voxels in space, stored with axis a of the file running along (or, flipped, against) axis source[a].
+std::string stored(const TissueMap& map, const std::array<int, 3>& source, int flips)
+{
+  Grid grid;
+  grid.origin = map.grid.origin;
+  for (int a = 0; a < 3; ++a)
+  {
+    const int s = source[a];
+    const bool isFlipped = flips >> a & 1;
+    grid.size[a] = map.grid.size[s];
+    grid.spacing[a] = map.grid.spacing[s];
+    grid.axes[a] = (isFlipped ? -1.0 : 1.0) * map.grid.axes[s];
+    if (isFlipped) grid.origin += (map.grid.size[s] - 1) * map.grid.spacing[s] * map.grid.axes[s];
+  }
+  std::vector<Label> labels;
+  for (int k = 0; k < grid.size[2]; ++k)
+  {
+    for (int j = 0; j < grid.size[1]; ++j)
+    {
+      for (int i = 0; i < grid.size[0]; ++i)
+      {
+        const int position[3] = { i, j, k };
+        std::array<int, 3> voxel;
+        for (int a = 0; a < 3; ++a) voxel[source[a]] = flips >> a & 1 ? grid.size[a] - 1 - position[a] : position[a];
+        labels.push_back(map.labels[map.grid.index(voxel[0], voxel[1], voxel[2])]);
+      }
+    }
+  }
+  return nrrd("uint16", nrrdGeometry(grid), labels);
+}
+
+/// All 48 ways to store a map.
+void forEachCopy(const TissueMap& map, const std::function<void(const std::string& content)>& visit)
+{
+  std::array<int, 3> source{ 0, 1, 2 };
+  do
+  {
+    for (int flips = 0; flips < 8; ++flips) visit(stored(map, source, flips));
+  } while (std::next_permutation(source.begin(), source.end()));
+}
+
+void expectNear(const Vec3& a, const Vec3& b, double tolerance) { EXPECT_LT(norm(a - b), tolerance); }
+
+void expectSameGrid(const Grid& a, const Grid& b, double tolerance = 1e-9)
+{
+  EXPECT_EQ(a.size, b.size);
+  expectNear(a.spacing, b.spacing, tolerance);
+  expectNear(a.origin, b.origin, tolerance);
+  for (int axis = 0; axis < 3; ++axis) expectNear(a.axes[axis], b.axes[axis], tolerance);
+}
+
+template <typename T>
+void expectSameLabelsAs(const TissueMap& map, const std::string& type)
+{
+  const TemporaryFolder folder;
+  const std::vector<T> values(map.labels.begin(), map.labels.end());
+  const std::string file = folder.write("map.nrrd", nrrd(type, nrrdGeometry(map.grid), values));
+  EXPECT_EQ(readTissueMap(file).labels, map.labels) << type;
+}
+
+template <typename T>
+void expectRefused(const std::string& type, T bad, const std::string& expected)
+{
+  const TemporaryFolder folder;
+  std::vector<T> values(8, T(1));
+  values[5] = bad;
+  const std::string file = folder.write("map.nrrd", nrrd(type, cubeGeometry(2), values));
+  expectInputError([&] { readTissueMap(file); }, file, expected);
+}
+
+void expectFileRefused(const std::string& name, const std::string& content, const std::string& expected)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write(name, content);
+  expectInputError([&] { readTissueMap(file); }, file, expected);
+}
+
+/// A NIfTI-1 file of bytes; sform and qform may each be absent (code 0).
+struct Nifti
+{
+  std::array<short, 8> dim{ 3, 2, 3, 4, 1, 1, 1, 1 };
+  std::array<float, 3> pixdim{ 1, 1, 1 };
+  short qformCode = 0;
+  short sformCode = 0;
+  std::array<float, 12> srow{};
+  float slope = 0;
+
+  std::string content(std::size_t voxelBytes) const
+  {
+    std::string file(352, '\0');
+    const auto put = [&](std::size_t at, const auto& value) { std::memcpy(&file[at], &value, sizeof(value)); };
+    put(0, std::int32_t(348));
+    put(40, dim);
+    put(70, short(2)); // unsigned 8 bit
+    put(72, short(8));
+    put(76, 1.f);
+    put(80, pixdim);
+    put(108, 352.f);
+    put(112, slope);
+    put(252, qformCode);
+    put(254, sformCode);
+    put(280, srow);
+    std::memcpy(&file[344], "n+1", 4);
+    for (std::size_t n = 0; n < voxelBytes; ++n) file += char(n % 3);
+    return file;
+  }
+};
+
+class EveryFormat : public testing::TestWithParam<const char*>
+{
+};
+
+} // namespace
+
+TEST(ReadTissueMap, BringsEveryStorageOrderToTheSameMap)
+{
+  const TissueMap map = noisyMap();
+  const TemporaryFolder folder;
+  forEachCopy(map, [&](const std::string& content) {
+    const TissueMap copy = readTissueMap(folder.write("copy.nrrd", content));
+    EXPECT_EQ(copy.labels, map.labels);
+    expectSameGrid(copy.grid, map.grid);
+  });
+}
+
+TEST(ReadTissueMap, BringsObliqueCopiesToOneMapEach)
+{
+  const double pi = std::acos(-1.0);
+  const TemporaryFolder folder;
+  // 45 degrees and a third of a turn about the diagonal: no axis is nearest, or another one is.
+  const std::vector<std::pair<Vec3, double>> rotations{ { { 1, 2, 3 }, 0.3 }, { { 0, 0, 1 }, pi / 4 }, { { 1, 0, 1 }, pi / 4 },
+    { { 1, 1, 1 }, 2 * pi / 3 }, { { 1, 1, 1 }, pi / 3 }, { { 3, -1, 2 }, 2.5 }, { { 1, 0, 0 }, pi } };
+  for (const auto& [axis, angle] : rotations)
+  {
+    TissueMap map = noisyMap();
+    map.grid = rotated(map.grid, axis, angle);
+    const TissueMap first = readTissueMap(folder.write("first.nrrd", stored(map, { 0, 1, 2 }, 0)));
+    EXPECT_NEAR(dot(cross(first.grid.axes[0], first.grid.axes[1]), first.grid.axes[2]), 1, 1e-12);
+    forEachCopy(map, [&](const std::string& content) {
+      const TissueMap copy = readTissueMap(folder.write("copy.nrrd", content));
+      EXPECT_EQ(copy.labels, first.labels);
+      expectSameGrid(copy.grid, first.grid);
+    });
+    if (angle == 0.3)
+    {
+      EXPECT_EQ(first.labels, map.labels); // a small turn keeps the order
+    }
+  }
+}
+
+TEST(ReadTissueMap, AcceptsEveryNumberType)
+{
+  const TissueMap map = noisyMap();
+  expectSameLabelsAs<std::int8_t>(map, "int8");
+  expectSameLabelsAs<std::uint8_t>(map, "uint8");
+  expectSameLabelsAs<std::int16_t>(map, "int16");
+  expectSameLabelsAs<std::uint16_t>(map, "uint16");
+  expectSameLabelsAs<std::int32_t>(map, "int32");
+  expectSameLabelsAs<std::uint32_t>(map, "uint32");
+  expectSameLabelsAs<std::int64_t>(map, "int64");
+  expectSameLabelsAs<std::uint64_t>(map, "uint64");
+  expectSameLabelsAs<float>(map, "float");
+  expectSameLabelsAs<double>(map, "double");
+}
+
+TEST(ReadTissueMap, RefusesValuesThatAreNoLabels)
+{
+  expectRefused<float>("float", 1.5f, "a voxel of value 1.5, expected labels: integers from 0 to 65535");
+  expectRefused<double>("double", std::nan(""), "nan");
+  expectRefused<float>("float", -HUGE_VALF, "-inf");
+  expectRefused<std::int16_t>("int16", -3, "a voxel of value -3");
+  expectRefused<std::int32_t>("int32", 65536, "a voxel of value 65536");
+  expectRefused<std::uint64_t>("uint64", std::uint64_t(1) << 40, "expected labels");
+}
+
+TEST(ReadTissueMap, AcceptsTheLargestLabelAndATissueThatFillsTheGrid)
+{
+  const TemporaryFolder folder;
+  const std::vector<std::uint16_t> full(8, 65535);
+  const TissueMap map = readTissueMap(folder.write("map.nrrd", nrrd("uint16", cubeGeometry(2), full)));
+  EXPECT_EQ(map.labels, full);
+  EXPECT_EQ(presentLabels(map), std::vector<Label>{ 65535 });
+}
+
+TEST(ReadTissueMap, RefusesAnEmptyMap)
+{
+  expectFileRefused("map.nrrd", nrrd("uint8", cubeGeometry(2), std::vector<std::uint8_t>(8, 0)), "no voxel but background");
+}
+
+TEST(ReadTissueMap, TakesFourDimensionsOnlyWithALastAxisOfOne)
+{
+  const std::string three = "space dimension: 3\nspace directions: (1,0,0) (0,1,0) (0,0,1) none\nspace origin: (0,0,0)\n";
+  const std::vector<std::uint8_t> twice(16, 1);
+  const std::string moving = "dimension: 4\nsizes: 2 2 2 2\nkinds: domain domain domain time\n";
+  expectFileRefused("map.nrrd", nrrd("uint8", moving, twice), "an image of 4 dimensions (2 x 2 x 2 x 2), expected 3");
+
+  const TemporaryFolder folder;
+  Nifti nifti;
+  nifti.dim = { 4, 2, 3, 4, 1, 1, 1, 1 };
+  const TissueMap map = readTissueMap(folder.write("one.nii", nifti.content(24)));
+  EXPECT_EQ(map.grid.size, (std::array<int, 3>{ 2, 3, 4 }));
+  nifti.dim = { 4, 2, 3, 4, 2, 1, 1, 1 };
+  expectFileRefused("two.nii", nifti.content(48), "dimensions");
+}
+
+TEST(ReadTissueMap, RefusesTwoDimensionsAndVectors)
+{
+  expectFileRefused("map.nrrd", nrrd("uint8", "dimension: 2\nsizes: 2 4\n", std::vector<std::uint8_t>(8, 1)), "of 2 dimensions");
+  const std::string vectors = "dimension: 4\nspace: left-posterior-superior\nsizes: 3 2 2 2\n"
+                              "kinds: vector domain domain domain\n"
+                              "space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
+  expectFileRefused("map.nrrd", nrrd("uint8", vectors, std::vector<std::uint8_t>(24, 1)), "3 values per voxel, expected one label");
+}
+
+TEST(ReadTissueMap, RefusesGeometryThatIsNone)
+{
+  const auto geometry = [](const char* directions, const char* origin) {
+    return std::string("dimension: 3\nspace: left-posterior-superior\nsizes: 2 2 2\nspace directions: ") + directions +
+           "\nspace origin: " + origin + "\n";
+  };
+  const std::vector<std::uint8_t> ones(8, 1);
+  expectFileRefused("map.nrrd", nrrd("uint8", geometry("(1,0,0) (0,0,0) (0,0,1)", "(0,0,0)"), ones), "");
+  expectFileRefused("map.nrrd", nrrd("uint8", geometry("(1,0,0) (1,0,0) (0,0,1)", "(0,0,0)"), ones), "perpendicular");
+  expectFileRefused("map.nrrd", nrrd("uint8", geometry("(1,0,0) (0.2,1,0) (0,0,1)", "(0,0,0)"), ones), "perpendicular");
+  expectFileRefused("map.nrrd", nrrd("uint8", geometry("(1,0,0) (0,1,0) (0,0,1)", "(0,nan,0)"), ones), "");
+}
+
+TEST(ReadTissueMap, RefusesGridsThatAreTooLarge)
+{
+  const std::string sizes = "dimension: 3\nsizes: 2000000 2000000 2000000\n";
+  expectFileRefused("map.nrrd", nrrd("uint8", sizes, std::vector<std::uint8_t>(8, 1)), "expected");
+  Nifti nifti;
+  nifti.dim = { 3, 32767, 32767, 32767, 1, 1, 1, 1 };
+  expectFileRefused("map.nii", nifti.content(8), "expected 1 to 2^31 voxels");
+  nifti.dim = { 3, 1290, 1290, 1290, 1, 1, 1, 1 };
+  expectFileRefused("map.nii", nifti.content(8), "truncated");
+}
+
+TEST(ReadTissueMap, RefusesWhatIsNoImage)
+{
+  const TemporaryFolder folder;
+  const std::string missing = folder.file("missing.nrrd");
+  expectInputError([&] { readTissueMap(missing); }, missing, "no such file");
+  const std::string directory = folder.file("");
+  expectInputError([&] { readTissueMap(directory); }, directory, "is a directory");
+  for (const char* name : { "text.nrrd", "text.nii", "text.nii.gz", "text.mha", "text.gipl", "text.txt", "text" })
+  {
+    expectFileRefused(name, "Once upon a time\nthere was a map.\n", "expected NRRD, NIfTI, MetaImage or GIPL");
+    expectFileRefused(name, "", "expected NRRD, NIfTI, MetaImage or GIPL");
+  }
+}
+
+TEST_P(EveryFormat, KeepsLabelsAndGrid)
+{
+  const TemporaryFolder folder;
+  TissueMap map = noisyMap();
+  const std::string file = folder.file(GetParam());
+  writeTissueMap(map, file);
+  const TissueMap copy = readTissueMap(file);
+  EXPECT_EQ(copy.labels, map.labels);
+  expectSameGrid(copy.grid, map.grid, 1e-5);
+}
+
+TEST_P(EveryFormat, RefusesEveryTruncation)
+{
+  const TemporaryFolder folder;
+  TissueMap map = noisyMap();
+  const std::string file = folder.file(GetParam());
+  writeTissueMap(map, file);
+  const std::string whole = readBytes(file);
+  for (const std::size_t missing : { std::size_t(1), std::size_t(6), whole.size() / 10, whole.size() / 2 })
+  {
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << whole.substr(0, whole.size() - missing);
+    expectInputError([&] { readTissueMap(file); }, file, "");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(ReadTissueMap, EveryFormat,
+  testing::Values("map.nrrd", "map.nii", "map.nii.gz", "map.mha", "map.gipl", "map.gipl.gz"));
+
+TEST(ReadTissueMap, FindsTheVoxelsOfADetachedHeaderAndMissesThemInTime)
+{
+  const TemporaryFolder folder;
+  const TissueMap map = noisyMap();
+  for (const auto& [header, data] : { std::pair("map.mhd", "map.zraw"), std::pair("map.nhdr", "map.raw.gz") })
+  {
+    writeTissueMap(map, folder.file(header));
+    EXPECT_EQ(readTissueMap(folder.file(header)).labels, map.labels);
+    const std::string whole = readBytes(folder.file(data));
+    std::ofstream(folder.file(data), std::ios::binary | std::ios::trunc) << whole.substr(0, whole.size() / 2);
+    expectInputError([&] { readTissueMap(folder.file(header)); }, folder.file(data), "truncated");
+    std::filesystem::remove(folder.file(data));
+    expectInputError([&] { readTissueMap(folder.file(header)); }, folder.file(header), "");
+  }
+}
+
+TEST(ReadTissueMap, RefusesCompressedDataWithAWrongCheckSum)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.file("map.nii.gz");
+  writeTissueMap(largeMap(), file);
+  std::string content = readBytes(file);
+  content[content.size() - 7] = char(~content[content.size() - 7]);
+  std::ofstream(file, std::ios::binary | std::ios::trunc) << content;
+  expectInputError([&] { readTissueMap(file); }, file, "truncated or damaged");
+}
+
+TEST(ReadTissueMap, PlacesNiftiBySformBeforeQform)
+{
+  const TemporaryFolder folder;
+  Nifti nifti;
+  nifti.qformCode = 2; // identity, at the origin
+  nifti.sformCode = 2;
+  nifti.srow = { -2, 0, 0, 10, 0, 2, 0, -20, 0, 0, 2, -30 }; // RAS
+  const TissueMap map = readTissueMap(folder.write("map.nii", nifti.content(24)));
+  Grid expected;
+  expected.size = { 2, 3, 4 };
+  expected.spacing = { 2, 2, 2 };
+  expected.origin = { -10, 20 - 2 * 2, -30 }; // the second axis runs anterior and is turned
+  expectSameGrid(map.grid, expected);
+
+  nifti.sformCode = 0;
+  const TissueMap byQform = readTissueMap(folder.write("map.nii", nifti.content(24)));
+  expectNear(byQform.grid.spacing, { 1, 1, 1 }, 1e-6);
+}
+
+TEST(ReadTissueMap, ReadsScaledNifti)
+{
+  const TemporaryFolder folder;
+  Nifti nifti;
+  nifti.sformCode = 1;
+  nifti.srow = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
+  nifti.slope = 100;
+  EXPECT_EQ(presentLabels(readTissueMap(folder.write("map.nii", nifti.content(24)))), (std::vector<Label>{ 100, 200 }));
+}
+
+TEST(ReadTissueMap, LaysJhu189IntoItsAtlasSpace)
+{
+  if (!std::filesystem::exists(jhu189)) GTEST_SKIP() << "mricron-data is not installed";
+  const TissueMap map = readTissueMap(jhu189);
+  EXPECT_EQ(presentLabels(map).size(), 189u);
+  EXPECT_EQ(map.grid.size, (std::array<int, 3>{ 157, 189, 136 }));
+  // The anterior commissure is the origin of the atlas: voxels around it are brain.
+  const Vec3 index = map.grid.worldToGrid({ 0, 0, -10 });
+  EXPECT_TRUE(map.grid.contains(int(index.x), int(index.y), int(index.z)));
+}
+
+TEST(Segmentation, KeepsNamesColoursAndLabelsOfASharedLayer)
+{
+  const TemporaryFolder folder;
+  const std::string segments = "Segment0_ID:=Segment_1\nSegment0_Name:=optic nerve\nSegment0_Color:=1 0.5 0\n"
+                               "Segment0_LabelValue:=4\nSegment0_Layer:=0\n"
+                               "Segment1_ID:=Segment_2\nSegment1_Name:=bone\nSegment1_Color:=0.9 0.9 0.8\n"
+                               "Segment1_LabelValue:=2\nSegment1_Layer:=0\n";
+  const std::vector<std::uint8_t> values{ 0, 0, 4, 4, 2, 2, 2, 0 };
+  const TissueMap map = readTissueMap(folder.write("a.seg.nrrd", nrrd("uint8", cubeGeometry(2), values, segments)));
+  EXPECT_EQ(map.labels, std::vector<Label>(values.begin(), values.end()));
+  ASSERT_EQ(map.table.size(), 2u);
+  EXPECT_EQ(map.table.at(4).name, "optic nerve");
+  EXPECT_EQ(map.table.at(4).color, (std::array<double, 3>{ 1, 0.5, 0 }));
+  EXPECT_EQ(map.table.at(2).name, "bone");
+
+  writeTissueMap(map, folder.file("b.seg.nrrd"));
+  const TissueMap copy = readTissueMap(folder.file("b.seg.nrrd"));
+  EXPECT_EQ(copy.labels, map.labels);
+  EXPECT_EQ(copy.table.at(4).name, "optic nerve");
+  EXPECT_EQ(copy.table.at(2).color, map.table.at(2).color);
+}
+
+TEST(Segmentation, MergesLayersAndLetsTheLaterSegmentWin)
+{
+  const TemporaryFolder folder;
+  const std::string geometry = "dimension: 4\nspace: left-posterior-superior\nsizes: 2 2 2 1\nkinds: list domain domain domain\n"
+                               "space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
+  const auto segment = [](int n, int layer, int value) {
+    const std::string prefix = "Segment" + std::to_string(n);
+    return prefix + "_ID:=s" + std::to_string(n) + "\n" + prefix + "_Name:=s" + std::to_string(n) + "\n" + prefix +
+           "_Layer:=" + std::to_string(layer) + "\n" + prefix + "_LabelValue:=" + std::to_string(value) + "\n";
+  };
+  const std::vector<std::uint8_t> layers{ 1, 0, 1, 1, 2, 1, 0, 0 }; // layer 0 and layer 1 of each of four voxels
+  const std::string same = segment(0, 0, 1) + segment(1, 1, 1) + segment(2, 0, 2);
+  const TissueMap map = readTissueMap(folder.write("a.seg.nrrd", nrrd("uint8", geometry, layers, same)));
+  EXPECT_EQ(map.labels, (std::vector<Label>{ 1, 2, 3, 0 })); // value 1 is in both layers: numbered by the header
+  EXPECT_EQ(map.table.at(3).name, "s2");
+
+  const std::vector<std::uint8_t> distinct{ 1, 0, 1, 7, 2, 7, 0, 0 };
+  const std::string unlike = segment(0, 0, 1) + segment(1, 1, 7) + segment(2, 0, 2);
+  EXPECT_EQ(readTissueMap(folder.write("b.seg.nrrd", nrrd("uint8", geometry, distinct, unlike))).labels,
+    (std::vector<Label>{ 1, 7, 2, 0 }));
+
+  expectFileRefused("c.seg.nrrd", nrrd("uint8", geometry, distinct, same), "which no segment of the header has");
+  expectFileRefused("d.seg.nrrd", nrrd("uint8", geometry, distinct, segment(0, 2, 1)), "Segment0_Layer");
+}
+
+TEST(WriteTissueMap, RefusesUnknownExtensionsAndMissingFolders)
+{
+  const TemporaryFolder folder;
+  const TissueMap map = noisyMap();
+  expectInputError([&] { writeTissueMap(map, folder.file("map.stl")); }, folder.file("map.stl"), "expected the extension of");
+  const std::string lost = folder.file("nowhere/map.nrrd");
+  expectInputError([&] { writeTissueMap(map, lost); }, lost, "cannot be written");
+}
+
+#ifdef __unix__
+TEST(WriteTissueMap, NoticesAFullDisk)
+{
+  const TemporaryFolder folder;
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{ 400, before.rlim_max }; // files may not grow beyond: the libraries see failing writes
+  setrlimit(RLIMIT_FSIZE, &small);
+  for (const char* name : { "map.nrrd", "map.nii", "map.nii.gz", "map.mha", "map.gipl" })
+  {
+    expectInputError([&] { writeTissueMap(largeMap(), folder.file(name)); }, folder.file(name), "cannot be written");
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+}
+#endif
+
+TEST(Scale, SurvivesWritingAndReading)
+{
+  const TemporaryFolder folder;
+  ScaleField scale;
+  scale.grid = rotated(noisyMap().grid, { 1, 2, 3 }, 0.3);
+  for (std::size_t n = 0; n < scale.grid.voxelCount(); ++n) scale.lengths.push_back(1 + 0.1f * float(n));
+  writeScale(scale, folder.file("scale.nrrd"));
+  const ScaleField copy = readScale(folder.file("scale.nrrd"));
+  EXPECT_EQ(copy.lengths, scale.lengths);
+  expectSameGrid(copy.grid, scale.grid);
+}
+
+TEST(Scale, RefusesLengthsThatAreNone)
+{
+  for (const float bad : { 0.f, -1.f, std::nanf(""), HUGE_VALF })
+  {
+    const TemporaryFolder folder;
+    std::vector<float> lengths(8, 2.f);
+    lengths[3] = bad;
+    const std::string file = folder.write("scale.nrrd", nrrd("float", cubeGeometry(2), lengths));
+    expectInputError([&] { readScale(file); }, file, "expected more than 0 mm");
+  }
+}
+
+TEST(Scale, HasToCoverTheMap)
+{
+  ScaleField scale = uniformScale(1);
+  scale.grid.size = { 10, 10, 10 };
+  Grid map;
+  map.size = { 20, 20, 20 };
+  map.spacing = { 0.5, 0.5, 0.5 };
+  map.origin = { -0.25, -0.25, -0.25 }; // outer faces coincide
+  EXPECT_NO_THROW(requireCover(scale, map, "scale.nrrd"));
+  map.origin.y = -0.3;
+  expectInputError([&] { requireCover(scale, map, "scale.nrrd"); }, "scale.nrrd", "leaves out part of the label map");
+  map = rotated(map, { 0, 0, 1 }, 0.5);
+  expectInputError([&] { requireCover(scale, map, "scale.nrrd"); }, "scale.nrrd", "leaves out part of the label map");
+}
