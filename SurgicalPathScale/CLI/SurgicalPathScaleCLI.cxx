@@ -302,6 +302,8 @@ void writeReport(const std::string& file, const CommandLine& line, const Focus& 
 void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, Results& results)
 {
   const std::string file = line.outputFile("outputLabelMap");
+  const bool isAskedFor = line.number("nullDisplacementRadius") > 0 || line.number("nullDisplacementPathDistance") > 0;
+  if (file.empty() && isAskedFor) results.warnings.push_back("null displacement goes nowhere without --outputLabelMap");
   if (file.empty()) return;
   results.nullDisplacement =
     markNullDisplacement(map, focus.targets, focus.paths, readNullDisplacement(line, map.table));

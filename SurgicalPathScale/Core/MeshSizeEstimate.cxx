@@ -12,11 +12,11 @@ namespace
 {
 
 // The model's constants, fitted to meshes of jhu189 and of whole heads.
-constexpr double tetrahedronVolume = 0.11;         ///< c: mean volume at unit edge; a BCC tetrahedron of unit mean edge has 0.110
+constexpr double tetrahedronVolume = 0.11;          ///< c: mean volume at unit edge; a BCC tetrahedron of unit mean edge has 0.110
 constexpr double tetrahedraPerTriangle = 0.5;      ///< b
-constexpr double smoothArea = 2.0 / 3.0;           ///< smooth area per area of voxel faces, mean over directions
-constexpr double edgePerThickness = 1.0;           ///< longest edge in a tissue of unit thickness 4 V / A
-constexpr double blockSide = 4;                    ///< mm; thickness is measured over 3 x 3 x 3 blocks
+constexpr double smoothArea = 2.0 / 3.0;            ///< smooth area per area of voxel faces, mean over directions
+constexpr double edgePerThickness = 1.0;            ///< longest edge in a tissue of unit thickness 4 V / A
+constexpr double blockSide = 4;                     ///< mm; thickness is measured over 3 x 3 x 3 blocks
 
 /// What one tissue has in one block.
 struct Share

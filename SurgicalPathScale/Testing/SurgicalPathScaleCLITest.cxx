@@ -1,0 +1,184 @@
+// The executable as a host sees it: exit status, streams and files.
+
+#include "../../Libs/TissueMap/Testing/TestFiles.h"
+#include "TissueMapIO.h"
+
+#include <rapidjson/document.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+using namespace surgicalmesher;
+using namespace surgicalmesher::test;
+
+namespace
+{
+
+struct Outcome
+{
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+/// A folder with a map of 24 x 20 x 16 mm, a target, a path and the runs on them. Arguments are as in a shell; file names
+/// are relative to the folder.
+class SurgicalPathScaleCLI : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    map.grid.size = { 12, 10, 8 };
+    map.grid.spacing = { 2, 2, 2 };
+    map.grid.origin = { 5, -9, 30 };
+    map.labels.assign(map.grid.voxelCount(), 1);
+    for (std::size_t n = 0; n < map.labels.size(); n += 3) map.labels[n] = 7;
+    folder.write("map.nrrd", nrrd("uint16", nrrdGeometry(map.grid), map.labels));
+    folder.write("target.fcsv", "# CoordinateSystem = LPS\nF,10,0,40\n");
+    folder.write("path.fcsv", "# CoordinateSystem = LPS\nF,5,-9,30\nF,10,0,40\n");
+    fileCount = folder.fileCount();
+  }
+
+  Outcome run(const std::string& arguments) const
+  {
+    const TemporaryFolder streams;
+    const std::string command = "cd '" + folder.file("") + "' && '" SURGICALPATHSCALECLI "' " + arguments + " >'" +
+                                streams.file("out") + "' 2>'" + streams.file("err") + "'";
+    const int status = std::system(command.c_str());
+    return { WIFEXITED(status) ? WEXITSTATUS(status) : -1, readBytes(streams.file("out")), readBytes(streams.file("err")) };
+  }
+
+  /// That the run ends with this status, one line on stderr that holds `expected`, and no file more than before.
+  void expectRefused(const std::string& arguments, int status, const std::string& expected) const
+  {
+    const Outcome result = run(arguments);
+    EXPECT_EQ(result.status, status) << arguments << "\n" << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
+    EXPECT_EQ(folder.fileCount(), fileCount) << arguments;
+  }
+
+  void expectDone(const std::string& arguments) const
+  {
+    const Outcome result = run(arguments);
+    EXPECT_EQ(result.status, 0) << arguments << "\n" << result.err;
+    EXPECT_EQ(result.err, "");
+  }
+
+  TemporaryFolder folder;
+  TissueMap map;
+  std::size_t fileCount = 0;
+};
+
+} // namespace
+
+TEST_F(SurgicalPathScaleCLI, WritesAScaleThatCoversTheMap)
+{
+  expectDone("--targets target.fcsv --spacing 3 map.nrrd scale.nrrd");
+  const ScaleField scale = readScale(folder.file("scale.nrrd"));
+  EXPECT_NO_THROW(requireCover(scale, map.grid, "scale.nrrd"));
+  EXPECT_NEAR(scale({ 10, 0, 40 }), 1, 1e-6);
+  EXPECT_EQ(folder.fileCount(), fileCount + 1);
+}
+
+TEST_F(SurgicalPathScaleCLI, TakesTargetsInEveryFormAlike)
+{
+  folder.write("ras.fcsv", "# CoordinateSystem = 0\nF,-10,0,40\n");
+  const std::string json = R"({"markups":[{"type":"Fiducial","coordinateSystem":"RAS","controlPoints":[{"position":[-10,0,40]}]}]})";
+  folder.write("ras.mrk.json", json);
+  expectDone("--targets target.fcsv --childRadius 2 map.nrrd a.nrrd");
+  expectDone("--targets ras.fcsv --childRadius 2 map.nrrd b.nrrd");
+  expectDone("--targets ras.mrk.json --childRadius 2 map.nrrd c.nrrd");
+  expectDone("--targetPoint 10,0,40 --childRadius 2 --threads 1 map.nrrd d.nrrd");
+  const std::string a = readBytes(folder.file("a.nrrd"));
+  for (const char* other : { "b.nrrd", "c.nrrd", "d.nrrd" }) EXPECT_EQ(readBytes(folder.file(other)), a) << other;
+}
+
+TEST_F(SurgicalPathScaleCLI, WritesTheNullDisplacementMap)
+{
+  folder.write("names.ctbl", "1 bone 200 200 180 255\n7 skin 255 200 150 255\n9 absent 1 2 3 255\n");
+  expectDone("--path path.fcsv --nullDisplacementPathDistance 5 --nullDisplacementTissues skin --names names.ctbl "
+             "--outputLabelMap far.nrrd map.nrrd scale.nrrd");
+  const TissueMap far = readTissueMap(folder.file("far.nrrd"));
+  EXPECT_EQ(presentLabels(far), (std::vector<Label>{ 1, 7, 8 }));
+  EXPECT_EQ(far.table.at(8).name, "null displacement");
+  EXPECT_EQ(far.table.at(1).name, "bone");
+  EXPECT_EQ(far.table.count(9), 0u);
+  for (std::size_t n = 0; n < far.labels.size(); ++n) EXPECT_EQ(far.labels[n] == 1, map.labels[n] == 1);
+}
+
+TEST_F(SurgicalPathScaleCLI, ReportsWhatItFound)
+{
+  folder.write("lengths.csv", "label,minimum,maximum,factor\n7,0.5,2,\n");
+  expectDone("--targets target.fcsv --path path.fcsv --tissueLengths lengths.csv --gradation 0.2 --report r.json "
+             "--returnparameterfile r.txt map.nrrd scale.nrrd");
+  rapidjson::Document report;
+  report.Parse(readBytes(folder.file("r.json")).c_str());
+  ASSERT_TRUE(report.IsObject());
+  EXPECT_EQ(report["map"]["tissues"].GetInt(), 2);
+  EXPECT_EQ(report["paths"].Size(), 1u);
+  EXPECT_EQ(report["parameters"]["tissuesWithOwnLengths"].GetInt(), 1);
+  EXPECT_EQ(report["parameters"]["gradation"].GetDouble(), 0.2);
+  EXPECT_EQ(report["warnings"].Size(), 0u);
+  const std::string tetrahedra = "estimatedTetrahedra = " + std::to_string(report["estimate"]["tetrahedra"].GetInt64());
+  EXPECT_GT(report["estimate"]["tetrahedra"].GetInt64(), 0);
+  EXPECT_NE(readBytes(folder.file("r.txt")).find(tetrahedra), std::string::npos);
+}
+
+TEST_F(SurgicalPathScaleCLI, SaysThatATargetLiesOutside)
+{
+  const Outcome result = run("--targetPoint 500,0,40 --report r.json map.nrrd scale.nrrd");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_NE(result.out.find("target (500, 0, 40) mm LPS lies outside the label map"), std::string::npos) << result.out;
+}
+
+TEST_F(SurgicalPathScaleCLI, RefusesBadInputWithOneLineAndStatusOne)
+{
+  folder.write("point.fcsv", "F,1,2,3\n");
+  folder.write("nan.fcsv", "F,1,nan,3\n");
+  folder.write("broken.mrk.json", "{");
+  folder.write("text.nrrd", "not a map\n");
+  folder.write("empty.nrrd", nrrd("uint8", cubeGeometry(2), std::vector<std::uint8_t>(8, 0)));
+  folder.write("real.nrrd", nrrd("float", cubeGeometry(2), std::vector<float>(8, 0.5f)));
+  folder.write("negative.nrrd", nrrd("int16", cubeGeometry(2), std::vector<std::int16_t>(8, -1)));
+  writeTissueMap(map, folder.file("cut.nii.gz"));
+  const std::string whole = readBytes(folder.file("cut.nii.gz"));
+  folder.write("cut.nii.gz", whole.substr(0, whole.size() / 2));
+  folder.write("lengths.csv", "label,minimum\nnobody,2\n");
+  fileCount = folder.fileCount();
+  expectRefused("--targetPoint 0,0,0 missing.nrrd scale.nrrd", 1, "missing.nrrd: no such file");
+  expectRefused("--targetPoint 0,0,0 . scale.nrrd", 1, "is a directory");
+  expectRefused("--targetPoint 0,0,0 text.nrrd scale.nrrd", 1, "text.nrrd: ");
+  expectRefused("--targetPoint 0,0,0 empty.nrrd scale.nrrd", 1, "empty.nrrd: no voxel but background");
+  expectRefused("--targetPoint 0,0,0 real.nrrd scale.nrrd", 1, "real.nrrd: a voxel of value 0.5");
+  expectRefused("--targetPoint 0,0,0 negative.nrrd scale.nrrd", 1, "negative.nrrd: a voxel of value -1");
+  expectRefused("--targetPoint 0,0,0 cut.nii.gz scale.nrrd", 1, "cut.nii.gz: ");
+  expectRefused("--targets missing.fcsv map.nrrd scale.nrrd", 1, "missing.fcsv: no such file");
+  expectRefused("--targets nan.fcsv map.nrrd scale.nrrd", 1, "nan.fcsv:1: ");
+  expectRefused("--targets broken.mrk.json map.nrrd scale.nrrd", 1, "broken.mrk.json: not valid JSON");
+  expectRefused("--path point.fcsv map.nrrd scale.nrrd", 1, "point.fcsv: a path of one point");
+  expectRefused("--targets target.fcsv --tissueLengths lengths.csv map.nrrd scale.nrrd", 1, "lengths.csv:2: ");
+  expectRefused("--targets target.fcsv map.nrrd nowhere/scale.nrrd", 1, "nowhere");
+}
+
+TEST_F(SurgicalPathScaleCLI, RefusesBadCommandLinesWithOneLineAndStatusTwo)
+{
+  const std::string target = "--targets target.fcsv ";
+  expectRefused("map.nrrd scale.nrrd", 2, "neither a target nor a path");
+  expectRefused("--pathPoint 0,0,0 map.nrrd scale.nrrd", 2, "--pathPoint is given once");
+  expectRefused(target + "--combine path map.nrrd scale.nrrd", 2, "the paths alone count, but none is given");
+  expectRefused(target + "--minimumEdgeLength 9 map.nrrd scale.nrrd", 2, "is above the maximum");
+  for (const char* option : { "--minimumEdgeLength", "--maximumEdgeLength", "--decayLength", "--spacing" })
+  {
+    for (const char* value : { "0", "-1", "nan", "inf", "1e999", "two" })
+    {
+      expectRefused(target + option + " " + value + " map.nrrd scale.nrrd", 2, option + 2);
+    }
+  }
+  expectRefused(target + "--outputLabelMap far.nrrd map.nrrd scale.nrrd", 2, "null-displacement");
+  expectRefused(target + "--nullDisplacementPathDistance 5 --outputLabelMap far.nrrd map.nrrd scale.nrrd", 2, "but no path");
+  expectRefused(target + "--nullDisplacementRadius 5 --nullDisplacementTissues pituitary --outputLabelMap far.nrrd "
+                         "map.nrrd scale.nrrd", 2, "\"pituitary\" is neither a label nor");
+}
