@@ -276,6 +276,66 @@ std::vector<std::int32_t> orientShells(SurfaceComplex& surface, const Neighbours
   return shell;
 }
 
+// ---- points ---------------------------------------------------------------------------------------------------------
+
+/// Points of a foreign surface closer than this share of its diagonal are one: seams of revolved shapes, whose sines differ
+/// in the last digits, and coordinates in single precision.
+constexpr double kSamePlace = 1e-6;
+
+/// Gives points their ids; one within the tolerance of an earlier one, or in the same cube of that width, gets its id.
+class PointMerger
+{
+public:
+  explicit PointMerger(double tolerance) : m_Tolerance(tolerance) {}
+
+  std::int32_t idOf(const Vec3& p, std::vector<Vec3>& points)
+  {
+    const Cube cube = m_Tolerance > 0 ? cubeOf(p) : Cube{ p.x, p.y, p.z };
+    const auto [entry, isNew] = m_Ids.emplace(cube, static_cast<std::int32_t>(points.size()));
+    if (!isNew) return entry->second;
+    const std::int32_t near = m_Tolerance > 0 ? neighbour(p, cube, points) : -1;
+    if (near >= 0) return entry->second = near;
+    points.push_back(p);
+    return entry->second;
+  }
+
+private:
+  using Cube = std::array<double, 3>;
+
+  Cube cubeOf(const Vec3& p) const
+  {
+    return { std::floor(p.x / m_Tolerance), std::floor(p.y / m_Tolerance), std::floor(p.z / m_Tolerance) };
+  }
+
+  std::int32_t neighbour(const Vec3& p, const Cube& cube, const std::vector<Vec3>& points) const
+  {
+    for (int step = 0; step < 27; ++step)
+    {
+      const Cube at{ cube[0] + step % 3 - 1, cube[1] + step / 3 % 3 - 1, cube[2] + step / 9 - 1 };
+      const auto found = at == cube ? m_Ids.end() : m_Ids.find(at);
+      if (found != m_Ids.end() && norm(points[found->second] - p) <= m_Tolerance) return found->second;
+    }
+    return -1;
+  }
+
+  double m_Tolerance;
+  std::map<Cube, std::int32_t> m_Ids;
+};
+
+double diagonalOf(const std::vector<Vec3>& points)
+{
+  Vec3 low = points.front(), high = low;
+  for (const Vec3& p : points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+  }
+  return norm(high - low);
+}
+
 // ---- nesting --------------------------------------------------------------------------------------------------------
 
 struct Shell
@@ -364,19 +424,12 @@ void requireFillable(const SurfaceComplex& surface, const std::string& name)
   requireNoIntersections(surface, name);
 }
 
-SurfaceComplex withoutDuplicatePoints(const SurfaceComplex& surface)
+SurfaceComplex withoutDuplicatePoints(const SurfaceComplex& surface, double tolerance)
 {
   SurfaceComplex result;
-  std::map<std::tuple<double, double, double>, std::int32_t> ids;
-  std::vector<std::int32_t> newId(surface.points.size());
-  for (std::size_t i = 0; i < newId.size(); ++i)
-  {
-    const Vec3& p = surface.points[i];
-    const auto [entry, isNew] =
-      ids.emplace(std::make_tuple(p.x, p.y, p.z), static_cast<std::int32_t>(result.points.size()));
-    if (isNew) result.points.push_back(p);
-    newId[i] = entry->second;
-  }
+  PointMerger merger(tolerance);
+  std::vector<std::int32_t> newId;
+  for (const Vec3& p : surface.points) newId.push_back(merger.idOf(p, result.points));
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
   {
     const auto& [i, j, k] = surface.triangles[t];
@@ -390,7 +443,8 @@ SurfaceComplex withoutDuplicatePoints(const SurfaceComplex& surface)
 
 SurfaceComplex closedShellsToTissues(const SurfaceComplex& surface, const std::string& name)
 {
-  SurfaceComplex result = withoutDuplicatePoints(surface);
+  if (surface.points.empty()) throw InputError(name + ": no points, expected closed shells");
+  SurfaceComplex result = withoutDuplicatePoints(surface, kSamePlace * diagonalOf(surface.points));
   result.labels.clear();
   if (result.triangles.empty()) throw InputError(name + ": no triangle with an area, expected closed shells");
   requireNoIntersections(result, name);

@@ -17,13 +17,14 @@ std::vector<std::pair<std::int32_t, std::int32_t>> selfIntersections(const Surfa
 /// `name` says in messages what the surface is: its file.
 void requireFillable(const SurfaceComplex& surface, const std::string& name);
 
-/// Points at the very same place become one (the first), in the order of their first appearance; triangles that become
-/// degenerate by that are dropped. STL files repeat each point in every triangle.
-SurfaceComplex withoutDuplicatePoints(const SurfaceComplex& surface);
+/// Points within `tolerance` mm (0: at the very same place) of an earlier one become that one; points keep the order of
+/// their first appearance. Triangles that become degenerate by that are dropped. STL files repeat each point in every
+/// triangle.
+SurfaceComplex withoutDuplicatePoints(const SurfaceComplex& surface, double tolerance = 0);
 
 /// Label pairs for a surface without any: each closed shell (triangles joined through edges) is a tissue, numbered from 1
 /// in the order of their first triangles. Triangles are turned so that their normals point out of their shell; in front
-/// lies the tissue of the innermost shell around it, or 0. Points are merged first.
+/// lies the tissue of the innermost shell around it, or 0. Points closer than a millionth of the diagonal are merged first.
 /// Throws SurfaceRefused for open shells, for edges with more than two triangles, for shells that can't be oriented and
 /// for self-intersections; InputError for more than 65535 shells.
 SurfaceComplex closedShellsToTissues(const SurfaceComplex& surface, const std::string& name);

@@ -147,6 +147,17 @@ TEST(ClosedShellsToTissues, MergesPointsAndResolvesNesting)
   }
 }
 
+TEST(ClosedShellsToTissues, MergesPointsThatDifferInTheLastDigits)
+{
+  const SurfaceComplex torus = test::torus(30, 10, 24, 12);
+  SurfaceComplex soup = asSoup(torus);
+  for (std::size_t i = 0; i < soup.points.size(); ++i) soup.points[i] += 1e-6 * Vec3{ double(i % 3), double(i % 5), double(i % 7) };
+  const SurfaceComplex result = closedShellsToTissues(soup, "file.stl");
+  EXPECT_EQ(result.points.size(), torus.points.size());
+  EXPECT_EQ(checkSurface(result).at(1).euler, 0);
+  EXPECT_GT(withoutDuplicatePoints(soup).points.size(), torus.points.size()) << "without a tolerance only equal ones";
+}
+
 TEST(ClosedShellsToTissues, TurnsTrianglesThatDisagree)
 {
   SurfaceComplex shell = test::torus(3, 1, 12, 8);
