@@ -57,11 +57,10 @@ def cell_array(dataset, name):
 
 
 def read_mesh(file):
-    """Tetrahedra: points (n, 3), tetrahedra (m, 4), target (n,) in mm, tissue (m,), submesh (m,)."""
+    """Tetrahedra: points (n, 3), tetrahedra (m, 4), tissue (m,), submesh (m,)."""
     grid = read_dataset(file)
     return SimpleNamespace(
         points=vtk_to_numpy(grid.GetPoints().GetData()).astype(float),
         tetrahedra=vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4),
-        target=vtk_to_numpy(grid.GetPointData().GetArray("TargetEdgeLength")).astype(float),
         tissue=cell_array(grid, "TissueLabel"),
         submesh=cell_array(grid, "SubMesh"))
