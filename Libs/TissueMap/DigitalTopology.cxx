@@ -180,7 +180,8 @@ private:
   {
     const auto same = [&](int corner) { return block[corner] == block[0]; };
     const int pairs = same(1) + same(2) + same(4);
-    const bool ij = same(1) && same(2) && same(3), ik = same(1) && same(4) && same(5), jk = same(2) && same(4) && same(6);
+    const bool ij = same(1) && same(2) && same(3), ik = same(1) && same(4) && same(5),
+               jk = same(2) && same(4) && same(6);
     euler[block[0]] += 1 - pairs + ij + ik + jk - (ij && ik && jk && same(7));
   }
 
@@ -198,7 +199,8 @@ private:
 };
 
 /// Adds the blocks between rows `a`, `b` (at j, j + 1) and `c`, `d` (the same one slice up) that are not uniform.
-void addBlockRow(BlockCounts& counts, const std::array<const Index*, 4>& rows, std::size_t size, std::vector<Index>& differs)
+void addBlockRow(BlockCounts& counts, const std::array<const Index*, 4>& rows, std::size_t size,
+                 std::vector<Index>& differs)
 {
   const auto [a, b, c, d] = rows;
   for (std::size_t i = 0; i < size; ++i) differs[i] = (a[i] ^ b[i]) | (a[i] ^ c[i]) | (a[i] ^ d[i]);

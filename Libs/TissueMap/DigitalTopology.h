@@ -52,8 +52,9 @@ struct Run
 struct Regions
 {
   std::vector<Region> list;
-  std::vector<Run> runs;              ///< row by row
-  std::vector<std::size_t> rowBegins; ///< first run of row (j, k) at [k * size[1] + j]; one more entry ends the last row
+  std::vector<Run> runs; ///< row by row
+  std::vector<std::size_t>
+    rowBegins; ///< first run of row (j, k) at [k * size[1] + j]; one more entry ends the last row
 };
 
 Regions connectedRegions(const TissueMap& map);

@@ -180,7 +180,8 @@ class ContactResolver
 {
 public:
   explicit ContactResolver(TissueMap& map)
-    : m_Map(map), m_Corners(cornerSteps(map.grid)), m_Around(neighbourSteps(map.grid)), m_States(map.labels.size(), 0), m_Voxels(std::numeric_limits<Label>::max() + 1, 0)
+    : m_Map(map), m_Corners(cornerSteps(map.grid)), m_Around(neighbourSteps(map.grid)), m_States(map.labels.size(), 0),
+      m_Voxels(std::numeric_limits<Label>::max() + 1, 0)
   {
     for (const Label label : map.labels) ++m_Voxels[label];
   }
@@ -258,7 +259,8 @@ private:
       const int price = changesOf(voxel) - criticalBlocks(around);
       for (int l = 0; l < 8; ++l)
       {
-        if (labels[l] == labels[c] || std::find(labels.begin(), labels.begin() + l, labels[l]) != labels.begin() + l) continue;
+        if (labels[l] == labels[c] || std::find(labels.begin(), labels.begin() + l, labels[l]) != labels.begin() + l)
+          continue;
         const Change change{ price + costOf(around, labels[l]), noise(voxel, labels[l]), voxel, labels[l] };
         if (std::tie(change.cost, change.noise) < std::tie(best.cost, best.noise)) best = change;
       }
@@ -362,17 +364,15 @@ void countChanges(const TissueMap& map, const TissueMap& prepared, const std::ve
 
 } // namespace
 
-std::size_t countCriticalBlocks(const TissueMap& map)
-{
-  return findCriticalBlocks(padded(map, 1)).size();
-}
+std::size_t countCriticalBlocks(const TissueMap& map) { return findCriticalBlocks(padded(map, 1)).size(); }
 
 PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, const Progress& progress)
 {
   report(progress, 0, "Removing islands");
   PreparationReport result;
   TissueMap work = padded(map, 1);
-  const auto removeIslands = [&](bool count) {
+  const auto removeIslands = [&](bool count)
+  {
     const Regions regions = connectedRegions(work);
     const std::vector<bool> isIsland = findIslands(regions, work.grid, options);
     for (std::size_t r = 0; count && r < isIsland.size(); ++r)

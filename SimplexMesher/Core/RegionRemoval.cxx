@@ -48,10 +48,8 @@ public:
     for (const std::size_t v : open)
     {
       Label label = 0;
-      if (adopter(v, label))
-        settled.emplace_back(v, label);
-      else
-        rest.push_back(v);
+      if (adopter(v, label)) settled.emplace_back(v, label);
+      else rest.push_back(v);
     }
     for (const auto& [v, label] : settled)
     {

@@ -147,8 +147,9 @@ TEST(MapPreparation, EdgeContactIsResolvedByOneVoxel)
 
 TEST(MapPreparation, SmallestMapKeepsItsTissues)
 {
-  TissueMap map = makeMap(2, 2, 1, { 1, 2, //
-                                     2, 1 });
+  TissueMap map = makeMap(2, 2, 1,
+                          { 1, 2, //
+                            2, 1 });
   prepareMap(map, islandsUnder(10));
   EXPECT_EQ(countCriticalBlocks(map), 0u);
   EXPECT_EQ(presentLabels(map), (std::vector<Label>{ 1, 2 }));
@@ -189,8 +190,8 @@ TEST(MapPreparation, IslandsUnderTheVolumeGoToWhatSurroundsThem)
   TissueMap map = makeMap(12, 5, 5);
   map.grid.spacing = { 1, 1, 2 };
   for (Label& label : map.labels) label = 1;
-  for (const int i : { 1, 4, 5 }) map.labels[map.grid.index(i, 2, 2)] = 2;   // components of 2 and 4 mm^3
-  for (const int i : { 8, 9, 10 }) map.labels[map.grid.index(i, 2, 2)] = 2;  // and of 6
+  for (const int i : { 1, 4, 5 }) map.labels[map.grid.index(i, 2, 2)] = 2;  // components of 2 and 4 mm^3
+  for (const int i : { 8, 9, 10 }) map.labels[map.grid.index(i, 2, 2)] = 2; // and of 6
   map.labels[map.grid.index(6, 0, 0)] = 0;
   const PreparationReport report = prepareMap(map, islandsUnder(4));
   EXPECT_EQ(at(map, 1, 2, 2), 1);
@@ -284,7 +285,8 @@ TEST(MapPreparation, CancellingLeavesTheMap)
   std::mt19937 random(4);
   TissueMap map = noise(random, 12);
   const TissueMap before = map;
-  const Progress cancel = [](double fraction, const std::string&) {
+  const Progress cancel = [](double fraction, const std::string&)
+  {
     if (fraction == 1) throw std::runtime_error("cancelled");
   };
   EXPECT_THROW(prepareMap(map, islandsUnder(5), cancel), std::runtime_error);

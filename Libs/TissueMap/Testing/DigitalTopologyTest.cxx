@@ -70,7 +70,8 @@ int components(VoxelSet set, int reach)
     {
       const std::size_t v = front.back();
       front.pop_back();
-      const int i = int(v % set.size[0]), j = int(v / set.size[0] % set.size[1]), k = int(v / set.size[0] / set.size[1]);
+      const int i = int(v % set.size[0]), j = int(v / set.size[0] % set.size[1]),
+                k = int(v / set.size[0] / set.size[1]);
       for (int n = 0; n < 27; ++n)
       {
         const int di = n % 3 - 1, dj = n / 3 % 3 - 1, dk = n / 9 - 1;
@@ -134,7 +135,9 @@ void fill(TissueMap& map, Label label, const std::function<bool(int, int, int)>&
 TEST(DigitalTopology, ShellAroundRingAroundNothing)
 {
   TissueMap map = emptyMap(11, 11, 11);
-  const auto distance = [](int i, int j, int k) { return std::max({ std::abs(i - 5), std::abs(j - 5), std::abs(k - 5) }); };
+  const auto distance = [](int i, int j, int k) {
+    return std::max({ std::abs(i - 5), std::abs(j - 5), std::abs(k - 5) });
+  };
   fill(map, 3, [&](int i, int j, int k) { return distance(i, j, k) == 5; });
   fill(map, 7, [&](int i, int j, int k) { return k == 5 && std::max(std::abs(i - 5), std::abs(j - 5)) == 2; });
   const std::map<Label, Betti> expected{ { 3, { 1, 0, 1 } }, { 7, { 1, 1, 0 } } };
@@ -176,11 +179,12 @@ TEST(DigitalTopology, AgreesWithTheDefinitionOnNestedBoxes)
     {
       const auto range = [&] { return std::minmax({ int(random() % 12), int(random() % 12) }); };
       const std::pair<int, int> a = range(), b = range(), c = range();
-      fill(map, Label(random() % 4), [&](int i, int j, int k) {
-        return i >= a.first && i <= a.second && j >= b.first && j <= b.second && k >= c.first && k <= c.second;
-      });
+      fill(map, Label(random() % 4),
+           [&](int i, int j, int k)
+           { return i >= a.first && i <= a.second && j >= b.first && j <= b.second && k >= c.first && k <= c.second; });
     }
-    for (const auto& [label, betti] : tissueTopology(map)) EXPECT_EQ(betti, bruteForce(map, label)) << "trial " << trial;
+    for (const auto& [label, betti] : tissueTopology(map))
+      EXPECT_EQ(betti, bruteForce(map, label)) << "trial " << trial;
   }
 }
 
