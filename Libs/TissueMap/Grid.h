@@ -16,10 +16,11 @@ namespace surgicalmesher
 
 struct Grid
 {
-  std::array<int, 3> size{ 0, 0, 0 };  ///< voxels along i, j, k; i runs fastest in memory
-  Vec3 spacing{ 1, 1, 1 };             ///< mm
-  Vec3 origin;                         ///< world position of the centre of voxel (0, 0, 0), mm
-  std::array<Vec3, 3> axes{ Vec3{ 1, 0, 0 }, Vec3{ 0, 1, 0 }, Vec3{ 0, 0, 1 } }; ///< unit world directions of i, j, k; right-handed
+  std::array<int, 3> size{ 0, 0, 0 }; ///< voxels along i, j, k; i runs fastest in memory
+  Vec3 spacing{ 1, 1, 1 };            ///< mm
+  Vec3 origin;                        ///< world position of the centre of voxel (0, 0, 0), mm
+  std::array<Vec3, 3> axes{ Vec3{ 1, 0, 0 }, Vec3{ 0, 1, 0 },
+                            Vec3{ 0, 0, 1 } }; ///< unit world directions of i, j, k; right-handed
 
   std::size_t voxelCount() const { return std::size_t(size[0]) * size[1] * size[2]; }
   std::size_t index(int i, int j, int k) const { return (std::size_t(k) * size[1] + j) * size[0] + i; }

@@ -28,7 +28,8 @@ struct DataBlock
 bool hasExtension(const std::string& file, const std::string& extension)
 {
   const std::string name = text::lowerCase(file);
-  return name.size() >= extension.size() && name.compare(name.size() - extension.size(), extension.size(), extension) == 0;
+  return name.size() >= extension.size() &&
+         name.compare(name.size() - extension.size(), extension.size(), extension) == 0;
 }
 
 bool isGzip(const std::string& file)
@@ -37,7 +38,10 @@ bool isGzip(const std::string& file)
   return stream.get() == 0x1f && stream.get() == 0x8b;
 }
 
-DataBlock wholeFile(const std::string& file, std::uint64_t headerBytes) { return { file, 0, headerBytes, isGzip(file) }; }
+DataBlock wholeFile(const std::string& file, std::uint64_t headerBytes)
+{
+  return { file, 0, headerBytes, isGzip(file) };
+}
 
 /// A file that the header names, relative to the header's folder.
 std::string besides(const std::string& headerFile, const std::string& name)
@@ -57,7 +61,8 @@ std::string pairedImage(const std::string& file)
 }
 
 /// Reads `key: value` or `key = value` lines up to the one after which voxels follow, or the end of the file.
-DataBlock textHeader(const std::string& file, char separator, const std::string& dataKey, const std::string& compressionKey)
+DataBlock textHeader(const std::string& file, char separator, const std::string& dataKey,
+                     const std::string& compressionKey)
 {
   DataBlock block{ file, 0, 0, false };
   bool attached = true;

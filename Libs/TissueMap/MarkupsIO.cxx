@@ -159,7 +159,8 @@ std::vector<std::vector<Vec3>> readMarkups(const std::string& file)
   if (endsWith(name, ".json")) lists = readJson(file);
   else if (endsWith(name, ".fcsv")) lists = readFcsv(file);
   else throw InputError(file + ": not a markups file, expected .mrk.json or .fcsv");
-  lists.erase(std::remove_if(lists.begin(), lists.end(), [](const Points& points) { return points.empty(); }), lists.end());
+  lists.erase(std::remove_if(lists.begin(), lists.end(), [](const Points& points) { return points.empty(); }),
+              lists.end());
   if (lists.empty()) throw InputError(file + ": no control point, expected at least one with a defined position");
   return lists;
 }

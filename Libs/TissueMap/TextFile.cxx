@@ -26,7 +26,8 @@ std::vector<std::string> splitQuoted(const std::string& line, bool merge, IsSepa
   std::string part;
   bool quoted = false;
   bool started = false;
-  const auto finish = [&]() {
+  const auto finish = [&]()
+  {
     if (started || !merge) parts.push_back(part);
     part.clear();
     started = false;

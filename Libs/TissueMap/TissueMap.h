@@ -16,7 +16,7 @@ using Label = std::uint16_t; ///< 0 is background
 
 struct Tissue
 {
-  std::string name;                           ///< empty if unknown
+  std::string name;                             ///< empty if unknown
   std::array<double, 3> color{ 0.8, 0.8, 0.8 }; ///< RGB in [0, 1]
 };
 

@@ -34,10 +34,10 @@ constexpr double maximumVoxelCount = 2147483648.0; // 2^31: 4 GB of labels
 struct Volume
 {
   std::string file;
-  Grid grid;                             ///< canonical: see TissueMap::grid
-  std::ptrdiff_t first = 0;              ///< voxel of the file that is voxel (0, 0, 0) of the grid
-  std::array<std::ptrdiff_t, 3> stride;  ///< voxels of the file from one voxel of the grid to the next along i, j, k
-  int components = 1;                    ///< values per voxel, interleaved
+  Grid grid;                            ///< canonical: see TissueMap::grid
+  std::ptrdiff_t first = 0;             ///< voxel of the file that is voxel (0, 0, 0) of the grid
+  std::array<std::ptrdiff_t, 3> stride; ///< voxels of the file from one voxel of the grid to the next along i, j, k
+  int components = 1;                   ///< values per voxel, interleaved
   itk::IOComponentEnum type = itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE;
   std::unique_ptr<char[]> data;
   MetaData metaData;
@@ -94,7 +94,7 @@ std::string reasonOf(const std::exception& error)
 std::vector<itk::ImageIOBase::Pointer> imageFormats()
 {
   return { itk::NrrdImageIO::New().GetPointer(), itk::NiftiImageIO::New().GetPointer(),
-    itk::MetaImageIO::New().GetPointer(), itk::GiplImageIO::New().GetPointer() };
+           itk::MetaImageIO::New().GetPointer(), itk::GiplImageIO::New().GetPointer() };
 }
 
 const char* const formatNames = "NRRD, NIfTI, MetaImage or GIPL";
@@ -239,8 +239,7 @@ AxisOrder canonicalOrder(const std::array<Vec3, 3>& axes)
   AxisOrder best{};
   std::vector<double> bestKey;
   std::array<int, 3> source{ 0, 1, 2 };
-  do
-  {
+  do {
     for (int signs = 0; signs < 8; ++signs)
     {
       AxisOrder order{ source, { signs & 1 ? -1 : 1, signs & 2 ? -1 : 1, signs & 4 ? -1 : 1 } };
@@ -250,7 +249,7 @@ AxisOrder canonicalOrder(const std::array<Vec3, 3>& axes)
       std::vector<double> key{ frame[0].x + frame[1].y + frame[2].z };
       for (const Vec3& axis : frame) key.insert(key.end(), { axis.x, axis.y, axis.z });
       const auto difference = std::mismatch(key.begin(), key.end(), bestKey.begin(), bestKey.end(),
-        [=](double a, double b) { return std::abs(a - b) < tolerance; });
+                                            [=](double a, double b) { return std::abs(a - b) < tolerance; });
       if (bestKey.empty() || (difference.first != key.end() && *difference.first > *difference.second))
       {
         best = order;
@@ -299,7 +298,8 @@ std::uint64_t bytesOnDisk(const MetaData& metaData, std::size_t voxelCount, std:
   const std::string* offset = find(metaData, "vox_offset");
   double bitsPerVoxel = 0;
   double firstVoxel = 0;
-  if (!bits || !offset || !text::parseNumber(*bits, bitsPerVoxel) || !text::parseNumber(*offset, firstVoxel)) return bytesInMemory;
+  if (!bits || !offset || !text::parseNumber(*bits, bitsPerVoxel) || !text::parseNumber(*offset, firstVoxel))
+    return bytesInMemory;
   return std::uint64_t(double(voxelCount) * bitsPerVoxel / 8 + std::max(0.0, firstVoxel));
 }
 
@@ -348,19 +348,19 @@ void visitData(const Volume& volume, Function function)
   using Type = itk::IOComponentEnum;
   switch (volume.type)
   {
-    case Type::UCHAR: return call((unsigned char)0);
-    case Type::CHAR: return call((signed char)0);
-    case Type::USHORT: return call((unsigned short)0);
-    case Type::SHORT: return call(short(0));
-    case Type::UINT: return call(0u);
-    case Type::INT: return call(0);
-    case Type::ULONG: return call(0ul);
-    case Type::LONG: return call(0l);
-    case Type::ULONGLONG: return call(0ull);
-    case Type::LONGLONG: return call(0ll);
-    case Type::FLOAT: return call(0.f);
-    case Type::DOUBLE: return call(0.);
-    default: throw InputError(volume.file + ": voxels of an unknown type, expected integers or floats");
+  case Type::UCHAR: return call((unsigned char)0);
+  case Type::CHAR: return call((signed char)0);
+  case Type::USHORT: return call((unsigned short)0);
+  case Type::SHORT: return call(short(0));
+  case Type::UINT: return call(0u);
+  case Type::INT: return call(0);
+  case Type::ULONG: return call(0ul);
+  case Type::LONG: return call(0l);
+  case Type::ULONGLONG: return call(0ull);
+  case Type::LONGLONG: return call(0ll);
+  case Type::FLOAT: return call(0.f);
+  case Type::DOUBLE: return call(0.);
+  default: throw InputError(volume.file + ": voxels of an unknown type, expected integers or floats");
   }
 }
 
@@ -369,18 +369,21 @@ template <typename Out, typename Convert>
 std::vector<Out> gather(const Volume& volume, Convert convert)
 {
   std::vector<Out> values(volume.grid.voxelCount());
-  visitData(volume, [&](const auto* data) {
-    Out* out = values.data();
-    const std::array<int, 3>& size = volume.grid.size;
-    for (int k = 0; k < size[2]; ++k)
-    {
-      for (int j = 0; j < size[1]; ++j)
-      {
-        const std::ptrdiff_t row = volume.first + j * volume.stride[1] + k * volume.stride[2];
-        for (int i = 0; i < size[0]; ++i) *out++ = convert(data + (row + i * volume.stride[0]) * volume.components);
-      }
-    }
-  });
+  visitData(volume,
+            [&](const auto* data)
+            {
+              Out* out = values.data();
+              const std::array<int, 3>& size = volume.grid.size;
+              for (int k = 0; k < size[2]; ++k)
+              {
+                for (int j = 0; j < size[1]; ++j)
+                {
+                  const std::ptrdiff_t row = volume.first + j * volume.stride[1] + k * volume.stride[2];
+                  for (int i = 0; i < size[0]; ++i)
+                    *out++ = convert(data + (row + i * volume.stride[0]) * volume.components);
+                }
+              }
+            });
   return values;
 }
 
@@ -442,13 +445,14 @@ std::vector<Segment> readSegments(const Volume& volume)
 
 /// The label of every segment: its value in the file, or, where two layers use the same value, 1, 2, 3 ... in the order
 /// of the header.
-std::vector<Label> segmentLabels(const std::vector<Segment>& segments)
+std::vector<Label> segmentLabels(const std::vector<Segment>& segments, int layers)
 {
   std::vector<Label> labels;
   for (const Segment& segment : segments) labels.push_back(segment.value);
   std::vector<Label> sorted = labels;
   std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+  const bool areUnique = std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+  if (layers > 1 && !areUnique)
   {
     for (std::size_t n = 0; n < labels.size(); ++n) labels[n] = Label(n + 1);
   }
@@ -457,7 +461,7 @@ std::vector<Label> segmentLabels(const std::vector<Segment>& segments)
 
 /// Several layers become one map; where segments overlap, the later one in the header wins.
 std::vector<Label> mergeLayers(const Volume& volume, const std::vector<Segment>& segments,
-  const std::vector<Label>& segmentLabel)
+                               const std::vector<Label>& segmentLabel)
 {
   std::vector<std::vector<int>> rank(volume.components); // by layer and value: segment + 1, or 0
   for (std::size_t n = 0; n < segments.size(); ++n)
@@ -466,21 +470,23 @@ std::vector<Label> mergeLayers(const Volume& volume, const std::vector<Segment>&
     if (layer.size() <= segments[n].value) layer.resize(segments[n].value + 1, 0);
     layer[segments[n].value] = int(n) + 1;
   }
-  return gather<Label>(volume, [&](const auto* voxel) {
-    int winner = 0;
-    for (int c = 0; c < volume.components; ++c)
-    {
-      const Label value = toLabel(voxel[c], volume.file);
-      const int candidate = value < rank[c].size() ? rank[c][value] : 0;
-      if (value != 0 && candidate == 0)
-      {
-        throw InputError(volume.file + ": layer " + std::to_string(c) + " has a voxel of value " +
-                         std::to_string(value) + ", which no segment of the header has");
-      }
-      winner = std::max(winner, candidate);
-    }
-    return winner == 0 ? Label(0) : segmentLabel[winner - 1];
-  });
+  return gather<Label>(volume,
+                       [&](const auto* voxel)
+                       {
+                         int winner = 0;
+                         for (int c = 0; c < volume.components; ++c)
+                         {
+                           const Label value = toLabel(voxel[c], volume.file);
+                           const int candidate = value < rank[c].size() ? rank[c][value] : 0;
+                           if (value != 0 && candidate == 0)
+                           {
+                             throw InputError(volume.file + ": layer " + std::to_string(c) + " has a voxel of value " +
+                                              std::to_string(value) + ", which no segment of the header has");
+                           }
+                           winner = std::max(winner, candidate);
+                         }
+                         return winner == 0 ? Label(0) : segmentLabel[winner - 1];
+                       });
 }
 
 itk::ImageIOBase::Pointer imageWriter(const std::string& file)
@@ -493,7 +499,7 @@ itk::ImageIOBase::Pointer imageWriter(const std::string& file)
 }
 
 void writeVolume(const Grid& grid, itk::IOComponentEnum type, const void* data, const MetaData& metaData,
-  const std::string& file)
+                 const std::string& file)
 {
   const itk::ImageIOBase::Pointer io = imageWriter(file);
   io->SetFileName(file);
@@ -559,11 +565,10 @@ TissueMap readTissueMap(const std::string& file)
   }
   TissueMap map;
   map.grid = volume.grid;
-  const std::vector<Label> labels = segmentLabels(segments);
+  const std::vector<Label> labels = segmentLabels(segments, volume.components);
   for (std::size_t n = 0; n < segments.size(); ++n) map.table[labels[n]] = segments[n].tissue;
-  map.labels = volume.components > 1
-    ? mergeLayers(volume, segments, labels)
-    : gather<Label>(volume, [&](const auto* voxel) { return toLabel(*voxel, file); });
+  map.labels = volume.components > 1 ? mergeLayers(volume, segments, labels)
+                                     : gather<Label>(volume, [&](const auto* voxel) { return toLabel(*voxel, file); });
   if (std::all_of(map.labels.begin(), map.labels.end(), [](Label label) { return label == 0; }))
   {
     throw InputError(file + ": no voxel but background (label 0), expected at least one tissue");
@@ -585,11 +590,14 @@ ScaleField readScale(const std::string& file)
   }
   ScaleField scale;
   scale.grid = volume.grid;
-  scale.lengths = gather<float>(volume, [&](const auto* voxel) {
-    const float length = float(*voxel);
-    if (std::isfinite(length) && length > 0) return length;
-    throw InputError(file + ": an edge length of " + asText(double(*voxel)) + ", expected more than 0 mm everywhere");
-  });
+  scale.lengths = gather<float>(volume,
+                                [&](const auto* voxel)
+                                {
+                                  const float length = float(*voxel);
+                                  if (std::isfinite(length) && length > 0) return length;
+                                  throw InputError(file + ": an edge length of " + asText(double(*voxel)) +
+                                                   ", expected more than 0 mm everywhere");
+                                });
   return scale;
 }
 

@@ -12,7 +12,8 @@ namespace
 {
 
 /// Whether words[from .. from + count) are numbers in [0, maximum].
-bool parseNumbers(const std::vector<std::string>& words, std::size_t from, std::size_t count, double maximum, double* out)
+bool parseNumbers(const std::vector<std::string>& words, std::size_t from, std::size_t count, double maximum,
+                  double* out)
 {
   if (from + count > words.size()) return false;
   for (std::size_t n = 0; n < count; ++n)

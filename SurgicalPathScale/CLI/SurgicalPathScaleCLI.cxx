@@ -156,7 +156,8 @@ bool isInside(const Grid& grid, const Vec3& world)
 std::vector<std::string> findOddities(const TissueMap& map, const Focus& focus, const SurgicalScaleOptions& options)
 {
   std::vector<std::string> warnings;
-  const auto warnIfOutside = [&](const char* what, const std::vector<Vec3>& points) {
+  const auto warnIfOutside = [&](const char* what, const std::vector<Vec3>& points)
+  {
     for (const Vec3& p : points)
     {
       if (isInside(map.grid, p)) continue;
@@ -170,7 +171,8 @@ std::vector<std::string> findOddities(const TissueMap& map, const Focus& focus, 
   for (const auto& tissue : options.tissues)
   {
     if (std::binary_search(present.begin(), present.end(), tissue.first)) continue;
-    warnings.push_back("tissue " + std::to_string(tissue.first) + " has lengths of its own, but no voxel in the label map");
+    warnings.push_back("tissue " + std::to_string(tissue.first) +
+                       " has lengths of its own, but no voxel in the label map");
   }
   return warnings;
 }
@@ -281,8 +283,8 @@ void writeResults(JsonWriter& json, const Results& results, const Grid& map, con
 }
 
 /// Lengths in mm, points in LPS, volumes in mm^3.
-void writeReport(const std::string& file, const CommandLine& line, const Focus& focus, const SurgicalScaleOptions& options,
-  const Results& results, const Grid& map, const Grid& scale)
+void writeReport(const std::string& file, const CommandLine& line, const Focus& focus,
+                 const SurgicalScaleOptions& options, const Results& results, const Grid& map, const Grid& scale)
 {
   std::ofstream stream(file.c_str(), std::ios::binary);
   rapidjson::OStreamWrapper wrapper(stream);
@@ -308,7 +310,8 @@ void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, Result
   results.nullDisplacement =
     markNullDisplacement(map, focus.targets, focus.paths, readNullDisplacement(line, map.table));
   completeTable(line, map);
-  if (results.nullDisplacement.voxelCount == 0) results.warnings.push_back("no voxel is far enough to become null displacement");
+  if (results.nullDisplacement.voxelCount == 0)
+    results.warnings.push_back("no voxel is far enough to become null displacement");
   line.message("null displacement: " + std::to_string(results.nullDisplacement.voxelCount) + " voxels, label " +
                std::to_string(results.nullDisplacement.label));
   writeTissueMap(map, file);
@@ -338,7 +341,8 @@ void run(CommandLine& line)
   Results results;
   results.warnings = findOddities(map, focus, options);
   results.tissueCount = presentLabels(map).size();
-  const ScaleField scale = computeSurgicalScale(map, focus.targets, focus.paths, options, subProgress(progress, 0.2, 0.6));
+  const ScaleField scale =
+    computeSurgicalScale(map, focus.targets, focus.paths, options, subProgress(progress, 0.2, 0.6));
   const auto extremes = std::minmax_element(scale.lengths.begin(), scale.lengths.end());
   results.shortest = *extremes.first;
   results.longest = *extremes.second;

@@ -48,7 +48,8 @@ double distanceToPaths(const Vec3& x, const std::vector<Path>& paths)
   double distance = infinity;
   for (const Path& path : paths)
   {
-    for (std::size_t n = 1; n < path.size(); ++n) distance = std::min(distance, distanceToSegment(x, path[n - 1], path[n]));
+    for (std::size_t n = 1; n < path.size(); ++n)
+      distance = std::min(distance, distanceToSegment(x, path[n - 1], path[n]));
   }
   return distance;
 }
@@ -69,8 +70,8 @@ double distanceToTube(const Vec3& x, const Path& path, double atEntry, double at
   for (std::size_t n = 1; n < path.size(); ++n)
   {
     const double next = arc + norm(path[n] - path[n - 1]);
-    distance = std::min(distance,
-      distanceToRoundCone(x, path[n - 1], path[n], atEntry + slope * arc, atEntry + slope * next));
+    distance =
+      std::min(distance, distanceToRoundCone(x, path[n - 1], path[n], atEntry + slope * arc, atEntry + slope * next));
     arc = next;
   }
   return distance;

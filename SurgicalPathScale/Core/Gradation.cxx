@@ -125,19 +125,21 @@ void limitGradation(ScaleField& scale, double slope)
 {
   const ConeEnvelope envelope(scale, slope);
   const Grid& grid = scale.grid;
-  vtkSMPTools::For(0, grid.size[2], [&](vtkIdType begin, vtkIdType end) {
-    for (int k = int(begin); k < int(end); ++k)
-    {
-      for (int j = 0; j < grid.size[1]; ++j)
-      {
-        std::array<int, 3> source{ 0, j, k };
-        for (int i = 0; i < grid.size[0]; ++i)
-        {
-          scale.lengths[grid.index(i, j, k)] = float(envelope.at({ i, j, k }, source));
-        }
-      }
-    }
-  });
+  vtkSMPTools::For(0, grid.size[2],
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (int k = int(begin); k < int(end); ++k)
+                     {
+                       for (int j = 0; j < grid.size[1]; ++j)
+                       {
+                         std::array<int, 3> source{ 0, j, k };
+                         for (int i = 0; i < grid.size[0]; ++i)
+                         {
+                           scale.lengths[grid.index(i, j, k)] = float(envelope.at({ i, j, k }, source));
+                         }
+                       }
+                     }
+                   });
 }
 
 } // namespace surgicalmesher

@@ -12,11 +12,12 @@ namespace
 {
 
 // The model's constants, fitted to meshes of jhu189 and of whole heads.
-constexpr double tetrahedronVolume = 0.11;          ///< c: mean volume at unit edge; a BCC tetrahedron of unit mean edge has 0.110
-constexpr double tetrahedraPerTriangle = 0.5;      ///< b
-constexpr double smoothArea = 2.0 / 3.0;            ///< smooth area per area of voxel faces, mean over directions
-constexpr double edgePerThickness = 1.0;            ///< longest edge in a tissue of unit thickness 4 V / A
-constexpr double blockSide = 4;                     ///< mm; thickness is measured over 3 x 3 x 3 blocks
+constexpr double tetrahedronVolume =
+  0.11; ///< c: mean volume at unit edge; a BCC tetrahedron of unit mean edge has 0.110
+constexpr double tetrahedraPerTriangle = 1.0; ///< b
+constexpr double smoothArea = 2.0 / 3.0;      ///< smooth area per area of voxel faces, mean over directions
+constexpr double edgePerThickness = 1.0;      ///< longest edge in a tissue of unit thickness 4 V / A
+constexpr double blockSide = 4;               ///< mm; thickness is measured over 3 x 3 x 3 blocks
 
 /// What one tissue has in one block.
 struct Share
@@ -93,18 +94,21 @@ Share& shareOf(std::vector<Share>& shares, Label label)
 std::vector<Share> sharesOf(const Blocks& blocks, int block)
 {
   std::vector<Share> shares;
-  blocks.forEachVoxel(block, [&](int i, int j, int k, Label label) {
-    Share& share = shareOf(shares, label);
-    share.volume += blocks.voxelVolume();
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      for (const int step : { -1, 1 })
-      {
-        const Label other = blocks.label(i + (axis == 0 ? step : 0), j + (axis == 1 ? step : 0), k + (axis == 2 ? step : 0));
-        if (other != label) share.area += blocks.faceArea(axis);
-      }
-    }
-  });
+  blocks.forEachVoxel(block,
+                      [&](int i, int j, int k, Label label)
+                      {
+                        Share& share = shareOf(shares, label);
+                        share.volume += blocks.voxelVolume();
+                        for (int axis = 0; axis < 3; ++axis)
+                        {
+                          for (const int step : { -1, 1 })
+                          {
+                            const Label other = blocks.label(i + (axis == 0 ? step : 0), j + (axis == 1 ? step : 0),
+                                                             k + (axis == 2 ? step : 0));
+                            if (other != label) share.area += blocks.faceArea(axis);
+                          }
+                        }
+                      });
   return shares;
 }
 
@@ -140,26 +144,31 @@ double longestEdge(const std::vector<Share>& shares, Label label)
 }
 
 MeshSizeEstimate estimateBlock(const Blocks& blocks, int block, const std::vector<Share>& shares, const Grid& grid,
-  const ScaleField& scale)
+                               const ScaleField& scale)
 {
   MeshSizeEstimate sum;
-  blocks.forEachVoxel(block, [&](int i, int j, int k, Label label) {
-    const double L = scale(grid.gridToWorld({ i * grid.spacing.x, j * grid.spacing.y, k * grid.spacing.z }));
-    const double thickness = longestEdge(shares, label);
-    const double edge = std::min(L, thickness);
-    if (label != 0) sum.tetrahedra += blocks.voxelVolume() / (tetrahedronVolume * edge * edge * edge);
-    for (int axis = 0; axis < 3; ++axis)
+  blocks.forEachVoxel(
+    block,
+    [&](int i, int j, int k, Label label)
     {
-      for (const int step : { -1, 1 })
+      const double L = scale(grid.gridToWorld({ i * grid.spacing.x, j * grid.spacing.y, k * grid.spacing.z }));
+      const double thickness = longestEdge(shares, label);
+      const double edge = std::min(L, thickness);
+      if (label != 0) sum.tetrahedra += blocks.voxelVolume() / (tetrahedronVolume * edge * edge * edge);
+      for (int axis = 0; axis < 3; ++axis)
       {
-        const std::array<int, 3> q{ i + (axis == 0 ? step : 0), j + (axis == 1 ? step : 0), k + (axis == 2 ? step : 0) };
-        const Label other = blocks.label(q[0], q[1], q[2]);
-        if (other == label || (step < 0 && grid.contains(q[0], q[1], q[2]))) continue; // a face within the map counts once
-        const double faceEdge = std::min(edge, longestEdge(shares, other));
-        sum.triangles += blocks.faceArea(axis) / (std::sqrt(3.0) / 4 * faceEdge * faceEdge);
+        for (const int step : { -1, 1 })
+        {
+          const std::array<int, 3> q{ i + (axis == 0 ? step : 0), j + (axis == 1 ? step : 0),
+                                      k + (axis == 2 ? step : 0) };
+          const Label other = blocks.label(q[0], q[1], q[2]);
+          if (other == label || (step < 0 && grid.contains(q[0], q[1], q[2])))
+            continue; // a face within the map counts once
+          const double faceEdge = std::min(edge, longestEdge(shares, other));
+          sum.triangles += blocks.faceArea(axis) / (std::sqrt(3.0) / 4 * faceEdge * faceEdge);
+        }
       }
-    }
-  });
+    });
   return sum;
 }
 
@@ -169,18 +178,22 @@ MeshSizeEstimate estimateMeshSize(const TissueMap& map, const ScaleField& scale)
 {
   const Blocks blocks(map);
   std::vector<std::vector<Share>> shares(blocks.count());
-  vtkSMPTools::For(0, blocks.count(), [&](vtkIdType begin, vtkIdType end) {
-    for (int block = int(begin); block < int(end); ++block) shares[block] = sharesOf(blocks, block);
-  });
+  vtkSMPTools::For(0, blocks.count(),
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (int block = int(begin); block < int(end); ++block) shares[block] = sharesOf(blocks, block);
+                   });
   std::vector<MeshSizeEstimate> parts(blocks.count());
-  vtkSMPTools::For(0, blocks.count(), [&](vtkIdType begin, vtkIdType end) {
-    for (int block = int(begin); block < int(end); ++block)
-    {
-      const std::vector<Share> around = neighbourhood(blocks, shares, block);
-      if (around.size() == 1 && around[0].label == 0) continue;
-      parts[block] = estimateBlock(blocks, block, around, map.grid, scale);
-    }
-  });
+  vtkSMPTools::For(0, blocks.count(),
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (int block = int(begin); block < int(end); ++block)
+                     {
+                       const std::vector<Share> around = neighbourhood(blocks, shares, block);
+                       if (around.size() == 1 && around[0].label == 0) continue;
+                       parts[block] = estimateBlock(blocks, block, around, map.grid, scale);
+                     }
+                   });
   MeshSizeEstimate sum; // in the order of the blocks, whatever the threads
   for (const MeshSizeEstimate& part : parts)
   {

@@ -13,7 +13,8 @@ namespace surgicalmesher
 namespace
 {
 
-void checkOptions(const NullDisplacementOptions& options, const std::vector<Vec3>& targets, const std::vector<Path>& paths)
+void checkOptions(const NullDisplacementOptions& options, const std::vector<Vec3>& targets,
+                  const std::vector<Path>& paths)
 {
   for (const double distance : { options.targetRadius, options.pathDistance, options.pathDistanceAtTarget })
   {
@@ -26,8 +27,10 @@ void checkOptions(const NullDisplacementOptions& options, const std::vector<Vec3
   {
     throw UsageError("an output label map needs a null-displacement radius or path distance above 0 mm");
   }
-  if (options.targetRadius > 0 && targets.empty()) throw UsageError("a null-displacement radius is given, but no target");
-  if (options.pathDistance > 0 && paths.empty()) throw UsageError("a null-displacement path distance is given, but no path");
+  if (options.targetRadius > 0 && targets.empty())
+    throw UsageError("a null-displacement radius is given, but no target");
+  if (options.pathDistance > 0 && paths.empty())
+    throw UsageError("a null-displacement path distance is given, but no path");
 }
 
 Label freeLabel(const TissueMap& map)
@@ -46,7 +49,7 @@ class Neighbourhood
 {
 public:
   Neighbourhood(const Grid& grid, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
-    const NullDisplacementOptions& options)
+                const NullDisplacementOptions& options)
     : m_Options(options)
   {
     const auto toGrid = [&](const Vec3& point) { return grid.worldToGrid(point); };
@@ -66,9 +69,10 @@ public:
   bool contains(const Vec3& x) const
   {
     if (distanceToPoints(x, m_Targets) <= m_Options.targetRadius) return true;
-    return std::any_of(m_Paths.begin(), m_Paths.end(), [&](const Path& path) {
-      return distanceToTube(x, path, m_Options.pathDistance, m_Options.pathDistanceAtTarget) <= 0;
-    });
+    return std::any_of(m_Paths.begin(), m_Paths.end(),
+                       [&](const Path& path) {
+                         return distanceToTube(x, path, m_Options.pathDistance, m_Options.pathDistanceAtTarget) <= 0;
+                       });
   }
 
 private:
@@ -80,7 +84,7 @@ private:
 } // namespace
 
 NullDisplacement markNullDisplacement(TissueMap& map, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
-  const NullDisplacementOptions& options)
+                                      const NullDisplacementOptions& options)
 {
   checkOptions(options, targets, paths);
   const Grid& grid = map.grid;
@@ -92,22 +96,24 @@ NullDisplacement markNullDisplacement(TissueMap& map, const std::vector<Vec3>& t
   NullDisplacement result;
   result.label = freeLabel(map);
   std::vector<std::size_t> changed(grid.size[2], 0); // by slice
-  vtkSMPTools::For(0, grid.size[2], [&](vtkIdType begin, vtkIdType end) {
-    for (int k = int(begin); k < int(end); ++k)
-    {
-      for (int j = 0; j < grid.size[1]; ++j)
-      {
-        for (int i = 0; i < grid.size[0]; ++i)
-        {
-          Label& label = map.labels[grid.index(i, j, k)];
-          if (!takesPart[label]) continue;
-          if (kept.contains({ i * grid.spacing.x, j * grid.spacing.y, k * grid.spacing.z })) continue;
-          label = result.label;
-          ++changed[k];
-        }
-      }
-    }
-  });
+  vtkSMPTools::For(0, grid.size[2],
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (int k = int(begin); k < int(end); ++k)
+                     {
+                       for (int j = 0; j < grid.size[1]; ++j)
+                       {
+                         for (int i = 0; i < grid.size[0]; ++i)
+                         {
+                           Label& label = map.labels[grid.index(i, j, k)];
+                           if (!takesPart[label]) continue;
+                           if (kept.contains({ i * grid.spacing.x, j * grid.spacing.y, k * grid.spacing.z })) continue;
+                           label = result.label;
+                           ++changed[k];
+                         }
+                       }
+                     }
+                   });
   result.voxelCount = std::accumulate(changed.begin(), changed.end(), std::size_t(0));
   if (result.voxelCount > 0) map.table[result.label].name = "null displacement";
   return result;

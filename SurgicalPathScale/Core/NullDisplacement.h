@@ -34,6 +34,6 @@ struct NullDisplacement
 /// Throws UsageError if neither criterion is used, one is used without a target or path, or a distance is negative or not
 /// finite; InputError if the map uses all labels.
 NullDisplacement markNullDisplacement(TissueMap& map, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
-  const NullDisplacementOptions& options);
+                                      const NullDisplacementOptions& options);
 
 } // namespace surgicalmesher

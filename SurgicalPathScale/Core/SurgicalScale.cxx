@@ -40,15 +40,16 @@ void checkRange(const LengthRange& range)
 void checkFalloff(const Falloff& falloff)
 {
   require(std::isfinite(falloff.childRadius) && falloff.childRadius >= 0, "the child radius", falloff.childRadius,
-    "a finite number of at least 0 mm");
+          "a finite number of at least 0 mm");
   require(std::isfinite(falloff.decayLength) && falloff.decayLength > 0, "the decay length", falloff.decayLength,
-    "a finite number above 0 mm");
+          "a finite number above 0 mm");
 }
 
 void checkFocus(Combination combination, const std::vector<Vec3>& targets, const std::vector<Path>& paths)
 {
   if (targets.empty() && paths.empty()) throw UsageError("neither a target nor a path is given, expected one or more");
-  if (combination == Combination::Targets && targets.empty()) throw UsageError("the targets alone count, but none is given");
+  if (combination == Combination::Targets && targets.empty())
+    throw UsageError("the targets alone count, but none is given");
   if (combination == Combination::Paths && paths.empty()) throw UsageError("the paths alone count, but none is given");
   for (const Path& path : paths)
   {
@@ -67,7 +68,7 @@ class LengthFunction
 {
 public:
   LengthFunction(const SurgicalScaleOptions& options, const Vec3& x, const std::vector<Vec3>& targets,
-    const std::vector<Path>& paths)
+                 const std::vector<Path>& paths)
     : m_Options(options)
   {
     if (options.combination != Combination::Paths) m_ToTarget = distanceToPoints(x, targets);
@@ -85,7 +86,7 @@ private:
   double within(const LengthRange& range) const
   {
     return std::min(edgeLength(m_ToTarget, range, m_Options.targetFalloff),
-      edgeLength(m_ToPath, range, m_Options.pathFalloff));
+                    edgeLength(m_ToPath, range, m_Options.pathFalloff));
   }
 
   const SurgicalScaleOptions& m_Options;
@@ -136,7 +137,7 @@ double edgeLength(double distance, const LengthRange& range, const Falloff& fall
 }
 
 void checkScaleOptions(const SurgicalScaleOptions& options, const Grid& map, const std::vector<Vec3>& targets,
-  const std::vector<Path>& paths)
+                       const std::vector<Path>& paths)
 {
   checkRange(options.range);
   checkFalloff(options.targetFalloff);
@@ -145,16 +146,16 @@ void checkScaleOptions(const SurgicalScaleOptions& options, const Grid& map, con
   {
     checkRange(tissue.second.range);
     require(std::isfinite(tissue.second.factor) && tissue.second.factor > 0, "a tissue's factor", tissue.second.factor,
-      "a finite number above 0");
+            "a finite number above 0");
   }
   require(std::isfinite(options.gradation) && options.gradation >= 0, "the gradation limit", options.gradation,
-    "a finite number of at least 0");
+          "a finite number of at least 0");
   require(std::isfinite(options.spacing) && options.spacing > 0, "the spacing of the scale volume", options.spacing,
-    "a finite number above 0 mm");
+          "a finite number above 0 mm");
   double count = 1;
   for (int axis = 0; axis < 3; ++axis) count *= map.size[axis] * map.spacing[axis] / options.spacing + 2;
   require(count < 2147483648.0, "the spacing of the scale volume", options.spacing,
-    "a spacing that makes fewer than 2^31 voxels of this label map");
+          "a spacing that makes fewer than 2^31 voxels of this label map");
   checkFocus(options.combination, targets, paths);
 }
 
@@ -174,7 +175,7 @@ Grid scaleGrid(const Grid& map, double spacing)
 }
 
 ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
-  const SurgicalScaleOptions& options, const Progress& progress)
+                                const SurgicalScaleOptions& options, const Progress& progress)
 {
   checkScaleOptions(options, map.grid, targets, paths);
   ScaleField scale;
@@ -187,24 +188,26 @@ ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& t
   const Vec3 first = map.grid.worldToGrid(scale.grid.origin);
 
   report(progress, 0, "edge lengths");
-  vtkSMPTools::For(0, scale.grid.size[2], [&](vtkIdType begin, vtkIdType end) {
-    std::vector<Label> labels;
-    for (int k = int(begin); k < int(end); ++k)
-    {
-      for (int j = 0; j < scale.grid.size[1]; ++j)
-      {
-        for (int i = 0; i < scale.grid.size[0]; ++i)
-        {
-          const Vec3 x = first + options.spacing * Vec3{ double(i), double(j), double(k) };
-          const LengthFunction length(options, x, gridTargets, gridPaths);
-          if (!options.tissues.empty()) labelsInBox(map, x, options.spacing, labels);
-          double smallest = labels.empty() ? length.general() : HUGE_VAL;
-          for (const Label label : labels) smallest = std::min(smallest, length.inTissue(label));
-          scale.lengths[scale.grid.index(i, j, k)] = float(smallest);
-        }
-      }
-    }
-  });
+  vtkSMPTools::For(0, scale.grid.size[2],
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     std::vector<Label> labels;
+                     for (int k = int(begin); k < int(end); ++k)
+                     {
+                       for (int j = 0; j < scale.grid.size[1]; ++j)
+                       {
+                         for (int i = 0; i < scale.grid.size[0]; ++i)
+                         {
+                           const Vec3 x = first + options.spacing * Vec3{ double(i), double(j), double(k) };
+                           const LengthFunction length(options, x, gridTargets, gridPaths);
+                           if (!options.tissues.empty()) labelsInBox(map, x, options.spacing, labels);
+                           double smallest = labels.empty() ? length.general() : HUGE_VAL;
+                           for (const Label label : labels) smallest = std::min(smallest, length.inTissue(label));
+                           scale.lengths[scale.grid.index(i, j, k)] = float(smallest);
+                         }
+                       }
+                     }
+                   });
   if (options.gradation > 0)
   {
     report(progress, 0.5, "gradation");

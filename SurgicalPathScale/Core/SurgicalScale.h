@@ -67,7 +67,7 @@ struct SurgicalScaleOptions
 /// Throws UsageError unless every length and distance is finite and in its range, there is what `combination` asks for,
 /// and the scale volume would have at most 2^31 voxels; InputError for a path of fewer than two points.
 void checkScaleOptions(const SurgicalScaleOptions& options, const Grid& map, const std::vector<Vec3>& targets,
-  const std::vector<Path>& paths);
+                       const std::vector<Path>& paths);
 
 /// The grid of a scale volume: the axes of the map's grid, cubic voxels of `spacing`, centred on the map, which it covers
 /// to the outer faces of its voxels with at least one scale voxel to spare on every side.
@@ -80,7 +80,7 @@ Grid scaleGrid(const Grid& map, double spacing);
 /// tissues meet in a box the smallest length wins, and background counts only where it is alone.
 /// Throws as checkScaleOptions does.
 ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
-  const SurgicalScaleOptions& options, const Progress& progress = {});
+                                const SurgicalScaleOptions& options, const Progress& progress = {});
 
 /// Lowers L to the largest function below it that rises by no more than `slope` per mm between any two voxel centres:
 /// L'(x) = min over all voxels y of L(y) + slope |x - y|. Exact; slope > 0.

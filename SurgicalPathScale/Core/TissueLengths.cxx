@@ -24,10 +24,7 @@ enum Column
 /// Field number of each column; -1 for one that the header row lacks.
 using Columns = std::array<int, ColumnCount>;
 
-[[noreturn]] void fail(const std::string& where, const std::string& what)
-{
-  throw InputError(where + ": " + what);
-}
+[[noreturn]] void fail(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
 
 Columns readHeader(const std::vector<std::string>& fields, const std::string& where)
 {
@@ -87,7 +84,7 @@ bool findTissue(const std::string& text, const TissueTable& names, Label& label)
 }
 
 std::map<Label, TissueLength> readTissueLengths(const std::string& file, const LengthRange& range,
-  const TissueTable& names)
+                                                const TissueTable& names)
 {
   std::map<Label, TissueLength> lengths;
   Columns columns{};

@@ -13,7 +13,7 @@ namespace surgicalmesher
 /// that are empty or begin with # are skipped. Throws InputError with file and line for anything else than that, values
 /// that are not finite and positive, a minimum above the maximum, an unknown name, a tissue listed twice.
 std::map<Label, TissueLength> readTissueLengths(const std::string& file, const LengthRange& range,
-  const TissueTable& names);
+                                                const TissueTable& names);
 
 /// The label that `text` means: a number from 0 to 65535, or a name of `names` (underscores and blanks are the same).
 /// Returns false if it is neither.

@@ -40,7 +40,8 @@ double leastAlong(const Path& path, Measure measure)
     for (int s = 0; s <= steps; ++s)
     {
       const double u = double(s) / steps;
-      least = std::min(least, measure(path[n - 1] + u * (path[n] - path[n - 1]), (arc + u * length) / pathLength(path)));
+      least =
+        std::min(least, measure(path[n - 1] + u * (path[n] - path[n - 1]), (arc + u * length) / pathLength(path)));
     }
     arc += length;
   }
@@ -91,7 +92,8 @@ TEST(Distance, ToSegmentKnowsInsideEndsAndPoints)
 TEST(Distance, ToTubeAgreesWithDenseSampling)
 {
   Random random(3);
-  for (const auto& [atEntry, atTarget] : { std::pair(25.0, 5.0), std::pair(5.0, 25.0), std::pair(8.0, 8.0), std::pair(300.0, 1.0) })
+  for (const auto& [atEntry, atTarget] :
+       { std::pair(25.0, 5.0), std::pair(5.0, 25.0), std::pair(8.0, 8.0), std::pair(300.0, 1.0) })
   {
     const Path path = random.path(5);
     for (int n = 0; n < 50; ++n)
@@ -99,7 +101,8 @@ TEST(Distance, ToTubeAgreesWithDenseSampling)
       const Vec3 x = random.point();
       const double from = atEntry;
       const double to = atTarget;
-      const double sampled = leastAlong(path, [&](const Vec3& p, double share) { return norm(x - p) - (from + share * (to - from)); });
+      const double sampled =
+        leastAlong(path, [&](const Vec3& p, double share) { return norm(x - p) - (from + share * (to - from)); });
       EXPECT_LE(distanceToTube(x, path, from, to), sampled + 1e-9);
       EXPECT_NEAR(distanceToTube(x, path, from, to), sampled, 0.2);
     }

@@ -61,7 +61,8 @@ TEST(MeshSizeEstimate, GivesSmallTissuesTheElementsTheyNeed)
   for (int n = 0; n < 64; ++n) // cubes of 3 mm, 16 mm apart
   {
     const std::array<int, 3> corner{ 6 + 16 * (n % 4), 6 + 16 * (n / 4 % 4), 6 + 16 * (n / 16) };
-    for (int v = 0; v < 27; ++v) map.labels[map.grid.index(corner[0] + v % 3, corner[1] + v / 3 % 3, corner[2] + v / 9)] = 1;
+    for (int v = 0; v < 27; ++v)
+      map.labels[map.grid.index(corner[0] + v % 3, corner[1] + v / 3 % 3, corner[2] + v / 9)] = 1;
   }
   const MeshSizeEstimate estimate = estimateMeshSize(map, uniformScale(8));
   EXPECT_GT(estimate.triangles, 64 * 4); // the least that closes a surface

@@ -1,5 +1,5 @@
-#include "Errors.h"
 #include "NullDisplacement.h"
+#include "Errors.h"
 
 #include <gtest/gtest.h>
 
@@ -73,7 +73,8 @@ void expectAsDefined(const NullDisplacementOptions& options)
   EXPECT_EQ(map.table.at(5).name, "null displacement");
 }
 
-void expectUsageError(const std::vector<Vec3>& points, const std::vector<Path>& lines, const NullDisplacementOptions& options)
+void expectUsageError(const std::vector<Vec3>& points, const std::vector<Path>& lines,
+                      const NullDisplacementOptions& options)
 {
   TissueMap map = noisyMap();
   EXPECT_THROW(markNullDisplacement(map, points, lines, options), UsageError);

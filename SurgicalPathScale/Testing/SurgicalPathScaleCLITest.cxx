@@ -46,7 +46,8 @@ protected:
     const std::string command = "cd '" + folder.file("") + "' && '" SURGICALPATHSCALECLI "' " + arguments + " >'" +
                                 streams.file("out") + "' 2>'" + streams.file("err") + "'";
     const int status = std::system(command.c_str());
-    return { WIFEXITED(status) ? WEXITSTATUS(status) : -1, readBytes(streams.file("out")), readBytes(streams.file("err")) };
+    return { WIFEXITED(status) ? WEXITSTATUS(status) : -1, readBytes(streams.file("out")),
+             readBytes(streams.file("err")) };
   }
 
   /// That the run ends with this status, one line on stderr that holds `expected`, and no file more than before.
@@ -85,7 +86,8 @@ TEST_F(SurgicalPathScaleCLI, WritesAScaleThatCoversTheMap)
 TEST_F(SurgicalPathScaleCLI, TakesTargetsInEveryFormAlike)
 {
   folder.write("ras.fcsv", "# CoordinateSystem = 0\nF,-10,0,40\n");
-  const std::string json = R"({"markups":[{"type":"Fiducial","coordinateSystem":"RAS","controlPoints":[{"position":[-10,0,40]}]}]})";
+  const std::string json =
+    R"({"markups":[{"type":"Fiducial","coordinateSystem":"RAS","controlPoints":[{"position":[-10,0,40]}]}]})";
   folder.write("ras.mrk.json", json);
   expectDone("--targets target.fcsv --childRadius 2 map.nrrd a.nrrd");
   expectDone("--targets ras.fcsv --childRadius 2 map.nrrd b.nrrd");
@@ -178,7 +180,9 @@ TEST_F(SurgicalPathScaleCLI, RefusesBadCommandLinesWithOneLineAndStatusTwo)
     }
   }
   expectRefused(target + "--outputLabelMap far.nrrd map.nrrd scale.nrrd", 2, "null-displacement");
-  expectRefused(target + "--nullDisplacementPathDistance 5 --outputLabelMap far.nrrd map.nrrd scale.nrrd", 2, "but no path");
+  expectRefused(target + "--nullDisplacementPathDistance 5 --outputLabelMap far.nrrd map.nrrd scale.nrrd", 2,
+                "but no path");
   expectRefused(target + "--nullDisplacementRadius 5 --nullDisplacementTissues pituitary --outputLabelMap far.nrrd "
-                         "map.nrrd scale.nrrd", 2, "\"pituitary\" is neither a label nor");
+                         "map.nrrd scale.nrrd",
+                2, "\"pituitary\" is neither a label nor");
 }

@@ -1,6 +1,6 @@
+#include "SurgicalScale.h"
 #include "Errors.h"
 #include "MeshSizeEstimate.h"
-#include "SurgicalScale.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
@@ -58,13 +58,16 @@ void expectUsageError(const SurgicalScaleOptions& options, const std::string& ex
 std::vector<double> largestLipschitzMinorant(const ScaleField& scale, double slope)
 {
   std::vector<double> lowered;
-  forEachVoxel(scale.grid, [&](int, int, int, const Vec3& x) {
-    double least = 1e9;
-    forEachVoxel(scale.grid, [&](int i, int j, int k, const Vec3& y) {
-      least = std::min(least, scale.lengths[scale.grid.index(i, j, k)] + slope * norm(x - y));
-    });
-    lowered.push_back(least);
-  });
+  forEachVoxel(scale.grid,
+               [&](int, int, int, const Vec3& x)
+               {
+                 double least = 1e9;
+                 forEachVoxel(scale.grid,
+                              [&](int i, int j, int k, const Vec3& y) {
+                                least = std::min(least, scale.lengths[scale.grid.index(i, j, k)] + slope * norm(x - y));
+                              });
+                 lowered.push_back(least);
+               });
   return lowered;
 }
 
@@ -91,8 +94,9 @@ TEST(EdgeLength, FollowsTheFormula)
     const Falloff falloff{ 30 * share(random), 1 + 40 * share(random) };
     const double d = 150 * share(random);
     const double expected = d <= falloff.childRadius
-      ? range.minimum
-      : range.minimum + (range.maximum - range.minimum) * (1 - std::exp(-(d - falloff.childRadius) / falloff.decayLength));
+                              ? range.minimum
+                              : range.minimum + (range.maximum - range.minimum) *
+                                                  (1 - std::exp(-(d - falloff.childRadius) / falloff.decayLength));
     EXPECT_NEAR(edgeLength(d, range, falloff), expected, 1e-12);
   }
 }
@@ -126,14 +130,17 @@ TEST(SurgicalScale, IsTheFormulaAtEveryVoxelCentre)
   {
     options.combination = combination;
     const ScaleField scale = computeSurgicalScale(map, targets, paths, options);
-    forEachVoxel(scale.grid, [&](int i, int j, int k, const Vec3& x) {
-      const double byTarget = edgeLength(distanceToPoints(x, targets), options.range, options.targetFalloff);
-      const double byPath = edgeLength(distanceToPaths(x, paths), options.range, options.pathFalloff);
-      const double expected = combination == Combination::Targets ? byTarget
-        : combination == Combination::Paths                       ? byPath
-                                                                  : std::min(byTarget, byPath);
-      EXPECT_NEAR(scale.lengths[scale.grid.index(i, j, k)], expected, 1e-5);
-    });
+    forEachVoxel(scale.grid,
+                 [&](int i, int j, int k, const Vec3& x)
+                 {
+                   const double byTarget =
+                     edgeLength(distanceToPoints(x, targets), options.range, options.targetFalloff);
+                   const double byPath = edgeLength(distanceToPaths(x, paths), options.range, options.pathFalloff);
+                   const double expected = combination == Combination::Targets ? byTarget
+                                           : combination == Combination::Paths ? byPath
+                                                                               : std::min(byTarget, byPath);
+                   EXPECT_NEAR(scale.lengths[scale.grid.index(i, j, k)], expected, 1e-5);
+                 });
   }
 }
 
@@ -149,7 +156,8 @@ TEST(SurgicalScale, CoversTheMapWithAVoxelToSpare)
       EXPECT_EQ(grid.spacing[axis], spacing);
       const Vec3 first = map.grid.worldToGrid(grid.origin);
       const double below = -0.5 * map.grid.spacing[axis] - (first[axis] - 0.5 * spacing);
-      const double above = first[axis] + (grid.size[axis] - 0.5) * spacing - (map.grid.size[axis] - 0.5) * map.grid.spacing[axis];
+      const double above =
+        first[axis] + (grid.size[axis] - 0.5) * spacing - (map.grid.size[axis] - 0.5) * map.grid.spacing[axis];
       EXPECT_GE(below, spacing * (1 - 1e-9));
       EXPECT_LT(below, 1.5 * spacing + 1e-9);
       EXPECT_NEAR(below, above, 1e-9);
@@ -174,17 +182,32 @@ TEST(SurgicalScale, GivesTissuesTheirOwnLengths)
   options.tissues[3] = { { 2, 8 }, 2 };
   options.spacing = 3;
   const ScaleField scale = computeSurgicalScale(map, target, {}, options);
-  forEachVoxel(map.grid, [&](int i, int j, int k, const Vec3& x) {
-    const double d = norm(x - target[0]);
-    const Label label = map.labels[map.grid.index(i, j, k)];
-    // A scale voxel away in any direction.
-    const double farther = d + options.spacing * std::sqrt(3.0);
-    if (label == 1) { EXPECT_LE(scale(x), edgeLength(farther, options.range, options.targetFalloff)); }
-    if (label == 2) { EXPECT_LE(scale(x), edgeLength(farther, { 0.5, 2 }, options.targetFalloff)); }
-    if (label == 3) { EXPECT_LE(scale(x), 2 * edgeLength(farther, { 2, 8 }, options.targetFalloff)); }
-    const bool isDeep = i > 20 + 2 * options.spacing && i < 38 - 2 * options.spacing;
-    if (isDeep) { EXPECT_GE(scale(x), 2 * edgeLength(std::max(0.0, d - options.spacing * 2), { 2, 8 }, options.targetFalloff)); }
-  });
+  forEachVoxel(
+    map.grid,
+    [&](int i, int j, int k, const Vec3& x)
+    {
+      const double d = norm(x - target[0]);
+      const Label label = map.labels[map.grid.index(i, j, k)];
+      // A scale voxel away in any direction.
+      const double farther = d + options.spacing * std::sqrt(3.0);
+      if (label == 1)
+      {
+        EXPECT_LE(scale(x), edgeLength(farther, options.range, options.targetFalloff));
+      }
+      if (label == 2)
+      {
+        EXPECT_LE(scale(x), edgeLength(farther, { 0.5, 2 }, options.targetFalloff));
+      }
+      if (label == 3)
+      {
+        EXPECT_LE(scale(x), 2 * edgeLength(farther, { 2, 8 }, options.targetFalloff));
+      }
+      const bool isDeep = i > 20 + 2 * options.spacing && i < 38 - 2 * options.spacing;
+      if (isDeep)
+      {
+        EXPECT_GE(scale(x), 2 * edgeLength(std::max(0.0, d - options.spacing * 2), { 2, 8 }, options.targetFalloff));
+      }
+    });
 }
 
 TEST(SurgicalScale, IsTheSameForARotatedCopy)
@@ -196,8 +219,8 @@ TEST(SurgicalScale, IsTheSameForARotatedCopy)
   const Vec3 p{ 4, 5, 6 };
   const Path path{ { 0, 1, 2 }, { 9, 9, 9 } };
   const ScaleField a = computeSurgicalScale(straight, { p }, { path }, defaults());
-  const ScaleField b = computeSurgicalScale(map, { map.grid.gridToWorld(p) },
-    { { map.grid.gridToWorld(path[0]), map.grid.gridToWorld(path[1]) } }, defaults());
+  const ScaleField b = computeSurgicalScale(
+    map, { map.grid.gridToWorld(p) }, { { map.grid.gridToWorld(path[0]), map.grid.gridToWorld(path[1]) } }, defaults());
   ASSERT_EQ(a.lengths.size(), b.lengths.size());
   for (std::size_t n = 0; n < a.lengths.size(); ++n) EXPECT_NEAR(a.lengths[n], b.lengths[n], 1e-5);
 }

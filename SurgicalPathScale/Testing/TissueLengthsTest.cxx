@@ -28,11 +28,12 @@ void expectRefused(const std::string& content, const std::string& expected)
 TEST(TissueLengths, ReadsLabelsNamesAndMissingValues)
 {
   const TemporaryFolder folder;
-  const std::string file = folder.write("lengths.csv",
-    "# lengths of critical tissue\n\nlabel, minimum,maximum ,factor\r\n85,0.5,2,\nadenohypophysis,,4,0.5\n7,,,2\n\"3\"\n");
+  const std::string file = folder.write("lengths.csv", "# lengths of critical tissue\n\nlabel, minimum,maximum "
+                                                       ",factor\r\n85,0.5,2,\nadenohypophysis,,4,0.5\n7,,,2\n\"3\"\n");
   const auto lengths = readTissueLengths(file, { 1, 8 }, names());
   ASSERT_EQ(lengths.size(), 4u);
-  const auto expectLength = [&](Label label, double minimum, double maximum, double factor) {
+  const auto expectLength = [&](Label label, double minimum, double maximum, double factor)
+  {
     EXPECT_EQ(lengths.at(label).range.minimum, minimum);
     EXPECT_EQ(lengths.at(label).range.maximum, maximum);
     EXPECT_EQ(lengths.at(label).factor, factor);

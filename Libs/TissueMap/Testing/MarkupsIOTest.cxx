@@ -40,16 +40,21 @@ void expectRefused(const std::string& name, const std::string& content, const st
 TEST(Markups, GivesTheSamePointsInEveryFormAndFrame)
 {
   const Lists expected{ { { -1.5, 20.25, -10 } } };
-  EXPECT_EQ(readContent("a.mrk.json", document(markup("Fiducial", "\"LPS\"", controlPoint("[-1.5, 20.25, -10]")))), expected);
-  EXPECT_EQ(readContent("a.mrk.json", document(markup("Fiducial", "\"RAS\"", controlPoint("[1.5, -20.25, -10]")))), expected);
-  EXPECT_EQ(readContent("a.mrk.json", document(markup("Fiducial", "\"1\"", controlPoint("[-1.5, 20.25, -10]")))), expected);
+  EXPECT_EQ(readContent("a.mrk.json", document(markup("Fiducial", "\"LPS\"", controlPoint("[-1.5, 20.25, -10]")))),
+            expected);
+  EXPECT_EQ(readContent("a.mrk.json", document(markup("Fiducial", "\"RAS\"", controlPoint("[1.5, -20.25, -10]")))),
+            expected);
+  EXPECT_EQ(readContent("a.mrk.json", document(markup("Fiducial", "\"1\"", controlPoint("[-1.5, 20.25, -10]")))),
+            expected);
   EXPECT_EQ(readContent("a.mrk.json", document(markup("Fiducial", "0", controlPoint("[1.5, -20.25, -10]")))), expected);
   EXPECT_EQ(readContent("a.json", document(markup("Fiducial", "1", controlPoint("[-1.5, 20.25, -1e1]")))), expected);
   const std::string columns = "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n";
   const std::string ras = "vtkMRML_0,1.5,-20.25,-10,0,0,0,1,1,1,0,F-1,\"a, b\",\n";
   const std::string lps = "vtkMRML_0,-1.5,20.25,-10,0,0,0,1,1,1,0,F-1,,\n";
-  EXPECT_EQ(readContent("a.fcsv", "# Markups fiducial file version = 4.6\n# CoordinateSystem = 0\n" + columns + ras), expected);
-  EXPECT_EQ(readContent("a.fcsv", "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n" + columns + lps), expected);
+  EXPECT_EQ(readContent("a.fcsv", "# Markups fiducial file version = 4.6\n# CoordinateSystem = 0\n" + columns + ras),
+            expected);
+  EXPECT_EQ(readContent("a.fcsv", "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n" + columns + lps),
+            expected);
   EXPECT_EQ(readContent("a.fcsv", "# CoordinateSystem = 1\n" + columns + lps), expected);
   EXPECT_EQ(readContent("a.fcsv", "# columns = label,x,y,z,sel,vis\r\nF,1.5,-20.25,-10,1,1\r\n"), expected);
   EXPECT_EQ(readContent("a.fcsv", "# columns = x,y,z,label\n1.5,-20.25,-10,F\n"), expected);
@@ -58,10 +63,11 @@ TEST(Markups, GivesTheSamePointsInEveryFormAndFrame)
 
 TEST(Markups, KeepsListsApartAndClosesCurves)
 {
-  const std::string points = controlPoint("[0, 0, 0]") + "," + controlPoint("[1, 0, 0]") + "," + controlPoint("[1, 1, 0]");
-  const Lists lists = readContent("a.mrk.json",
-    document(markup("Curve", "\"LPS\"", points) + "," + markup("ClosedCurve", "\"LPS\"", points) + "," +
-             markup("Line", "\"LPS\"", "")));
+  const std::string points =
+    controlPoint("[0, 0, 0]") + "," + controlPoint("[1, 0, 0]") + "," + controlPoint("[1, 1, 0]");
+  const Lists lists =
+    readContent("a.mrk.json", document(markup("Curve", "\"LPS\"", points) + "," +
+                                       markup("ClosedCurve", "\"LPS\"", points) + "," + markup("Line", "\"LPS\"", "")));
   ASSERT_EQ(lists.size(), 2u);
   EXPECT_EQ(lists[0].size(), 3u);
   ASSERT_EQ(lists[1].size(), 4u);
@@ -86,7 +92,8 @@ TEST(Markups, RefusesFilesWithoutPoints)
 
 TEST(Markups, RefusesCoordinatesThatAreNone)
 {
-  const auto json = [](const char* position) { return document(markup("Fiducial", "\"LPS\"", controlPoint(position))); };
+  const auto json = [](const char* position)
+  { return document(markup("Fiducial", "\"LPS\"", controlPoint(position))); };
   expectRefused("a.mrk.json", json("[1, 2]"), "a position of three numbers");
   expectRefused("a.mrk.json", json("[1, 2, \"3\"]"), "a position of three numbers");
   expectRefused("a.mrk.json", json("[1, 2, null]"), "a position of three numbers");
@@ -103,7 +110,8 @@ TEST(Markups, RefusesDocumentsThatAreNone)
   expectRefused("a.mrk.json", "{ \"markups\": [", "not valid JSON at byte");
   expectRefused("a.mrk.json", "[]", "no array \"markups\"");
   expectRefused("a.mrk.json", R"({ "markups": [ 3 ] })", "without controlPoints");
-  expectRefused("a.mrk.json", document(markup("Fiducial", "\"IJK\"", controlPoint("[1, 2, 3]"))), "expected LPS or RAS");
+  expectRefused("a.mrk.json", document(markup("Fiducial", "\"IJK\"", controlPoint("[1, 2, 3]"))),
+                "expected LPS or RAS");
   expectRefused("a.mrk.json", R"({ "markups": [ { "coordinateUnits": "cm", "controlPoints": [] } ] })", "expected mm");
   expectRefused("a.fcsv", "# CoordinateSystem = 2\nF,1,2,3\n", "expected LPS or RAS");
   expectRefused("a.fcsv", "# columns = label,y,x,z\nF,1,2,3\n", "expected x,y,z");

@@ -26,8 +26,9 @@ public:
   {
     static int count = 0;
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    const std::string name = std::string("surgicalmesher-") + info->test_suite_name() + "-" + info->name() + "-" +
-                             std::to_string(std::hash<std::string>()(testing::TempDir() + std::to_string(++count)) % 100000);
+    const std::string name =
+      std::string("surgicalmesher-") + info->test_suite_name() + "-" + info->name() + "-" +
+      std::to_string(std::hash<std::string>()(testing::TempDir() + std::to_string(++count)) % 100000);
     std::string safe = name;
     for (char& c : safe) c = c == '/' ? '-' : c;
     m_Path = std::filesystem::temp_directory_path() / safe;
@@ -46,7 +47,8 @@ public:
   }
   std::size_t fileCount() const
   {
-    return std::size_t(std::distance(std::filesystem::directory_iterator(m_Path), std::filesystem::directory_iterator()));
+    return std::size_t(
+      std::distance(std::filesystem::directory_iterator(m_Path), std::filesystem::directory_iterator()));
   }
 
 private:
@@ -87,7 +89,7 @@ inline std::string nrrdGeometry(const Grid& grid)
 /// An NRRD file with raw data; `type` is NRRD's name of T, `geometry` the header's lines on the grid, `more` other ones.
 template <typename T>
 std::string nrrd(const std::string& type, const std::string& geometry, const std::vector<T>& values,
-  const std::string& more = "")
+                 const std::string& more = "")
 {
   return "NRRD0005\ntype: " + type + "\n" + geometry + "endian: little\nencoding: raw\n" + more + "\n" + bytes(values);
 }

@@ -1,5 +1,5 @@
-#include "TestFiles.h"
 #include "TissueMapIO.h"
+#include "TestFiles.h"
 
 #include <algorithm>
 #include <functional>
@@ -42,7 +42,8 @@ TissueMap largeMap()
 
 Vec3 rotated(const Vec3& v, const Vec3& unitAxis, double angle)
 {
-  return std::cos(angle) * v + std::sin(angle) * cross(unitAxis, v) + (1 - std::cos(angle)) * dot(unitAxis, v) * unitAxis;
+  return std::cos(angle) * v + std::sin(angle) * cross(unitAxis, v) +
+         (1 - std::cos(angle)) * dot(unitAxis, v) * unitAxis;
 }
 
 Grid rotated(Grid grid, const Vec3& axis, double angle)
@@ -88,8 +89,7 @@ std::string stored(const TissueMap& map, const std::array<int, 3>& source, int f
 void forEachCopy(const TissueMap& map, const std::function<void(const std::string& content)>& visit)
 {
   std::array<int, 3> source{ 0, 1, 2 };
-  do
-  {
+  do {
     for (int flips = 0; flips < 8; ++flips) visit(stored(map, source, flips));
   } while (std::next_permutation(source.begin(), source.end()));
 }
@@ -171,11 +171,13 @@ TEST(ReadTissueMap, BringsEveryStorageOrderToTheSameMap)
 {
   const TissueMap map = noisyMap();
   const TemporaryFolder folder;
-  forEachCopy(map, [&](const std::string& content) {
-    const TissueMap copy = readTissueMap(folder.write("copy.nrrd", content));
-    EXPECT_EQ(copy.labels, map.labels);
-    expectSameGrid(copy.grid, map.grid);
-  });
+  forEachCopy(map,
+              [&](const std::string& content)
+              {
+                const TissueMap copy = readTissueMap(folder.write("copy.nrrd", content));
+                EXPECT_EQ(copy.labels, map.labels);
+                expectSameGrid(copy.grid, map.grid);
+              });
 }
 
 TEST(ReadTissueMap, BringsObliqueCopiesToOneMapEach)
@@ -183,19 +185,23 @@ TEST(ReadTissueMap, BringsObliqueCopiesToOneMapEach)
   const double pi = std::acos(-1.0);
   const TemporaryFolder folder;
   // 45 degrees and a third of a turn about the diagonal: no axis is nearest, or another one is.
-  const std::vector<std::pair<Vec3, double>> rotations{ { { 1, 2, 3 }, 0.3 }, { { 0, 0, 1 }, pi / 4 }, { { 1, 0, 1 }, pi / 4 },
-    { { 1, 1, 1 }, 2 * pi / 3 }, { { 1, 1, 1 }, pi / 3 }, { { 3, -1, 2 }, 2.5 }, { { 1, 0, 0 }, pi } };
+  const std::vector<std::pair<Vec3, double>> rotations{ { { 1, 2, 3 }, 0.3 },    { { 0, 0, 1 }, pi / 4 },
+                                                        { { 1, 0, 1 }, pi / 4 }, { { 1, 1, 1 }, 2 * pi / 3 },
+                                                        { { 1, 1, 1 }, pi / 3 }, { { 3, -1, 2 }, 2.5 },
+                                                        { { 1, 0, 0 }, pi } };
   for (const auto& [axis, angle] : rotations)
   {
     TissueMap map = noisyMap();
     map.grid = rotated(map.grid, axis, angle);
     const TissueMap first = readTissueMap(folder.write("first.nrrd", stored(map, { 0, 1, 2 }, 0)));
     EXPECT_NEAR(dot(cross(first.grid.axes[0], first.grid.axes[1]), first.grid.axes[2]), 1, 1e-12);
-    forEachCopy(map, [&](const std::string& content) {
-      const TissueMap copy = readTissueMap(folder.write("copy.nrrd", content));
-      EXPECT_EQ(copy.labels, first.labels);
-      expectSameGrid(copy.grid, first.grid);
-    });
+    forEachCopy(map,
+                [&](const std::string& content)
+                {
+                  const TissueMap copy = readTissueMap(folder.write("copy.nrrd", content));
+                  EXPECT_EQ(copy.labels, first.labels);
+                  expectSameGrid(copy.grid, first.grid);
+                });
     if (angle == 0.3)
     {
       EXPECT_EQ(first.labels, map.labels); // a small turn keeps the order
@@ -239,12 +245,14 @@ TEST(ReadTissueMap, AcceptsTheLargestLabelAndATissueThatFillsTheGrid)
 
 TEST(ReadTissueMap, RefusesAnEmptyMap)
 {
-  expectFileRefused("map.nrrd", nrrd("uint8", cubeGeometry(2), std::vector<std::uint8_t>(8, 0)), "no voxel but background");
+  expectFileRefused("map.nrrd", nrrd("uint8", cubeGeometry(2), std::vector<std::uint8_t>(8, 0)),
+                    "no voxel but background");
 }
 
 TEST(ReadTissueMap, TakesFourDimensionsOnlyWithALastAxisOfOne)
 {
-  const std::string three = "space dimension: 3\nspace directions: (1,0,0) (0,1,0) (0,0,1) none\nspace origin: (0,0,0)\n";
+  const std::string three =
+    "space dimension: 3\nspace directions: (1,0,0) (0,1,0) (0,0,1) none\nspace origin: (0,0,0)\n";
   const std::vector<std::uint8_t> twice(16, 1);
   const std::string moving = "dimension: 4\nsizes: 2 2 2 2\nkinds: domain domain domain time\n";
   expectFileRefused("map.nrrd", nrrd("uint8", moving, twice), "an image of 4 dimensions (2 x 2 x 2 x 2), expected 3");
@@ -260,16 +268,19 @@ TEST(ReadTissueMap, TakesFourDimensionsOnlyWithALastAxisOfOne)
 
 TEST(ReadTissueMap, RefusesTwoDimensionsAndVectors)
 {
-  expectFileRefused("map.nrrd", nrrd("uint8", "dimension: 2\nsizes: 2 4\n", std::vector<std::uint8_t>(8, 1)), "of 2 dimensions");
+  expectFileRefused("map.nrrd", nrrd("uint8", "dimension: 2\nsizes: 2 4\n", std::vector<std::uint8_t>(8, 1)),
+                    "of 2 dimensions");
   const std::string vectors = "dimension: 4\nspace: left-posterior-superior\nsizes: 3 2 2 2\n"
                               "kinds: vector domain domain domain\n"
                               "space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
-  expectFileRefused("map.nrrd", nrrd("uint8", vectors, std::vector<std::uint8_t>(24, 1)), "3 values per voxel, expected one label");
+  expectFileRefused("map.nrrd", nrrd("uint8", vectors, std::vector<std::uint8_t>(24, 1)),
+                    "3 values per voxel, expected one label");
 }
 
 TEST(ReadTissueMap, RefusesGeometryThatIsNone)
 {
-  const auto geometry = [](const char* directions, const char* origin) {
+  const auto geometry = [](const char* directions, const char* origin)
+  {
     return std::string("dimension: 3\nspace: left-posterior-superior\nsizes: 2 2 2\nspace directions: ") + directions +
            "\nspace origin: " + origin + "\n";
   };
@@ -331,7 +342,7 @@ TEST_P(EveryFormat, RefusesEveryTruncation)
 }
 
 INSTANTIATE_TEST_SUITE_P(ReadTissueMap, EveryFormat,
-  testing::Values("map.nrrd", "map.nii", "map.nii.gz", "map.mha", "map.gipl", "map.gipl.gz"));
+                         testing::Values("map.nrrd", "map.nii", "map.nii.gz", "map.mha", "map.gipl", "map.gipl.gz"));
 
 TEST(ReadTissueMap, FindsTheVoxelsOfADetachedHeaderAndMissesThemInTime)
 {
@@ -425,9 +436,11 @@ TEST(Segmentation, KeepsNamesColoursAndLabelsOfASharedLayer)
 TEST(Segmentation, MergesLayersAndLetsTheLaterSegmentWin)
 {
   const TemporaryFolder folder;
-  const std::string geometry = "dimension: 4\nspace: left-posterior-superior\nsizes: 2 2 2 1\nkinds: list domain domain domain\n"
-                               "space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
-  const auto segment = [](int n, int layer, int value) {
+  const std::string geometry =
+    "dimension: 4\nspace: left-posterior-superior\nsizes: 2 2 2 1\nkinds: list domain domain domain\n"
+    "space directions: none (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,0,0)\n";
+  const auto segment = [](int n, int layer, int value)
+  {
     const std::string prefix = "Segment" + std::to_string(n);
     return prefix + "_ID:=s" + std::to_string(n) + "\n" + prefix + "_Name:=s" + std::to_string(n) + "\n" + prefix +
            "_Layer:=" + std::to_string(layer) + "\n" + prefix + "_LabelValue:=" + std::to_string(value) + "\n";
@@ -441,7 +454,7 @@ TEST(Segmentation, MergesLayersAndLetsTheLaterSegmentWin)
   const std::vector<std::uint8_t> distinct{ 1, 0, 1, 7, 2, 7, 0, 0 };
   const std::string unlike = segment(0, 0, 1) + segment(1, 1, 7) + segment(2, 0, 2);
   EXPECT_EQ(readTissueMap(folder.write("b.seg.nrrd", nrrd("uint8", geometry, distinct, unlike))).labels,
-    (std::vector<Label>{ 1, 7, 2, 0 }));
+            (std::vector<Label>{ 1, 7, 2, 0 }));
 
   expectFileRefused("c.seg.nrrd", nrrd("uint8", geometry, distinct, same), "which no segment of the header has");
   expectFileRefused("d.seg.nrrd", nrrd("uint8", geometry, distinct, segment(0, 2, 1)), "Segment0_Layer");
@@ -451,7 +464,8 @@ TEST(WriteTissueMap, RefusesUnknownExtensionsAndMissingFolders)
 {
   const TemporaryFolder folder;
   const TissueMap map = noisyMap();
-  expectInputError([&] { writeTissueMap(map, folder.file("map.stl")); }, folder.file("map.stl"), "expected the extension of");
+  expectInputError([&] { writeTissueMap(map, folder.file("map.stl")); }, folder.file("map.stl"),
+                   "expected the extension of");
   const std::string lost = folder.file("nowhere/map.nrrd");
   expectInputError([&] { writeTissueMap(map, lost); }, lost, "cannot be written");
 }
