@@ -3,14 +3,12 @@
 #include "ComplexChecks.h"
 #include "Errors.h"
 
-#include <vtkCellArray.h>
-#include <vtkGenericCell.h>
-#include <vtkNew.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
-#include <vtkSMPThreadLocalObject.h>
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+
 #include <vtkSMPTools.h>
-#include <vtkStaticCellLocator.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,23 +19,21 @@ namespace surgicalmesher
 namespace
 {
 
-/// Answers where a point lies with respect to the surface; safe to ask from several threads.
+/// Answers where a point lies with respect to the surface; safe to ask from several threads. Approximate arithmetic is good
+/// enough: a wrong answer costs a point, nothing else.
 class SurfaceLocator
 {
 public:
   explicit SurfaceLocator(const SurfaceComplex& surface) : m_Surface(surface)
   {
-    vtkNew<vtkPoints> points;
-    points->SetDataTypeToDouble();
-    for (const Vec3& p : surface.points) points->InsertNextPoint(p.x, p.y, p.z);
-    vtkNew<vtkCellArray> cells;
-    for (const auto& [a, b, c] : surface.triangles) cells->InsertNextCell({ a, b, c });
-    m_Data->SetPoints(points);
-    m_Data->SetPolys(cells);
-    m_Data->BuildCells();
-    m_Locator->SetDataSet(m_Data);
-    m_Locator->BuildLocator();
-    m_Diagonal = m_Data->GetLength();
+    m_Triangles.reserve(surface.triangles.size());
+    for (const auto& [a, b, c] : surface.triangles)
+    {
+      m_Triangles.emplace_back(cgal(surface.points[a]), cgal(surface.points[b]), cgal(surface.points[c]));
+    }
+    m_Tree.insert(m_Triangles.begin(), m_Triangles.end());
+    m_Tree.build();
+    m_Tree.accelerate_distance_queries();
   }
 
   struct Answer
@@ -46,43 +42,36 @@ public:
     bool inside;     ///< of some tissue
   };
 
-  Answer ask(const Vec3& p)
+  Answer ask(const Vec3& p) const
   {
-    vtkGenericCell* cell = m_Cells.Local();
-    Vec3 closest;
-    vtkIdType triangle = -1;
-    int subId;
-    double squared;
-    m_Locator->FindClosestPoint(&p.x, &closest.x, cell, triangle, subId, squared);
-    return { std::sqrt(squared), labelSeenThrough(p, triangle, cell) != 0 };
+    const auto [closest, primitive] = m_Tree.closest_point_and_primitive(cgal(p));
+    const double squared = CGAL::squared_distance(cgal(p), closest);
+    return { std::sqrt(squared), labelTowards(p, primitive) != 0 };
   }
 
 private:
-  /// The label at p: on the near side of the first triangle towards the middle of the closest one. (The closest triangle
-  /// itself can't be asked: where it is closest with an edge, either side of its plane may lie on the same side of the
-  /// surface.) A wrong answer at a grazing hit costs a point, nothing else.
-  Label labelSeenThrough(const Vec3& p, vtkIdType triangle, vtkGenericCell* cell)
+  using Kernel = CGAL::Simple_cartesian<double>;
+  using Triangles = std::vector<Kernel::Triangle_3>;
+  using Iterator = Triangles::const_iterator;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Iterator>>>;
+
+  static Kernel::Point_3 cgal(const Vec3& p) { return { p.x, p.y, p.z }; }
+
+  /// The label at p: on the near side of the first triangle on the way to the middle of the closest one. (The closest
+  /// triangle itself can't be asked: where it is closest with an edge, p may lie on either side of its plane.)
+  Label labelTowards(const Vec3& p, Iterator closest) const
   {
-    const auto& [a, b, c] = m_Surface.triangles[triangle];
-    const Vec3 middle = (m_Surface.points[a] + m_Surface.points[b] + m_Surface.points[c]) / 3;
-    const Vec3 beyond = p + 1.001 * (middle - p);
-    double t, hit[3], parametric[3];
-    int subId;
-    vtkIdType first = triangle;
-    if (!m_Locator->IntersectWithLine(&p.x, &beyond.x, 1e-12 * m_Diagonal, t, hit, parametric, subId, first, cell))
-    {
-      first = triangle;
-    }
-    const auto& [i, j, k] = m_Surface.triangles[first];
+    const Kernel::Ray_3 ray(cgal(p), CGAL::centroid(*closest));
+    const auto hit = m_Tree.first_intersected_primitive(ray);
+    const Iterator first = hit ? *hit : closest;
+    const auto& [i, j, k] = m_Surface.triangles[first - m_Triangles.begin()];
     const bool front = orient(m_Surface.points[i], m_Surface.points[j], m_Surface.points[k], p) > 0;
-    return m_Surface.labels[first][front ? 1 : 0];
+    return m_Surface.labels[first - m_Triangles.begin()][front ? 1 : 0];
   }
 
   const SurfaceComplex& m_Surface;
-  vtkNew<vtkPolyData> m_Data;
-  vtkNew<vtkStaticCellLocator> m_Locator;
-  vtkSMPThreadLocalObject<vtkGenericCell> m_Cells;
-  double m_Diagonal = 0;
+  Triangles m_Triangles;
+  Tree m_Tree;
 };
 
 double checkedLength(const EdgeLength& edgeLength, const Vec3& p)
@@ -222,7 +211,7 @@ std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const EdgeLength&
   }
   const LatticeOctree octree(low, high, finest, coarsest, edgeLength);
   const std::vector<Places>& places = octree.places();
-  SurfaceLocator locator(surface);
+  const SurfaceLocator locator(surface);
   std::vector<char> keep(places.size());
   vtkSMPTools::For(0, static_cast<vtkIdType>(places.size()),
     [&](vtkIdType begin, vtkIdType end)
