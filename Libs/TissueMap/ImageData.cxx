@@ -88,7 +88,11 @@ DataBlock textHeader(const std::string& file, char separator, const std::string&
 
 DataBlock findData(const std::string& file)
 {
-  if (hasExtension(file, ".nrrd") || hasExtension(file, ".nhdr")) return textHeader(file, ':', "data file", "encoding");
+  if (hasExtension(file, ".nrrd") || hasExtension(file, ".nhdr"))
+  {
+    const DataBlock block = textHeader(file, ':', "data file", "encoding");
+    return block.compressed ? block : DataBlock(); // NRRD's reader counts raw and text data itself
+  }
   if (hasExtension(file, ".mha") || hasExtension(file, ".mhd"))
   {
     return textHeader(file, '=', "elementdatafile", "compresseddata");
@@ -132,6 +136,7 @@ std::uint64_t inflatedSize(std::istream& stream, std::uint64_t enough)
 void requireImageData(const std::string& imageFile, std::uint64_t byteCount)
 {
   const DataBlock block = findData(imageFile);
+  if (block.file.empty()) return;
   std::ifstream stream(block.file.c_str(), std::ios::binary);
   if (!stream)
   {

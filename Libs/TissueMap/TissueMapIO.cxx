@@ -168,8 +168,18 @@ bool arePerpendicular(const std::array<Vec3, 3>& axes)
   return true;
 }
 
-/// The sform of a NIfTI header in LPS: whether there is one, and it is a placement of perpendicular axes. Where a file has
-/// an sform and a qform that differ, ITK takes the qform unless the sform is of the scanner; nearly everybody else, and
+/// Millimetres per unit of a NIfTI header's coordinates.
+double niftiUnit(const MetaData& metaData)
+{
+  long units = 0;
+  const std::string* text = find(metaData, "xyzt_units");
+  if (!text || !text::parseInteger(*text, 0, 255, units)) return 1;
+  const long spaceUnits = units & 7;
+  return spaceUnits == 1 ? 1000 : spaceUnits == 3 ? 0.001 : 1;
+}
+
+/// The sform of a NIfTI header in LPS mm: whether there is one, and it is a placement of perpendicular axes. Where a file
+/// has an sform and a qform that differ, ITK takes the qform unless the sform is of the scanner; nearly everybody else, and
 /// this project, takes the sform, in which atlases are aligned.
 bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& columns)
 {
@@ -180,26 +190,26 @@ bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& colu
   {
     const std::string* text = find(metaData, keys[row]);
     const std::vector<std::string> words = text ? text::splitWords(*text) : std::vector<std::string>();
-    const double sign = row < 2 ? -1 : 1; // NIfTI's world is RAS
+    const double scale = (row < 2 ? -1 : 1) * niftiUnit(metaData); // NIfTI's world is RAS
     double value[4];
     if (words.size() != 4) return false;
     for (int column = 0; column < 4; ++column)
     {
       if (!text::parseNumber(words[column], value[column])) return false;
     }
-    for (int column = 0; column < 3; ++column) columns[column][row] = sign * value[column];
-    origin[row] = sign * value[3];
+    for (int column = 0; column < 3; ++column) columns[column][row] = scale * value[column];
+    origin[row] = scale * value[3];
   }
   return arePerpendicular(columns);
 }
 
 /// The grid in the order of the file; its axes may be left-handed.
-Grid fileGrid(const itk::ImageIOBase& io, const MetaData& metaData, const std::string& file)
+Grid fileGrid(const itk::ImageIOBase& io, const MetaData& niftiHeader, const std::string& file)
 {
   Grid grid;
   grid.size = volumeSize(io, file);
   std::array<Vec3, 3> columns;
-  if (!readSform(metaData, grid.origin, columns))
+  if (!readSform(niftiHeader, grid.origin, columns))
   {
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -292,10 +302,10 @@ MetaData readMetaData(const itk::ImageIOBase& io)
 
 /// Bytes of the file's data, those before the first voxel included. A NIfTI header tells; its voxels may be smaller in
 /// the file than in memory, where its slope and intercept make them floats.
-std::uint64_t bytesOnDisk(const MetaData& metaData, std::size_t voxelCount, std::size_t bytesInMemory)
+std::uint64_t bytesOnDisk(const MetaData& niftiHeader, std::size_t voxelCount, std::size_t bytesInMemory)
 {
-  const std::string* bits = find(metaData, "bitpix");
-  const std::string* offset = find(metaData, "vox_offset");
+  const std::string* bits = find(niftiHeader, "bitpix");
+  const std::string* offset = find(niftiHeader, "vox_offset");
   double bitsPerVoxel = 0;
   double firstVoxel = 0;
   if (!bits || !offset || !text::parseNumber(*bits, bitsPerVoxel) || !text::parseNumber(*offset, firstVoxel))
@@ -309,7 +319,10 @@ Volume readVolume(const std::string& file)
   Volume volume;
   volume.file = file;
   volume.metaData = readMetaData(*io);
-  canonicalise(fileGrid(*io, volume.metaData, file), volume);
+  // Other formats may carry a NIfTI header's entries on, from a file they were converted from: there they mean nothing.
+  const bool isNifti = dynamic_cast<const itk::NiftiImageIO*>(io.GetPointer()) != nullptr;
+  const MetaData niftiHeader = isNifti ? volume.metaData : MetaData();
+  canonicalise(fileGrid(*io, niftiHeader, file), volume);
   volume.components = int(io->GetNumberOfComponents());
   volume.type = io->GetComponentType();
 
@@ -321,7 +334,7 @@ Volume readVolume(const std::string& file)
   try
   {
     const std::size_t byteCount = volume.grid.voxelCount() * volume.components * io->GetComponentSize();
-    requireImageData(file, bytesOnDisk(volume.metaData, volume.grid.voxelCount(), byteCount));
+    requireImageData(file, bytesOnDisk(niftiHeader, volume.grid.voxelCount(), byteCount));
     volume.data.reset(new char[byteCount]);
     io->Read(volume.data.get());
   }

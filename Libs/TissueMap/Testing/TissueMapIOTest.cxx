@@ -139,6 +139,7 @@ struct Nifti
   short sformCode = 0;
   std::array<float, 12> srow{};
   float slope = 0;
+  char units = 2; // mm
 
   std::string content(std::size_t voxelBytes) const
   {
@@ -152,6 +153,7 @@ struct Nifti
     put(80, pixdim);
     put(108, 352.f);
     put(112, slope);
+    put(123, units);
     put(252, qformCode);
     put(254, sformCode);
     put(280, srow);
@@ -388,6 +390,43 @@ TEST(ReadTissueMap, PlacesNiftiBySformBeforeQform)
   nifti.sformCode = 0;
   const TissueMap byQform = readTissueMap(folder.write("map.nii", nifti.content(24)));
   expectNear(byQform.grid.spacing, { 1, 1, 1 }, 1e-6);
+}
+
+TEST(ReadTissueMap, ReadsNiftiInMicrometres)
+{
+  const TemporaryFolder folder;
+  Nifti nifti;
+  nifti.sformCode = 1;
+  nifti.srow = { -500, 0, 0, 0, 0, -500, 0, 0, 0, 0, 500, 3000 };
+  nifti.pixdim = { 500, 500, 500 };
+  nifti.units = 3;
+  const TissueMap map = readTissueMap(folder.write("map.nii", nifti.content(24)));
+  expectNear(map.grid.spacing, { 0.5, 0.5, 0.5 }, 1e-9);
+  expectNear(map.grid.origin, { 0, 0, 3 }, 1e-9);
+}
+
+TEST(ReadTissueMap, IgnoresANiftiHeaderThatAnotherFormatCarriesOn)
+{
+  const TemporaryFolder folder;
+  const TissueMap map = noisyMap();
+  const std::string file =
+    folder.write("map.nrrd", nrrd("uint16", nrrdGeometry(map.grid), map.labels,
+                                  "sform_code:=1\nsrow_x:=7 0 0 1\nsrow_y:=0 7 0 2\nsrow_z:=0 0 7 3\n"
+                                  "bitpix:=64\nvox_offset:=352\n"));
+  const TissueMap copy = readTissueMap(file);
+  EXPECT_EQ(copy.labels, map.labels);
+  expectSameGrid(copy.grid, map.grid);
+}
+
+TEST(ReadTissueMap, ReadsNrrdTextAndRefusesTruncatedRawAndText)
+{
+  const TemporaryFolder folder;
+  const std::string header = "NRRD0005\ntype: float\n" + cubeGeometry(2) + "encoding: ascii\n\n";
+  const std::string file = folder.write("map.nrrd", header + "0 1 2 3\n4 5 6 7\n");
+  EXPECT_EQ(readTissueMap(file).labels, (std::vector<Label>{ 0, 1, 2, 3, 4, 5, 6, 7 }));
+  expectFileRefused("map.nrrd", header + "0 1 2 3\n4 5 6\n", "");
+  const std::string raw = nrrd("uint16", cubeGeometry(2), std::vector<Label>(8, 1));
+  for (const std::size_t missing : { 1, 8 }) expectFileRefused("map.nrrd", raw.substr(0, raw.size() - missing), "");
 }
 
 TEST(ReadTissueMap, ReadsScaledNifti)
