@@ -3,6 +3,8 @@
 #include "PaddedMap.h"
 #include "RegionRemoval.h"
 
+#include <vtkSMPTools.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -119,28 +121,35 @@ public:
     }
   }
 
-  /// Calls visit(voxel) for every voxel in a dirty cube, `margin` voxels at the grid's border left out; all is clean then.
-  template <typename Visit>
-  void visitAndClean(int margin, const Visit& visit)
+  /// The dirty cubes, ascending; all are clean afterwards.
+  std::vector<std::size_t> take()
   {
+    std::vector<std::size_t> cubes;
     for (std::size_t cube = 0; cube < m_Dirty.size(); ++cube)
     {
-      if (!m_Dirty[cube]) continue;
-      m_Dirty[cube] = false;
-      const std::array<int, 3> c{ int(cube % m_Count[0]), int(cube / m_Count[0] % m_Count[1]),
-                                  int(cube / m_Count[0] / m_Count[1]) };
-      std::array<int, 3> from, to;
-      for (int axis = 0; axis < 3; ++axis)
+      if (m_Dirty[cube]) cubes.push_back(cube);
+    }
+    m_Dirty.assign(m_Dirty.size(), false);
+    return cubes;
+  }
+
+  /// Calls visit(voxel) for every voxel of a cube, `margin` voxels at the grid's border left out.
+  template <typename Visit>
+  void visitVoxels(std::size_t cube, int margin, const Visit& visit) const
+  {
+    const std::array<int, 3> c{ int(cube % m_Count[0]), int(cube / m_Count[0] % m_Count[1]),
+                                int(cube / m_Count[0] / m_Count[1]) };
+    std::array<int, 3> from, to;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      from[axis] = std::max(margin, c[axis] * side);
+      to[axis] = std::min(m_Grid.size[axis] - margin, (c[axis] + 1) * side);
+    }
+    for (int k = from[2]; k < to[2]; ++k)
+    {
+      for (int j = from[1]; j < to[1]; ++j)
       {
-        from[axis] = std::max(margin, c[axis] * side);
-        to[axis] = std::min(m_Grid.size[axis] - margin, (c[axis] + 1) * side);
-      }
-      for (int k = from[2]; k < to[2]; ++k)
-      {
-        for (int j = from[1]; j < to[1]; ++j)
-        {
-          for (int i = from[0]; i < to[0]; ++i) visit(m_Grid.index(i, j, k));
-        }
+        for (int i = from[0]; i < to[0]; ++i) visit(m_Grid.index(i, j, k));
       }
     }
   }
@@ -222,23 +231,39 @@ private:
   {
     // A detail narrower than s is gone after s rounds. More would unravel thin sheets from their edges.
     const int rounds = int(std::ceil(m_Largest / m_Sizes.smallestSpacing()));
-    std::vector<std::pair<std::size_t, Label>> changes;
     for (int round = 0; round < rounds; ++round)
     {
-      changes.clear();
-      m_Dirty.visitAndClean(m_Margin,
-                            [&](std::size_t voxel)
-                            {
-                              const Label label = ruling(voxel);
-                              if (label != m_Map.labels[voxel]) changes.emplace_back(voxel, label);
-                            });
-      if (changes.empty()) return;
-      for (const auto& [voxel, label] : changes)
+      for (const auto& changes : findChanges(m_Dirty.take()))
       {
-        m_Map.labels[voxel] = label;
-        m_Dirty.mark(voxel, m_Margin - 1);
+        for (const auto& [voxel, label] : changes)
+        {
+          m_Map.labels[voxel] = label;
+          m_Dirty.mark(voxel, m_Margin - 1);
+        }
       }
     }
+  }
+
+  using Changes = std::vector<std::pair<std::size_t, Label>>;
+
+  /// Per cube, what the share rule asks of the map as it is.
+  std::vector<Changes> findChanges(const std::vector<std::size_t>& cubes) const
+  {
+    std::vector<Changes> changes(cubes.size());
+    vtkSMPTools::For(0, vtkIdType(cubes.size()),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType c = begin; c < end; ++c)
+                       {
+                         m_Dirty.visitVoxels(cubes[c], m_Margin,
+                                             [&](std::size_t voxel)
+                                             {
+                                               const Label label = ruling(voxel);
+                                               if (label != m_Map.labels[voxel]) changes[c].emplace_back(voxel, label);
+                                             });
+                       }
+                     });
+    return changes;
   }
 
   /// The label that a voxel should have by the share rule.

@@ -4,6 +4,7 @@
 #include "TissueMapIO.h"
 
 #include <gtest/gtest.h>
+#include <vtkSMPTools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -228,6 +229,19 @@ TEST(FeatureSimplification, ReportAddsUpOnNoise)
       EXPECT_GE(2 * voxels(map), voxels(before));
     }
   }
+}
+
+TEST(FeatureSimplification, SameResultFromAnyNumberOfThreads)
+{
+  std::mt19937 random(5);
+  TissueMap one = noise(random, 32, 5);
+  TissueMap two = one;
+  vtkSMPTools::Initialize(1);
+  simplify(one, 4);
+  vtkSMPTools::Initialize(2);
+  simplify(two, 4);
+  vtkSMPTools::Initialize();
+  EXPECT_EQ(one.labels, two.labels);
 }
 
 TEST(FeatureSimplification, CancellingLeavesTheMap)
