@@ -17,7 +17,8 @@ namespace surgicalmesher
 namespace
 {
 
-// Corners of a block: bit 0 of the number is i, bit 1 j, bit 2 k. Voxels of a 3x3x3 neighbourhood: i + 3 j + 9 k, centre 13.
+// Corners of a block: bit 0 of the number is i, bit 1 j, bit 2 k.
+// Voxels of a 3x3x3 neighbourhood: i + 3 j + 9 k, the centre at 13.
 
 using CornerMask = unsigned; ///< a set of corners, one bit each
 using Block = std::array<Label, 8>;
@@ -81,8 +82,9 @@ int criticalBlocks(const Neighbourhood& n)
   return count;
 }
 
-/// Face-connected parts of `label` among the 18 voxels around the centre, of which only those that touch the centre by a
-/// face count. One means that the centre can join or leave the label without changing how its surroundings hang together.
+/// Face-connected parts of `label` among the 18 voxels around the centre, of which only those that touch the centre by
+/// a face count. One means that the centre can join or leave the label without its surroundings falling apart or
+/// meeting.
 int partsAround(const Neighbourhood& n, Label label)
 {
   const auto& faces = faceNeighbours;
@@ -173,9 +175,9 @@ std::vector<bool> findIslands(const Regions& regions, const Grid& grid, const Pr
 
 /// Empties a queue of critical blocks of a padded map, one voxel at a time.
 ///
-/// Each change is the cheapest among the voxels and labels of the block at hand: it leaves few critical blocks around the
-/// voxel, labels that hang together as they did, and little interface. A voxel becomes dearer with every change, so the
-/// search cannot circle for ever, and where no change helps it wanders until one does.
+/// Each change is the cheapest among the voxels and labels of the block at hand: it leaves few critical blocks around
+/// the voxel, labels that hang together as they did, and little interface. A voxel becomes dearer with every change, so
+/// the search cannot circle for ever, and where no change helps it wanders until one does.
 class ContactResolver
 {
 public:
@@ -204,7 +206,7 @@ public:
 
   void run()
   {
-    // Pure noise takes about one change per critical block: a hundred mean that there is no way out.
+    // Far more than pure noise takes.
     std::size_t changesLeft = 1000 + 100 * m_Queue.size();
     for (std::size_t head = 0; head < m_Queue.size(); ++head)
     {

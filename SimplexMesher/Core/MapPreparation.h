@@ -1,10 +1,10 @@
 #pragma once
 /// Preparation of the tissue map: what the surface will be faithful to.
 ///
-/// A map is *well-composed* when no tissue, background included, touches itself only along a voxel edge or corner:
-/// 6-, 18- and 26-connectivity then agree on every tissue, and every tissue's boundary is a 2-manifold
-/// (L. J. Latecki, "3D well-composed pictures", Graphical Models and Image Processing 59, 1997). The test is local: in every
-/// 2x2x2 block, the voxels of each label are face-connected within the block, and so are the others. A block that fails is
+/// A map is *well-composed* when no tissue, background included, touches itself only along a voxel edge or corner: 6-,
+/// 18- and 26-connectivity then agree on every tissue, and every tissue's boundary is a 2-manifold (L. J. Latecki, "3D
+/// well-composed pictures", Graphical Models and Image Processing 59, 1997). The test is local: in every 2x2x2 block,
+/// the voxels of each label are face-connected within the block, and so are the others. A block that fails is
 /// *critical*.
 
 #include "Progress.h"
@@ -19,8 +19,8 @@ namespace surgicalmesher
 
 struct PreparationOptions
 {
-  /// mm^3; face-connected components of a tissue smaller than this go to the labels around them. The largest component of
-  /// a tissue always stays, however small.
+  /// mm^3; face-connected components of a tissue smaller than this go to the labels around them. The largest component
+  /// of a tissue always stays, however small.
   double minimumIslandVolume = 0;
   double minimumPocketVolume = 0;   ///< mm^3; the same for enclosed background
   std::set<Label> untouchedIslands; ///< tissues (or background) whose islands all stay
@@ -44,9 +44,9 @@ struct PreparationReport
 /// Number of critical 2x2x2 blocks of the map, padded by one layer of background.
 std::size_t countCriticalBlocks(const TissueMap& map);
 
-/// Removes islands, then resolves every contact; afterwards countCriticalBlocks() is 0, and every tissue that was present
-/// still is. Without islands to remove only voxels near critical blocks change. Deterministic.
-/// Throws EngineError if a contact cannot be resolved, with its place in mm; the map is then as it was.
+/// Removes islands, then resolves every contact; afterwards countCriticalBlocks() is 0, and every tissue that was
+/// present still is. Without islands to remove only voxels near critical blocks change. Deterministic. Throws
+/// EngineError if a contact cannot be resolved, with its place in mm; the map is then as it was.
 PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, const Progress& progress = {});
 
 } // namespace surgicalmesher

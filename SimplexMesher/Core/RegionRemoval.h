@@ -19,9 +19,9 @@ struct RemovedVoxels
 /// For each region, whether it is the largest of its label (of equals, the first). Region 0 stands alone.
 std::vector<bool> largestRegions(const Regions& regions);
 
-/// Gives the voxels of the chosen regions to the labels around them, from the outside of each region inwards: every voxel
-/// goes to the label with which it shares most surface. `map` has a margin (PaddedMap.h) and `regions` are its own; region
-/// 0 is not to be chosen. Labels in `closed` take nothing: a region that only they surround stays.
+/// Gives the voxels of the chosen regions to the labels around them, from the outside of each region inwards: every
+/// voxel goes to the label with which it shares most surface. `map` has a margin (PaddedMap.h) and `regions` are its
+/// own; region 0 is not to be chosen. Labels in `closed` take nothing: a region that only they surround stays.
 RemovedVoxels removeRegions(TissueMap& map, const Regions& regions, const std::vector<bool>& chosen,
                             const std::set<Label>& closed = {});
 

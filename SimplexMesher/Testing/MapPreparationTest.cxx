@@ -44,8 +44,8 @@ PreparationOptions islandsUnder(double volume)
   return options;
 }
 
-/// Latecki's definition, label by label: no 2x2 square holds just two diagonal voxels of the label or lacks just two, and
-/// no 2x2x2 block holds just two opposite corners or lacks just two.
+/// Latecki's definition, label by label: no 2x2 square holds just two diagonal voxels of the label or lacks just two,
+/// and no 2x2x2 block holds just two opposite corners or lacks just two.
 bool blockIsCritical(const TissueMap& map, int i, int j, int k)
 {
   for (int reference = 0; reference < 8; ++reference)
