@@ -32,7 +32,8 @@ EdgeLength readEdgeLength(const CommandLine& line, const SurfaceFile& content)
 {
   const std::string scaleFile = line.text("scale");
   const double uniform = line.number("edgeLength");
-  if (!scaleFile.empty() && uniform > 0) throw UsageError("--scale and --edgeLength are both given, expected one of them");
+  if (!scaleFile.empty() && uniform > 0)
+    throw UsageError("--scale and --edgeLength are both given, expected one of them");
   if (uniform > 0) return [uniform](const Vec3&) { return uniform; };
   if (!scaleFile.empty())
   {
@@ -92,7 +93,8 @@ TetraMesh ambientTetrahedra(const CommandLine& line, SurfaceFile& content, const
   return tetrahedralize(content.surface, latticePoints(content.surface, edgeLength), surfaceName);
 }
 
-MeshFile assemble(const TetraMesh& ambient, const EdgeLength& edgeLength, const TissueTable& tissues, SubMeshes& division)
+MeshFile assemble(const TetraMesh& ambient, const EdgeLength& edgeLength, const TissueTable& tissues,
+                  SubMeshes& division)
 {
   MeshFile result;
   result.mesh = withoutOutside(ambient);
@@ -165,8 +167,9 @@ std::string summaryOf(const QualityGroup& whole)
 {
   std::ostringstream text;
   text.precision(4);
-  text << whole.tetrahedra << " tetrahedra, " << whole.points << " points, dihedral angles " << whole.dihedral.minimum << " to "
-       << whole.dihedral.maximum << " degrees, " << 100 * whole.edgesNearTarget << " % of edges within 0.7 to 1.4 of their target";
+  text << whole.tetrahedra << " tetrahedra, " << whole.points << " points, dihedral angles " << whole.dihedral.minimum
+       << " to " << whole.dihedral.maximum << " degrees, " << 100 * whole.edgesNearTarget
+       << " % of edges within 0.7 to 1.4 of their target";
   return text.str();
 }
 

@@ -42,7 +42,8 @@ std::vector<Placed> placedTriangles(const SurfaceComplex& surface)
       std::swap(placed.labels[0], placed.labels[1]);
       std::swap(placed.corners[1], placed.corners[2]);
     }
-    std::rotate(placed.corners.begin(), std::min_element(placed.corners.begin(), placed.corners.end()), placed.corners.end());
+    std::rotate(placed.corners.begin(), std::min_element(placed.corners.begin(), placed.corners.end()),
+                placed.corners.end());
     result.push_back(placed);
   }
   std::sort(result.begin(), result.end());
@@ -50,7 +51,7 @@ std::vector<Placed> placedTriangles(const SurfaceComplex& surface)
 }
 
 void requireSubset(const std::vector<Placed>& part, const std::string& partName, const std::vector<Placed>& whole,
-  const std::string& wholeName)
+                   const std::string& wholeName)
 {
   std::vector<Placed> missing;
   std::set_difference(part.begin(), part.end(), whole.begin(), whole.end(), std::back_inserter(missing));
@@ -64,7 +65,7 @@ void requireSubset(const std::vector<Placed>& part, const std::string& partName,
 } // namespace
 
 void requireInterfacesAre(const SurfaceComplex& surface, const std::string& surfaceName, const TetraMesh& ambient,
-  const std::string& ambientName)
+                          const std::string& ambientName)
 {
   const std::vector<Placed> wanted = placedTriangles(surface), found = placedTriangles(interfaceOf(ambient));
   requireSubset(wanted, surfaceName, found, ambientName);

@@ -11,6 +11,6 @@ namespace surgicalmesher
 /// Throws InputError, with both names and the place in mm, unless the label interfaces of `ambient` are exactly the
 /// triangles of `surface`: the same positions and the same labels on the same sides.
 void requireInterfacesAre(const SurfaceComplex& surface, const std::string& surfaceName, const TetraMesh& ambient,
-  const std::string& ambientName);
+                          const std::string& ambientName);
 
 } // namespace surgicalmesher

@@ -25,10 +25,7 @@ double relativeVolume(const std::vector<Vec3>& points, const Tetrahedron& t)
   return orient(points[t[0]], points[t[1]], points[t[2]], points[t[3]]) / (longest * std::sqrt(longest));
 }
 
-bool has(const Tetrahedron& t, std::int32_t point)
-{
-  return std::find(t.begin(), t.end(), point) != t.end();
-}
+bool has(const Tetrahedron& t, std::int32_t point) { return std::find(t.begin(), t.end(), point) != t.end(); }
 
 Tetrahedron replaced(Tetrahedron t, std::int32_t from, std::int32_t to)
 {
@@ -95,8 +92,8 @@ private:
   }
 
   /// Points from the edge's middle towards the rest of its ring, at several distances.
-  std::vector<Vec3> candidates(
-    std::int32_t p, std::int32_t q, const std::vector<std::int32_t>& ring, std::int32_t flat) const
+  std::vector<Vec3> candidates(std::int32_t p, std::int32_t q, const std::vector<std::int32_t>& ring,
+                               std::int32_t flat) const
   {
     const Vec3 middle = 0.5 * (m_Mesh.points[p] + m_Mesh.points[q]);
     Vec3 sum;

@@ -79,7 +79,8 @@ double checkedLength(const EdgeLength& edgeLength, const Vec3& p)
   const double length = edgeLength(p);
   if (!(length > 0) || !std::isfinite(length))
   {
-    throw InputError("the target edge length at " + place(p) + " is " + std::to_string(length) + ", expected more than 0");
+    throw InputError("the target edge length at " + place(p) + " is " + std::to_string(length) +
+                     ", expected more than 0");
   }
   return length;
 }
@@ -144,8 +145,9 @@ private:
   bool tooCoarse(const Places& corner, Place size) const
   {
     const double meanEdge = m_Unit * double(size) * kLatticeMeanEdge;
-    const auto lengthAt = [&](Place i, Place j, Place k)
-    { return checkedLength(m_EdgeLength, positionOf({ corner[0] + i, corner[1] + j, corner[2] + k })); };
+    const auto lengthAt = [&](Place i, Place j, Place k) {
+      return checkedLength(m_EdgeLength, positionOf({ corner[0] + i, corner[1] + j, corner[2] + k }));
+    };
     if (meanEdge > std::sqrt(2.0) * lengthAt(size / 2, size / 2, size / 2)) return true;
     for (int c = 0; c < 8; ++c)
     {
@@ -214,17 +216,18 @@ std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const EdgeLength&
   const SurfaceLocator locator(surface);
   std::vector<char> keep(places.size());
   vtkSMPTools::For(0, static_cast<vtkIdType>(places.size()),
-    [&](vtkIdType begin, vtkIdType end)
-    {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        const Vec3 p = octree.positionOf(places[i]);
-        const double length = edgeLength(p);
-        const SurfaceLocator::Answer answer = locator.ask(p);
-        keep[i] = answer.distance >= clearance * length &&
-                  (answer.inside || octree.hasPlaceAt(places[i], length + kOutsideGrowth * answer.distance));
-      }
-    });
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (vtkIdType i = begin; i < end; ++i)
+                     {
+                       const Vec3 p = octree.positionOf(places[i]);
+                       const double length = edgeLength(p);
+                       const SurfaceLocator::Answer answer = locator.ask(p);
+                       keep[i] =
+                         answer.distance >= clearance * length &&
+                         (answer.inside || octree.hasPlaceAt(places[i], length + kOutsideGrowth * answer.distance));
+                     }
+                   });
   std::vector<Vec3> result;
   for (std::size_t i = 0; i < places.size(); ++i)
   {

@@ -36,8 +36,8 @@ std::vector<std::int32_t> sizesOf(const std::vector<std::int32_t>& region)
 }
 
 /// The largest fine regions as children 1..n, everything else 0.
-std::vector<std::int32_t> largeFineRegions(
-  const FaceNeighbours& neighbours, const std::vector<bool>& fine, double speckFraction)
+std::vector<std::int32_t> largeFineRegions(const FaceNeighbours& neighbours, const std::vector<bool>& fine,
+                                           double speckFraction)
 {
   const std::vector<std::int32_t> region =
     faceRegions(neighbours, [&](std::int32_t t, int f) { return fine[t] == fine[neighbours.across[t][f]]; });
@@ -64,8 +64,8 @@ std::vector<std::int32_t> largeFineRegions(
 void absorbPieces(const FaceNeighbours& neighbours, std::vector<std::int32_t>& subMesh)
 {
   const std::vector<std::int32_t> body = faceRegions(neighbours, [](std::int32_t, int) { return true; });
-  const std::vector<std::int32_t> piece = faceRegions(
-    neighbours, [&](std::int32_t t, int f) { return subMesh[t] == subMesh[neighbours.across[t][f]]; });
+  const std::vector<std::int32_t> piece =
+    faceRegions(neighbours, [&](std::int32_t t, int f) { return subMesh[t] == subMesh[neighbours.across[t][f]]; });
   const std::vector<std::int32_t> sizes = sizesOf(piece), childSizes = sizesOf(subMesh);
   std::map<std::int32_t, std::int32_t> mainPiece;                            // by body
   std::map<std::int32_t, std::map<std::int32_t, std::int32_t>> facesToChild; // by piece and child
@@ -83,8 +83,8 @@ void absorbPieces(const FaceNeighbours& neighbours, std::vector<std::int32_t>& s
   {
     if (subMesh[t] != 0 || piece[t] == mainPiece.at(body[t])) continue;
     const auto& faces = facesToChild.at(piece[t]);
-    const auto most = std::max_element(
-      faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto most =
+      std::max_element(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     if (sizes[piece[t]] < childSizes[most->first]) subMesh[t] = most->first;
   }
 }
@@ -109,11 +109,11 @@ std::vector<std::int32_t> pointsBetween(const TetraMesh& mesh, const std::vector
   return result;
 }
 
-std::vector<std::int32_t> countPieces(
-  const FaceNeighbours& neighbours, const std::vector<std::int32_t>& subMesh, std::int32_t children)
+std::vector<std::int32_t> countPieces(const FaceNeighbours& neighbours, const std::vector<std::int32_t>& subMesh,
+                                      std::int32_t children)
 {
-  const std::vector<std::int32_t> piece = faceRegions(
-    neighbours, [&](std::int32_t t, int f) { return subMesh[t] == subMesh[neighbours.across[t][f]]; });
+  const std::vector<std::int32_t> piece =
+    faceRegions(neighbours, [&](std::int32_t t, int f) { return subMesh[t] == subMesh[neighbours.across[t][f]]; });
   std::vector<std::int32_t> result(children + 1, 0);
   std::int32_t seen = 0;
   for (std::size_t t = 0; t < piece.size(); ++t)
@@ -141,8 +141,8 @@ SubMeshes divideIntoSubMeshes(const TetraMesh& mesh, const EdgeLength& edgeLengt
   return result;
 }
 
-std::vector<std::int32_t> constitutiveModels(
-  const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh, const TissueTable& tissues)
+std::vector<std::int32_t> constitutiveModels(const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh,
+                                             const TissueTable& tissues)
 {
   constexpr std::int32_t nonlinear = 1, nullDisplacement = 2;
   std::vector<std::int32_t> result(mesh.tetrahedra.size());

@@ -34,8 +34,8 @@ void requireCover(const ScaleField& scale, const std::vector<Vec3>& points, cons
     {
       const double index = q[axis] / scale.grid.spacing[axis];
       if (index >= -0.5 - tolerance && index <= scale.grid.size[axis] - 0.5 + tolerance) continue;
-      throw InputError(
-        scaleFile + ": the scale volume leaves out part of the surface at " + place(p) + ", expected it to cover all of it");
+      throw InputError(scaleFile + ": the scale volume leaves out part of the surface at " + place(p) +
+                       ", expected it to cover all of it");
     }
   }
 }

@@ -6,8 +6,8 @@
 namespace surgicalmesher
 {
 
-SurfaceRefused::SurfaceRefused(
-  const std::string& message, const SurfaceComplex& surface, std::vector<std::int32_t> offending)
+SurfaceRefused::SurfaceRefused(const std::string& message, const SurfaceComplex& surface,
+                               std::vector<std::int32_t> offending)
   : InputError(message)
 {
   std::sort(offending.begin(), offending.end());

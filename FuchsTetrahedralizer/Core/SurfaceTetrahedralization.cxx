@@ -56,12 +56,12 @@ std::string reasonOf(int code)
 {
   switch (code)
   {
-    case 1: return "out of memory";
-    case 2: return "an internal error";
-    case 3: return "it found triangles that cut each other";
-    case 4: return "it found a detail too small for double precision";
-    case 5: return "it found two triangles at too small an angle";
-    default: return "code " + std::to_string(code);
+  case 1: return "out of memory";
+  case 2: return "an internal error";
+  case 3: return "it found triangles that cut each other";
+  case 4: return "it found a detail too small for double precision";
+  case 5: return "it found two triangles at too small an angle";
+  default: return "code " + std::to_string(code);
   }
 }
 
@@ -113,7 +113,8 @@ class TriangleIndex
 public:
   explicit TriangleIndex(const std::vector<Triangle>& triangles)
   {
-    for (std::size_t t = 0; t < triangles.size(); ++t) m_Sorted.emplace_back(ascending(triangles[t]), static_cast<std::int32_t>(t));
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      m_Sorted.emplace_back(ascending(triangles[t]), static_cast<std::int32_t>(t));
     std::sort(m_Sorted.begin(), m_Sorted.end());
   }
 
@@ -200,7 +201,7 @@ std::vector<Label> regionLabels(const SurfaceComplex& surface, const TetraMesh& 
         throw SurfaceRefused(name + ": BoundaryLabels disagree about one region: " + std::to_string(found) + " and " +
                                std::to_string(wanted) + " at " + place(mesh.points[outward[0]]) +
                                ", expected one label on all sides of it",
-          surface, { std::max(triangle, std::max(0, decidedBy[region[t]])), std::max(0, triangle) });
+                             surface, { std::max(triangle, std::max(0, decidedBy[region[t]])), std::max(0, triangle) });
       }
       if (triangle >= 0) decidedBy[region[t]] = triangle;
     }

@@ -17,6 +17,7 @@ namespace surgicalmesher
 /// `surface` must have passed requireFillable(). Throws SurfaceRefused, with `name` and the place, if the triangles around
 /// a region don't agree on its label, EngineError if TetGen fails. Not to be called from two threads at a time: TetGen's
 /// predicates keep global state.
-TetraMesh tetrahedralize(const SurfaceComplex& surface, const std::vector<Vec3>& latticePoints, const std::string& name);
+TetraMesh tetrahedralize(const SurfaceComplex& surface, const std::vector<Vec3>& latticePoints,
+                         const std::string& name);
 
 } // namespace surgicalmesher

@@ -20,10 +20,7 @@ namespace
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Triangle = std::array<std::int32_t, 3>;
 
-Kernel::Point_3 exact(const Vec3& p)
-{
-  return { p.x, p.y, p.z };
-}
+Kernel::Point_3 exact(const Vec3& p) { return { p.x, p.y, p.z }; }
 
 Kernel::Triangle_3 exact(const SurfaceComplex& surface, const Triangle& t)
 {
@@ -34,8 +31,9 @@ Kernel::Triangle_3 exact(const SurfaceComplex& surface, const Triangle& t)
 std::pair<Triangle, int> sharedFirst(const Triangle& t, const Triangle& other)
 {
   Triangle sorted = t;
-  const auto end = std::stable_partition(sorted.begin(), sorted.end(),
-    [&](std::int32_t id) { return std::find(other.begin(), other.end(), id) != other.end(); });
+  const auto end =
+    std::stable_partition(sorted.begin(), sorted.end(),
+                          [&](std::int32_t id) { return std::find(other.begin(), other.end(), id) != other.end(); });
   return { sorted, static_cast<int>(end - sorted.begin()) };
 }
 
@@ -59,10 +57,10 @@ bool meetElsewhere(const SurfaceComplex& surface, const Triangle& a, const Trian
   const Triangle second = sharedFirst(b, a).first;
   switch (shared)
   {
-    case 0: return CGAL::do_intersect(exact(surface, first), exact(surface, second));
-    case 1: return oppositeEdgeMeets(surface, first, b) || oppositeEdgeMeets(surface, second, a);
-    case 2: return overlapAcrossEdge(surface, first, second[2]);
-    default: return true;
+  case 0: return CGAL::do_intersect(exact(surface, first), exact(surface, second));
+  case 1: return oppositeEdgeMeets(surface, first, b) || oppositeEdgeMeets(surface, second, a);
+  case 2: return overlapAcrossEdge(surface, first, second[2]);
+  default: return true;
   }
 }
 
@@ -83,10 +81,10 @@ std::vector<std::int32_t> degenerateTriangles(const SurfaceComplex& surface)
 }
 
 [[noreturn]] void refuse(const SurfaceComplex& surface, const std::string& name, const std::string& what,
-  const std::string& expected, std::vector<std::int32_t> triangles, const Vec3& where)
+                         const std::string& expected, std::vector<std::int32_t> triangles, const Vec3& where)
 {
-  throw SurfaceRefused(
-    name + ": " + what + ", the first at " + place(where) + ", expected " + expected, surface, std::move(triangles));
+  throw SurfaceRefused(name + ": " + what + ", the first at " + place(where) + ", expected " + expected, surface,
+                       std::move(triangles));
 }
 
 void requireNoIntersections(const SurfaceComplex& surface, const std::string& name)
@@ -95,14 +93,14 @@ void requireNoIntersections(const SurfaceComplex& surface, const std::string& na
   if (!degenerate.empty())
   {
     refuse(surface, name, std::to_string(degenerate.size()) + " triangles without area", "none", degenerate,
-      centreOf(surface, degenerate.front()));
+           centreOf(surface, degenerate.front()));
   }
   const auto pairs = selfIntersections(surface);
   if (pairs.empty()) return;
   std::vector<std::int32_t> triangles;
   for (const auto& [a, b] : pairs) triangles.insert(triangles.end(), { a, b });
   refuse(surface, name, "the surface cuts itself: " + std::to_string(pairs.size()) + " pairs of triangles",
-    "triangles that meet in common points and edges only", triangles, centreOf(surface, pairs.front().first));
+         "triangles that meet in common points and edges only", triangles, centreOf(surface, pairs.front().first));
 }
 
 // ---- edges ----------------------------------------------------------------------------------------------------------
@@ -125,8 +123,9 @@ std::vector<EdgeUse> edgeUses(const SurfaceComplex& surface)
       uses.push_back({ std::min(from, to), std::max(from, to), static_cast<std::int32_t>(t), from < to });
     }
   }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b)
-    { return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle); });
+  std::sort(uses.begin(), uses.end(),
+            [](const EdgeUse& a, const EdgeUse& b)
+            { return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle); });
   return uses;
 }
 
@@ -140,7 +139,8 @@ std::vector<std::int32_t> faultyTriangles(const SurfaceComplex& surface, Label t
   {
     int balance = 0;
     std::vector<std::int32_t> around;
-    for (end = begin; end < uses.size() && uses[end].low == uses[begin].low && uses[end].high == uses[begin].high; ++end)
+    for (end = begin; end < uses.size() && uses[end].low == uses[begin].low && uses[end].high == uses[begin].high;
+         ++end)
     {
       const auto& [behind, front] = surface.labels[uses[end].triangle];
       if ((behind == tissue) == (front == tissue)) continue;
@@ -165,11 +165,12 @@ std::vector<std::int32_t> trianglesAt(const SurfaceComplex& surface, std::int32_
 
 void requireManifold(const SurfaceComplex& surface, const std::string& name, Label label, const TissueSurface& tissue)
 {
-  const auto refuseFor = [&](const Defect& defect, const char* what, const char* expected, std::vector<std::int32_t> triangles)
+  const auto refuseFor =
+    [&](const Defect& defect, const char* what, const char* expected, std::vector<std::int32_t> triangles)
   {
     refuse(surface, name,
-      "the surface of tissue " + std::to_string(label) + " has " + std::to_string(defect.count) + " " + what, expected,
-      std::move(triangles), defect.where);
+           "the surface of tissue " + std::to_string(label) + " has " + std::to_string(defect.count) + " " + what,
+           expected, std::move(triangles), defect.where);
   };
   const char* const closed = "a closed surface around every tissue";
   const char* const manifold = "tissues that don't touch themselves along an edge or at a point";
@@ -180,16 +181,17 @@ void requireManifold(const SurfaceComplex& surface, const std::string& name, Lab
   if (tissue.misorientedEdges.count > 0)
   {
     refuseFor(tissue.misorientedEdges, "edges with BoundaryLabels on mismatched sides", closed,
-      faultyTriangles(surface, label, false));
+              faultyTriangles(surface, label, false));
   }
   if (tissue.nonManifoldEdges.count > 0)
   {
-    refuseFor(tissue.nonManifoldEdges, "edges of more than two triangles", manifold, faultyTriangles(surface, label, true));
+    refuseFor(tissue.nonManifoldEdges, "edges of more than two triangles", manifold,
+              faultyTriangles(surface, label, true));
   }
   if (tissue.nonManifoldVertices.count > 0)
   {
     refuseFor(tissue.nonManifoldVertices, "points where parts of it touch", manifold,
-      trianglesAt(surface, tissue.nonManifoldVertices.item));
+              trianglesAt(surface, tissue.nonManifoldVertices.item));
   }
 }
 
@@ -208,7 +210,8 @@ Neighbours closedNeighbours(const SurfaceComplex& surface, const std::string& na
   };
   for (std::size_t begin = 0, end; begin < uses.size(); begin = end)
   {
-    for (end = begin + 1; end < uses.size() && uses[end].low == uses[begin].low && uses[end].high == uses[begin].high;) ++end;
+    for (end = begin + 1; end < uses.size() && uses[end].low == uses[begin].low && uses[end].high == uses[begin].high;)
+      ++end;
     if (end - begin == 2)
     {
       across[uses[begin].triangle][corner(uses[begin])] = uses[begin + 1].triangle;
@@ -220,12 +223,12 @@ Neighbours closedNeighbours(const SurfaceComplex& surface, const std::string& na
   if (!open.empty())
   {
     refuse(surface, name, "the surface is open: " + std::to_string(open.size()) + " edges of a single triangle",
-      "closed shells", open, centreOf(surface, open.front()));
+           "closed shells", open, centreOf(surface, open.front()));
   }
   if (!crowded.empty())
   {
     refuse(surface, name, std::to_string(crowded.size()) + " triangles at edges of more than two",
-      "closed shells, or BoundaryLabels", crowded, centreOf(surface, crowded.front()));
+           "closed shells, or BoundaryLabels", crowded, centreOf(surface, crowded.front()));
   }
   return across;
 }
@@ -263,7 +266,7 @@ std::vector<std::int32_t> orientShells(SurfaceComplex& surface, const Neighbours
         else if (turned[next] != mustTurn)
         {
           refuse(surface, name, "a shell has no consistent inside", "closed orientable shells", { t, next },
-            centreOf(surface, t));
+                 centreOf(surface, t));
         }
       }
     }
@@ -342,7 +345,7 @@ struct Shell
 {
   std::vector<std::int32_t> triangles;
   Vec3 low{ std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
-    std::numeric_limits<double>::infinity() };
+            std::numeric_limits<double>::infinity() };
   Vec3 high = -low;
   double volume = 0;
 };
@@ -409,11 +412,13 @@ std::vector<std::pair<std::int32_t, std::int32_t>> selfIntersections(const Surfa
   }
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
-    [&](const Box& a, const Box& b)
-    {
-      const std::int32_t low = std::min(a.info(), b.info()), high = std::max(a.info(), b.info());
-      if (meetElsewhere(surface, surface.triangles[low], surface.triangles[high])) pairs.emplace_back(low, high);
-    });
+                                [&](const Box& a, const Box& b)
+                                {
+                                  const std::int32_t low = std::min(a.info(), b.info()),
+                                                     high = std::max(a.info(), b.info());
+                                  if (meetElsewhere(surface, surface.triangles[low], surface.triangles[high]))
+                                    pairs.emplace_back(low, high);
+                                });
   std::sort(pairs.begin(), pairs.end());
   return pairs;
 }

@@ -1,5 +1,5 @@
-#include "Errors.h"
 #include "LatticePoints.h"
+#include "Errors.h"
 #include "Shapes.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,8 @@ constexpr double kRadius = 10;
 std::vector<Vec3> inside(const std::vector<Vec3>& points, double radius)
 {
   std::vector<Vec3> result;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(result), [&](const Vec3& p) { return norm(p) < radius; });
+  std::copy_if(points.begin(), points.end(), std::back_inserter(result),
+               [&](const Vec3& p) { return norm(p) < radius; });
   return result;
 }
 
@@ -38,7 +39,8 @@ TEST(LatticePoints, KeepClearOfTheSurface)
 {
   const SurfaceComplex surface = test::sphere({}, kRadius, 4);
   const double length = 1.5, sagitta = 0.1;
-  const std::vector<Vec3> points = latticePoints(surface, [=](const Vec3&) { return length; }, 0.6);
+  const std::vector<Vec3> points = latticePoints(
+    surface, [=](const Vec3&) { return length; }, 0.6);
   double closest = std::numeric_limits<double>::infinity();
   for (const Vec3& p : points) closest = std::min(closest, std::abs(norm(p) - kRadius));
   EXPECT_GE(closest, 0.6 * length - sagitta);
@@ -54,7 +56,8 @@ TEST(LatticePoints, FillTheInsideAtTheDensityAskedFor)
     const double cube = length / kLatticeMeanEdge;
     const double expected = 4.0 / 3 * M_PI * 7 * 7 * 7 * 2 / (cube * cube * cube);
     EXPECT_NEAR(double(points.size()), expected, 0.1 * expected) << length;
-    for (std::size_t i = 0; i < points.size(); i += 7) EXPECT_NEAR(nearestOther(points, i), std::sqrt(0.75) * cube, 1e-9);
+    for (std::size_t i = 0; i < points.size(); i += 7)
+      EXPECT_NEAR(nearestOther(points, i), std::sqrt(0.75) * cube, 1e-9);
   }
 }
 

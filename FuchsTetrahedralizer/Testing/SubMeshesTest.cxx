@@ -1,5 +1,5 @@
-#include "FaceNeighbours.h"
 #include "SubMeshes.h"
+#include "FaceNeighbours.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@ namespace surgicalmesher
 namespace
 {
 
-TetraMesh block(const std::array<int, 3>& size, const std::function<int(int, int, int)>& paint = [](int, int, int) { return 1; })
+TetraMesh block(
+  const std::array<int, 3>& size, const std::function<int(int, int, int)>& paint = [](int, int, int) { return 1; })
 {
   return withoutOutside(test::tetrahedraOf(test::paintedMap(size, paint)));
 }
@@ -42,13 +43,15 @@ std::size_t piecesOf(const TetraMesh& mesh, const std::vector<std::int32_t>& sub
 TEST(SubMeshes, OneChildPerFineRegionLargestFirst)
 {
   const TetraMesh mesh = block({ 20, 8, 8 });
-  const EdgeLength length = [](const Vec3& p)
-  { return fineAround({ { 4, 4, 4 } }, 2.5)(p) < 4 || fineAround({ { 15, 4, 4 } }, 3.5)(p) < 4 ? 1.0 : 4.0; };
+  const EdgeLength length = [](const Vec3& p) {
+    return fineAround({ { 4, 4, 4 } }, 2.5)(p) < 4 || fineAround({ { 15, 4, 4 } }, 3.5)(p) < 4 ? 1.0 : 4.0;
+  };
   const SubMeshes division = divideIntoSubMeshes(mesh, length);
   ASSERT_EQ(division.children, 2);
   EXPECT_EQ(division.pieces, (std::vector<std::int32_t>{ 1, 1, 1 }));
   for (std::int32_t id = 0; id <= 2; ++id) EXPECT_EQ(piecesOf(mesh, division.ofTetrahedron, id), 1u) << id;
-  const auto count = [&](std::int32_t id) { return std::count(division.ofTetrahedron.begin(), division.ofTetrahedron.end(), id); };
+  const auto count = [&](std::int32_t id)
+  { return std::count(division.ofTetrahedron.begin(), division.ofTetrahedron.end(), id); };
   EXPECT_GT(count(1), count(2));
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
   {
@@ -79,8 +82,9 @@ TEST(SubMeshes, InterfacePointsAreThoseOfBothSides)
 TEST(SubMeshes, SpecksJoinTheParent)
 {
   const TetraMesh mesh = block({ 20, 8, 8 });
-  const EdgeLength length = [](const Vec3& p)
-  { return fineAround({ { 4, 4, 4 } }, 3.5)(p) < 4 || fineAround({ { 15, 4, 4 } }, 0.4)(p) < 4 ? 1.0 : 4.0; };
+  const EdgeLength length = [](const Vec3& p) {
+    return fineAround({ { 4, 4, 4 } }, 3.5)(p) < 4 || fineAround({ { 15, 4, 4 } }, 0.4)(p) < 4 ? 1.0 : 4.0;
+  };
   EXPECT_EQ(divideIntoSubMeshes(mesh, length, { 0.25, 0 }).children, 2) << "there is a speck";
   const SubMeshes division = divideIntoSubMeshes(mesh, length);
   EXPECT_EQ(division.children, 1);
@@ -90,7 +94,8 @@ TEST(SubMeshes, SpecksJoinTheParent)
 TEST(SubMeshes, ScrapsOfTheParentJoinTheChildThatCutsThemOff)
 {
   const TetraMesh mesh = block({ 12, 8, 8 });
-  const EdgeLength length = [](const Vec3& p) { return p.x < 4 && p.x > 0.5 ? 1.0 : 4.0; }; // a thin plate is cut off at x < 0.5
+  const EdgeLength length = [](const Vec3& p)
+  { return p.x < 4 && p.x > 0.5 ? 1.0 : 4.0; }; // a thin plate is cut off at x < 0.5
   const SubMeshes division = divideIntoSubMeshes(mesh, length);
   EXPECT_EQ(division.pieces, (std::vector<std::int32_t>{ 1, 1 }));
 }

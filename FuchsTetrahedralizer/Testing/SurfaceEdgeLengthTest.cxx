@@ -1,8 +1,8 @@
+#include "SurfaceEdgeLength.h"
 #include "AmbientMatch.h"
 #include "Errors.h"
 #include "FaceNeighbours.h"
 #include "Shapes.h"
-#include "SurfaceEdgeLength.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>

@@ -1,8 +1,8 @@
+#include "SurfaceTetrahedralization.h"
 #include "ComplexChecks.h"
 #include "FaceNeighbours.h"
 #include "MeshQuality.h"
 #include "Shapes.h"
-#include "SurfaceTetrahedralization.h"
 #include "SurfaceValidity.h"
 #include "VoxelMesh.h"
 
@@ -51,8 +51,12 @@ std::vector<Shape> shapes()
     { "torus", test::torus(8, 3, 32, 12), 1.5 },
     { "nested spheres", nested, 1.5 },
     { "two touching cubes", surfaceOf({ 6, 3, 3 }, [](int i, int, int) { return i < 3 ? 1 : 2; }), 1 },
-    { "two cubes touching along an edge", surfaceOf({ 4, 4, 2 }, [](int i, int j, int) { return (i < 2) == (j < 2) ? 1 + (i < 2) : 0; }), 1 },
-    { "three tissues around a junction", surfaceOf({ 6, 6, 4 }, [](int i, int j, int) { return i < 3 ? 1 : j < 3 ? 2 : 3; }), 1 },
+    { "two cubes touching along an edge",
+      surfaceOf({ 4, 4, 2 }, [](int i, int j, int) { return (i < 2) == (j < 2) ? 1 + (i < 2) : 0; }), 1 },
+    { "three tissues around a junction",
+      surfaceOf({ 6, 6, 4 }, [](int i, int j, int) { return i < 3   ? 1
+                                                            : j < 3 ? 2
+                                                                    : 3; }), 1 },
     { "thin slab", surfaceOf({ 8, 8, 1 }, [](int, int, int) { return 1; }), 1 },
     { "turned cubes", turned(surfaceOf({ 6, 3, 3 }, [](int i, int, int) { return i < 3 ? 1 : 2; })), 1 },
     { "turned slab, no room for inner points", turned(surfaceOf({ 5, 5, 1 }, [](int, int, int) { return 1; })), 2 },
@@ -115,7 +119,8 @@ TEST(Tetrahedralize, InterfacesAreTheInputsTriangles)
   {
     SCOPED_TRACE(shape.name);
     const TetraMesh mesh = withoutOutside(filled(shape));
-    for (std::size_t i = 0; i < shape.surface.points.size(); ++i) ASSERT_TRUE(mesh.points[i] == shape.surface.points[i]);
+    for (std::size_t i = 0; i < shape.surface.points.size(); ++i)
+      ASSERT_TRUE(mesh.points[i] == shape.surface.points[i]);
     std::vector<std::int32_t> ids;
     const SurfaceComplex between = interfaceOf(mesh, &ids);
     EXPECT_EQ(triangleSet(between, ids), triangleSet(shape.surface, {}));
@@ -125,11 +130,12 @@ TEST(Tetrahedralize, InterfacesAreTheInputsTriangles)
 TEST(Tetrahedralize, KeepsTheTopologyOfTheMap)
 {
   const TissueMap map = test::paintedMap({ 7, 7, 5 },
-    [](int i, int j, int k)
-    {
-      const bool ring = k == 2 && i > 0 && i < 6 && j > 0 && j < 6 && (i < 2 || i > 4 || j < 2 || j > 4);
-      return ring ? 2 : i == 3 && j == 3 && k == 2 ? 3 : 1;
-    });
+                                         [](int i, int j, int k)
+                                         {
+                                           const bool ring = k == 2 && i > 0 && i < 6 && j > 0 && j < 6 &&
+                                                             (i < 2 || i > 4 || j < 2 || j > 4);
+                                           return ring ? 2 : i == 3 && j == 3 && k == 2 ? 3 : 1;
+                                         });
   const Shape shape{ "a ring and a core in a block", interfaceOf(test::tetrahedraOf(map)), 1 };
   const auto expected = tissueTopology(map);
   const auto found = meshTopology(filled(shape));
@@ -143,14 +149,17 @@ TEST(Tetrahedralize, InnerElementsAreCanonical)
   const Shape cube{ "cube", surfaceOf({ 12, 12, 12 }, [](int, int, int) { return 1; }), 1 };
   const TetraMesh mesh = withoutOutside(filled(cube));
   const MeshQuality quality = assessQuality(mesh, {}, {});
-  const auto mode = [](const Histogram& h) { return std::max_element(h.counts.begin(), h.counts.end()) - h.counts.begin(); };
+  const auto mode = [](const Histogram& h)
+  { return std::max_element(h.counts.begin(), h.counts.end()) - h.counts.begin(); };
   EXPECT_EQ(mode(quality.valence), 24);
   std::size_t inner = 0, canonical = 0;
   for (const auto& [a, b, c, d] : mesh.tetrahedra)
   {
     const std::array<Vec3, 4> p{ mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d] };
     const bool deep = std::all_of(p.begin(), p.end(),
-      [](const Vec3& q) { return std::min({ q.x, q.y, q.z }) > 1.6 && std::max({ q.x, q.y, q.z }) < 9.4; });
+                                  [](const Vec3& q) {
+                                    return std::min({ q.x, q.y, q.z }) > 1.6 && std::max({ q.x, q.y, q.z }) < 9.4;
+                                  });
     if (!deep) continue;
     ++inner;
     auto angles = dihedralAngles(p[0], p[1], p[2], p[3]);

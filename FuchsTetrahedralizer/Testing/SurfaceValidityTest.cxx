@@ -1,7 +1,7 @@
+#include "SurfaceValidity.h"
 #include "ComplexChecks.h"
 #include "FaceNeighbours.h"
 #include "Shapes.h"
-#include "SurfaceValidity.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>
@@ -49,10 +49,11 @@ TEST(SelfIntersections, SharedPointsAndEdgesAreNone)
 
 TEST(SelfIntersections, FindsEachKind)
 {
-  const std::vector<Vec3> points{ { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 }, { 1, 1, -1 }, { 1, 1, 1 }, { 3, 3, 1 },
-    { 1, 1, 0 }, { 2, 1, 0 }, { 4, 4, 0 } };
-  const auto meet = [&](std::array<std::int32_t, 3> a, std::array<std::int32_t, 3> b)
-  { return !selfIntersections({ points, { a, b }, {} }).empty(); };
+  const std::vector<Vec3> points{ { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 }, { 1, 1, -1 }, { 1, 1, 1 },
+                                  { 3, 3, 1 }, { 1, 1, 0 }, { 2, 1, 0 }, { 4, 4, 0 } };
+  const auto meet = [&](std::array<std::int32_t, 3> a, std::array<std::int32_t, 3> b) {
+    return !selfIntersections({ points, { a, b }, {} }).empty();
+  };
   EXPECT_TRUE(meet({ 0, 1, 2 }, { 3, 4, 5 })) << "no common point";
   EXPECT_TRUE(meet({ 0, 1, 2 }, { 0, 3, 4 })) << "a common point, and crossing";
   EXPECT_TRUE(meet({ 0, 1, 2 }, { 0, 6, 7 })) << "a common point, overlapping in the plane";
@@ -151,7 +152,8 @@ TEST(ClosedShellsToTissues, MergesPointsThatDifferInTheLastDigits)
 {
   const SurfaceComplex torus = test::torus(30, 10, 24, 12);
   SurfaceComplex soup = asSoup(torus);
-  for (std::size_t i = 0; i < soup.points.size(); ++i) soup.points[i] += 1e-6 * Vec3{ double(i % 3), double(i % 5), double(i % 7) };
+  for (std::size_t i = 0; i < soup.points.size(); ++i)
+    soup.points[i] += 1e-6 * Vec3{ double(i % 3), double(i % 5), double(i % 7) };
   const SurfaceComplex result = closedShellsToTissues(soup, "file.stl");
   EXPECT_EQ(result.points.size(), torus.points.size());
   EXPECT_EQ(checkSurface(result).at(1).euler, 0);
@@ -180,7 +182,8 @@ TEST(ClosedShellsToTissues, RefusesWhatIsNoClosedShell)
     EXPECT_NE(std::string(refusal.what()).find("open"), std::string::npos);
     EXPECT_EQ(refusal.offending().triangles.size(), 3u);
   }
-  SurfaceComplex wall = interfaceOf(test::tetrahedraOf(test::paintedMap({ 2, 1, 1 }, [](int i, int, int) { return 1 + i; })));
+  SurfaceComplex wall =
+    interfaceOf(test::tetrahedraOf(test::paintedMap({ 2, 1, 1 }, [](int i, int, int) { return 1 + i; })));
   EXPECT_THROW(closedShellsToTissues(wall, "file.stl"), SurfaceRefused) << "an inner wall needs labels";
   EXPECT_THROW(closedShellsToTissues({ { { 0, 0, 0 }, { 1, 0, 0 } }, { { 0, 1, 1 } }, {} }, "file.stl"), InputError);
 }

@@ -20,9 +20,9 @@ namespace
 struct Side
 {
   Label tissue;
-  std::int32_t low, high;  ///< point ids
-  std::uint32_t node;      ///< 6 * triangle + 3 * side + corner at which the edge starts
-  bool ascending;          ///< the edge runs from low to high when the tissue is behind the triangle
+  std::int32_t low, high; ///< point ids
+  std::uint32_t node;     ///< 6 * triangle + 3 * side + corner at which the edge starts
+  bool ascending;         ///< the edge runs from low to high when the tissue is behind the triangle
 };
 
 std::vector<Side> sidesOf(const SurfaceComplex& surface)
@@ -40,12 +40,13 @@ std::vector<Side> sidesOf(const SurfaceComplex& surface)
         const std::int32_t from = surface.triangles[t][c];
         const std::int32_t to = surface.triangles[t][(c + 1) % 3];
         sides.push_back({ surface.labels[t][side], std::min(from, to), std::max(from, to),
-          static_cast<std::uint32_t>(6 * t + 3 * side + c), (from < to) == (side == 0) });
+                          static_cast<std::uint32_t>(6 * t + 3 * side + c), (from < to) == (side == 0) });
       }
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b)
-    { return std::tie(a.tissue, a.low, a.high, a.node) < std::tie(b.tissue, b.low, b.high, b.node); });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b)
+            { return std::tie(a.tissue, a.low, a.high, a.node) < std::tie(b.tissue, b.low, b.high, b.node); });
   return sides;
 }
 
@@ -56,15 +57,16 @@ std::uint32_t cornerAt(const SurfaceComplex& surface, std::uint32_t node, std::i
   return first + static_cast<std::uint32_t>(std::find(triangle.begin(), triangle.end(), point) - triangle.begin());
 }
 
-void countEdges(
-  const SurfaceComplex& surface, const std::vector<Side>& sides, UnionFind& fans, std::map<Label, TissueSurface>& result)
+void countEdges(const SurfaceComplex& surface, const std::vector<Side>& sides, UnionFind& fans,
+                std::map<Label, TissueSurface>& result)
 {
   for (std::size_t begin = 0, end; begin < sides.size(); begin = end)
   {
     const Side& first = sides[begin];
     int balance = 0;
     for (end = begin; end < sides.size() && sides[end].tissue == first.tissue && sides[end].low == first.low &&
-                      sides[end].high == first.high; ++end)
+                      sides[end].high == first.high;
+         ++end)
     {
       balance += sides[end].ascending ? 1 : -1;
       fans.unite(cornerAt(surface, first.node, first.low), cornerAt(surface, sides[end].node, first.low));
@@ -80,8 +82,8 @@ void countEdges(
   }
 }
 
-void countVertices(
-  const SurfaceComplex& surface, const std::vector<Side>& sides, UnionFind& fans, std::map<Label, TissueSurface>& result)
+void countVertices(const SurfaceComplex& surface, const std::vector<Side>& sides, UnionFind& fans,
+                   std::map<Label, TissueSurface>& result)
 {
   std::vector<std::tuple<Label, std::int32_t, std::uint32_t>> corners;
   corners.reserve(sides.size());
@@ -94,8 +96,9 @@ void countVertices(
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
     const auto& [label, point, fan] = corners[i];
-    const auto same = [&](std::size_t j)
-    { return std::get<0>(corners[j]) == std::get<0>(corners[i]) && std::get<1>(corners[j]) == std::get<1>(corners[i]); };
+    const auto same = [&](std::size_t j) {
+      return std::get<0>(corners[j]) == std::get<0>(corners[i]) && std::get<1>(corners[j]) == std::get<1>(corners[i]);
+    };
     TissueSurface& tissue = result[label];
     if (i == 0 || !same(i - 1)) ++tissue.euler;
     else if (i < 2 || !same(i - 2)) tissue.nonManifoldVertices.add(surface.points[point], point);
@@ -150,7 +153,8 @@ private:
     {
       for (const std::int32_t beyond : m_Neighbours.across[t])
       {
-        if (beyond > static_cast<std::int32_t>(t) && m_Mesh.labels[beyond] == m_Mesh.labels[t]) --result[m_Mesh.labels[t]];
+        if (beyond > static_cast<std::int32_t>(t) && m_Mesh.labels[beyond] == m_Mesh.labels[t])
+          --result[m_Mesh.labels[t]];
       }
     }
   }
@@ -172,7 +176,8 @@ private:
     for (std::size_t begin = 0, end; begin < edges.size(); begin = end)
     {
       const auto& [low, high, label] = edges[begin];
-      for (end = begin + 1; end < edges.size() && std::get<0>(edges[end]) == low && std::get<1>(edges[end]) == high;) ++end;
+      for (end = begin + 1; end < edges.size() && std::get<0>(edges[end]) == low && std::get<1>(edges[end]) == high;)
+        ++end;
       if (end - begin == 1 && m_HullEdges.count({ low, high }) == 0) ++result[label];
     }
   }
@@ -191,7 +196,8 @@ private:
     }
     for (std::size_t i = 0; i < labelAt.size(); ++i)
     {
-      if (labelAt[i] >= 0 && m_HullPoints.count(static_cast<std::int32_t>(i)) == 0) --result[static_cast<Label>(labelAt[i])];
+      if (labelAt[i] >= 0 && m_HullPoints.count(static_cast<std::int32_t>(i)) == 0)
+        --result[static_cast<Label>(labelAt[i])];
     }
   }
 

@@ -18,8 +18,8 @@ std::string place(const Vec3& point);
 struct Defect
 {
   std::size_t count = 0;
-  Vec3 where;                ///< of the first
-  std::int32_t item = -1;    ///< index of the first: triangle, tetrahedron or point
+  Vec3 where;             ///< of the first
+  std::int32_t item = -1; ///< index of the first: triangle, tetrahedron or point
 
   void add(const Vec3& at, std::int32_t index)
   {
@@ -51,14 +51,15 @@ std::map<Label, TissueSurface> checkSurface(const SurfaceComplex& surface);
 
 struct MeshDefects
 {
-  Defect invertedOrFlat; ///< tetrahedra whose volume isn't positive
-  Defect overusedFaces;  ///< tetrahedra with a face that more than two share
-  Defect unusedPoints;   ///< points of no tetrahedron
-  Defect duplicatePoints;///< points at the very place of an earlier one
+  Defect invertedOrFlat;  ///< tetrahedra whose volume isn't positive
+  Defect overusedFaces;   ///< tetrahedra with a face that more than two share
+  Defect unusedPoints;    ///< points of no tetrahedron
+  Defect duplicatePoints; ///< points at the very place of an earlier one
 
   bool none() const
   {
-    return invertedOrFlat.count == 0 && overusedFaces.count == 0 && unusedPoints.count == 0 && duplicatePoints.count == 0;
+    return invertedOrFlat.count == 0 && overusedFaces.count == 0 && unusedPoints.count == 0 &&
+           duplicatePoints.count == 0;
   }
 };
 

@@ -117,14 +117,12 @@ private:
 std::string extensionOf(const std::string& file)
 {
   std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   return extension;
 }
 
-[[noreturn]] void refuse(const std::string& file, const std::string& what)
-{
-  throw InputError(file + ": " + what);
-}
+[[noreturn]] void refuse(const std::string& file, const std::string& what) { throw InputError(file + ": " + what); }
 
 void requireReadable(const std::string& file)
 {
@@ -138,8 +136,8 @@ void requireReadable(const std::string& file)
 
 /// Runs the reader; `saysRAS` is told where its format keeps a title.
 template <class Reader>
-vtkSmartPointer<typename std::remove_pointer<decltype(Reader::New()->GetOutput())>::type> run(
-  Reader* reader, const std::string& file, const std::string& format)
+vtkSmartPointer<typename std::remove_pointer<decltype(Reader::New()->GetOutput())>::type>
+run(Reader* reader, const std::string& file, const std::string& format)
 {
   ErrorCatcher errors;
   reader->SetFileName(file.c_str());
@@ -156,10 +154,7 @@ void readEverything(vtkDataReader* reader)
   reader->ReadAllFieldsOn();
 }
 
-bool titleSaysRAS(const char* title)
-{
-  return title && std::strstr(title, "SPACE=RAS");
-}
+bool titleSaysRAS(const char* title) { return title && std::strstr(title, "SPACE=RAS"); }
 
 bool saysRAS(vtkDataSet* data)
 {
@@ -276,8 +271,7 @@ std::vector<Vec3> pointsOf(vtkPointSet* data, bool ras, const std::string& file)
 }
 
 /// The named array with one tuple of `components` per item, or nullptr if there is none.
-vtkDataArray* arrayOf(
-  vtkFieldData* data, const char* name, vtkIdType items, int components, const std::string& file)
+vtkDataArray* arrayOf(vtkFieldData* data, const char* name, vtkIdType items, int components, const std::string& file)
 {
   if (!data->GetAbstractArray(name)) return nullptr;
   vtkDataArray* array = data->GetArray(name);
@@ -303,8 +297,8 @@ std::int32_t integerAt(vtkDataArray* array, vtkIdType i, int c, int highest, con
   return static_cast<std::int32_t>(value);
 }
 
-std::vector<double> numbersOf(
-  vtkFieldData* data, const char* name, vtkIdType items, double lowest, const std::string& file)
+std::vector<double> numbersOf(vtkFieldData* data, const char* name, vtkIdType items, double lowest,
+                              const std::string& file)
 {
   vtkDataArray* array = arrayOf(data, name, items, 1, file);
   std::vector<double> numbers(array ? items : 0);
@@ -320,8 +314,8 @@ std::vector<double> numbersOf(
   return numbers;
 }
 
-std::vector<std::int32_t> integersOf(
-  vtkFieldData* data, const char* name, vtkIdType items, int highest, const std::string& file)
+std::vector<std::int32_t> integersOf(vtkFieldData* data, const char* name, vtkIdType items, int highest,
+                                     const std::string& file)
 {
   vtkDataArray* array = arrayOf(data, name, items, 1, file);
   std::vector<std::int32_t> integers(array ? items : 0);

@@ -18,10 +18,10 @@ namespace surgicalmesher
 /// A surface complex and what travels with it in its file.
 struct SurfaceFile
 {
-  SurfaceComplex surface;                ///< labels is empty in surfaces from elsewhere, without BoundaryLabels
-  std::vector<double> targetEdgeLength;  ///< per point, mm; empty: the file has none
-  std::vector<double> boundaryDistance;  ///< per point, mm, signed; empty: the file has none
-  TissueTable tissues;                   ///< names and colours
+  SurfaceComplex surface;               ///< labels is empty in surfaces from elsewhere, without BoundaryLabels
+  std::vector<double> targetEdgeLength; ///< per point, mm; empty: the file has none
+  std::vector<double> boundaryDistance; ///< per point, mm, signed; empty: the file has none
+  TissueTable tissues;                  ///< names and colours
 };
 
 /// Reads .vtp, .vtk, .stl or .ply; other polygons than triangles are triangulated, points without a triangle dropped.
@@ -38,11 +38,11 @@ void writeSurface(const SurfaceFile& content, const std::string& file);
 struct MeshFile
 {
   TetraMesh mesh;
-  std::vector<std::int32_t> subMesh;      ///< per tetrahedron: 0 parent, 1..n child
-  std::vector<std::int32_t> constitutive; ///< per tetrahedron: 0 linear, 1 nonlinear, 2 null displacement
+  std::vector<std::int32_t> subMesh;          ///< per tetrahedron: 0 parent, 1..n child
+  std::vector<std::int32_t> constitutive;     ///< per tetrahedron: 0 linear, 1 nonlinear, 2 null displacement
   std::vector<std::int32_t> subMeshInterface; ///< per point: 1 where two sub-meshes meet, else 0
-  std::vector<double> targetEdgeLength;   ///< per point, mm
-  TissueTable tissues;                    ///< names and colours
+  std::vector<double> targetEdgeLength;       ///< per point, mm
+  TissueTable tissues;                        ///< names and colours
 };
 
 /// Reads tetrahedra with a cell array TissueLabel from a .vtu or .vtk, ambient complexes (label 0 outside) included.

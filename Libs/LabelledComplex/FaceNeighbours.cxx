@@ -54,8 +54,8 @@ FaceNeighbours faceNeighbours(const TetraMesh& mesh)
   return result;
 }
 
-std::vector<std::int32_t> faceRegions(
-  const FaceNeighbours& neighbours, const std::function<bool(std::int32_t t, int f)>& joined)
+std::vector<std::int32_t> faceRegions(const FaceNeighbours& neighbours,
+                                      const std::function<bool(std::int32_t t, int f)>& joined)
 {
   std::vector<std::int32_t> region(neighbours.across.size(), -1);
   std::vector<std::int32_t> front;

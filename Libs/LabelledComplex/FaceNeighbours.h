@@ -12,7 +12,9 @@ namespace surgicalmesher
 constexpr std::array<std::array<int, 3>, 4> kFaceCorners{ { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } } };
 
 /// Corners of the six edges; edge e and edge 5 - e are opposite.
-constexpr std::array<std::array<int, 2>, 6> kEdgeCorners{ { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } } };
+constexpr std::array<std::array<int, 2>, 6> kEdgeCorners{
+  { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } }
+};
 
 struct FaceNeighbours
 {
@@ -25,8 +27,8 @@ FaceNeighbours faceNeighbours(const TetraMesh& mesh);
 /// Regions of tetrahedra joined through faces: the region of each tetrahedron, numbered from 0 in the order of their
 /// first tetrahedra. `joined(t, f)` says whether the face may be passed; it must say the same from both sides, and is
 /// asked only where there is a tetrahedron beyond.
-std::vector<std::int32_t> faceRegions(
-  const FaceNeighbours& neighbours, const std::function<bool(std::int32_t t, int f)>& joined);
+std::vector<std::int32_t> faceRegions(const FaceNeighbours& neighbours,
+                                      const std::function<bool(std::int32_t t, int f)>& joined);
 
 /// The triangles between different labels (0 beyond the mesh), in the order of the tetrahedra, wound so that the higher
 /// label is behind. `pointIds`, if given, receives for each point of the surface its id in the mesh, ascending.

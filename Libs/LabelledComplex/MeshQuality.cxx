@@ -146,7 +146,7 @@ QualityGroup groupOf(const Context& context, const std::vector<std::int32_t>& te
   group.edgeOverTarget = distributionOf(samples.edgeOverTarget);
   group.valence = distributionOf(samples.valence);
   const auto near = std::count_if(samples.edgeOverTarget.begin(), samples.edgeOverTarget.end(),
-    [](double ratio) { return ratio > 0.7 && ratio < 1.4; });
+                                  [](double ratio) { return ratio > 0.7 && ratio < 1.4; });
   if (!samples.edgeOverTarget.empty()) group.edgesNearTarget = double(near) / double(samples.edgeOverTarget.size());
   return group;
 }
@@ -278,7 +278,8 @@ double radiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 
 double scaledJacobian(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
-  const double ab = norm(b - a), ac = norm(c - a), ad = norm(d - a), bc = norm(c - b), bd = norm(d - b), cd = norm(d - c);
+  const double ab = norm(b - a), ac = norm(c - a), ad = norm(d - a), bc = norm(c - b), bd = norm(d - b),
+               cd = norm(d - c);
   const double largest = std::max({ ab * ac * ad, ab * bc * bd, ac * bc * cd, ad * bd * cd });
   return largest > 0 ? std::sqrt(2.0) * orient(a, b, c, d) / largest : 0;
 }
@@ -288,7 +289,8 @@ Distribution distributionOf(std::vector<double> values)
   Distribution result;
   if (values.empty()) return result;
   std::sort(values.begin(), values.end());
-  const auto percentile = [&](double share) { return values[static_cast<std::size_t>(share * double(values.size() - 1) + 0.5)]; };
+  const auto percentile = [&](double share)
+  { return values[static_cast<std::size_t>(share * double(values.size() - 1) + 0.5)]; };
   result.count = values.size();
   result.minimum = values.front();
   result.percentile1 = percentile(0.01);
@@ -302,7 +304,7 @@ Distribution distributionOf(std::vector<double> values)
 }
 
 MeshQuality assessQuality(const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh,
-  const std::function<double(const Vec3&)>& edgeLength)
+                          const std::function<double(const Vec3&)>& edgeLength)
 {
   const Context context{ mesh, edgeLength };
   std::vector<std::int32_t> all(mesh.tetrahedra.size());
@@ -382,7 +384,8 @@ std::string qualityCSV(const MeshQuality& quality, const TissueTable& tissues)
             "tetrahedron volume minimum,edge over target mean,edges near target,valence median\n";
   writeRow(stream, "mesh", 0, "", quality.whole);
   for (const auto& [label, group] : quality.tissues) writeRow(stream, "tissue", label, nameOf(label, tissues), group);
-  for (const auto& [id, group] : quality.subMeshes) writeRow(stream, "subMesh", id, id == 0 ? "parent" : "child", group);
+  for (const auto& [id, group] : quality.subMeshes)
+    writeRow(stream, "subMesh", id, id == 0 ? "parent" : "child", group);
   return stream.str();
 }
 

@@ -44,15 +44,15 @@ struct QualityGroup
 {
   std::size_t tetrahedra = 0;
   std::size_t points = 0;
-  double volume = 0;                   ///< mm^3
-  Distribution dihedral;               ///< degrees, six per tetrahedron
-  Distribution minimumDihedral;        ///< degrees, of each tetrahedron
+  double volume = 0;            ///< mm^3
+  Distribution dihedral;        ///< degrees, six per tetrahedron
+  Distribution minimumDihedral; ///< degrees, of each tetrahedron
   Distribution radiusRatio;
   Distribution scaledJacobian;
-  Distribution tetrahedronVolume;      ///< mm^3
-  Distribution edgeOverTarget;         ///< each edge once; empty if there is no target
-  double edgesNearTarget = 0;          ///< share of edges between 0.7 and 1.4 times their target
-  Distribution valence;                ///< tetrahedra at each point around which all are of the group and of one tissue
+  Distribution tetrahedronVolume; ///< mm^3
+  Distribution edgeOverTarget;    ///< each edge once; empty if there is no target
+  double edgesNearTarget = 0;     ///< share of edges between 0.7 and 1.4 times their target
+  Distribution valence;           ///< tetrahedra at each point around which all are of the group and of one tissue
 };
 
 struct MeshQuality
@@ -61,15 +61,15 @@ struct MeshQuality
   std::map<Label, QualityGroup> tissues;
   std::map<std::int32_t, QualityGroup> subMeshes;
   // The paper's three histograms (Audette et al. 2007, figure 10), over the whole mesh.
-  Histogram dihedral;       ///< degrees
+  Histogram dihedral; ///< degrees
   Histogram edgeOverTarget;
-  Histogram valence;        ///< tetrahedra per inner point, one bin each
+  Histogram valence; ///< tetrahedra per inner point, one bin each
 };
 
 /// Assesses the tetrahedra (label 0 included, if there are any). `subMesh` per tetrahedron, or empty. `edgeLength` is L(x)
 /// in mm, asked at the middle of each edge, or empty.
 MeshQuality assessQuality(const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh,
-  const std::function<double(const Vec3&)>& edgeLength);
+                          const std::function<double(const Vec3&)>& edgeLength);
 
 /// One JSON object: whole, tissues, subMeshes, histograms.
 std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues);

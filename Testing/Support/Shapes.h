@@ -24,14 +24,15 @@ inline SurfaceComplex sphere(const Vec3& centre, double radius, int levels, Labe
 {
   SurfaceComplex surface;
   surface.points = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } };
-  surface.triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+  surface.triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 },
+                        { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
   for (int level = 0; level < levels; ++level)
   {
     std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> middles;
     const auto middle = [&](std::int32_t a, std::int32_t b)
     {
-      const auto [entry, isNew] = middles.emplace(
-        std::make_pair(std::min(a, b), std::max(a, b)), static_cast<std::int32_t>(surface.points.size()));
+      const auto [entry, isNew] = middles.emplace(std::make_pair(std::min(a, b), std::max(a, b)),
+                                                  static_cast<std::int32_t>(surface.points.size()));
       const Vec3 sum = surface.points[a] + surface.points[b];
       if (isNew) surface.points.push_back(sum / norm(sum));
       return entry->second;
@@ -50,8 +51,8 @@ inline SurfaceComplex sphere(const Vec3& centre, double radius, int levels, Labe
 }
 
 /// A torus around the z axis.
-inline SurfaceComplex torus(
-  double majorRadius, double minorRadius, int aroundMajor, int aroundMinor, Label inside = 1, Label outside = 0)
+inline SurfaceComplex torus(double majorRadius, double minorRadius, int aroundMajor, int aroundMinor, Label inside = 1,
+                            Label outside = 0)
 {
   const double turn = 2 * std::acos(-1.0);
   SurfaceComplex surface;

@@ -12,8 +12,8 @@ namespace surgicalmesher::test
 {
 
 /// A map of the given size whose voxel (i, j, k) has the label paint(i, j, k).
-inline TissueMap paintedMap(
-  const std::array<int, 3>& size, const std::function<int(int i, int j, int k)>& paint, const Vec3& spacing = { 1, 1, 1 })
+inline TissueMap paintedMap(const std::array<int, 3>& size, const std::function<int(int i, int j, int k)>& paint,
+                            const Vec3& spacing = { 1, 1, 1 })
 {
   TissueMap map;
   map.grid.size = size;
@@ -43,16 +43,15 @@ inline TetraMesh tetrahedraOf(const TissueMap& map, int ring = 1)
     {
       for (int i = 0; i <= size[0]; ++i)
       {
-        mesh.points.push_back({ (i - ring - 0.5) * grid.spacing.x, (j - ring - 0.5) * grid.spacing.y,
-          (k - ring - 0.5) * grid.spacing.z });
+        mesh.points.push_back(
+          { (i - ring - 0.5) * grid.spacing.x, (j - ring - 0.5) * grid.spacing.y, (k - ring - 0.5) * grid.spacing.z });
       }
     }
   }
   const auto addVoxel = [&](int i, int j, int k, Label label)
   {
     std::array<int, 3> axes{ 0, 1, 2 };
-    do
-    {
+    do {
       std::array<int, 3> at{ i, j, k };
       std::array<std::int32_t, 4> tetrahedron{ corner(i, j, k) };
       for (int step = 0; step < 3; ++step)

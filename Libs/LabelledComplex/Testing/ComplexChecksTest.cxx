@@ -18,11 +18,11 @@ using test::tetrahedraOf;
 static TissueMap nestedBalls()
 {
   return paintedMap({ 9, 9, 9 },
-    [](int i, int j, int k)
-    {
-      const int squared = (i - 4) * (i - 4) + (j - 4) * (j - 4) + (k - 4) * (k - 4);
-      return squared <= 3 ? 2 : squared <= 14 ? 1 : 0;
-    });
+                    [](int i, int j, int k)
+                    {
+                      const int squared = (i - 4) * (i - 4) + (j - 4) * (j - 4) + (k - 4) * (k - 4);
+                      return squared <= 3 ? 2 : squared <= 14 ? 1 : 0;
+                    });
 }
 
 TEST(InterfaceOf, SeparatesLabelsOnceAndEnclosesTheirVolumes)
@@ -86,7 +86,7 @@ TEST(CheckSurface, FindsATissueThatTouchesItself)
   const auto diagonal = [](bool apart, bool corner)
   {
     return paintedMap({ 2, 2, 2 }, [=](int i, int j, int k)
-      { return (i == j && (corner ? k == i : k == 0)) ? (apart && i == 1 ? 2 : 1) : 0; });
+                      { return (i == j && (corner ? k == i : k == 0)) ? (apart && i == 1 ? 2 : 1) : 0; });
   };
   const auto edge = checkSurface(interfaceOf(tetrahedraOf(diagonal(false, false)))).at(1);
   EXPECT_EQ(edge.nonManifoldEdges.count, 1u);
@@ -138,10 +138,12 @@ TEST(CheckMesh, RequireSoundNamesStageAndPlace)
 
 TEST(MeshTopology, KnowsSimpleShapes)
 {
-  const auto ring = [](int i, int j, int k) { return k == 1 && i > 0 && j > 0 && i < 4 && j < 4 && (i != 2 || j != 2); };
+  const auto ring = [](int i, int j, int k)
+  { return k == 1 && i > 0 && j > 0 && i < 4 && j < 4 && (i != 2 || j != 2); };
   const auto shell = [](int i, int j, int k) { return i == 2 && j == 2 && k == 2 ? 0 : 1; };
-  const auto topology = [](const std::function<int(int, int, int)>& paint)
-  { return meshTopology(tetrahedraOf(paintedMap({ 5, 5, 5 }, paint))).at(1); };
+  const auto topology = [](const std::function<int(int, int, int)>& paint) {
+    return meshTopology(tetrahedraOf(paintedMap({ 5, 5, 5 }, paint))).at(1);
+  };
   EXPECT_TRUE(topology(ring) == (Betti{ 1, 1, 0 }));
   EXPECT_TRUE(topology(shell) == (Betti{ 1, 0, 1 }));
   EXPECT_TRUE(topology([](int i, int, int) { return i % 2; }) == (Betti{ 2, 0, 0 }));

@@ -1,5 +1,5 @@
-#include "ComplexChecks.h"
 #include "ComplexIO.h"
+#include "ComplexChecks.h"
 #include "Errors.h"
 #include "FaceNeighbours.h"
 #include "Shapes.h"
@@ -81,15 +81,17 @@ SurfaceFile someSurface()
     content.targetEdgeLength.push_back(1 + p.x * p.x);
     content.boundaryDistance.push_back(p.y / 3);
   }
-  content.tissues[7] = { "left \"putamen\", <grey> & n\xc3\xa4" "her", { 0.1, 0.2, 0.3 } };
+  content.tissues[7] = { "left \"putamen\", <grey> & n\xc3\xa4"
+                         "her",
+                         { 0.1, 0.2, 0.3 } };
   return content;
 }
 
 MeshFile someMesh()
 {
   MeshFile content;
-  content.mesh = test::tetrahedraOf(
-    test::paintedMap({ 3, 2, 2 }, [](int i, int, int) { return i; }, { 0.1, 0.7, 1.3 }));
+  content.mesh =
+    test::tetrahedraOf(test::paintedMap({ 3, 2, 2 }, [](int i, int, int) { return i; }, { 0.1, 0.7, 1.3 }));
   content.subMesh.assign(content.mesh.labels.begin(), content.mesh.labels.end());
   content.constitutive.assign(content.mesh.labels.begin(), content.mesh.labels.end());
   for (const Vec3& p : content.mesh.points)
@@ -253,7 +255,9 @@ TEST_F(ComplexIO, RefusesTruncatedFiles)
     for (const double share : { 0.1, 0.5, 0.8 })
     {
       writeBytes(bytes.substr(0, static_cast<std::size_t>(share * double(bytes.size()))), path("cut-" + name));
-      expectRefusal([&] { name == "a.vtp" ? (void)readSurface(path("cut-" + name)) : (void)readMesh(path("cut-" + name)); }, "cut-");
+      expectRefusal([&]
+                    { name == "a.vtp" ? (void)readSurface(path("cut-" + name)) : (void)readMesh(path("cut-" + name)); },
+                    "cut-");
     }
   }
 }
@@ -357,7 +361,9 @@ TEST_F(ComplexIO, WritersReportWhatTheyCannotWrite)
   for (const std::string name : { "full.vtp", "full.vtu", "full.vtk" })
   {
     std::filesystem::create_symlink("/dev/full", path(name));
-    expectRefusal([&] { name == "full.vtp" ? writeSurface(someSurface(), path(name)) : writeMesh(someMesh(), path(name)); }, "to its end");
+    expectRefusal([&]
+                  { name == "full.vtp" ? writeSurface(someSurface(), path(name)) : writeMesh(someMesh(), path(name)); },
+                  "to its end");
   }
 }
 

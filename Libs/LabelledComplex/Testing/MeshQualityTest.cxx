@@ -1,5 +1,5 @@
-#include "FaceNeighbours.h"
 #include "MeshQuality.h"
+#include "FaceNeighbours.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +39,8 @@ TEST(TetrahedronQuality, CanonicalTetrahedron)
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(angles[i], i < 4 ? 60 : 90, 1e-12);
   EXPECT_NEAR(radiusRatio(a, b, c, d), std::sqrt(0.9), 1e-14);
   const double shortEdge = std::sqrt(3), longEdge = 2;
-  EXPECT_NEAR(scaledJacobian(a, b, c, d), std::sqrt(2) * orient(a, b, c, d) / (shortEdge * shortEdge * longEdge), 1e-14);
+  EXPECT_NEAR(scaledJacobian(a, b, c, d), std::sqrt(2) * orient(a, b, c, d) / (shortEdge * shortEdge * longEdge),
+              1e-14);
 }
 
 TEST(TetrahedronQuality, DoesNotDependOnSizePlaceOrCornerOrder)
@@ -76,9 +77,11 @@ TEST(AssessQuality, GroupsAddUp)
 
 TEST(AssessQuality, HistogramsCountEverything)
 {
-  const TetraMesh mesh = withoutOutside(test::tetrahedraOf(test::paintedMap({ 3, 3, 3 }, [](int, int, int) { return 1; })));
+  const TetraMesh mesh =
+    withoutOutside(test::tetrahedraOf(test::paintedMap({ 3, 3, 3 }, [](int, int, int) { return 1; })));
   const MeshQuality quality = assessQuality(mesh, {}, [](const Vec3&) { return 0.1; });
-  const auto total = [](const Histogram& h) { return std::accumulate(h.counts.begin(), h.counts.end(), std::size_t(0)); };
+  const auto total = [](const Histogram& h)
+  { return std::accumulate(h.counts.begin(), h.counts.end(), std::size_t(0)); };
   EXPECT_EQ(total(quality.dihedral), 6 * mesh.tetrahedra.size());
   EXPECT_EQ(total(quality.edgeOverTarget), quality.whole.edgeOverTarget.count) << "values beyond the range are kept";
   EXPECT_EQ(quality.valence.counts[24], 8u) << "the inner points of 3 x 3 x 3 voxels";
@@ -86,7 +89,8 @@ TEST(AssessQuality, HistogramsCountEverything)
 
 TEST(AssessQuality, JSONAndCSVSayTheSame)
 {
-  const TetraMesh mesh = withoutOutside(test::tetrahedraOf(test::paintedMap({ 2, 2, 2 }, [](int i, int, int) { return 3 + i; })));
+  const TetraMesh mesh =
+    withoutOutside(test::tetrahedraOf(test::paintedMap({ 2, 2, 2 }, [](int i, int, int) { return 3 + i; })));
   const TissueTable tissues{ { 3, { "a \"b\", c", { 0, 0, 0 } } } };
   const MeshQuality quality = assessQuality(mesh, std::vector<std::int32_t>(mesh.tetrahedra.size(), 0), {});
   rapidjson::Document json;
