@@ -90,7 +90,7 @@ TetraMesh ambientTetrahedra(const CommandLine& line, SurfaceFile& content, const
     return ambient;
   }
   makeFillable(content, surfaceName);
-  return tetrahedralize(content.surface, latticePoints(content.surface, edgeLength), surfaceName);
+  return fillWithTetrahedra(content.surface, edgeLength, surfaceName);
 }
 
 MeshFile assemble(const TetraMesh& ambient, const EdgeLength& edgeLength, const TissueTable& tissues,

@@ -190,6 +190,24 @@ private:
   std::vector<Places> m_Places;
 };
 
+/// Points nearer to the surface than this many L(x) are moved off the lattice, by this share of L(x) at most. Shapes made by
+/// symmetry otherwise have places in common with the lattice's planes and spheres, and TetGen stumbles over coincidences.
+constexpr double kNear = 1.5;
+constexpr double kOffLattice = 0.01;
+
+/// A number in [-1, 1) that depends on the place and the axis alone, scattered by the finalizer of MurmurHash3.
+double scatter(const Places& place, int axis)
+{
+  auto bits = static_cast<std::uint64_t>(axis);
+  for (const Place coordinate : place)
+  {
+    bits = (bits ^ static_cast<std::uint64_t>(coordinate)) * 0xff51afd7ed558ccdULL;
+    bits = (bits ^ (bits >> 33)) * 0xc4ceb9fe1a85ec53ULL;
+    bits ^= bits >> 33;
+  }
+  return double(bits >> 11) / double(std::uint64_t(1) << 52) - 1;
+}
+
 /// Outside the tissues the lattice's edges grow by this much per distance from the surface.
 constexpr double kOutsideGrowth = 0.5;
 
@@ -215,23 +233,26 @@ std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const EdgeLength&
   const std::vector<Places>& places = octree.places();
   const SurfaceLocator locator(surface);
   std::vector<char> keep(places.size());
+  std::vector<Vec3> points(places.size());
+  const auto decide = [&](vtkIdType i)
+  {
+    Vec3& p = points[i] = octree.positionOf(places[i]);
+    const double length = edgeLength(p);
+    const SurfaceLocator::Answer answer = locator.ask(p);
+    const bool dense = answer.inside || octree.hasPlaceAt(places[i], length + kOutsideGrowth * answer.distance);
+    keep[i] = dense && answer.distance >= clearance * length;
+    if (answer.distance >= kNear * length) return;
+    for (int axis = 0; axis < 3; ++axis) p[axis] += kOffLattice * length * scatter(places[i], axis);
+  };
   vtkSMPTools::For(0, static_cast<vtkIdType>(places.size()),
                    [&](vtkIdType begin, vtkIdType end)
                    {
-                     for (vtkIdType i = begin; i < end; ++i)
-                     {
-                       const Vec3 p = octree.positionOf(places[i]);
-                       const double length = edgeLength(p);
-                       const SurfaceLocator::Answer answer = locator.ask(p);
-                       keep[i] =
-                         answer.distance >= clearance * length &&
-                         (answer.inside || octree.hasPlaceAt(places[i], length + kOutsideGrowth * answer.distance));
-                     }
+                     for (vtkIdType i = begin; i < end; ++i) decide(i);
                    });
   std::vector<Vec3> result;
   for (std::size_t i = 0; i < places.size(); ++i)
   {
-    if (keep[i]) result.push_back(octree.positionOf(places[i]));
+    if (keep[i]) result.push_back(points[i]);
   }
   return result;
 }

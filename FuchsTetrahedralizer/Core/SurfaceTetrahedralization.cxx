@@ -3,12 +3,11 @@
 #include "ComplexChecks.h"
 #include "FaceNeighbours.h"
 #include "FlatTetrahedra.h"
+#include "SeparateProcess.h"
 
 #include <tetgen.h>
 
 #include <algorithm>
-#include <limits>
-#include <map>
 
 namespace surgicalmesher
 {
@@ -65,26 +64,8 @@ std::string reasonOf(int code)
   }
 }
 
-/// The convex hull of all points, tetrahedralized; labels are still missing.
-TetraMesh constrainedDelaunay(const SurfaceComplex& surface, const std::vector<Vec3>& latticePoints)
+TetraMesh meshOf(const tetgenio& output)
 {
-  tetgenio input, output;
-  std::vector<Vec3> points = surface.points;
-  points.insert(points.end(), latticePoints.begin(), latticePoints.end());
-  input.numberofpoints = static_cast<int>(points.size());
-  input.pointlist = ownedCoordinates(points);
-  fillFacets(input, surface.triangles);
-  // Piecewise linear complex, no points added on it (Y), hull kept (c), neither facets nor points merged (M),
-  // numbering kept (J), no other output than tetrahedra (B), quiet (Q).
-  std::string switches = "pYcMJBQ";
-  try
-  {
-    ::tetrahedralize(switches.data(), &input, &output);
-  }
-  catch (const int code)
-  {
-    throw EngineError("constrained Delaunay: TetGen gave up with " + reasonOf(code));
-  }
   TetraMesh mesh;
   for (int i = 0; i < output.numberofpoints; ++i)
   {
@@ -102,6 +83,88 @@ TetraMesh constrainedDelaunay(const SurfaceComplex& surface, const std::vector<V
   {
     if (volume < 0) std::swap(tetrahedron[0], tetrahedron[1]);
   }
+  return mesh;
+}
+
+// The answer of the process TetGen runs in: its code (0: done), then the arrays.
+
+template <class Item>
+void append(std::string& bytes, const std::vector<Item>& items)
+{
+  const std::size_t count = items.size();
+  bytes.append(reinterpret_cast<const char*>(&count), sizeof(count));
+  bytes.append(reinterpret_cast<const char*>(items.data()), count * sizeof(Item));
+}
+
+template <class Item>
+std::size_t take(const std::string& bytes, std::size_t at, std::vector<Item>& items)
+{
+  std::size_t count = 0;
+  bytes.copy(reinterpret_cast<char*>(&count), sizeof(count), at);
+  items.resize(count);
+  bytes.copy(reinterpret_cast<char*>(items.data()), count * sizeof(Item), at + sizeof(count));
+  return at + sizeof(count) + count * sizeof(Item);
+}
+
+std::string runTetGen(const SurfaceComplex& surface, const std::vector<Vec3>& points)
+{
+  tetgenio input, output;
+  std::vector<Vec3> all = surface.points;
+  all.insert(all.end(), points.begin(), points.end());
+  input.numberofpoints = static_cast<int>(all.size());
+  input.pointlist = ownedCoordinates(all);
+  fillFacets(input, surface.triangles);
+  // Piecewise linear complex, no points added on it (Y), hull kept (c), neither facets nor points merged (M),
+  // numbering kept (J), no other output than tetrahedra (B), quiet (Q).
+  std::string switches = "pYcMJBQ";
+  try
+  {
+    ::tetrahedralize(switches.data(), &input, &output);
+  }
+  catch (const int code)
+  {
+    return std::string(1, static_cast<char>(code));
+  }
+  const TetraMesh mesh = meshOf(output);
+  std::string answer(1, '\0');
+  append(answer, mesh.points);
+  append(answer, mesh.tetrahedra);
+  return answer;
+}
+
+/// Points TetGen tried and gave up; the first ones keep their ids in any case.
+void dropUnusedPoints(TetraMesh& mesh, std::size_t kept)
+{
+  std::vector<std::int32_t> newId(mesh.points.size(), -1);
+  std::fill_n(newId.begin(), kept, 0);
+  for (const auto& tetrahedron : mesh.tetrahedra)
+  {
+    for (const std::int32_t id : tetrahedron) newId[id] = 0;
+  }
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < newId.size(); ++i)
+  {
+    if (newId[i] < 0) continue;
+    newId[i] = static_cast<std::int32_t>(points.size());
+    points.push_back(mesh.points[i]);
+  }
+  mesh.points = points;
+  for (auto& tetrahedron : mesh.tetrahedra)
+  {
+    for (std::int32_t& id : tetrahedron) id = newId[id];
+  }
+}
+
+/// The convex hull of all points, tetrahedralized; labels are still missing.
+TetraMesh constrainedDelaunay(const SurfaceComplex& surface, const std::vector<Vec3>& points)
+{
+  const auto answer = runInSeparateProcess([&] { return runTetGen(surface, points); });
+  if (!answer || answer->empty()) throw EngineError("constrained Delaunay: TetGen ended before it was done");
+  const int code = answer->front();
+  if (code != 0) throw EngineError("constrained Delaunay: TetGen gave up with " + reasonOf(code));
+  TetraMesh mesh;
+  take(*answer, take(*answer, 1, mesh.points), mesh.tetrahedra);
+  dropUnusedPoints(mesh, surface.points.size());
   return mesh;
 }
 
@@ -221,6 +284,22 @@ TetraMesh tetrahedralize(const SurfaceComplex& surface, const std::vector<Vec3>&
   mesh.labels = regionLabels(surface, mesh, name);
   liftFlatTetrahedra(mesh);
   return mesh;
+}
+
+TetraMesh fillWithTetrahedra(const SurfaceComplex& surface, const EdgeLength& edgeLength, const std::string& name)
+{
+  for (const double clearance : { 0.5, 0.6 })
+  {
+    try
+    {
+      return tetrahedralize(surface, latticePoints(surface, edgeLength, clearance), name);
+    }
+    catch (const EngineError&)
+    {
+      // Other points, other coincidences.
+    }
+  }
+  return tetrahedralize(surface, latticePoints(surface, edgeLength, 0.75), name);
 }
 
 } // namespace surgicalmesher

@@ -15,9 +15,13 @@ namespace surgicalmesher
 /// slivers included. Positively wound, face-to-face, every point used, deterministic.
 ///
 /// `surface` must have passed requireFillable(). Throws SurfaceRefused, with `name` and the place, if the triangles around
-/// a region don't agree on its label, EngineError if TetGen fails. Not to be called from two threads at a time: TetGen's
-/// predicates keep global state.
+/// a region don't agree on its label, EngineError if TetGen fails. TetGen
+/// runs in a process of its own where there are such: failed assertions and crashes of it are failures like others.
 TetraMesh tetrahedralize(const SurfaceComplex& surface, const std::vector<Vec3>& latticePoints,
                          const std::string& name);
+
+/// The same with the lattice points of `edgeLength`. TetGen stumbles over rare coincidences of points; it is then given
+/// others, farther away from the surface, before EngineError is thrown.
+TetraMesh fillWithTetrahedra(const SurfaceComplex& surface, const EdgeLength& edgeLength, const std::string& name);
 
 } // namespace surgicalmesher

@@ -2,6 +2,7 @@
 #include "ComplexChecks.h"
 #include "FaceNeighbours.h"
 #include "MeshQuality.h"
+#include "SeparateProcess.h"
 #include "Shapes.h"
 #include "SurfaceValidity.h"
 #include "VoxelMesh.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 namespace surgicalmesher
@@ -68,7 +70,7 @@ std::vector<Shape> shapes()
 TetraMesh filled(const Shape& shape)
 {
   const auto length = [&](const Vec3&) { return shape.edgeLength; };
-  return tetrahedralize(shape.surface, latticePoints(shape.surface, length), shape.name);
+  return fillWithTetrahedra(shape.surface, length, shape.name);
 }
 
 using PlacedTriangle = std::pair<std::array<std::int32_t, 3>, std::array<Label, 2>>;
@@ -168,6 +170,41 @@ TEST(Tetrahedralize, InnerElementsAreCanonical)
   }
   EXPECT_GT(inner, 1000u);
   EXPECT_EQ(canonical, inner);
+}
+
+TEST(SeparateProcess, AnswersOrTellsThatThereIsNoAnswer)
+{
+  const std::string large(1 << 20, 'x'); // more than a pipe holds
+  EXPECT_EQ(runInSeparateProcess([&] { return large; }), large);
+  EXPECT_EQ(runInSeparateProcess([]() -> std::string { throw 2; }), std::nullopt);
+#ifndef _WIN32
+  EXPECT_EQ(runInSeparateProcess([]() -> std::string { std::abort(); }), std::nullopt);
+  EXPECT_EQ(runInSeparateProcess([]() -> std::string { std::_Exit(0); }).value_or(""), "") << "left without an answer";
+#endif
+}
+
+/// A cone's base is a fan of thin triangles around a point, its side a fan around another: TetGen finds both hard.
+TEST(Tetrahedralize, FillsACone)
+{
+  SurfaceComplex cone;
+  const int around = 30;
+  for (int i = 0; i < around; ++i)
+  {
+    const double angle = 2 * std::acos(-1.0) * i / around;
+    cone.points.push_back({ 0, 6 * std::cos(angle), 6 * std::sin(angle) });
+  }
+  cone.points.push_back({ 15, 0, 0 });
+  for (int i = 0; i < around; ++i) cone.triangles.push_back({ i, (i + 1) % around, around });
+  for (int i = 1; i + 1 < around; ++i) cone.triangles.push_back({ 0, i + 1, i });
+  cone.labels.assign(cone.triangles.size(), { 1, 0 });
+  ASSERT_NO_THROW(requireFillable(cone, "cone"));
+  for (const double length : { 0.7, 1.0, 1.5, 3.0 })
+  {
+    const TetraMesh mesh = fillWithTetrahedra(
+      cone, [=](const Vec3&) { return length; }, "cone");
+    EXPECT_NO_THROW(requireSound(mesh, "test"));
+    EXPECT_EQ(triangleSet(interfaceOf(mesh), {}), triangleSet(cone, {})) << length;
+  }
 }
 
 TEST(Tetrahedralize, IsDeterministic)

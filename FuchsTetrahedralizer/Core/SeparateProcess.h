@@ -1,0 +1,16 @@
+#pragma once
+/// For engines that end the process when they fail: failed assertions, exit() and crashes then end another one.
+
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace surgicalmesher
+{
+
+/// What `work` returns, or nothing if its process did not come to that: it crashed, aborted, exited, or `work` threw.
+/// `work` sees this process's memory as it is now; what it changes there, and what it prints, is lost.
+/// Where processes can't be forked (Windows) it runs in this one, unprotected.
+std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work);
+
+} // namespace surgicalmesher
