@@ -1,4 +1,4 @@
-// FuchsTetrahedralizerCLI: multi-tissue surface (and its ambient tetrahedra) in; labelled tetrahedra and their quality out.
+// FuchsTetrahedralizerCLI: multi-tissue surface (and its ambient tetrahedra) in; labelled tetrahedra, their quality out.
 
 #include "AmbientMatch.h"
 #include "CommandLine.h"

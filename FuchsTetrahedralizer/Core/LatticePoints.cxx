@@ -19,8 +19,8 @@ namespace surgicalmesher
 namespace
 {
 
-/// Answers where a point lies with respect to the surface; safe to ask from several threads. Approximate arithmetic is good
-/// enough: a wrong answer costs a point, nothing else.
+/// Answers where a point lies with respect to the surface; safe to ask from several threads. Approximate arithmetic is
+/// good enough: a wrong answer costs a point, nothing else.
 class SurfaceLocator
 {
 public:
@@ -190,8 +190,9 @@ private:
   std::vector<Places> m_Places;
 };
 
-/// Points nearer to the surface than this many L(x) are moved off the lattice, by this share of L(x) at most. Shapes made by
-/// symmetry otherwise have places in common with the lattice's planes and spheres, and TetGen stumbles over coincidences.
+/// Points nearer to the surface than this many L(x) are moved off the lattice, by this share of L(x) at most. Shapes
+/// made by symmetry otherwise have places in common with the lattice's planes and spheres, and TetGen stumbles over
+/// coincidences.
 constexpr double kNear = 1.5;
 constexpr double kOffLattice = 0.01;
 

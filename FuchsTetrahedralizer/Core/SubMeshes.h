@@ -1,7 +1,7 @@
 #pragma once
-/// Child and parent: the fine part of the mesh around the target, which a multirate solver advances at a higher rate, and
-/// the rest (Audette et al., Computer Aided Surgery 12(1), 2007: contiguous tetrahedra whose edge lengths approach Lmin
-/// are a child).
+/// Child and parent: the fine part of the mesh around the target, which a multirate solver advances at a higher rate,
+/// and the rest (Audette et al., Computer Aided Surgery 12(1), 2007: contiguous tetrahedra whose edge lengths approach
+/// Lmin are a child).
 
 #include "LatticePoints.h"
 #include "TetraMesh.h"
@@ -24,13 +24,13 @@ struct SubMeshes
 };
 
 /// Divides the mesh. Lmin is the least L at the centre of a tetrahedron. Children are face-connected. Pieces of the
-/// parent that a child cuts off from the parent's largest piece in the same body, and that have fewer tetrahedra than that
-/// child, join it; so the parent is connected within each body, unless a child passes right through it. If every
+/// parent that a child cuts off from the parent's largest piece in the same body, and that have fewer tetrahedra than
+/// that child, join it; so the parent is connected within each body, unless a child passes right through it. If every
 /// tetrahedron is fine, as under a uniform scale, no part is finer than another and all are parent.
 SubMeshes divideIntoSubMeshes(const TetraMesh& mesh, const EdgeLength& edgeLength, const SubMeshOptions& options = {});
 
-/// Constitutive model of each tetrahedron: 1 (nonlinear) in children, 0 (linear) in the parent, 2 (null displacement) in
-/// tissues named "null displacement", upper or lower case.
+/// Constitutive model of each tetrahedron: 1 (nonlinear) in children, 0 (linear) in the parent, 2 (null displacement)
+/// in tissues named "null displacement", upper or lower case.
 std::vector<std::int32_t> constitutiveModels(const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh,
                                              const TissueTable& tissues);
 

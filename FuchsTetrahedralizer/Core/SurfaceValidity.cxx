@@ -129,8 +129,8 @@ std::vector<EdgeUse> edgeUses(const SurfaceComplex& surface)
   return uses;
 }
 
-/// Triangles at the edges of a tissue's boundary that are at fault: those where the sides on which it lies don't alternate
-/// as they must around a closed boundary, or, with `crowded`, those of more than two triangles.
+/// Triangles at the edges of a tissue's boundary that are at fault: those where the sides on which it lies don't
+/// alternate as they must around a closed boundary, or, with `crowded`, those of more than two triangles.
 std::vector<std::int32_t> faultyTriangles(const SurfaceComplex& surface, Label tissue, bool crowded)
 {
   std::vector<std::int32_t> result;
@@ -281,8 +281,8 @@ std::vector<std::int32_t> orientShells(SurfaceComplex& surface, const Neighbours
 
 // ---- points ---------------------------------------------------------------------------------------------------------
 
-/// Points of a foreign surface closer than this share of its diagonal are one: seams of revolved shapes, whose sines differ
-/// in the last digits, and coordinates in single precision.
+/// Points of a foreign surface closer than this share of its diagonal are one: seams of revolved shapes, whose sines
+/// differ in the last digits, and coordinates in single precision.
 constexpr double kSamePlace = 1e-6;
 
 /// Gives points their ids; one within the tolerance of an earlier one, or in the same cube of that width, gets its id.
@@ -372,7 +372,8 @@ std::vector<Shell> collectShells(const SurfaceComplex& surface, const std::vecto
   return shells;
 }
 
-/// Times the shell winds around p, by the sum of its solid angles (van Oosterom and Strackee 1983): 1 inside, 0 outside.
+/// Times the shell winds around p, by the sum of its solid angles (van Oosterom and Strackee 1983): 1 inside, 0
+/// outside.
 double windingNumber(const SurfaceComplex& surface, const Shell& shell, const Vec3& p)
 {
   double sum = 0;

@@ -113,7 +113,8 @@ Vec3 centreOf(const TetraMesh& mesh, std::size_t t)
   return 0.25 * (mesh.points[ids[0]] + mesh.points[ids[1]] + mesh.points[ids[2]] + mesh.points[ids[3]]);
 }
 
-/// The open interior of each tissue: cells whose surrounding tetrahedra all have its label and that are not on the hull.
+/// The open interior of each tissue: cells whose surrounding tetrahedra all have its label and that are not on the
+/// hull.
 class InteriorCells
 {
 public:

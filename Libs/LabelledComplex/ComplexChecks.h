@@ -69,8 +69,8 @@ MeshDefects checkMesh(const TetraMesh& mesh);
 /// its complement through points as well. Label 0 is left out; what lies beyond the mesh is complement.
 std::map<Label, Betti> meshTopology(const TetraMesh& mesh);
 
-/// Throws EngineError, naming `stage` and the place in mm, unless the mesh has no defects and every tissue's surface is a
-/// closed 2-manifold.
+/// Throws EngineError, naming `stage` and the place in mm, unless the mesh has no defects and every tissue's surface is
+/// a closed 2-manifold.
 void requireSound(const TetraMesh& mesh, const std::string& stage);
 
 /// The same for a surface.

@@ -2,10 +2,10 @@
 /// Surface complexes and labelled tetrahedra as VTK files.
 ///
 /// Coordinates are LPS mm in memory and in the files written (field data SPACE = LPS; in legacy files also the title).
-/// Files that say SPACE=RAS are turned to LPS while reading; files that say nothing are taken as LPS.
-/// The same content gives the same bytes. Everything here throws InputError: readers with the file's name, what was found
-/// and what was expected; writers when the file can't be opened or not be written to its end.
-/// Writers write the file as named: atomic replacement is the caller's (CommandLine).
+/// Files that say SPACE=RAS are turned to LPS while reading; files that say nothing are taken as LPS. The same content
+/// gives the same bytes. Everything here throws InputError: readers with the file's name, what was found and what was
+/// expected; writers when the file can't be opened or not be written to its end. Writers write the file as named:
+/// atomic replacement is the caller's (CommandLine).
 
 #include "TetraMesh.h"
 

@@ -34,8 +34,8 @@ std::vector<std::int32_t> faceRegions(const FaceNeighbours& neighbours,
 /// label is behind. `pointIds`, if given, receives for each point of the surface its id in the mesh, ascending.
 SurfaceComplex interfaceOf(const TetraMesh& mesh, std::vector<std::int32_t>* pointIds = nullptr);
 
-/// The tetrahedra of `mesh` with a label other than 0, and the points they use, both in the same order. `pointIds`, if given,
-/// receives for each point of the result its id in `mesh`.
+/// The tetrahedra of `mesh` with a label other than 0, and the points they use, both in the same order. `pointIds`, if
+/// given, receives for each point of the result its id in `mesh`.
 TetraMesh withoutOutside(const TetraMesh& mesh, std::vector<std::int32_t>* pointIds = nullptr);
 
 } // namespace surgicalmesher

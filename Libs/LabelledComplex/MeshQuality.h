@@ -11,7 +11,8 @@
 namespace surgicalmesher
 {
 
-/// The six dihedral angles in degrees, in the order of kEdgeCorners. Regular tetrahedron: 70.53; canonical: 4 x 60, 2 x 90.
+/// The six dihedral angles in degrees, in the order of kEdgeCorners. Regular tetrahedron: 70.53; canonical: 4 x 60, 2 x
+/// 90.
 std::array<double, 6> dihedralAngles(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
 /// Three times the inscribed over the circumscribed sphere's radius, in (0, 1]; 0 or less if flat or inverted.
@@ -66,8 +67,8 @@ struct MeshQuality
   Histogram valence; ///< tetrahedra per inner point, one bin each
 };
 
-/// Assesses the tetrahedra (label 0 included, if there are any). `subMesh` per tetrahedron, or empty. `edgeLength` is L(x)
-/// in mm, asked at the middle of each edge, or empty.
+/// Assesses the tetrahedra (label 0 included, if there are any). `subMesh` per tetrahedron, or empty. `edgeLength` is
+/// L(x) in mm, asked at the middle of each edge, or empty.
 MeshQuality assessQuality(const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh,
                           const std::function<double(const Vec3&)>& edgeLength);
 
