@@ -35,6 +35,10 @@ void requireCover(const ScaleField& scale, const Grid& grid, const std::string& 
 /// names. Background (label 0) is left out; underscores in names become blanks again.
 TissueTable readTissueTable(const std::string& file);
 
+/// Adds the names and colours of a table file (none if `file` is empty) to the map's own, and forgets those of tissues that
+/// the map doesn't have.
+void completeTissueTable(TissueMap& map, const std::string& file);
+
 /// Control points of every markup in a .mrk.json (Fiducial, Curve, ClosedCurve, Line) or .fcsv file, in LPS mm, whatever
 /// the file's own coordinate system; a ClosedCurve ends with its first point again. One list per markup that has points;
 /// points that are not placed (positionStatus) are left out. Refused: no point at all, coordinates that are no finite

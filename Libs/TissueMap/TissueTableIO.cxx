@@ -74,4 +74,19 @@ TissueTable readTissueTable(const std::string& file)
   return table;
 }
 
+void completeTissueTable(TissueMap& map, const std::string& file)
+{
+  if (!file.empty())
+  {
+    for (const auto& entry : readTissueTable(file)) map.table[entry.first] = entry.second;
+  }
+  TissueTable present;
+  for (const Label label : presentLabels(map))
+  {
+    const auto entry = map.table.find(label);
+    if (entry != map.table.end()) present.insert(*entry);
+  }
+  map.table = present;
+}
+
 } // namespace surgicalmesher

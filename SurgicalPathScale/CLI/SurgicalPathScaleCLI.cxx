@@ -125,23 +125,6 @@ NullDisplacementOptions readNullDisplacement(const CommandLine& line, const Tiss
   return options;
 }
 
-/// Adds the names of the --names file, and forgets those of tissues that the map does not have.
-void completeTable(const CommandLine& line, TissueMap& map)
-{
-  const std::string file = line.text("names");
-  if (!file.empty())
-  {
-    for (const auto& entry : readTissueTable(file)) map.table[entry.first] = entry.second;
-  }
-  TissueTable present;
-  for (const Label label : presentLabels(map))
-  {
-    const auto entry = map.table.find(label);
-    if (entry != map.table.end()) present.insert(*entry);
-  }
-  map.table = present;
-}
-
 bool isInside(const Grid& grid, const Vec3& world)
 {
   const Vec3 p = grid.worldToGrid(world);
@@ -309,7 +292,7 @@ void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, Result
   if (file.empty()) return;
   results.nullDisplacement =
     markNullDisplacement(map, focus.targets, focus.paths, readNullDisplacement(line, map.table));
-  completeTable(line, map);
+  completeTissueTable(map, line.text("names"));
   if (results.nullDisplacement.voxelCount == 0)
     results.warnings.push_back("no voxel is far enough to become null displacement");
   line.message("null displacement: " + std::to_string(results.nullDisplacement.voxelCount) + " voxels, label " +
@@ -333,7 +316,7 @@ void run(CommandLine& line)
   const Focus focus = readFocus(line);
   SurgicalScaleOptions options = readOptions(line);
   TissueMap map = readTissueMap(line.text("labelMap"));
-  completeTable(line, map);
+  completeTissueTable(map, line.text("names"));
   const std::string lengthsFile = line.text("tissueLengths");
   if (!lengthsFile.empty()) options.tissues = readTissueLengths(lengthsFile, options.range, map.table);
   checkScaleOptions(options, map.grid, focus.targets, focus.paths);

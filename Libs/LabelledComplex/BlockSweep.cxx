@@ -1,0 +1,288 @@
+#include "BlockSweep.h"
+
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <numeric>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+struct Range
+{
+  std::size_t begin, end; ///< into the permutation of tetrahedra
+};
+
+/// Recursive cuts along the axes in turn, beginning with the round's, unless the block is more than twice as long along
+/// another. What a cut locks stays fine, so that the next round's medians are drawn to the same plane: rounds cut at other
+/// shares as well.
+void cut(std::vector<std::int32_t>& order, const std::vector<std::array<float, 3>>& centroids, Range range, std::size_t most,
+         int round, int depth, std::vector<Range>& blocks)
+{
+  const std::size_t n = range.end - range.begin;
+  if (n <= most)
+  {
+    blocks.push_back(range);
+    std::sort(order.begin() + range.begin, order.begin() + range.end);
+    return;
+  }
+  std::array<float, 3> low = centroids[order[range.begin]], high = low;
+  for (std::size_t i = range.begin; i < range.end; ++i)
+    for (int k = 0; k < 3; ++k)
+    {
+      low[k] = std::min(low[k], centroids[order[i]][k]);
+      high[k] = std::max(high[k], centroids[order[i]][k]);
+    }
+  int axis = (round + depth) % 3;
+  for (int k = 0; k < 3; ++k)
+    if (high[k] - low[k] > 2 * (high[axis] - low[axis])) axis = k;
+  constexpr double shares[] = { 0.5, 0.3, 0.7 };
+  const std::size_t middle = range.begin + std::size_t(double(n) * shares[round % 3]);
+  std::nth_element(order.begin() + range.begin, order.begin() + middle, order.begin() + range.end,
+                   [&](std::int32_t a, std::int32_t b)
+                   {
+                     const float x = centroids[a][axis], y = centroids[b][axis];
+                     return x != y ? x < y : a < b;
+                   });
+  cut(order, centroids, { range.begin, middle }, most, round, depth + 1, blocks);
+  cut(order, centroids, { middle, range.end }, most, round, depth + 1, blocks);
+}
+
+/// What a block gives back: ids below `known` are the mesh's own, the others its new vertices.
+struct BlockResult
+{
+  std::vector<std::array<std::int32_t, 4>> tets;
+  std::vector<Label> labels;
+  std::vector<AmbientMesh::Place> evidence;
+  std::vector<Vec3> newPoints;
+  std::vector<float> newLengths;
+};
+
+class Sweep
+{
+public:
+  Sweep(AmbientMesh& ambient, int round, std::size_t most) : m_Ambient(ambient)
+  {
+    const auto& mesh = ambient.mesh;
+    std::vector<std::array<float, 3>> centroids(mesh.tetrahedra.size());
+    vtkSMPTools::For(0, vtkIdType(centroids.size()), [&](vtkIdType begin, vtkIdType end) {
+      for (vtkIdType t = begin; t < end; ++t)
+      {
+        const auto& x = mesh.tetrahedra[t];
+        const Vec3 c = mesh.points[x[0]] + mesh.points[x[1]] + mesh.points[x[2]] + mesh.points[x[3]];
+        centroids[t] = { float(c.x), float(c.y), float(c.z) };
+      }
+    });
+    m_Order.resize(centroids.size());
+    std::iota(m_Order.begin(), m_Order.end(), 0);
+    cut(m_Order, centroids, { 0, m_Order.size() }, most, round, 0, m_Blocks);
+    sortEvidence();
+    m_Results.resize(m_Blocks.size());
+  }
+
+  std::size_t blockCount() const { return m_Blocks.size(); }
+
+  void run(std::size_t b, const std::function<void(TetComplex&)>& work)
+  {
+    std::vector<std::int32_t> globalIds;
+    TetComplex complex = extract(b, globalIds);
+    work(complex);
+    collect(b, complex, globalIds);
+  }
+
+  void merge()
+  {
+    auto& mesh = m_Ambient.mesh;
+    mesh.tetrahedra.clear();
+    mesh.labels.clear();
+    m_Ambient.evidence.clear();
+    for (BlockResult& r : m_Results)
+    {
+      const std::int32_t shift = std::int32_t(mesh.points.size()) - m_Known;
+      const std::int32_t firstTet = std::int32_t(mesh.tetrahedra.size());
+      mesh.points.insert(mesh.points.end(), r.newPoints.begin(), r.newPoints.end());
+      m_Ambient.lengths.insert(m_Ambient.lengths.end(), r.newLengths.begin(), r.newLengths.end());
+      for (auto t : r.tets)
+      {
+        for (auto& v : t)
+          if (v >= m_Known) v += shift;
+        mesh.tetrahedra.push_back(t);
+      }
+      mesh.labels.insert(mesh.labels.end(), r.labels.begin(), r.labels.end());
+      for (auto e : r.evidence)
+      {
+        e.tetrahedron += firstTet;
+        m_Ambient.evidence.push_back(e);
+      }
+      r = {};
+    }
+    dropUnusedPoints();
+  }
+
+private:
+  void sortEvidence()
+  {
+    const std::size_t n = m_Ambient.evidence.size();
+    std::vector<std::int32_t> block(m_Order.size());
+    for (std::size_t b = 0; b < m_Blocks.size(); ++b)
+      for (std::size_t i = m_Blocks[b].begin; i < m_Blocks[b].end; ++i) block[m_Order[i]] = std::int32_t(b);
+    m_EvidenceStart.assign(m_Blocks.size() + 1, 0);
+    for (const auto& e : m_Ambient.evidence) ++m_EvidenceStart[block[e.tetrahedron] + 1];
+    std::partial_sum(m_EvidenceStart.begin(), m_EvidenceStart.end(), m_EvidenceStart.begin());
+    m_EvidenceOrder.resize(n);
+    std::vector<std::size_t> at(m_EvidenceStart.begin(), m_EvidenceStart.end() - 1);
+    for (std::size_t e = 0; e < n; ++e) m_EvidenceOrder[at[block[m_Ambient.evidence[e].tetrahedron]]++] = std::int32_t(e);
+    m_LocalTet.resize(m_Order.size());
+    for (const Range& r : m_Blocks)
+      for (std::size_t i = r.begin; i < r.end; ++i) m_LocalTet[m_Order[i]] = std::int32_t(i - r.begin);
+    m_Known = std::int32_t(m_Ambient.mesh.points.size());
+  }
+
+  TetComplex extract(std::size_t b, std::vector<std::int32_t>& globalIds)
+  {
+    const auto& mesh = m_Ambient.mesh;
+    // All -1 between blocks; one per thread, because it is as long as the whole mesh has points.
+    static thread_local std::vector<std::int32_t> local;
+    if (local.size() < std::size_t(m_Known)) local.resize(m_Known, -1);
+    const Range range = m_Blocks[b];
+    std::vector<TetComplex::Tet> tets;
+    std::vector<Label> labels;
+    tets.reserve(range.end - range.begin);
+    labels.reserve(range.end - range.begin);
+    for (std::size_t i = range.begin; i < range.end; ++i)
+    {
+      auto t = mesh.tetrahedra[m_Order[i]];
+      for (auto& v : t)
+      {
+        if (local[v] < 0)
+        {
+          local[v] = std::int32_t(globalIds.size());
+          globalIds.push_back(v);
+        }
+        v = local[v];
+      }
+      tets.push_back(t);
+      labels.push_back(mesh.labels[m_Order[i]]);
+    }
+    std::vector<Vec3> points;
+    std::vector<float> lengths;
+    for (std::int32_t v : globalIds)
+    {
+      points.push_back(mesh.points[v]);
+      lengths.push_back(m_Ambient.lengths[v]);
+      local[v] = -1;
+    }
+    TetComplex complex(std::move(points), std::move(lengths), std::move(tets), std::move(labels));
+    complex.evidence.reserve(m_EvidenceStart[b + 1] - m_EvidenceStart[b]);
+    for (std::size_t i = m_EvidenceStart[b]; i < m_EvidenceStart[b + 1]; ++i)
+    {
+      const auto& e = m_Ambient.evidence[m_EvidenceOrder[i]];
+      complex.addEvidence(m_LocalTet[e.tetrahedron], e.face, e.position, e.tolerance);
+    }
+    return complex;
+  }
+
+  void collect(std::size_t b, const TetComplex& complex, const std::vector<std::int32_t>& globalIds)
+  {
+    BlockResult& r = m_Results[b];
+    const std::int32_t own = std::int32_t(globalIds.size());
+    std::vector<std::int32_t> ids(complex.points.size(), -1);
+    std::copy(globalIds.begin(), globalIds.end(), ids.begin());
+    for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+    {
+      if (complex.vertexTet[v] < 0) continue;
+      if (v < own)
+      {
+        if (complex.locked[v]) continue; // shared with other blocks: theirs to read, nobody's to write
+        m_Ambient.mesh.points[ids[v]] = complex.points[v];
+        m_Ambient.lengths[ids[v]] = complex.lengths[v];
+        continue;
+      }
+      ids[v] = m_Known + std::int32_t(r.newPoints.size());
+      r.newPoints.push_back(complex.points[v]);
+      r.newLengths.push_back(complex.lengths[v]);
+    }
+    for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+    {
+      if (!complex.alive(t)) continue;
+      auto x = complex.tets[t];
+      for (auto& v : x) v = ids[v];
+      for (std::int32_t i = 0; i < 4; ++i)
+        for (std::int32_t e = complex.evidenceHeads[t][i]; e >= 0; e = complex.evidence[e].next)
+          r.evidence.push_back({ complex.evidence[e].position, complex.evidence[e].tolerance, std::int32_t(r.tets.size()), i });
+      r.tets.push_back(x);
+      r.labels.push_back(complex.labels[t]);
+    }
+  }
+
+  void dropUnusedPoints()
+  {
+    auto& mesh = m_Ambient.mesh;
+    std::vector<std::int32_t> id(mesh.points.size(), -1);
+    std::vector<Vec3> points;
+    std::vector<float> lengths;
+    for (auto& t : mesh.tetrahedra)
+      for (auto& v : t)
+      {
+        if (id[v] < 0)
+        {
+          id[v] = std::int32_t(points.size());
+          points.push_back(mesh.points[v]);
+          lengths.push_back(m_Ambient.lengths[v]);
+        }
+        v = id[v];
+      }
+    mesh.points = std::move(points);
+    m_Ambient.lengths = std::move(lengths);
+  }
+
+  AmbientMesh& m_Ambient;
+  std::int32_t m_Known = 0;
+  std::vector<std::int32_t> m_Order, m_LocalTet, m_EvidenceOrder;
+  std::vector<Range> m_Blocks;
+  std::vector<std::size_t> m_EvidenceStart;
+  std::vector<BlockResult> m_Results;
+};
+
+} // namespace
+
+void sweepBlocks(AmbientMesh& ambient, int round, std::size_t tetrahedraPerBlock,
+                 const std::function<void(TetComplex&)>& work, const Progress& progress)
+{
+  Sweep sweep(ambient, round, std::max<std::size_t>(1, tetrahedraPerBlock));
+  const std::size_t n = sweep.blockCount();
+  std::mutex mutex;
+  std::exception_ptr failure; // an exception must not leave a worker thread
+  std::atomic<std::size_t> done{ 0 };
+  vtkSMPTools::For(0, vtkIdType(n), 1, [&](vtkIdType begin, vtkIdType end) {
+    for (vtkIdType b = begin; b < end; ++b)
+    {
+      try
+      {
+        {
+          const std::lock_guard<std::mutex> lock(mutex);
+          if (failure) return;
+          report(progress, double(done) / double(n), "");
+        }
+        sweep.run(std::size_t(b), work);
+        ++done;
+      }
+      catch (...)
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (!failure) failure = std::current_exception();
+      }
+    }
+  });
+  if (failure) std::rethrow_exception(failure);
+  sweep.merge();
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,36 @@
+#pragma once
+/// Runs a local-operation algorithm over a whole mesh, block by block, in parallel.
+
+#include "Progress.h"
+#include "TetComplex.h"
+
+#include <functional>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+/// A labelled mesh of a whole box with what its operations need: target lengths and evidence.
+struct AmbientMesh
+{
+  struct Place
+  {
+    Vec3 position;
+    float tolerance;       ///< mm
+    std::int32_t tetrahedron;
+    std::int32_t face;     ///< opposite this vertex (0..3); the tetrahedron's label is the larger of the face's two
+  };
+
+  TetraMesh mesh;
+  std::vector<float> lengths; ///< target edge length at each point, mm
+  std::vector<Place> evidence;
+};
+
+/// Cuts the mesh into blocks of at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs `work` on
+/// each as a TetComplex whose border is locked, and puts the results together in the order of the blocks. `round` shifts
+/// the cuts, so that what is locked in one round is free in the next. The result depends on neither the number of threads
+/// nor their timing.
+void sweepBlocks(AmbientMesh& ambient, int round, std::size_t tetrahedraPerBlock,
+                 const std::function<void(TetComplex&)>& work, const Progress& progress = {});
+
+} // namespace surgicalmesher

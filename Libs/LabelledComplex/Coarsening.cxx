@@ -1,0 +1,153 @@
+#include "Coarsening.h"
+
+#include "TetQuality.h"
+
+#include <algorithm>
+#include <deque>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// First in, first out within each class of relative length: near-shortest first at constant cost.
+class LengthQueue
+{
+public:
+  void push(std::int32_t v, double ratio) { m_Buckets[std::min(31, int(ratio * 32))].push_back(v); }
+  bool pop(std::int32_t& v)
+  {
+    for (auto& bucket : m_Buckets)
+      if (!bucket.empty())
+      {
+        v = bucket.front();
+        bucket.pop_front();
+        return true;
+      }
+    return false;
+  }
+
+private:
+  std::array<std::deque<std::int32_t>, 32> m_Buckets;
+};
+
+struct Neighbour
+{
+  double ratio; ///< edge length over min(level, L)
+  std::int32_t vertex;
+};
+
+class BlockCoarsening
+{
+public:
+  BlockCoarsening(GuardedOperations& operations, double level, const CoarseningOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Level(level), m_Options(options),
+      m_Low(sine2OfDegrees(options.minimumAngle)), m_Good(sine2OfDegrees(options.goodAngle)),
+      m_Queued(m_Complex.points.size(), 0), m_Tries(m_Complex.points.size(), 0)
+  {
+  }
+
+  void run()
+  {
+    std::vector<float> shortest(m_Complex.points.size(), 1e9f);
+    for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
+    {
+      if (!m_Complex.alive(t)) continue;
+      const auto& x = m_Complex.tets[t];
+      for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j)
+        {
+          const float r = float(ratio(x[i], x[j]));
+          shortest[x[i]] = std::min(shortest[x[i]], r);
+          shortest[x[j]] = std::min(shortest[x[j]], r);
+        }
+    }
+    for (std::int32_t v = 0; v < std::int32_t(shortest.size()); ++v)
+      if (!m_Complex.locked[v] && shortest[v] < m_Options.shortEdge) push(v, shortest[v]);
+    for (std::int32_t v; m_Queue.pop(v);)
+    {
+      m_Queued[v] = 0;
+      if (m_Complex.vertexTet[v] >= 0) visit(v);
+    }
+  }
+
+private:
+  double ratio(std::int32_t a, std::int32_t b) const
+  {
+    const double target = std::min(m_Level, 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b]));
+    return norm(m_Complex.points[a] - m_Complex.points[b]) / target;
+  }
+
+  void push(std::int32_t v, double r)
+  {
+    constexpr int mostTries = 4; // at one level; later levels try again
+    if (m_Queued[v] || m_Complex.locked[v] || m_Tries[v] >= mostTries) return;
+    m_Queued[v] = 1;
+    m_Queue.push(v, r);
+  }
+
+  /// Neighbours of v nearer than shortEdge, nearest first.
+  void shortNeighbours(std::int32_t v)
+  {
+    m_Complex.star(v, m_Star);
+    m_Near.clear();
+    for (std::int32_t t : m_Star)
+      for (std::int32_t x : m_Complex.tets[t])
+      {
+        if (x == v || std::any_of(m_Near.begin(), m_Near.end(), [&](const Neighbour& n) { return n.vertex == x; })) continue;
+        m_Near.push_back({ ratio(v, x), x });
+      }
+    m_Near.erase(std::remove_if(m_Near.begin(), m_Near.end(), [&](const Neighbour& n) { return n.ratio >= m_Options.shortEdge; }),
+                 m_Near.end());
+    std::sort(m_Near.begin(), m_Near.end(), [](const Neighbour& a, const Neighbour& b) {
+      return a.ratio != b.ratio ? a.ratio < b.ratio : a.vertex < b.vertex;
+    });
+  }
+
+  void visit(std::int32_t u)
+  {
+    ++m_Tries[u];
+    shortNeighbours(u);
+    const Vec3 from = m_Complex.points[u];
+    for (double floor : { m_Good, m_Low })
+      for (const Neighbour& n : m_Near)
+      {
+        const Vec3 to = m_Complex.points[n.vertex];
+        for (double share : { 1.0, 0.5, 0.0 })
+          if (m_Operations.collapse(u, n.vertex, share == 1 ? to : from + share * (to - from), floor, m_Options.longEdge))
+          {
+            wake(n.vertex);
+            return;
+          }
+      }
+  }
+
+  /// After a collapse onto v: v and its neighbours may have become short or removable.
+  void wake(std::int32_t v)
+  {
+    shortNeighbours(v);
+    if (m_Near.empty()) return;
+    push(v, m_Near[0].ratio);
+    for (const Neighbour& n : m_Near) push(n.vertex, n.ratio);
+  }
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const double m_Level;
+  const CoarseningOptions& m_Options;
+  const double m_Low, m_Good;
+  std::vector<std::uint8_t> m_Queued, m_Tries;
+  LengthQueue m_Queue;
+  std::vector<std::int32_t> m_Star;
+  std::vector<Neighbour> m_Near;
+};
+
+} // namespace
+
+void coarsenBlock(GuardedOperations& operations, double level, const CoarseningOptions& options)
+{
+  BlockCoarsening(operations, level, options).run();
+}
+
+} // namespace surgicalmesher

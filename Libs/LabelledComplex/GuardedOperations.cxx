@@ -1,0 +1,517 @@
+#include "GuardedOperations.h"
+
+#include "TetQuality.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+constexpr int maximumRing = 10;
+
+int bitCount(std::uint32_t x)
+{
+  int n = 0;
+  for (; x; x &= x - 1) ++n;
+  return n;
+}
+
+} // namespace
+
+double squaredDistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= 0 && d2 <= 0) return squaredNorm(ap);
+  const Vec3 bp = p - b;
+  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= 0 && d4 <= d3) return squaredNorm(bp);
+  const double vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return squaredNorm(ap - ab * (d1 / (d1 - d3)));
+  const Vec3 cp = p - c;
+  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= 0 && d5 <= d6) return squaredNorm(cp);
+  const double vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return squaredNorm(ap - ac * (d2 / (d2 - d6)));
+  const double va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return squaredNorm(bp - (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))));
+  const Vec3 n = cross(ab, ac);
+  const double h = dot(n, ap);
+  return h * h / squaredNorm(n);
+}
+
+GuardedOperations::GuardedOperations(TetComplex& complex, ScaleFunction scale, double rmsLimit)
+  : m_Complex(complex), m_Scale(std::move(scale)), m_MeanSquareLimit(rmsLimit * rmsLimit)
+{
+}
+
+double GuardedOperations::starQuality(const std::vector<std::int32_t>& tetrahedra) const
+{
+  double worst = std::numeric_limits<double>::max();
+  for (std::int32_t t : tetrahedra) worst = std::min(worst, quality(t));
+  return worst;
+}
+
+bool GuardedOperations::singleLabel(const std::vector<std::int32_t>& star) const
+{
+  return std::all_of(star.begin(), star.end(),
+                     [&](std::int32_t t) { return m_Complex.labels[t] == m_Complex.labels[star[0]]; });
+}
+
+GuardedOperations::Pair GuardedOperations::pairOf(std::int32_t t, std::int32_t n) const
+{
+  const Label a = m_Complex.labels[t], b = m_Complex.labels[n];
+  return a < b ? Pair{ a, b } : Pair{ b, a };
+}
+
+// --- evidence -------------------------------------------------------------------------------------------------------
+
+void GuardedOperations::clearEvidence()
+{
+  m_OldFaces.clear();
+  m_NewFaces.clear();
+  m_Holders.clear();
+  m_Gathered.clear();
+}
+
+/// Takes note of the interface face (t, face) and its evidence, once.
+void GuardedOperations::gather(std::int32_t t, int face)
+{
+  const auto holder = m_Complex.holder(t, face);
+  if (std::find(m_Holders.begin(), m_Holders.end(), holder) != m_Holders.end()) return;
+  const auto& v = m_Complex.tets[t];
+  const std::array<std::int32_t, 3> ids{ v[(face + 1) & 3], v[(face + 2) & 3], v[(face + 3) & 3] };
+  const auto& p = m_Complex.points;
+  const Pair pair = pairOf(t, m_Complex.neighbours[t][face]);
+  m_OldFaces.push_back({ { p[ids[0]], p[ids[1]], p[ids[2]] }, pair, ids });
+  m_Holders.push_back(holder);
+  for (std::int32_t e = m_Complex.evidenceHeads[holder.first][holder.second]; e >= 0; e = m_Complex.evidence[e].next)
+    m_Gathered.push_back({ e, pair, std::int32_t(m_OldFaces.size()) - 1, -1 });
+}
+
+void GuardedOperations::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids,
+                                   Label x, Label y)
+{
+  m_NewFaces.push_back({ { a, b, c }, x < y ? Pair{ x, y } : Pair{ y, x }, ids });
+}
+
+/// Assigns every gathered point to the nearest new face of its pair; false if one would lie beyond its tolerance and
+/// farther than it does now, or if their mean square, in units of the tolerance, would exceed the limit and grow. Where
+/// two tissues cease to touch, their points are let go if each tissue's boundary stays within tolerance.
+bool GuardedOperations::evidenceStays()
+{
+  constexpr double none = std::numeric_limits<double>::max();
+  const auto now = [&](const Gathered& g)
+  {
+    const Face& f = m_OldFaces[g.from];
+    return squaredDistanceToTriangle(m_Complex.evidence[g.id].position, f.corners[0], f.corners[1], f.corners[2]);
+  };
+  double sum = 0;
+  for (Gathered& g : m_Gathered)
+  {
+    const Evidence& e = m_Complex.evidence[g.id];
+    double best = none, ofFirst = none, ofSecond = none;
+    for (std::size_t k = 0; k < m_NewFaces.size(); ++k)
+    {
+      const Face& f = m_NewFaces[k];
+      const bool first = f.pair[0] == g.pair[0] || f.pair[1] == g.pair[0];
+      const bool second = f.pair[0] == g.pair[1] || f.pair[1] == g.pair[1];
+      if (!first && !second) continue;
+      const double d = squaredDistanceToTriangle(e.position, f.corners[0], f.corners[1], f.corners[2]);
+      if (first && second && d < best) best = d, g.to = std::int32_t(k);
+      if (first) ofFirst = std::min(ofFirst, d);
+      if (second) ofSecond = std::min(ofSecond, d);
+    }
+    const double tolerance2 = double(e.tolerance) * e.tolerance;
+    sum += std::min(1.0, best / tolerance2);
+    if (best <= tolerance2) continue;
+    if (best == none ? std::max(ofFirst, ofSecond) > tolerance2 : best > now(g) * (1 + 1e-9)) return false;
+  }
+  if (sum <= m_MeanSquareLimit * double(m_Gathered.size())) return true;
+  double before = 0;
+  for (const Gathered& g : m_Gathered)
+  {
+    const double tolerance = m_Complex.evidence[g.id].tolerance;
+    before += std::min(1.0, now(g) / (tolerance * tolerance));
+  }
+  return sum <= before * (1 + 1e-9);
+}
+
+void GuardedOperations::detachEvidence()
+{
+  for (const auto& [t, i] : m_Holders) m_Complex.evidenceHeads[t][i] = -1;
+}
+
+/// Hands the gathered points to their new faces, each found among the tetrahedra `around`.
+void GuardedOperations::attachEvidence(const std::vector<std::int32_t>& around)
+{
+  if (m_Gathered.empty()) return;
+  std::vector<std::pair<std::int32_t, int>> holders(m_NewFaces.size(), { -1, 0 });
+  for (std::int32_t t : around)
+  {
+    if (!m_Complex.alive(t)) continue;
+    for (int i = 0; i < 4; ++i)
+    {
+      if (!m_Complex.isInterface(t, i)) continue;
+      for (std::size_t k = 0; k < m_NewFaces.size(); ++k)
+      {
+        if (holders[k].first >= 0) continue;
+        const auto& ids = m_NewFaces[k].vertices;
+        const auto& v = m_Complex.tets[t];
+        if (v[i] == ids[0] || v[i] == ids[1] || v[i] == ids[2]) continue;
+        if (m_Complex.contains(t, ids[0]) && m_Complex.contains(t, ids[1]) && m_Complex.contains(t, ids[2]))
+          holders[k] = m_Complex.holder(t, i);
+      }
+    }
+  }
+  // Backwards, so that lists keep their order when nothing else changes.
+  for (auto g = m_Gathered.rbegin(); g != m_Gathered.rend(); ++g)
+  {
+    if (g->to < 0) continue;
+    const auto [t, i] = holders[g->to];
+    m_Complex.evidence[g->id].next = m_Complex.evidenceHeads[t][i];
+    m_Complex.evidenceHeads[t][i] = g->id;
+  }
+}
+
+// --- edge collapse --------------------------------------------------------------------------------------------------
+
+Label GuardedOperations::localBit(Label label)
+{
+  const auto at = std::find(m_LocalLabels.begin(), m_LocalLabels.end(), label);
+  if (at != m_LocalLabels.end()) return Label(at - m_LocalLabels.begin());
+  m_LocalLabels.push_back(label);
+  return Label(m_LocalLabels.size() - 1);
+}
+
+/// The link condition (Dey, Edelsbrunner, Guha, Nekhayev 1999) on every tissue's boundary that both vertices lie on: the
+/// edge lies on it, and the boundary's links of u and v meet only in the link of uv. Positive volumes see to the condition
+/// on the tetrahedra themselves: the cone from v tiles star(u) only if it holds.
+bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
+                                     const std::vector<std::int32_t>& ring, const std::vector<std::int32_t>& ringVertices)
+{
+  const auto& labels = m_Complex.labels;
+  m_LocalLabels.clear();
+  const auto bits = [&](const std::vector<std::int32_t>& list)
+  {
+    std::uint32_t mask = 0;
+    for (std::int32_t t : list) mask |= 1u << std::min<int>(31, localBit(labels[t]));
+    return mask;
+  };
+  const std::uint32_t atU = bits(star), onEdge = bits(ring);
+  if (bitCount(onEdge) < 2) return false;
+  const std::uint32_t atV = bits(m_StarOfV);
+  if (m_LocalLabels.size() > 30) return false;
+  if (atU & atV & ~onEdge) return false;
+
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const std::int32_t x = ringVertices[i], before = ring[(i + n - 1) % n], after = ring[i];
+    std::uint32_t onUX = 0;
+    for (std::int32_t t : star)
+      if (m_Complex.contains(t, x)) onUX |= 1u << localBit(labels[t]);
+    if (bitCount(onUX) < 2) continue;
+    if (!m_Complex.ring(v, x, after, m_EdgeRing, m_EdgeRingVertices)) return false;
+    const std::uint32_t onVX = bits(m_EdgeRing);
+    if (bitCount(onVX) < 2) continue;
+    const std::uint32_t onFace = labels[before] == labels[after]
+                                   ? 0u
+                                   : (1u << localBit(labels[before])) | (1u << localBit(labels[after]));
+    if (onUX & onVX & ~onFace) return false;
+  }
+  // A label that owns one tetrahedron of the ring and nothing beside it would vanish.
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const std::int32_t t = ring[i];
+    const Label m = labels[t];
+    if (labels[ring[(i + 1) % n]] == m || labels[ring[(i + n - 1) % n]] == m) continue;
+    const std::int32_t nu = m_Complex.neighbours[t][m_Complex.indexOf(t, v)];
+    const std::int32_t nv = m_Complex.neighbours[t][m_Complex.indexOf(t, u)];
+    if (nu < 0 || nv < 0 || (labels[nu] != m && labels[nv] != m)) return false;
+  }
+  return true;
+}
+
+/// Edge lengths at the merged vertex, over the neighbours of u and, if v moves, of v.
+bool GuardedOperations::keepsLengths(std::int32_t u, std::int32_t v, const Vec3& p, double maximumRatio) const
+{
+  const auto& c = m_Complex;
+  const auto check = [&](std::int32_t end, const std::vector<std::int32_t>& star)
+  {
+    for (std::int32_t t : star)
+      for (std::int32_t x : c.tets[t])
+      {
+        if (x == u || x == v) continue;
+        const double limit = maximumRatio * 0.5 * (c.lengths[x] + c.lengths[v]);
+        const double length2 = squaredNorm(c.points[x] - p);
+        if (length2 > limit * limit && length2 > squaredNorm(c.points[x] - c.points[end])) return false;
+      }
+    return true;
+  };
+  return check(u, m_Star) && (p == c.points[v] || check(v, m_StarOfV));
+}
+
+/// Gathers the evidence of the interface faces at u and at v and finds it new faces; false if one point is left too far.
+bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p)
+{
+  const auto& c = m_Complex;
+  clearEvidence();
+  const auto addMoved = [&](std::int32_t t, int face, Label x, Label y)
+  {
+    std::array<std::int32_t, 3> ids{ c.tets[t][(face + 1) & 3], c.tets[t][(face + 2) & 3], c.tets[t][(face + 3) & 3] };
+    Vec3 corners[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      if (ids[k] == u) ids[k] = v;
+      corners[k] = ids[k] == v ? p : c.points[ids[k]];
+    }
+    addNewFace(corners[0], corners[1], corners[2], ids, x, y);
+  };
+  const auto facesAt = [&](std::int32_t end, std::int32_t other, const std::vector<std::int32_t>& star)
+  {
+    for (std::int32_t t : star)
+    {
+      if (c.contains(t, other)) continue;
+      for (int i = 0; i < 4; ++i)
+      {
+        const std::int32_t n = c.neighbours[t][i];
+        if (c.tets[t][i] == end || n < 0 || c.labels[n] == c.labels[t]) continue;
+        if (c.contains(n, other)) continue; // dealt with from the ring
+        if (n < t) continue;
+        gather(t, i);
+        addMoved(t, i, c.labels[t], c.labels[n]);
+      }
+    }
+  };
+  facesAt(u, v, m_Star);
+  if (!(p == c.points[v])) facesAt(v, u, m_StarOfV);
+  for (std::int32_t t : m_Ring)
+  {
+    const int iu = c.indexOf(t, u), iv = c.indexOf(t, v);
+    for (int i = 0; i < 4; ++i)
+      if (c.neighbours[t][i] >= 0 && c.isInterface(t, i)) gather(t, i);
+    const std::int32_t nu = c.neighbours[t][iv], nv = c.neighbours[t][iu];
+    if (nu < 0 || nv < 0) return false;
+    if (c.labels[nu] != c.labels[nv]) addMoved(t, iu, c.labels[nu], c.labels[nv]);
+  }
+  return evidenceStays();
+}
+
+bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality, double maximumRatio)
+{
+  auto& c = m_Complex;
+  const bool moves = !(p == c.points[v]);
+  if (c.locked[u] || (moves && c.locked[v])) return false;
+  c.star(u, m_Star);
+  std::int32_t seed = -1;
+  for (std::int32_t t : m_Star)
+    if (c.contains(t, v))
+      seed = t;
+    else if (lenient(t, c.qualityWith(t, u, p)) < minimumQuality)
+      return false;
+  if (seed < 0) return false;
+  const bool inside = singleLabel(m_Star);
+  if (moves || !inside)
+  {
+    c.star(v, m_StarOfV);
+    if (moves)
+    {
+      if (inside && !singleLabel(m_StarOfV)) return false; // the interface stays where it is
+      for (std::int32_t t : m_StarOfV)
+        if (!c.contains(t, u) && lenient(t, c.qualityWith(t, v, p)) < minimumQuality) return false;
+    }
+  }
+  if (!keepsLengths(u, v, p, maximumRatio)) return false;
+  if (!inside)
+  {
+    if (c.locked[v]) return false; // its star may show only some of its labels
+    if (!c.ring(u, v, seed, m_Ring, m_RingVertices)) return false;
+    if (!keepsTissues(u, v, m_Star, m_Ring, m_RingVertices)) return false;
+    if (!collapseKeepsEvidence(u, v, p)) return false;
+    detachEvidence();
+  }
+  c.collapse(u, v, m_Star);
+  if (moves)
+  {
+    c.points[v] = p;
+    c.lengths[v] = m_Scale(p);
+  }
+  if (!inside)
+  {
+    c.star(v, m_StarOfV);
+    attachEvidence(m_StarOfV);
+  }
+  ++counts.collapses;
+  return true;
+}
+
+// --- vertex move ----------------------------------------------------------------------------------------------------
+
+bool GuardedOperations::move(std::int32_t v, const Vec3& p, double minimumQuality)
+{
+  if (m_Complex.locked[v]) return false;
+  m_Complex.star(v, m_Star);
+  for (std::int32_t t : m_Star)
+    if (lenient(t, m_Complex.qualityWith(t, v, p)) < minimumQuality) return false;
+  if (!singleLabel(m_Star))
+  {
+    clearEvidence();
+    const auto& c = m_Complex;
+    for (std::int32_t t : m_Star)
+      for (int i = 0; i < 4; ++i)
+      {
+        const std::int32_t n = c.neighbours[t][i];
+        if (c.tets[t][i] == v || n < t || c.labels[n] == c.labels[t]) continue;
+        gather(t, i);
+        const std::array<std::int32_t, 3> ids{ c.tets[t][(i + 1) & 3], c.tets[t][(i + 2) & 3], c.tets[t][(i + 3) & 3] };
+        const auto at = [&](std::int32_t id) { return id == v ? p : c.points[id]; };
+        addNewFace(at(ids[0]), at(ids[1]), at(ids[2]), ids, c.labels[t], c.labels[n]);
+      }
+    if (!evidenceStays()) return false;
+    detachEvidence();
+    attachEvidence(m_Star);
+  }
+  m_Complex.points[v] = p;
+  m_Complex.lengths[v] = m_Scale(p);
+  ++counts.moves;
+  return true;
+}
+
+// --- edge removal ---------------------------------------------------------------------------------------------------
+
+bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double minimumQuality)
+{
+  auto& c = m_Complex;
+  if (!c.ring(a, b, seed, m_Ring, m_RingVertices)) return false;
+  const int n = int(m_Ring.size());
+  if (n < 3 || n > maximumRing) return false;
+
+  int cuts[2] = { 0, 0 }, changes = 0;
+  for (int i = 0; i < n; ++i)
+    if (c.labels[m_Ring[i]] != c.labels[m_Ring[(i + n - 1) % n]])
+    {
+      if (changes == 2) return false;
+      cuts[changes++] = i;
+    }
+  // Rotate so that the ring begins at a cut: one polygon inside a label, two on the sheet between two labels.
+  const int first = changes ? cuts[0] : 0, second = changes ? cuts[1] - cuts[0] : n;
+  std::rotate(m_Ring.begin(), m_Ring.begin() + first, m_Ring.end());
+  std::rotate(m_RingVertices.begin(), m_RingVertices.begin() + first, m_RingVertices.end());
+  if (changes && (second < 2 || n - second < 2)) return false;
+
+  const Vec3 pa = c.points[a], pb = c.points[b];
+  const auto at = [&](int i) { return c.points[m_RingVertices[i % n]]; };
+  std::vector<TetComplex::Tet> fresh;
+  std::vector<Label> labels;
+  double best[maximumRing + 1][maximumRing + 1];
+  int choice[maximumRing + 1][maximumRing + 1];
+  const auto triangulate = [&](int from, int to) // the polygon from, from + 1, ..., to
+  {
+    const Label label = c.labels[m_Ring[from]];
+    for (int i = from; i < to; ++i) best[i - from][i + 1 - from] = std::numeric_limits<double>::max();
+    for (int gap = 2; gap <= to - from; ++gap)
+      for (int i = from; i + gap <= to; ++i)
+      {
+        const int k = i + gap;
+        double& value = best[i - from][k - from];
+        value = -1;
+        for (int j = i + 1; j < k; ++j)
+        {
+          double q = std::min(best[i - from][j - from], best[j - from][k - from]);
+          if (q <= value || q < minimumQuality) continue;
+          q = std::min(q, lenient(label, worstSine2(at(i), at(j), at(k), pb)));
+          if (q <= value || q < minimumQuality) continue;
+          q = std::min(q, lenient(label, worstSine2(at(i), at(k), at(j), pa)));
+          if (q > value) value = q, choice[i - from][k - from] = j;
+        }
+        if (gap == to - from && value < minimumQuality) return false;
+      }
+    const std::function<void(int, int)> emit = [&](int i, int k)
+    {
+      if (k - i < 2) return;
+      const int j = choice[i - from][k - from];
+      const std::int32_t vi = m_RingVertices[i % n], vj = m_RingVertices[j % n], vk = m_RingVertices[k % n];
+      fresh.push_back({ vi, vj, vk, b });
+      fresh.push_back({ vi, vk, vj, a });
+      labels.insert(labels.end(), 2, label);
+      emit(i, j);
+      emit(j, k);
+    };
+    emit(from, to);
+    return true;
+  };
+
+  clearEvidence();
+  if (!changes)
+  {
+    if (!triangulate(0, n - 1)) return false;
+  }
+  else
+  {
+    if (!triangulate(0, second) || !triangulate(second, n)) return false;
+    for (int i : { 0, second })
+      for (int k = 0; k < 4; ++k)
+      {
+        const std::int32_t t = m_Ring[i];
+        if (c.neighbours[t][k] == m_Ring[(i + n - 1) % n]) gather(t, k);
+      }
+    const std::int32_t p = m_RingVertices[0], q = m_RingVertices[second];
+    for (std::int32_t end : { a, b })
+      addNewFace(c.points[end], c.points[p], c.points[q], { end, p, q }, c.labels[m_Ring[0]], c.labels[m_Ring[second]]);
+    if (!evidenceStays()) return false;
+    detachEvidence();
+  }
+  const auto ids = c.replace(m_Ring, fresh, labels);
+  attachEvidence(ids);
+  ++counts.flips;
+  return true;
+}
+
+// --- edge split -----------------------------------------------------------------------------------------------------
+
+bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed, const Vec3& p, double minimumQuality)
+{
+  auto& c = m_Complex;
+  if (!c.ring(a, b, seed, m_Ring, m_RingVertices)) return false;
+  for (std::int32_t t : m_Ring)
+    if (lenient(t, c.qualityWith(t, a, p)) < minimumQuality || lenient(t, c.qualityWith(t, b, p)) < minimumQuality)
+      return false;
+  clearEvidence();
+  const std::int32_t m = std::int32_t(c.points.size()); // the new vertex's id, if it comes to be
+  const std::size_t n = m_Ring.size();
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    const std::int32_t t = m_Ring[i], before = m_Ring[(i + n - 1) % n], x = m_RingVertices[i];
+    if (c.labels[t] == c.labels[before]) continue;
+    for (int k = 0; k < 4; ++k)
+      if (c.neighbours[t][k] == before) gather(t, k);
+    for (std::int32_t end : { a, b })
+      addNewFace(c.points[end], p, c.points[x], { end, m, x }, c.labels[t], c.labels[before]);
+  }
+  if (!evidenceStays()) return false;
+  detachEvidence();
+  c.addVertex(p, m_Scale(p));
+  std::vector<TetComplex::Tet> fresh;
+  std::vector<Label> labels;
+  for (std::int32_t t : m_Ring)
+    for (std::int32_t end : { a, b })
+    {
+      auto x = c.tets[t];
+      x[c.indexOf(t, end)] = m;
+      fresh.push_back(x);
+      labels.push_back(c.labels[t]);
+    }
+  const auto ids = c.replace(m_Ring, fresh, labels);
+  attachEvidence(ids);
+  lastSplitVertex = m;
+  ++counts.splits;
+  return true;
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,102 @@
+#pragma once
+/// Edge collapse, vertex move, edge removal (flip) and edge split on a TetComplex, each with every guard that keeps the
+/// complex's promises. On the dual simplex mesh, collapse, split and flip of interface edges are Delingette's Eulerian
+/// operators T1, T2 and T7 (Audette et al. 2007); done on the tetrahedra of both sides they can neither tear nor cross.
+///
+/// An operation that returns false has changed nothing. *Quality* is worstSine2 (TetQuality.h); tetrahedra of label 0 are
+/// thrown away in the end and are let off with a smaller one: theirs is multiplied by backgroundLeniency.
+
+#include "TetComplex.h"
+
+#include <functional>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+constexpr double backgroundLeniency = 20; ///< worst angles of 32 degrees inside weigh as 6.8 degrees outside
+
+using ScaleFunction = std::function<float(const Vec3&)>; ///< target edge length, mm, at a position
+
+struct OperationCounts
+{
+  long collapses = 0, moves = 0, flips = 0, splits = 0;
+};
+
+class GuardedOperations
+{
+public:
+  /// The evidence that an operation touches keeps its root mean square distance, in units of its tolerance, under
+  /// `rmsLimit`, or does not raise it: single points may use up their tolerance where the others lie close.
+  GuardedOperations(TetComplex& complex, ScaleFunction scale, double rmsLimit = 0.5);
+
+  double quality(std::int32_t t) const { return lenient(t, m_Complex.quality(t)); }
+  double starQuality(const std::vector<std::int32_t>& tetrahedra) const;
+
+  /// Merges u into its neighbour v, which moves to p, if every changed tetrahedron reaches `minimumQuality` and no edge at
+  /// v becomes longer than maximumRatio times the target (one that is longer may stay, but not grow). A vertex of the
+  /// interface collapses only along it.
+  bool collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality, double maximumRatio);
+
+  /// Moves v to p, if every tetrahedron at v reaches `minimumQuality`.
+  bool move(std::int32_t v, const Vec3& p, double minimumQuality);
+
+  /// Replaces the tetrahedra around edge ab by the best ones without it (Klincsek 1980, as Shewchuk uses it); an edge
+  /// inside the sheet between two labels becomes the other diagonal of its two triangles.
+  bool removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double minimumQuality);
+
+  /// Splits edge ab at p.
+  bool split(std::int32_t a, std::int32_t b, std::int32_t seed, const Vec3& p, double minimumQuality);
+
+  TetComplex& complex() { return m_Complex; }
+  float scaleAt(const Vec3& p) const { return m_Scale(p); }
+
+  OperationCounts counts;
+  std::int32_t lastSplitVertex = -1;
+
+private:
+  using Pair = std::array<Label, 2>; ///< ascending
+  struct Face                        ///< an interface face as it would be, and where its evidence would go
+  {
+    std::array<Vec3, 3> corners;
+    Pair pair;
+    std::array<std::int32_t, 3> vertices;
+  };
+  struct Gathered
+  {
+    std::int32_t id;
+    Pair pair;
+    std::int32_t from; ///< index into m_OldFaces
+    std::int32_t to;   ///< index into m_NewFaces
+  };
+
+  double lenient(std::int32_t t, double q) const { return m_Complex.labels[t] == 0 ? q * backgroundLeniency : q; }
+  double lenient(Label label, double q) const { return label == 0 ? q * backgroundLeniency : q; }
+  bool keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
+                    const std::vector<std::int32_t>& ring, const std::vector<std::int32_t>& ringVertices);
+  bool singleLabel(const std::vector<std::int32_t>& star) const;
+  bool keepsLengths(std::int32_t u, std::int32_t v, const Vec3& p, double maximumRatio) const;
+  bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
+  void gather(std::int32_t t, int face);
+  void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x, Label y);
+  bool evidenceStays();
+  void detachEvidence();
+  void attachEvidence(const std::vector<std::int32_t>& around);
+  void clearEvidence();
+  Pair pairOf(std::int32_t t, std::int32_t n) const;
+  Label localBit(Label label);
+
+  TetComplex& m_Complex;
+  ScaleFunction m_Scale;
+  double m_MeanSquareLimit;
+  std::vector<std::int32_t> m_Star, m_StarOfV, m_Ring, m_RingVertices, m_EdgeRing, m_EdgeRingVertices;
+  std::vector<Face> m_OldFaces, m_NewFaces;
+  std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of m_OldFaces
+  std::vector<Gathered> m_Gathered;
+  std::vector<Label> m_LocalLabels;
+};
+
+/// Squared distance from p to triangle abc, mm^2.
+double squaredDistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+} // namespace surgicalmesher

@@ -1,0 +1,377 @@
+#include "Improvement.h"
+
+#include "TetQuality.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// Solves the symmetric 3x3 system m x = b.
+Vec3 solve(const double m[6], const Vec3& b) // xx xy xz yy yz zz
+{
+  const Vec3 r0{ m[0], m[1], m[2] }, r1{ m[1], m[3], m[4] }, r2{ m[2], m[4], m[5] };
+  const Vec3 c0 = cross(r1, r2), c1 = cross(r2, r0), c2 = cross(r0, r1);
+  const double det = dot(r0, c0);
+  if (!(std::abs(det) > 1e-300)) return {};
+  return (b.x * c0 + b.y * c1 + b.z * c2) / det;
+}
+
+class Relaxation
+{
+public:
+  Relaxation(GuardedOperations& operations, const RelaxationOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options), m_Good(sine2OfDegrees(options.goodAngle))
+  {
+  }
+
+  void run()
+  {
+    for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
+      if (m_Complex.vertexTet[v] >= 0 && !m_Complex.locked[v]) relax(v);
+  }
+
+private:
+  struct SheetFace
+  {
+    std::int32_t tet;
+    int face;
+    std::int32_t x, y; ///< the two vertices beside v
+  };
+
+  void relax(std::int32_t v)
+  {
+    m_Complex.star(v, m_Star);
+    m_Faces.clear();
+    for (std::int32_t t : m_Star)
+      for (int i = 0; i < 4; ++i)
+      {
+        const std::int32_t n = m_Complex.neighbours[t][i];
+        if (m_Complex.tets[t][i] == v || n < t || m_Complex.labels[n] == m_Complex.labels[t]) continue;
+        std::int32_t others[2];
+        int k = 0;
+        for (int j = 0; j < 4; ++j)
+          if (j != i && m_Complex.tets[t][j] != v) others[k++] = m_Complex.tets[t][j];
+        m_Faces.push_back({ t, i, others[0], others[1] });
+      }
+    const Vec3 step = m_Faces.empty() ? towardsMiddle(v) : onInterface(v);
+    const double before = m_Operations.starQuality(m_Star);
+    const double floor = std::min(m_Good, before);
+    for (double share : { 1.0, 0.5, 0.25 })
+      if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : floor)) return;
+  }
+
+  /// Mean of the centroids of the tetrahedra at v, each weighed by its volume in units of its target volume.
+  Vec3 towardsMiddle(std::int32_t v) const
+  {
+    Vec3 sum;
+    double total = 0;
+    for (std::int32_t t : m_Star)
+    {
+      const auto& x = m_Complex.tets[t];
+      Vec3 c;
+      double length = 0;
+      for (std::int32_t u : x) c += m_Complex.points[u], length += m_Complex.lengths[u];
+      const double volume = orient(m_Complex.points[x[0]], m_Complex.points[x[1]], m_Complex.points[x[2]], m_Complex.points[x[3]]);
+      const double w = volume / (length * length * length);
+      sum += (0.25 * w) * c;
+      total += w;
+    }
+    return sum / total - m_Complex.points[v];
+  }
+
+  /// Least squares over the evidence of the faces at v, held by a spring to the middle of the neighbours on the interface.
+  Vec3 onInterface(std::int32_t v)
+  {
+    const Vec3 p = m_Complex.points[v];
+    double m[6] = { 0, 0, 0, 0, 0, 0 };
+    Vec3 g;
+    for (const SheetFace& f : m_Faces)
+    {
+      const auto [h, i] = m_Complex.holder(f.tet, f.face);
+      const Vec3 x = m_Complex.points[f.x], y = m_Complex.points[f.y];
+      const Vec3 n = cross(x - p, y - p);
+      const double area2 = squaredNorm(n);
+      if (!(area2 > 0)) continue;
+      const Vec3 unit = n / std::sqrt(area2);
+      const Vec3 slope = cross(unit, y - x) / std::sqrt(area2); // gradient of v's barycentric coordinate
+      for (std::int32_t e = m_Complex.evidenceHeads[h][i]; e >= 0; e = m_Complex.evidence[e].next)
+      {
+        const Vec3 d = m_Complex.evidence[e].position - p;
+        const double b = std::clamp(1 + dot(slope, d), 0.0, 1.0), r = dot(unit, d);
+        const double w = b * b;
+        m[0] += w * unit.x * unit.x, m[1] += w * unit.x * unit.y, m[2] += w * unit.x * unit.z;
+        m[3] += w * unit.y * unit.y, m[4] += w * unit.y * unit.z, m[5] += w * unit.z * unit.z;
+        g += (b * r) * unit;
+      }
+    }
+    const double trace = m[0] + m[3] + m[5];
+    if (!(trace > 0)) return {};
+    const double spring = 0.05 * trace / m_Options.fit;
+    m[0] += spring, m[3] += spring, m[5] += spring;
+    return solve(m, g + spring * alongInterface(v));
+  }
+
+  /// Towards the middle of the neighbours on the same curve, or on the sheet; nothing where curves meet.
+  Vec3 alongInterface(std::int32_t v)
+  {
+    m_Degree.clear();
+    for (const SheetFace& f : m_Faces)
+      for (std::int32_t u : { f.x, f.y })
+      {
+        auto at = std::find_if(m_Degree.begin(), m_Degree.end(), [&](const auto& d) { return d.first == u; });
+        if (at == m_Degree.end())
+          m_Degree.push_back({ u, 1 });
+        else
+          ++at->second;
+      }
+    const auto curves = std::count_if(m_Degree.begin(), m_Degree.end(), [](const auto& d) { return d.second > 2; });
+    if (curves != 0 && curves != 2) return {};
+    Vec3 sum;
+    double total = 0;
+    for (const auto& [u, degree] : m_Degree)
+    {
+      if (curves && degree <= 2) continue;
+      sum += m_Complex.points[u];
+      total += 1;
+    }
+    return sum / total - m_Complex.points[v];
+  }
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const RelaxationOptions& m_Options;
+  const double m_Good;
+  std::vector<std::int32_t> m_Star;
+  std::vector<SheetFace> m_Faces;
+  std::vector<std::pair<std::int32_t, int>> m_Degree;
+};
+
+/// A fixed sequence of directions, for reproducible trials.
+class Directions
+{
+public:
+  Vec3 next()
+  {
+    for (;;)
+    {
+      const Vec3 d{ uniform(), uniform(), uniform() };
+      const double n = squaredNorm(d);
+      if (n > 1e-3 && n <= 1) return d / std::sqrt(n);
+    }
+  }
+
+private:
+  double uniform()
+  {
+    m_State = m_State * 6364136223846793005ull + 1442695040888963407ull;
+    return double(std::int64_t(m_State) >> 11) / 4503599627370496.0;
+  }
+  std::uint64_t m_State = 88172645463325252ull;
+};
+
+class Improvement
+{
+public:
+  Improvement(GuardedOperations& operations, const ImprovementOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options), m_Target(sine2OfDegrees(options.targetAngle))
+  {
+  }
+
+  void run()
+  {
+    for (int pass = 0; pass < m_Options.passes; ++pass)
+    {
+      std::vector<std::pair<double, std::int32_t>> bad;
+      for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
+        if (m_Complex.alive(t))
+          if (const double q = m_Operations.quality(t); q < m_Target) bad.push_back({ q, t });
+      std::sort(bad.begin(), bad.end());
+      bool any = false;
+      for (const auto& [q, t] : bad)
+        if (m_Complex.alive(t) && m_Operations.quality(t) < m_Target && improve(t)) any = true;
+      if (!any) break;
+    }
+  }
+
+private:
+  bool improve(std::int32_t t)
+  {
+    bool any = false;
+    for (int round = 0; round < 4; ++round)
+    {
+      const bool done = removeAnEdge(t) || moveAVertex(t) || collapseAnEdge(t) || (m_Options.split && splitAnEdge(t));
+      any = any || done;
+      if (!done || !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target) break;
+    }
+    return any;
+  }
+
+  template <class F> bool forEachEdge(std::int32_t t, F&& f)
+  {
+    static constexpr int ends[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
+    const auto x = m_Complex.tets[t];
+    for (const auto& e : ends)
+      if (f(x[e[0]], x[e[1]])) return true;
+    return false;
+  }
+
+  bool removeAnEdge(std::int32_t t)
+  {
+    return forEachEdge(t, [&](std::int32_t a, std::int32_t b) {
+      if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
+      if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
+      return m_Operations.removeEdge(a, b, t, m_Operations.starQuality(m_Ring) * 1.0001 + 1e-9);
+    });
+  }
+
+  bool moveAVertex(std::int32_t t)
+  {
+    const auto x = m_Complex.tets[t];
+    bool any = false;
+    for (std::int32_t v : x)
+    {
+      if (optimise(v)) any = true;
+      if (any && m_Operations.quality(t) >= m_Target) return true;
+    }
+    return any;
+  }
+
+  double starWith(std::int32_t v, const Vec3& p, double atLeast) const
+  {
+    double worst = std::numeric_limits<double>::max();
+    for (std::int32_t t : m_Star)
+    {
+      double q = m_Complex.qualityWith(t, v, p);
+      if (m_Complex.labels[t] == 0) q *= backgroundLeniency;
+      worst = std::min(worst, q);
+      if (worst <= atLeast) return worst;
+    }
+    return worst;
+  }
+
+  /// Climbs the worst quality at v along the gradient of its worst tetrahedron and along trial directions.
+  bool optimise(std::int32_t v)
+  {
+    if (m_Complex.locked[v]) return false;
+    m_Complex.star(v, m_Star);
+    double best = m_Operations.starQuality(m_Star);
+    const double start = best;
+    const double size = m_Complex.lengths[v];
+    double step = 0.12 * size;
+    for (int trial = 0; trial < 24 && best < m_Target && step > 0.004 * size; ++trial)
+    {
+      const Vec3 p = m_Complex.points[v];
+      const Vec3 direction = trial % 2 == 0 ? gradient(v, p, 1e-3 * size) : m_Directions.next();
+      const Vec3 q = p + step * direction;
+      if (starWith(v, q, best) > best && m_Operations.move(v, q, best))
+      {
+        m_Complex.star(v, m_Star);
+        best = m_Operations.starQuality(m_Star);
+        step *= 1.3;
+      }
+      else
+        step *= 0.8;
+    }
+    return best > start * (1 + 1e-4);
+  }
+
+  /// Unit direction in which the worst tetrahedron at v improves fastest.
+  Vec3 gradient(std::int32_t v, const Vec3& p, double h) const
+  {
+    std::int32_t worst = m_Star[0];
+    double q = std::numeric_limits<double>::max();
+    for (std::int32_t t : m_Star)
+      if (const double x = m_Operations.quality(t); x < q) q = x, worst = t;
+    Vec3 g;
+    for (int a = 0; a < 3; ++a)
+    {
+      Vec3 up = p, down = p;
+      up[a] += h;
+      down[a] -= h;
+      g[a] = m_Complex.qualityWith(worst, v, up) - m_Complex.qualityWith(worst, v, down);
+    }
+    const double n = norm(g);
+    return n > 0 ? g / n : Vec3{ 1, 0, 0 };
+  }
+
+  bool collapseAnEdge(std::int32_t t)
+  {
+    return forEachEdge(t, [&](std::int32_t a, std::int32_t b) {
+      const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
+      if (length > m_Options.shortEdge * 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b])) return false;
+      for (const auto& [u, v] : { std::pair(a, b), std::pair(b, a) })
+      {
+        if (m_Complex.locked[u]) continue;
+        m_Complex.star(u, m_Star);
+        const double before = m_Operations.starQuality(m_Star);
+        if (m_Operations.collapse(u, v, m_Complex.points[v], before * 1.0001 + 1e-9, m_Options.longEdge)) return true;
+      }
+      return false;
+    });
+  }
+
+  bool splitAnEdge(std::int32_t t)
+  {
+    return forEachEdge(t, [&](std::int32_t a, std::int32_t b) {
+      if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
+      const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
+      if (length < m_Options.splitEdge * 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b])) return false;
+      if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
+      return splitAtBest(a, b, t);
+    });
+  }
+
+  /// Splits ab where the halves of its ring are best, if that beats the ring as it is.
+  bool splitAtBest(std::int32_t a, std::int32_t b, std::int32_t seed)
+  {
+    const double before = m_Operations.starQuality(m_Ring);
+    const auto halves = [&](const Vec3& p) {
+      double worst = std::numeric_limits<double>::max();
+      for (std::int32_t t : m_Ring)
+      {
+        const double w = m_Complex.labels[t] == 0 ? backgroundLeniency : 1;
+        worst = std::min({ worst, w * m_Complex.qualityWith(t, a, p), w * m_Complex.qualityWith(t, b, p) });
+        if (worst <= 0) break;
+      }
+      return worst;
+    };
+    Vec3 p = 0.5 * (m_Complex.points[a] + m_Complex.points[b]);
+    double best = halves(p);
+    double step = 0.2 * norm(m_Complex.points[a] - m_Complex.points[b]);
+    for (int trial = 0; trial < 16; ++trial)
+    {
+      const Vec3 q = p + step * m_Directions.next();
+      if (const double value = halves(q); value > best)
+        best = value, p = q;
+      else
+        step *= 0.85;
+    }
+    return best > before * 1.0001 + 1e-9 && m_Operations.split(a, b, seed, p, before * 1.0001 + 1e-9);
+  }
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const ImprovementOptions& m_Options;
+  const double m_Target;
+  Directions m_Directions;
+  std::vector<std::int32_t> m_Star, m_Ring, m_RingVertices;
+};
+
+} // namespace
+
+void relaxBlock(GuardedOperations& operations, const RelaxationOptions& options)
+{
+  Relaxation(operations, options).run();
+}
+
+void improveBlock(GuardedOperations& operations, const ImprovementOptions& options)
+{
+  Improvement(operations, options).run();
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,33 @@
+#pragma once
+/// Quality improvement of a labelled complex by guarded operations: nothing here ever makes the worst dihedral angle of what
+/// it touches worse, changes a label's topology, or leaves the evidence.
+
+#include "GuardedOperations.h"
+
+namespace surgicalmesher
+{
+
+struct RelaxationOptions
+{
+  double goodAngle = 25; ///< degrees; a move that lowers the worst angle at its vertex is taken only above this
+  double fit = 1;        ///< weight of the evidence against an even spacing of the vertices
+};
+
+/// Moves every free vertex once: inside a tissue towards the middle of its neighbours; on a sheet or curve of the interface
+/// towards the middle of its neighbours there and, along the normals, to the least-squares fit of its faces to their evidence.
+void relaxBlock(GuardedOperations& operations, const RelaxationOptions& options = {});
+
+struct ImprovementOptions
+{
+  double targetAngle = 34;   ///< degrees; tetrahedra with a dihedral angle below this, or above 180 minus it, are worked on
+  double shortEdge = 0.6;    ///< collapses that improve are tried on edges up to this share of the target
+  double longEdge = 1.6;
+  bool split = true;
+  double splitEdge = 1.0;    ///< splits are tried on edges from this share of the target on
+  int passes = 3;
+};
+
+/// Worst first: edge removal, vertex optimisation, collapse, split of the tetrahedra below the target, until nothing helps.
+void improveBlock(GuardedOperations& operations, const ImprovementOptions& options = {});
+
+} // namespace surgicalmesher

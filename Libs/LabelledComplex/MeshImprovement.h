@@ -1,0 +1,24 @@
+#pragma once
+/// Improvement of a whole labelled mesh, with its own interface as the surface to stay on.
+
+#include "BlockSweep.h"
+#include "GuardedOperations.h"
+#include "Progress.h"
+
+namespace surgicalmesher
+{
+
+struct MeshImprovementOptions
+{
+  double surfaceTolerance = 0.12; ///< how far the surface may move from where it was, as a share of the target length
+  double targetAngle = 34;        ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
+  int sweeps = 3;
+};
+
+/// Improves `mesh` (positively wound, face-to-face, label 0 outside; vertices on its hull stay) towards `scale` and towards
+/// the target angle. Labels keep their topology, and no operation lowers the worst quality of what it touches.
+/// Deterministic, whatever the number of threads.
+void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovementOptions& options = {},
+                 const Progress& progress = {});
+
+} // namespace surgicalmesher

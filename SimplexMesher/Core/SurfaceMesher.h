@@ -1,0 +1,44 @@
+#pragma once
+/// From a prepared tissue map to the graded ambient complex whose interface is the surface of all tissues.
+
+#include "BlockSweep.h"
+#include "GuardedOperations.h"
+#include "Progress.h"
+#include "ScaleField.h"
+#include "TissueMap.h"
+
+#include <string>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+struct SurfaceMesherOptions
+{
+  double maximumDistance = 0; ///< mm; bound on the distance of any boundary point of the map to the surface; 0: automatic,
+                              ///< 0.45 voxel + 0.11 L
+};
+
+/// The mesh after one step.
+struct EvolutionStep
+{
+  std::string stage;
+  std::size_t tetrahedra = 0;  ///< of tissues
+  double meanDistance = 0;     ///< mm, of the map's smoothed boundary to the surface
+  double maximumDistance = 0;  ///< mm
+  OperationCounts operations;  ///< since the step before
+};
+
+struct SurfaceMesh
+{
+  AmbientMesh ambient; ///< in the grid frame of the map
+  std::vector<EvolutionStep> evolution;
+};
+
+/// Lattice, smoothed boundary, guarded coarsening by levels of size, improvement. `map` must be well-composed
+/// (prepareMap); every tissue keeps its topology. `scale` is in world coordinates. The result depends on neither the number
+/// of threads nor their timing. Throws EngineError.
+SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& scale, const SurfaceMesherOptions& options,
+                        const Progress& progress = {});
+
+} // namespace surgicalmesher
