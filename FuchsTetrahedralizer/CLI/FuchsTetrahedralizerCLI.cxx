@@ -7,6 +7,7 @@
 #include "Errors.h"
 #include "FaceNeighbours.h"
 #include "FuchsTetrahedralizerCLIXML.h"
+#include "MeshImprovement.h"
 #include "MeshQuality.h"
 #include "SubMeshes.h"
 #include "SurfaceEdgeLength.h"
@@ -181,7 +182,8 @@ void mesh(CommandLine& line)
   SurfaceFile content = readSurface(line.text("surface"));
   const EdgeLength edgeLength = readEdgeLength(line, content);
   report(progress, 0.1, "tetrahedra");
-  const TetraMesh ambient = ambientTetrahedra(line, content, edgeLength);
+  TetraMesh ambient = ambientTetrahedra(line, content, edgeLength);
+  improveMesh(ambient, [&](const Vec3& p) { return float(edgeLength(p)); }, {}, subProgress(progress, 0.3, 0.8));
   report(progress, 0.8, "sub-meshes");
   SubMeshes division;
   const MeshFile result = assemble(ambient, edgeLength, content.tissues, division);
