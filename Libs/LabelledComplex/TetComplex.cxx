@@ -135,7 +135,7 @@ bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::ve
 std::pair<std::int32_t, int> TetComplex::holder(std::int32_t t, int i) const
 {
   const std::int32_t n = neighbours[t][i];
-  if (labels[t] > labels[n]) return { t, i };
+  if (n < 0 || labels[t] > labels[n]) return { t, i };
   for (int j = 0; j < 4; ++j)
     if (neighbours[n][j] == t && !contains(t, tets[n][j])) return { n, j };
   assert(false);
@@ -175,8 +175,11 @@ void TetComplex::collapse(std::int32_t u, std::int32_t v, const std::vector<std:
     const std::int32_t head = evidenceHeads[t][iu] >= 0 ? evidenceHeads[t][iu] : (jv >= 0 ? evidenceHeads[nv][jv] : -1);
     if (ju >= 0) neighbours[nu][ju] = nv, evidenceHeads[nu][ju] = -1;
     if (jv >= 0) neighbours[nv][jv] = nu, evidenceHeads[nv][jv] = -1;
-    if (head >= 0 && nu >= 0 && nv >= 0 && labels[nu] != labels[nv])
-      (labels[nu] > labels[nv] ? evidenceHeads[nu][ju] : evidenceHeads[nv][jv]) = head;
+    // Beyond the block's border lies another label, or there would be no evidence.
+    if (head >= 0 && nu >= 0 && (nv < 0 || labels[nu] > labels[nv]))
+      evidenceHeads[nu][ju] = head;
+    else if (head >= 0 && nu >= 0 && labels[nu] < labels[nv])
+      evidenceHeads[nv][jv] = head;
     for (std::int32_t x : tets[t])
       if (x != u && x != v) vertexTet[x] = nu >= 0 ? nu : nv;
     vertexTet[v] = nu >= 0 ? nu : nv;
@@ -262,7 +265,7 @@ std::vector<std::int32_t> TetComplex::replace(const std::vector<std::int32_t>& o
       {
         neighbours[t][i] = b->outer;
         if (b->outer >= 0) neighbours[b->outer][b->outerIndex] = t;
-        if (b->head >= 0 && b->outer >= 0 && labels[t] > labels[b->outer]) evidenceHeads[t][i] = b->head;
+        if (b->head >= 0 && (b->outer < 0 || labels[t] > labels[b->outer])) evidenceHeads[t][i] = b->head;
         continue;
       }
       for (std::size_t m = k + 1; m < ids.size() && neighbours[t][i] < 0; ++m)

@@ -45,7 +45,8 @@ public:
   std::vector<Tet> tets;                                   ///< vertices
   std::vector<Tet> neighbours;                             ///< [i] across the face opposite vertex i; -1 beyond a block
   std::vector<Label> labels;
-  std::vector<std::array<std::int32_t, 4>> evidenceHeads;  ///< per face, held by the side of the larger label
+  std::vector<std::array<std::int32_t, 4>> evidenceHeads;  ///< per face, held by the side of the larger label (on a
+                                                           ///< block's border, by the block that has that side)
   std::vector<Evidence> evidence;
 
   // --- queries
@@ -74,7 +75,7 @@ public:
   }
 
   // --- evidence
-  /// Adds a point to face i of tetrahedron t, whose sides must differ in label.
+  /// Adds a point to face i of tetrahedron t, whose sides must differ in label, or which is on the block's border.
   void addEvidence(std::int32_t t, int i, const Vec3& position, float tolerance);
   /// (tetrahedron, face) that holds the evidence of the interface face (t, i).
   std::pair<std::int32_t, int> holder(std::int32_t t, int i) const;
