@@ -1,13 +1,7 @@
-// The executable as a host sees it: exit status, streams and files.
-
-#include "../../Libs/TissueMap/Testing/TestFiles.h"
+#include "ExecutableTest.h"
 #include "TissueMapIO.h"
 
 #include <rapidjson/document.h>
-#include <sys/wait.h>
-
-#include <algorithm>
-#include <cstdlib>
 
 using namespace surgicalmesher;
 using namespace surgicalmesher::test;
@@ -15,18 +9,12 @@ using namespace surgicalmesher::test;
 namespace
 {
 
-struct Outcome
-{
-  int status = -1;
-  std::string out;
-  std::string err;
-};
-
-/// A folder with a map of 24 x 20 x 16 mm, a target, a path and the runs on them. Arguments are as in a shell; file names
-/// are relative to the folder.
-class SurgicalPathScaleCLI : public testing::Test
+/// A map of 24 x 20 x 16 mm, a target and a path.
+class SurgicalPathScaleCLI : public ExecutableTest
 {
 protected:
+  SurgicalPathScaleCLI() : ExecutableTest(SURGICALPATHSCALECLI) {}
+
   void SetUp() override
   {
     map.grid.size = { 12, 10, 8 };
@@ -37,39 +25,9 @@ protected:
     folder.write("map.nrrd", nrrd("uint16", nrrdGeometry(map.grid), map.labels));
     folder.write("target.fcsv", "# CoordinateSystem = LPS\nF,10,0,40\n");
     folder.write("path.fcsv", "# CoordinateSystem = LPS\nF,5,-9,30\nF,10,0,40\n");
-    fileCount = folder.fileCount();
   }
 
-  Outcome run(const std::string& arguments) const
-  {
-    const TemporaryFolder streams;
-    const std::string command = "cd '" + folder.file("") + "' && '" SURGICALPATHSCALECLI "' " + arguments + " >'" +
-                                streams.file("out") + "' 2>'" + streams.file("err") + "'";
-    const int status = std::system(command.c_str());
-    return { WIFEXITED(status) ? WEXITSTATUS(status) : -1, readBytes(streams.file("out")),
-             readBytes(streams.file("err")) };
-  }
-
-  /// That the run ends with this status, one line on stderr that holds `expected`, and no file more than before.
-  void expectRefused(const std::string& arguments, int status, const std::string& expected) const
-  {
-    const Outcome result = run(arguments);
-    EXPECT_EQ(result.status, status) << arguments << "\n" << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_NE(result.err.find(expected), std::string::npos) << result.err;
-    EXPECT_EQ(folder.fileCount(), fileCount) << arguments;
-  }
-
-  void expectDone(const std::string& arguments) const
-  {
-    const Outcome result = run(arguments);
-    EXPECT_EQ(result.status, 0) << arguments << "\n" << result.err;
-    EXPECT_EQ(result.err, "");
-  }
-
-  TemporaryFolder folder;
   TissueMap map;
-  std::size_t fileCount = 0;
 };
 
 } // namespace
@@ -80,7 +38,7 @@ TEST_F(SurgicalPathScaleCLI, WritesAScaleThatCoversTheMap)
   const ScaleField scale = readScale(folder.file("scale.nrrd"));
   EXPECT_NO_THROW(requireCover(scale, map.grid, "scale.nrrd"));
   EXPECT_NEAR(scale({ 10, 0, 40 }), 1, 1e-6);
-  EXPECT_EQ(folder.fileCount(), fileCount + 1);
+  EXPECT_EQ(folder.files(), (std::vector<std::string>{ "map.nrrd", "path.fcsv", "scale.nrrd", "target.fcsv" }));
 }
 
 TEST_F(SurgicalPathScaleCLI, TakesTargetsInEveryFormAlike)
@@ -149,7 +107,6 @@ TEST_F(SurgicalPathScaleCLI, RefusesBadInputWithOneLineAndStatusOne)
   const std::string whole = readBytes(folder.file("cut.nii.gz"));
   folder.write("cut.nii.gz", whole.substr(0, whole.size() / 2));
   folder.write("lengths.csv", "label,minimum\nnobody,2\n");
-  fileCount = folder.fileCount();
   expectRefused("--targetPoint 0,0,0 missing.nrrd scale.nrrd", 1, "missing.nrrd: no such file");
   expectRefused("--targetPoint 0,0,0 . scale.nrrd", 1, "is a directory");
   expectRefused("--targetPoint 0,0,0 text.nrrd scale.nrrd", 1, "text.nrrd: ");

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -45,10 +46,13 @@ public:
     std::ofstream(file(name), std::ios::binary) << content;
     return file(name);
   }
-  std::size_t fileCount() const
+  /// Names of all files in it, hidden ones too, in order.
+  std::vector<std::string> files() const
   {
-    return std::size_t(
-      std::distance(std::filesystem::directory_iterator(m_Path), std::filesystem::directory_iterator()));
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(m_Path)) names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
   }
 
 private:
