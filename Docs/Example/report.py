@@ -9,15 +9,31 @@ import os
 import sys
 
 
+def wrong_tissues(report):
+    """Labels whose tetrahedra have other components, tunnels or cavities than the prepared map."""
+    wanted, found = ({tissue["label"]: tissue for tissue in report[stage]["topology"]} for stage in ("surface", "mesh"))
+    return sorted(label for label in wanted.keys() | found.keys() if wanted.get(label) != found.get(label))
+
+
+def compared(number, estimate):
+    return f"{number:,} (estimated {estimate:,}, {100 * (estimate / number - 1):+.0f} %)"
+
+
 def rows(report):
-    whole = report["mesh"]["quality"]["whole"]
-    yield "tissues", len(report["mesh"]["quality"]["tissues"])
-    yield "tetrahedra", f"{whole['tetrahedra']:,}"
-    yield "dihedral angles (degrees)", f"{whole['dihedral']['minimum']:.1f} to {whole['dihedral']['maximum']:.1f}"
-    yield "mean of the tetrahedra's smallest (degrees)", f"{whole['minimumDihedral']['mean']:.1f}"
-    yield "edges within 0.7 to 1.4 of the target (%)", f"{100 * whole['edgesNearTarget']:.1f}"
+    surface, mesh, estimate = report["surface"], report["mesh"]["quality"]["whole"], report["scale"]["estimate"]
+    preparation, dihedral = surface["preparation"], mesh["dihedral"]
+    islands = sum(tissue["islandsRemoved"] for tissue in preparation["changes"])
+    yield "tissues", len(surface["topology"])
+    yield "islands removed", f"{islands:,}"
+    yield "voxels changed at contacts", f"{preparation['contactVoxelsChanged']:,}"
+    yield "triangles", compared(surface["triangles"], estimate["triangles"])
+    yield "tetrahedra", compared(mesh["tetrahedra"], estimate["tetrahedra"])
+    yield "dihedral angles", f"{dihedral['minimum']:.1f} to {dihedral['maximum']:.1f} degrees"
+    yield "mean of the smallest of each", f"{mesh['minimumDihedral']['mean']:.1f} degrees"
+    yield "edges within 0.7..1.4 of target", f"{100 * mesh['edgesNearTarget']:.1f} %"
+    yield "tissues of wrong topology", len(wrong_tissues(report))
     for stage, seconds in report["seconds"].items():
-        yield f"{stage} (s)", f"{seconds:.1f}"
+        yield f"time for {stage}", f"{seconds:.1f} s"
 
 
 def main():
@@ -31,7 +47,7 @@ def main():
         json.dump(report, file, indent=2)
         file.write("\n")
     for name, value in rows(report):
-        print(f"{name:<46}{value:>16}")
+        print(f"{name:<34}{value}")
 
 
 if __name__ == "__main__":

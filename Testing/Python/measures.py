@@ -1,4 +1,6 @@
 """Measures of a tetrahedral mesh, to hold the project's own against. Meshes are as meshfiles.read_mesh gives them."""
+from itertools import combinations
+
 import numpy as np
 
 TETRAHEDRON_EDGES = np.array([[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]])
@@ -41,3 +43,30 @@ def valences(mesh):
     inner = np.ones(len(mesh.points), bool)
     inner[faces[~inside_a_tissue]] = False
     return np.bincount(mesh.tetrahedra.ravel(), minlength=len(mesh.points))[inner]
+
+
+def euler_numbers_of_mesh(mesh):
+    """By label: vertices - edges + triangles - tetrahedra of the closed tetrahedra of that tissue."""
+    euler = np.zeros(mesh.tissue.max() + 1, int)
+    corners = np.sort(mesh.tetrahedra, axis=1)
+    for count in range(1, 5):
+        cells = np.concatenate([np.column_stack([mesh.tissue, corners[:, list(chosen)]])
+                                for chosen in combinations(range(4), count)])
+        euler += (-1) ** (count - 1) * np.bincount(np.unique(cells, axis=0)[:, 0], minlength=len(euler))
+    return euler
+
+
+def euler_numbers_of_map(labels):
+    """By label: vertices - edges + faces - voxels of the closed voxels of that tissue; label 0 is not counted."""
+    padded = np.pad(labels, 1)
+    euler = np.zeros(labels.max() + 1, int)
+    for extent in np.ndindex(2, 2, 2):  # along each axis, a cell is as long as a voxel (1) or lies between two (0)
+        around = [padded[tuple(slice(1, -1) if long else slice(shift, size - 1 + shift)
+                               for long, shift, size in zip(extent, shifts, padded.shape))].ravel()
+                  for shifts in np.ndindex(*(2 - long for long in extent))]
+        around = np.sort(around, axis=0)
+        first = np.ones(around.shape, bool)
+        first[1:] = around[1:] != around[:-1]
+        euler += (-1) ** sum(extent) * np.bincount(around[first], minlength=len(euler))
+    euler[0] = 0
+    return euler

@@ -4,6 +4,7 @@ The judgments use the files alone, and none of the project's own measures.
 """
 import json
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -13,7 +14,8 @@ from vtk.util.numpy_support import vtk_to_numpy
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
-from measures import TETRAHEDRON_FACES, dihedral_angles, edge_ratios, signed_volumes, valences  # noqa: E402
+from measures import (TETRAHEDRON_FACES, dihedral_angles, edge_ratios, euler_numbers_of_map,  # noqa: E402
+                      euler_numbers_of_mesh, signed_volumes, valences)
 from meshfiles import cell_array, interpolated, read_dataset, read_mesh, read_nrrd  # noqa: E402
 
 BIN, OUTDIR = sys.argv[1:3]
@@ -56,6 +58,9 @@ class ExampleTest(unittest.TestCase):
         self.assertTrue(np.all(np.unique(edges, axis=0, return_counts=True)[1] == 1))
         np.testing.assert_array_equal(np.unique(edges, axis=0), np.unique(edges[:, [0, 2, 1]], axis=0))
 
+    def test_topology_is_that_of_the_prepared_map(self):
+        np.testing.assert_array_equal(euler_numbers_of_mesh(self.mesh), euler_numbers_of_map(self.labels))
+
     def test_volumes_are_those_of_the_prepared_map(self):
         voxel = abs(np.linalg.det(self.affine[:3, :3]))
         expected = voxel * np.bincount(self.labels.ravel())
@@ -89,7 +94,15 @@ class ExampleTest(unittest.TestCase):
         self.assertAlmostEqual(whole["edgeOverTarget"]["mean"], ratios.mean(), 3)
         self.assertAlmostEqual(whole["edgesNearTarget"], np.mean((ratios >= 0.7) & (ratios <= 1.4)), 3)
         self.assertAlmostEqual(whole["valence"]["mean"], valences(self.mesh).mean(), 3)
-        self.assertRegex(self.output, rf"tetrahedra +{len(self.mesh.tetrahedra):,}\n")
+
+    def test_table_tells_of_counts_topology_and_estimate(self):
+        surface = read_dataset(os.path.join(OUTDIR, "surface.vtp"))
+        self.assertRegex(self.output, r"tissues of wrong topology +0\n")
+        for name, number in (("triangles", surface.GetNumberOfPolys()), ("tetrahedra", len(self.mesh.tetrahedra))):
+            row = re.search(rf"^{name} +([\d,]+) \(estimated ([\d,]+),", self.output, re.M)
+            found, estimated = (int(text.replace(",", "")) for text in row.groups())
+            self.assertEqual(found, number)
+            self.assertLess(max(estimated / number, number / estimated), 1.5, name)
 
     def test_pictures_show_something(self):
         from matplotlib.image import imread

@@ -77,6 +77,26 @@ class CanonicalLatticeTest(unittest.TestCase):
         self.assertTrue(np.all(valence == 24))
 
 
+class EulerNumberTest(unittest.TestCase):
+    def test_of_maps(self):
+        labels = np.zeros((9, 8, 12), int)
+        labels[1:4, 1:4, 1:4] = 1
+        labels[1:4, 1:4, 6:9] = 2
+        labels[2, 2, 6:9] = 0  # a ring
+        labels[5:8, 1:4, 1:4] = 3
+        labels[6, 2, 2] = 4    # in a shell
+        labels[5:9, 6:8, 0:12:2] = 5
+        np.testing.assert_array_equal(measures.euler_numbers_of_map(labels), [0, 1, 0, 2, 1, 6])
+
+    def test_of_meshes(self):
+        mesh = bcc_mesh(4)
+        one = measures.euler_numbers_of_mesh(mesh)
+        np.testing.assert_array_equal(one, [0, 1])
+        center = np.argmin(np.linalg.norm(mesh.points - 2, axis=1))
+        mesh.tissue[np.any(mesh.tetrahedra == center, axis=1)] = 2  # a ball, and what is left of the block around it
+        np.testing.assert_array_equal(measures.euler_numbers_of_mesh(mesh), [0, 2, 1])
+
+
 class VolumeTest(unittest.TestCase):
     def write(self, encoding, space, values):
         data = values.astype(">f4").tobytes(order="F")
