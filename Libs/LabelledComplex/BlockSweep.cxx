@@ -44,7 +44,7 @@ void cut(std::vector<std::int32_t>& order, const std::vector<std::array<float, 3
   for (int k = 0; k < 3; ++k)
     if (high[k] - low[k] > 2 * (high[axis] - low[axis])) axis = k;
   constexpr double shares[] = { 0.5, 0.3, 0.7 };
-  const std::size_t middle = range.begin + std::size_t(double(n) * shares[round % 3]);
+  const std::size_t middle = range.begin + std::max<std::size_t>(1, std::size_t(double(n) * shares[round % 3]));
   std::nth_element(order.begin() + range.begin, order.begin() + middle, order.begin() + range.end,
                    [&](std::int32_t a, std::int32_t b)
                    {
@@ -58,9 +58,16 @@ void cut(std::vector<std::int32_t>& order, const std::vector<std::array<float, 3
 /// What a block gives back: ids below `known` are the mesh's own, the others its new vertices.
 struct BlockResult
 {
+  struct Moved
+  {
+    std::int32_t id;
+    Vec3 position;
+    float length;
+  };
   std::vector<std::array<std::int32_t, 4>> tets;
   std::vector<Label> labels;
   std::vector<AmbientMesh::Place> evidence;
+  std::vector<Moved> moved; ///< the mesh's own points; applied only when all blocks have succeeded
   std::vector<Vec3> newPoints;
   std::vector<float> newLengths;
 };
@@ -107,6 +114,11 @@ public:
     {
       const std::int32_t shift = std::int32_t(mesh.points.size()) - m_Known;
       const std::int32_t firstTet = std::int32_t(mesh.tetrahedra.size());
+      for (const auto& [id, position, length] : r.moved)
+      {
+        mesh.points[id] = position;
+        m_Ambient.lengths[id] = length;
+      }
       mesh.points.insert(mesh.points.end(), r.newPoints.begin(), r.newPoints.end());
       m_Ambient.lengths.insert(m_Ambient.lengths.end(), r.newLengths.begin(), r.newLengths.end());
       for (auto t : r.tets)
@@ -200,9 +212,8 @@ private:
       if (complex.vertexTet[v] < 0) continue;
       if (v < own)
       {
-        if (complex.locked[v]) continue; // shared with other blocks: theirs to read, nobody's to write
-        m_Ambient.mesh.points[ids[v]] = complex.points[v];
-        m_Ambient.lengths[ids[v]] = complex.lengths[v];
+        if (!(complex.points[v] == m_Ambient.mesh.points[ids[v]]) || complex.lengths[v] != m_Ambient.lengths[ids[v]])
+          r.moved.push_back({ ids[v], complex.points[v], complex.lengths[v] });
         continue;
       }
       ids[v] = m_Known + std::int32_t(r.newPoints.size());

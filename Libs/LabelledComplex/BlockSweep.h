@@ -29,7 +29,7 @@ struct AmbientMesh
 /// Cuts the mesh into blocks of at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs `work` on
 /// each as a TetComplex whose border is locked, and puts the results together in the order of the blocks. `round` shifts
 /// the cuts, so that what is locked in one round is free in the next. The result depends on neither the number of threads
-/// nor their timing.
+/// nor their timing. If `work` or `progress` throws, so does this, and the mesh is as it was.
 void sweepBlocks(AmbientMesh& ambient, int round, std::size_t tetrahedraPerBlock,
                  const std::function<void(TetComplex&)>& work, const Progress& progress = {});
 
