@@ -1,0 +1,584 @@
+#include "GuardedOperations.h"
+#include "ComplexInvariants.h"
+#include "RandomMaps.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using namespace test;
+
+const ScaleFunction unitScale = [](const Vec3&) { return 1.0f; };
+
+/// No guard but those on topology and on positive volumes.
+constexpr double anyQuality = 1e-8, anyLength = 1e6, anyDistance = 1e6;
+
+std::map<Label, Betti> topologyOf(const TetComplex& complex)
+{
+  return meshTopology(withBackgroundAsTissue(meshOf(complex)));
+}
+
+void expectManifold(const TetComplex& complex)
+{
+  for (const auto& [label, tissue] : checkSurface(interfaceOf(withBackgroundAsTissue(meshOf(complex)))))
+    EXPECT_TRUE(tissue.manifold()) << "label " << label;
+}
+
+/// An octahedron of four tetrahedra around its edge ab along x: a = 0, b = 1, p = 2 and q = 3 along y, top 4, bottom 5.
+/// `labels` belong to the quarters (p, top), (top, q), (q, bottom), (bottom, p).
+TetComplex octahedron(const std::array<Label, 4>& labels, float tolerance = 0.5f)
+{
+  TetraMesh mesh;
+  mesh.points = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } };
+  mesh.tetrahedra = { { 0, 1, 2, 4 }, { 0, 1, 4, 3 }, { 0, 1, 3, 5 }, { 0, 1, 5, 2 } };
+  for (auto& [a, b, c, d] : mesh.tetrahedra)
+  {
+    if (orient(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) < 0) std::swap(c, d);
+  }
+  mesh.labels.assign(labels.begin(), labels.end());
+  return complexOf(mesh, 1, tolerance);
+}
+
+/// One operation somewhere, and what it was allowed to do.
+struct Attempt
+{
+  bool done = false;
+  double minimumQuality = 0;
+  double maximumRatio = anyLength; ///< collapses
+  std::int32_t u = -1, v = -1;     ///< collapses: u merged into v
+  std::string name;
+};
+
+Attempt attempt(GuardedOperations& operations, std::mt19937& random)
+{
+  TetComplex& c = operations.complex();
+  const auto uniform = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
+  const auto nearby = [&](const Vec3& p, double reach) {
+    return p + Vec3{ uniform(-reach, reach), uniform(-reach, reach), uniform(-reach, reach) };
+  };
+  Attempt a;
+  do a.u = std::int32_t(random() % c.points.size());
+  while (c.vertexTet[a.u] < 0);
+  const auto around = neighboursOf(c, a.u);
+  a.v = around[random() % around.size()];
+  a.minimumQuality = sine2OfDegrees(uniform(0.5, 15));
+  const Vec3 from = c.points[a.u], to = c.points[a.v], middle = 0.5 * (from + to);
+  const std::int32_t seed = tetrahedronAt(c, a.u, a.v);
+  const auto kind = random() % 5;
+  if (kind <= 1)
+  {
+    a.name = "collapse";
+    a.maximumRatio = uniform(1, 4);
+    const Vec3 p = random() % 2 ? to : random() % 2 ? middle : nearby(middle, 0.2);
+    a.done = operations.collapse(a.u, a.v, p, a.minimumQuality, a.maximumRatio);
+  }
+  else if (kind == 2)
+  {
+    a.name = "move";
+    a.done = operations.move(a.u, nearby(from, uniform(0.01, 0.4)), a.minimumQuality);
+  }
+  else if (kind == 3)
+  {
+    a.name = "removeEdge";
+    a.done = operations.removeEdge(a.u, a.v, seed, a.minimumQuality);
+  }
+  else
+  {
+    a.name = "split";
+    a.done = operations.split(a.u, a.v, seed, random() % 2 ? middle : nearby(middle, 0.1), a.minimumQuality);
+  }
+  return a;
+}
+
+/// Every tetrahedron that is not as it was reaches the quality asked for.
+void expectQuality(const ComplexState& before, const GuardedOperations& operations, const TetComplex& c,
+                   double minimumQuality)
+{
+  for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
+  {
+    if (!c.alive(t)) continue;
+    bool changed = std::size_t(t) >= before.tets.size() || before.tets[t] != c.tets[t];
+    for (int k = 0; k < 4 && !changed; ++k) changed = !(before.points[c.tets[t][k]] == c.points[c.tets[t][k]]);
+    EXPECT_TRUE(!changed || operations.quality(t) >= minimumQuality) << "tetrahedron " << t;
+  }
+}
+
+/// Evidence stays on faces of its label pair, within its tolerance or no farther than it was; where its two labels ceased
+/// to touch, both still have a boundary within the tolerance.
+void expectEvidenceKept(const std::vector<EvidencePlace>& before, const TetComplex& c)
+{
+  const auto after = evidencePlaces(c);
+  for (std::size_t e = 0; e < before.size(); ++e)
+  {
+    if (before[e].tet < 0)
+    {
+      EXPECT_LT(after[e].tet, 0) << "evidence " << e << " is back";
+      continue;
+    }
+    const double tolerance = c.evidence[e].tolerance;
+    if (after[e].tet >= 0)
+    {
+      EXPECT_EQ(after[e].pair, before[e].pair) << "evidence " << e;
+      EXPECT_LE(after[e].distance, std::max(tolerance, before[e].distance) * (1 + 1e-6)) << "evidence " << e;
+      continue;
+    }
+    for (Label label : before[e].pair)
+    {
+      double nearest = anyDistance;
+      for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
+      {
+        if (!c.alive(t) || c.labels[t] != label) continue;
+        for (int i = 0; i < 4; ++i)
+        {
+          if (!c.isInterface(t, i)) continue;
+          const auto [x, y, z] = faceKey(c.tets[t], i);
+          const double d = squaredDistanceToTriangle(c.evidence[e].position, c.points[x], c.points[y], c.points[z]);
+          nearest = std::min(nearest, std::sqrt(d));
+        }
+      }
+      EXPECT_LE(nearest, tolerance * (1 + 1e-6)) << "evidence " << e << " of label " << label;
+    }
+  }
+}
+
+/// No edge at the merged vertex is too long, unless it was.
+void expectLengths(const ComplexState& before, TetComplex& c, const Attempt& a)
+{
+  for (std::int32_t x : neighboursOf(c, a.v))
+  {
+    const double length = norm(c.points[x] - c.points[a.v]);
+    const double was =
+      std::max(norm(before.points[x] - before.points[a.u]), norm(before.points[x] - before.points[a.v]));
+    EXPECT_LE(length, std::max(was, a.maximumRatio) * (1 + 1e-9));
+  }
+}
+
+void expectGuarded(const ComplexState& before, const std::vector<EvidencePlace>& places, GuardedOperations& operations,
+                   const Attempt& a)
+{
+  TetComplex& c = operations.complex();
+  if (!a.done)
+  {
+    EXPECT_TRUE(ComplexState(c) == before) << "refused, but changed something";
+    return;
+  }
+  ASSERT_TRUE(isConsistent(c));
+  expectQuality(before, operations, c, a.minimumQuality);
+  expectEvidenceKept(places, c);
+  if (a.name == "collapse") expectLengths(before, c, a);
+  for (std::size_t v = 0; v < before.points.size(); ++v)
+  {
+    if (!before.locked[v]) continue;
+    EXPECT_TRUE(c.points[v] == before.points[v] && c.vertexTet[v] >= 0 && c.locked[v]) << "locked vertex " << v;
+  }
+}
+
+} // namespace
+
+/// Thousands of operations on random maps, legal and illegal ones.
+class RandomOperations : public ::testing::TestWithParam<double>
+{
+};
+
+TEST_P(RandomOperations, KeepEveryPromise)
+{
+  const double rmsLimit = GetParam();
+  for (unsigned seed = 1; seed <= 8; ++seed)
+  {
+    std::mt19937 random(seed);
+    const TissueMap map = randomWellComposedMap(random, { 4, 4, 4 }, 1 + int(seed % 4));
+    TetComplex complex = complexOf(tetrahedraOf(map), 1, seed % 3 ? 0.6f : float(anyDistance));
+    GuardedOperations operations(
+      complex, [](const Vec3&) { return 1.0f; }, rmsLimit);
+    const auto topology = topologyOf(complex);
+    const double volume = volumeOf(meshOf(complex));
+    const TetraMesh start = meshOf(complex);
+    long done = 0;
+    for (int n = 0; n < 500; ++n)
+    {
+      const ComplexState before(complex);
+      const auto places = evidencePlaces(complex);
+      const OperationCounts counts = operations.counts;
+      const Attempt a = attempt(operations, random);
+      SCOPED_TRACE(a.name + " " + std::to_string(n) + " of seed " + std::to_string(seed));
+      expectGuarded(before, places, operations, a);
+      const OperationCounts now = operations.counts;
+      EXPECT_EQ(now.collapses + now.moves + now.flips + now.splits - counts.collapses - counts.moves - counts.flips -
+                  counts.splits,
+                a.done);
+      if (a.done && ++done % 4 == 0)
+      {
+        EXPECT_EQ(topologyOf(complex), topology);
+        expectManifold(complex);
+        EXPECT_NEAR(volumeOf(meshOf(complex)), volume, 1e-9 * volume);
+      }
+      if (HasFailure()) return;
+    }
+    EXPECT_EQ(topologyOf(complex), topology);
+    EXPECT_GT(operations.counts.collapses, 10);
+    EXPECT_GT(operations.counts.moves, 10);
+    EXPECT_GT(operations.counts.flips, 5);
+    EXPECT_GT(operations.counts.splits, 10);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(LooseAndStrict, RandomOperations, ::testing::Values(anyDistance, 0.4));
+
+namespace
+{
+
+struct Shape
+{
+  std::string name;
+  TissueMap map;
+};
+
+std::vector<Shape> shapes()
+{
+  const auto within = [](int x, int low, int high) { return low <= x && x <= high; };
+  return {
+    { "voxel", paintedMap({ 3, 3, 3 }, [](int i, int j, int k) { return i == 1 && j == 1 && k == 1; }) },
+    { "plate", paintedMap({ 5, 5, 3 }, [](int, int, int k) { return k == 1; }) },
+    { "torus", paintedMap({ 5, 5, 3 }, [=](int i, int j, int k)
+                          { return k == 1 && within(i, 1, 3) && within(j, 1, 3) && !(i == 2 && j == 2); }) },
+    { "two tissues that touch", paintedMap({ 6, 4, 4 }, [=](int i, int j, int k)
+                                           { return within(j, 1, 2) && within(k, 1, 2) ? (i < 3 ? 1 : 2) : 0; }) },
+    { "two tissues with a gap of one voxel",
+      paintedMap({ 7, 4, 4 }, [=](int i, int j, int k)
+                 { return within(j, 1, 2) && within(k, 1, 2) && i != 3 ? (i < 3 ? 1 : 2) : 0; }) },
+    { "core within a shell within a cavity",
+      paintedMap({ 7, 7, 7 },
+                 [](int i, int j, int k)
+                 {
+                   const int r = std::max({ std::abs(i - 3), std::abs(j - 3), std::abs(k - 3) });
+                   return r == 0 ? 2 : r == 1 ? 0 : r == 2 ? 1 : 0;
+                 }) },
+    { "four tissues around a point",
+      paintedMap({ 4, 4, 4 }, [](int i, int j, int k) { return k < 2   ? 1
+                                                               : i < 2 ? 2
+                                                               : j < 2 ? 3
+                                                                       : 4; }) },
+    { "column through a plate",
+      paintedMap({ 5, 5, 5 }, [](int i, int j, int k) { return i == 2 && j == 2 ? 2
+                                                               : k == 2         ? 1
+                                                                                : 0; }) },
+  };
+}
+
+} // namespace
+
+/// Whatever can be collapsed is, however far the surface moves: what is left still has every tissue as it was.
+TEST(Collapse, CannotPinchOpenOrSwallowATissue)
+{
+  for (const Shape& shape : shapes())
+  {
+    SCOPED_TRACE(shape.name);
+    ASSERT_TRUE(wellComposed(shape.map));
+    TetComplex complex = complexOf(tetrahedraOf(shape.map), 1, float(anyDistance));
+    GuardedOperations operations(complex, unitScale, anyDistance);
+    const auto topology = topologyOf(complex);
+    const std::size_t start = meshOf(complex).tetrahedra.size();
+    for (bool any = true; any;)
+    {
+      any = false;
+      for (std::int32_t u = 0; u < std::int32_t(complex.points.size()); ++u)
+      {
+        if (complex.vertexTet[u] < 0) continue;
+        for (std::int32_t v : neighboursOf(complex, u))
+        {
+          const Vec3 to = complex.points[v], middle = 0.5 * (complex.points[u] + to);
+          if (!operations.collapse(u, v, to, anyQuality, anyLength) &&
+              !operations.collapse(u, v, middle, anyQuality, anyLength))
+            continue;
+          any = true;
+          if (operations.counts.collapses % 4 != 0) break;
+          ASSERT_EQ(topologyOf(complex), topology) << u << " into " << v;
+          break;
+        }
+      }
+    }
+    ASSERT_TRUE(isConsistent(complex));
+    EXPECT_EQ(topologyOf(complex), topology);
+    expectManifold(complex);
+    EXPECT_LT(meshOf(complex).tetrahedra.size(), start * 3 / 4) << "it is coarser";
+  }
+}
+
+TEST(Collapse, KeepsATissueOfOneTetrahedron)
+{
+  TetraMesh mesh = tetrahedraOf(paintedMap({ 2, 2, 2 }, [](int, int, int) { return 0; }));
+  std::size_t inner = 0; // one that is well away from the border
+  double least = 1e9;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    double far = 0;
+    for (std::int32_t v : mesh.tetrahedra[t]) far = std::max(far, norm(mesh.points[v] - Vec3{ 0.5, 0.5, 0.5 }));
+    if (far < least) least = far, inner = t;
+  }
+  mesh.labels[inner] = 1;
+  TetComplex complex = complexOf(mesh, 1, float(anyDistance));
+  GuardedOperations operations(complex, unitScale, anyDistance);
+  const auto corners = mesh.tetrahedra[inner];
+  for (std::int32_t u : corners)
+  {
+    for (std::int32_t v : corners)
+    {
+      if (u == v) continue;
+      for (const Vec3& p : { complex.points[v], 0.5 * (complex.points[u] + complex.points[v]), complex.points[u] })
+        EXPECT_FALSE(operations.collapse(u, v, p, anyQuality, anyLength));
+    }
+  }
+}
+
+/// The boundary of a tissue shaped like a tetrahedron has no edge that may go, even if the tissue has a vertex inside.
+TEST(Collapse, KeepsATissueShapedLikeATetrahedron)
+{
+  TetraMesh mesh = tetrahedraOf(paintedMap({ 2, 2, 2 }, [](int, int, int) { return 0; }), 2);
+  std::size_t inner = 0;
+  double least = 1e9;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    double far = 0;
+    for (std::int32_t v : mesh.tetrahedra[t]) far = std::max(far, norm(mesh.points[v] - Vec3{ 0.5, 0.5, 0.5 }));
+    if (far < least) least = far, inner = t;
+  }
+  const auto corners = mesh.tetrahedra[inner];
+  const auto centre = std::int32_t(mesh.points.size());
+  Vec3 sum;
+  for (std::int32_t v : corners) sum += mesh.points[v];
+  mesh.points.push_back(sum / 4);
+  for (int i = 0; i < 4; ++i)
+  {
+    auto tet = corners;
+    tet[i] = centre;
+    if (i == 0) mesh.tetrahedra[inner] = tet;
+    else mesh.tetrahedra.push_back(tet);
+    mesh.labels.resize(mesh.tetrahedra.size(), 1);
+  }
+  mesh.labels[inner] = 1;
+  TetComplex complex = complexOf(mesh, 1, float(anyDistance));
+  ASSERT_TRUE(isConsistent(complex));
+  GuardedOperations operations(complex, unitScale, anyDistance);
+  const auto topology = topologyOf(complex);
+  for (std::int32_t u : corners)
+  {
+    for (std::int32_t v : corners)
+    {
+      EXPECT_FALSE(u != v && operations.collapse(u, v, complex.points[v], anyQuality, anyLength));
+    }
+    EXPECT_FALSE(operations.collapse(u, centre, complex.points[centre], anyQuality, anyLength)) << "off the boundary";
+  }
+  EXPECT_TRUE(operations.collapse(centre, corners[0], complex.points[corners[0]], anyQuality, anyLength));
+  EXPECT_TRUE(isConsistent(complex));
+  EXPECT_EQ(topologyOf(complex), topology);
+}
+
+TEST(Collapse, MakesNoEdgeLongerThanAllowed)
+{
+  TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 4, 4, 4 }, [](int, int, int) { return 0; })));
+  GuardedOperations operations(complex, unitScale);
+  std::int32_t u = -1;
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+  {
+    if (norm(complex.points[v] - Vec3{ 1.5, 1.5, 1.5 }) < 1e-9) u = v;
+  }
+  ASSERT_GE(u, 0);
+  const auto around = neighboursOf(complex, u);
+  // The longest edges at u are sqrt(3); any collapse onto a neighbour makes one of 2 or more.
+  for (std::int32_t v : around)
+  {
+    const ComplexState before(complex);
+    EXPECT_FALSE(operations.collapse(u, v, complex.points[v], anyQuality, 1.75));
+    EXPECT_TRUE(ComplexState(complex) == before);
+  }
+  EXPECT_TRUE(std::any_of(around.begin(), around.end(),
+                          [&](std::int32_t v)
+                          { return operations.collapse(u, v, complex.points[v], anyQuality, 3.5); }));
+}
+
+TEST(EdgeRemoval, TurnsTheSheetsDiagonalBetweenTwoLabels)
+{
+  TetComplex complex = octahedron({ 1, 1, 0, 0 });
+  ASSERT_TRUE(isConsistent(complex));
+  ASSERT_EQ(complex.evidence.size(), 2u);
+  GuardedOperations operations(complex, unitScale);
+  const auto volumes = volumesOf(meshOf(complex));
+  ASSERT_TRUE(operations.removeEdge(0, 1, 0, anyQuality));
+  ASSERT_TRUE(isConsistent(complex));
+  EXPECT_EQ(operations.counts.flips, 1);
+  EXPECT_EQ(tetrahedronAt(complex, 0, 1), -1);
+  const std::int32_t seed = tetrahedronAt(complex, 2, 3);
+  ASSERT_GE(seed, 0);
+  for (const auto& [label, volume] : volumesOf(meshOf(complex))) EXPECT_NEAR(volume, volumes.at(label), 1e-12);
+  for (const EvidencePlace& place : evidencePlaces(complex))
+  {
+    ASSERT_GE(place.tet, 0);
+    EXPECT_EQ(place.pair, (std::array<Label, 2>{ 0, 1 }));
+    EXPECT_NEAR(place.distance, 0, 1e-12);
+    EXPECT_EQ(complex.tets[place.tet][place.face], 4) << "the sheet lies below the top";
+  }
+  ASSERT_TRUE(operations.removeEdge(2, 3, seed, anyQuality)) << "and back";
+  EXPECT_GE(tetrahedronAt(complex, 0, 1), 0);
+  EXPECT_TRUE(isConsistent(complex));
+}
+
+TEST(EdgeRemoval, RefusesAJunctionAndACorner)
+{
+  for (const auto& labels :
+       { std::array<Label, 4>{ 1, 2, 0, 0 }, { 1, 1, 2, 0 }, { 1, 0, 1, 0 }, { 1, 2, 3, 4 }, { 1, 0, 0, 0 } })
+  {
+    TetComplex complex = octahedron(labels, float(anyDistance));
+    GuardedOperations operations(complex, unitScale, anyDistance);
+    const ComplexState before(complex);
+    EXPECT_FALSE(operations.removeEdge(0, 1, 0, anyQuality));
+    EXPECT_TRUE(ComplexState(complex) == before);
+  }
+}
+
+TEST(EdgeRemoval, RefusesWhatQualityOrEvidenceForbids)
+{
+  TetComplex complex = octahedron({ 1, 1, 2, 2 });
+  const double same = complex.quality(0); // by symmetry that of every tetrahedron, before and after
+  {
+    GuardedOperations operations(complex, unitScale);
+    EXPECT_FALSE(operations.removeEdge(0, 1, 0, same * 1.01));
+  }
+  // With the ends of ab lifted, the other diagonal passes below the evidence of the old sheet.
+  TetraMesh mesh = meshOf(octahedron({ 1, 1, 2, 2 }));
+  for (Vec3& p : mesh.points)
+  {
+    if (p.x != 0) p.z += 0.2;
+  }
+  for (float tolerance : { 0.01f, 0.5f })
+  {
+    TetComplex bent = complexOf(mesh, 1, tolerance);
+    GuardedOperations operations(bent, unitScale);
+    std::int32_t a = -1, b = -1;
+    for (std::int32_t v = 0; v < 6; ++v)
+    {
+      if (bent.points[v].x > 0) a = v;
+      if (bent.points[v].x < 0) b = v;
+    }
+    EXPECT_EQ(operations.removeEdge(a, b, tetrahedronAt(bent, a, b), anyQuality), tolerance > 0.1f);
+  }
+}
+
+TEST(EdgeRemoval, RefusesAnEdgeOnTheBorder)
+{
+  TetComplex complex = octahedron({ 1, 1, 0, 0 });
+  GuardedOperations operations(complex, unitScale);
+  EXPECT_FALSE(operations.removeEdge(0, 4, 0, 0));
+  EXPECT_FALSE(operations.split(0, 4, 0, { 0.5, 0, 0.5 }, 0));
+}
+
+TEST(Split, OnTheEdgeKeepsEveryVolume)
+{
+  TetComplex complex = octahedron({ 1, 2, 0, 0 });
+  GuardedOperations operations(complex, unitScale);
+  const auto volumes = volumesOf(meshOf(complex));
+  ASSERT_TRUE(operations.split(0, 1, 0, { 0.25, 0, 0 }, anyQuality));
+  ASSERT_TRUE(isConsistent(complex));
+  EXPECT_EQ(meshOf(complex).tetrahedra.size(), 8u);
+  EXPECT_EQ(complex.points.size(), 7u);
+  EXPECT_EQ(operations.lastSplitVertex, 6);
+  EXPECT_EQ(complex.lengths[6], 1.0f);
+  for (const auto& [label, volume] : volumesOf(meshOf(complex))) EXPECT_NEAR(volume, volumes.at(label), 1e-12);
+  EXPECT_EQ(attachedEvidence(complex), complex.evidence.size());
+  for (const EvidencePlace& place : evidencePlaces(complex)) EXPECT_NEAR(place.distance, 0, 1e-12);
+}
+
+TEST(Split, OutsideTheRingIsRefused)
+{
+  TetComplex complex = octahedron({ 1, 1, 0, 0 }, float(anyDistance));
+  GuardedOperations operations(complex, unitScale, anyDistance);
+  const ComplexState before(complex);
+  EXPECT_FALSE(operations.split(0, 1, 0, { 0, 0, 1.1 }, anyQuality));
+  EXPECT_FALSE(operations.split(0, 1, 0, { 1, 0, 0 }, anyQuality)) << "at one end";
+  EXPECT_TRUE(ComplexState(complex) == before);
+}
+
+TEST(Move, KeepsEvidenceWithinToleranceAndItsMeanSquareBelowTheLimit)
+{
+  // The evidence lies nearly two thirds of the move away from the lifted faces.
+  const Vec3 lifted{ 0, 0, 0.3 };
+  for (const auto& [tolerance, rmsLimit, allowed] : { std::tuple(0.5f, 0.5, true),
+                                                      { 0.5f, 0.1, false },
+                                                      { 0.05f, anyDistance, false },
+                                                      { 0.21f, anyDistance, true } })
+  {
+    TetComplex complex = octahedron({ 1, 1, 0, 0 }, tolerance);
+    GuardedOperations operations(complex, unitScale, rmsLimit);
+    ASSERT_TRUE(operations.split(0, 1, 0, {}, anyQuality));
+    const ComplexState before(complex);
+    EXPECT_EQ(operations.move(operations.lastSplitVertex, lifted, anyQuality), allowed)
+      << "tolerance " << tolerance << ", limit " << rmsLimit;
+    EXPECT_EQ(ComplexState(complex) == before, !allowed);
+    EXPECT_TRUE(operations.move(operations.lastSplitVertex, { 0.1, 0.1, 0 }, anyQuality)) << "within the sheet";
+  }
+}
+
+TEST(Move, MayComeCloserFromBeyondTheTolerance)
+{
+  TetComplex complex = octahedron({ 1, 1, 0, 0 }, 0.5f);
+  GuardedOperations operations(complex, unitScale, anyDistance);
+  ASSERT_TRUE(operations.split(0, 1, 0, {}, anyQuality));
+  const std::int32_t v = operations.lastSplitVertex;
+  ASSERT_TRUE(operations.move(v, { 0, 0, 0.4 }, anyQuality));
+  for (Evidence& e : complex.evidence) e.tolerance = 0.01f;
+  EXPECT_FALSE(operations.move(v, { 0, 0, 0.45 }, anyQuality));
+  EXPECT_TRUE(operations.move(v, { 0, 0, 0.3 }, anyQuality));
+}
+
+TEST(LockedVertices, NeverMoveOrGo)
+{
+  TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 3, 3, 3 }, [](int i, int, int) { return i < 2; })));
+  std::fill(complex.locked.begin(), complex.locked.end(), std::uint8_t(1));
+  GuardedOperations operations(complex, unitScale, anyDistance);
+  const ComplexState before(complex);
+  for (std::int32_t u = 0; u < std::int32_t(complex.points.size()); ++u)
+  {
+    EXPECT_FALSE(operations.move(u, complex.points[u] + Vec3{ 0.01, 0.01, 0.01 }, anyQuality));
+    for (std::int32_t v : neighboursOf(complex, u))
+    {
+      EXPECT_FALSE(operations.collapse(u, v, complex.points[v], anyQuality, anyLength));
+      EXPECT_FALSE(operations.collapse(u, v, 0.5 * (complex.points[u] + complex.points[v]), anyQuality, anyLength));
+    }
+  }
+  EXPECT_TRUE(ComplexState(complex) == before);
+}
+
+TEST(Quality, OfBackgroundIsTakenLeniently)
+{
+  TetComplex complex = octahedron({ 1, 1, 0, 0 });
+  GuardedOperations operations(complex, unitScale);
+  EXPECT_EQ(operations.quality(0), complex.quality(0));
+  EXPECT_EQ(operations.quality(2), backgroundLeniency * complex.quality(2));
+  EXPECT_EQ(operations.starQuality({ 0, 2 }), std::min(operations.quality(0), operations.quality(2)));
+}
+
+TEST(DistanceToTriangle, IsThatOfTheNearestOfManyOfItsPoints)
+{
+  std::mt19937 random(7);
+  const auto uniform = [&] { return random() / 2147483648.0 - 1; };
+  const auto anyPoint = [&] { return Vec3{ uniform(), uniform(), uniform() }; };
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    const Vec3 a = anyPoint(), b = anyPoint(), c = anyPoint(), p = 2 * anyPoint();
+    const double distance = std::sqrt(squaredDistanceToTriangle(p, a, b, c));
+    constexpr int n = 60;
+    double nearest = 10;
+    for (int i = 0; i <= n; ++i)
+    {
+      for (int j = 0; i + j <= n; ++j) nearest = std::min(nearest, norm(p - (i * a + j * b + (n - i - j) * c) / n));
+    }
+    EXPECT_LE(distance, nearest + 1e-12);
+    EXPECT_GE(distance, nearest - 3.0 / n);
+  }
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,206 @@
+#include "Improvement.h"
+#include "Coarsening.h"
+#include "ComplexInvariants.h"
+#include "MeshImprovement.h"
+#include "RandomMaps.h"
+
+#include <gtest/gtest.h>
+#include <vtkSMPTools.h>
+
+#include <stdexcept>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using namespace test;
+
+const ScaleFunction scale = [](const Vec3&) { return 1.5f; };
+
+/// Shaken so that bad angles are about, yet positive.
+TetraMesh shaken(TetraMesh mesh, std::mt19937& random, double reach)
+{
+  TetComplex complex = complexOf(mesh);
+  const auto uniform = [&] { return random() / 2147483648.0 - 1; };
+  std::vector<std::int32_t> star;
+  for (std::int32_t v = 0; v < std::int32_t(mesh.points.size()); ++v)
+  {
+    if (complex.locked[v]) continue;
+    complex.star(v, star);
+    const Vec3 p = complex.points[v] + reach * Vec3{ uniform(), uniform(), uniform() };
+    if (std::all_of(star.begin(), star.end(), [&](std::int32_t t) { return complex.qualityWith(t, v, p) > 1e-4; }))
+      complex.points[v] = p;
+  }
+  mesh.points = complex.points;
+  return mesh;
+}
+
+double worstOf(const GuardedOperations& operations, const TetComplex& complex)
+{
+  double worst = 1e9;
+  for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+  {
+    if (complex.alive(t)) worst = std::min(worst, operations.quality(t));
+  }
+  return worst;
+}
+
+double worstOf(const TetraMesh& mesh)
+{
+  double worst = 1;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra)
+    worst = std::min(worst, worstSine2(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
+  return worst;
+}
+
+/// Runs `work` on shaken random lattices and checks what no work on a block may break.
+void expectPromisesKept(double worstMayFallTo, bool mustImprove, const std::function<void(GuardedOperations&)>& work)
+{
+  int improved = 0;
+  for (unsigned seed = 1; seed <= 10; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const TissueMap map = randomWellComposedMap(random, { 5, 5, 5 }, 1 + int(seed % 4));
+    TetComplex complex = complexOf(shaken(tetrahedraOf(map), random, 0.35), 1.5f, 0.4f);
+    GuardedOperations operations(complex, scale);
+    const double before = worstOf(operations, complex);
+    const auto topology = meshTopology(withBackgroundAsTissue(meshOf(complex)));
+    const double volume = volumeOf(meshOf(complex));
+    const ComplexState start(complex);
+    const auto places = evidencePlaces(complex);
+    work(operations);
+    ASSERT_TRUE(isConsistent(complex));
+    EXPECT_GE(worstOf(operations, complex), std::min(before, worstMayFallTo));
+    improved += worstOf(operations, complex) > before;
+    EXPECT_EQ(meshTopology(withBackgroundAsTissue(meshOf(complex))), topology);
+    EXPECT_NEAR(volumeOf(meshOf(complex)), volume, 1e-9 * volume);
+    for (const auto& [label, tissue] : checkSurface(interfaceOf(withBackgroundAsTissue(meshOf(complex)))))
+      EXPECT_TRUE(tissue.manifold()) << "label " << label;
+    for (std::size_t v = 0; v < start.points.size(); ++v)
+      EXPECT_TRUE(!start.locked[v] || complex.points[v] == start.points[v]);
+    const auto after = evidencePlaces(complex);
+    for (std::size_t e = 0; e < places.size(); ++e)
+    {
+      if (after[e].tet < 0) continue;
+      EXPECT_EQ(after[e].pair, places[e].pair);
+      EXPECT_LE(after[e].distance, std::max<double>(places[e].distance, complex.evidence[e].tolerance) * (1 + 1e-6));
+    }
+  }
+  EXPECT_TRUE(improved == 10 || !mustImprove) << improved << " of 10";
+}
+
+} // namespace
+
+TEST(Relaxation, KeepsEveryPromiseAndAnglesGoodEnough)
+{
+  const RelaxationOptions options;
+  expectPromisesKept(sine2OfDegrees(options.goodAngle), false,
+                     [&](GuardedOperations& operations) { relaxBlock(operations, options); });
+}
+
+TEST(Improvement, KeepsEveryPromiseAndRaisesTheWorstAngle)
+{
+  expectPromisesKept(1, true, [](GuardedOperations& operations) { improveBlock(operations); });
+}
+
+TEST(Improvement, WithoutSplitsAddsNoVertex)
+{
+  ImprovementOptions options;
+  options.split = false;
+  expectPromisesKept(1, true,
+                     [&](GuardedOperations& operations)
+                     {
+                       const std::size_t vertices = operations.complex().points.size();
+                       improveBlock(operations, options);
+                       EXPECT_EQ(operations.counts.splits, 0);
+                       EXPECT_EQ(operations.complex().points.size(), vertices);
+                     });
+}
+
+TEST(Improvement, LeavesAGoodLatticeAlone)
+{
+  TetComplex complex =
+    complexOf(tetrahedraOf(paintedMap({ 4, 4, 4 }, [](int i, int, int) { return i < 2 ? 1 : 2; })), 1.5f);
+  GuardedOperations operations(complex, scale);
+  const ComplexState before(complex);
+  improveBlock(operations); // all angles of the lattice are 45 degrees or more
+  EXPECT_TRUE(ComplexState(complex) == before);
+}
+
+TEST(Relaxation, BringsADisturbedSheetBackToItsEvidence)
+{
+  std::mt19937 random(3);
+  const auto uniform = [&] { return random() / 2147483648.0 - 1; };
+  TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int, int, int k) { return k < 3; })), 1.5f, 1);
+  const auto rms = [&]
+  {
+    double sum = 0;
+    const auto places = evidencePlaces(complex);
+    for (const EvidencePlace& p : places) sum += p.distance * p.distance;
+    return std::sqrt(sum / double(places.size()));
+  };
+  GuardedOperations operations(complex, scale);
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+    operations.move(v, complex.points[v] + 0.3 * Vec3{ uniform(), uniform(), uniform() }, sine2OfDegrees(5));
+  const double before = rms();
+  ASSERT_GT(before, 0.03);
+  for (int i = 0; i < 5; ++i) relaxBlock(operations);
+  EXPECT_LT(rms(), before / 4);
+}
+
+TEST(Coarsening, KeepsEveryPromiseAndTheAngleAsked)
+{
+  CoarseningOptions options;
+  expectPromisesKept(sine2OfDegrees(options.minimumAngle), false,
+                     [&](GuardedOperations& operations)
+                     {
+                       const std::size_t before = meshOf(operations.complex()).tetrahedra.size();
+                       coarsenBlock(operations, 3, options);
+                       EXPECT_LT(meshOf(operations.complex()).tetrahedra.size(), before);
+                     });
+}
+
+TEST(MeshImprovement, KeepsTissuesAndHullAndRaisesTheWorstAngle)
+{
+  for (unsigned seed = 1; seed <= 4; ++seed)
+  {
+    std::mt19937 random(seed);
+    const TissueMap map = randomWellComposedMap(random, { 6, 6, 6 }, 3);
+    const TetraMesh before = shaken(tetrahedraOf(map), random, 0.35);
+    TetraMesh after = before;
+    improveMesh(after, scale);
+    requireSound(after, "improvement");
+    EXPECT_GT(worstOf(withoutOutside(after)), worstOf(withoutOutside(before)));
+    EXPECT_EQ(meshTopology(withBackgroundAsTissue(after)), meshTopology(withBackgroundAsTissue(before)));
+    EXPECT_NEAR(volumeOf(after), volumeOf(before), 1e-9 * volumeOf(before));
+  }
+}
+
+TEST(MeshImprovement, BytesDoNotDependOnThreadsAndCancellingLeavesTheMesh)
+{
+  std::mt19937 random(9);
+  const TetraMesh before = shaken(tetrahedraOf(randomWellComposedMap(random, { 6, 6, 6 }, 3)), random, 0.35);
+  std::vector<TetraMesh> results;
+  for (int threads : { 1, 2, 2 })
+  {
+    vtkSMPTools::Initialize(threads);
+    results.push_back(before);
+    improveMesh(results.back(), scale);
+    EXPECT_EQ(results.back().points, results[0].points);
+    EXPECT_EQ(results.back().tetrahedra, results[0].tetrahedra);
+    EXPECT_EQ(results.back().labels, results[0].labels);
+  }
+  vtkSMPTools::Initialize(0);
+  TetraMesh cancelled = before;
+  const auto cancel = [](double fraction, const std::string&)
+  {
+    if (fraction > 0.5) throw std::runtime_error("cancelled");
+  };
+  EXPECT_THROW(improveMesh(cancelled, scale, {}, cancel), std::runtime_error);
+  EXPECT_EQ(cancelled.points, before.points);
+  EXPECT_EQ(cancelled.tetrahedra, before.tetrahedra);
+}
+
+} // namespace surgicalmesher
