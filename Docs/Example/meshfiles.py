@@ -7,7 +7,8 @@ import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 NRRD_TYPES = {"unsigned char": "u1", "uint8": "u1", "short": "i2", "int16": "i2", "unsigned short": "u2",
-              "uint16": "u2", "int": "i4", "int32": "i4", "unsigned int": "u4", "uint32": "u4", "float": "f4", "double": "f8"}
+              "uint16": "u2", "int": "i4", "int32": "i4", "unsigned int": "u4", "uint32": "u4",
+              "float": "f4", "double": "f8"}
 
 
 def read_nrrd(file):

@@ -300,8 +300,10 @@ def draw_histograms(folder):
     whole, histograms = quality["whole"], quality["histograms"]
     angles, valence = whole["dihedral"], whole["valence"]
     panels = [
-        ("dihedral", "Dihedral angle (degrees)", (60, 90), f"{angles['minimum']:.1f} to {angles['maximum']:.1f} degrees"),
-        ("edgeOverTarget", "Edge length over target", (1,), f"{100 * whole['edgesNearTarget']:.1f} % within 0.7 to 1.4"),
+        ("dihedral", "Dihedral angle (degrees)", (60, 90),
+         f"{angles['minimum']:.1f} to {angles['maximum']:.1f} degrees"),
+        ("edgeOverTarget", "Edge length over target", (1,),
+         f"{100 * whole['edgesNearTarget']:.1f} % within 0.7 to 1.4"),
         ("valence", "Tetrahedra at a vertex inside a tissue", (24,), f"median {valence['median']:.0f}"),
     ]
     figure = new_figure(1500, 560)

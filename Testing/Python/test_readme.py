@@ -1,11 +1,14 @@
-"""Every command in README.md is one that ./example.sh runs, and what else it names exists."""
+"""The documentation agrees with the project: commands, options and their defaults, links, languages."""
+import glob
 import os
 import re
 import subprocess
 import unittest
+import xml.etree.ElementTree as xml
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MODULES = ("SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer")
+PAGES = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{module}.md" for module in MODULES]
 
 
 def text_of(*path):
@@ -23,6 +26,22 @@ def example_commands():
     """What example.sh runs of the three modules, each on one line."""
     script = re.sub(r"\\\n\s*", "", text_of("example.sh"))
     return [line for line in re.findall(r"^stage \w+ (.*)$", script, re.M) if line.split()[0].endswith("CLI")]
+
+
+def options_of(module):
+    """Long flag -> default, and the names of the positional arguments, as the module's description has them."""
+    flags, positional = {}, {}
+    for parameter in xml.fromstring(text_of(module, "CLI", module + "CLI.xml")).iterfind("parameters/*"):
+        if parameter.find("longflag") is not None:
+            flags[parameter.findtext("longflag")] = parameter.findtext("default") or ""
+        elif parameter.find("index") is not None:
+            positional[int(parameter.findtext("index"))] = parameter.findtext("name")
+    return flags, [positional[index] for index in sorted(positional)]
+
+
+def anchors_of(page):
+    headings = re.findall(r"^#+ (.*)$", text_of(page), re.M)
+    return [re.sub(r"[^\w -]", "", heading).lower().replace(" ", "-") for heading in headings]
 
 
 class ReadmeTest(unittest.TestCase):
@@ -45,19 +64,48 @@ class ReadmeTest(unittest.TestCase):
     def test_options_are_those_of_the_modules(self):
         sections = re.split(r"^### ", text_of("README.md"), flags=re.M)[1:4]
         for module, section in zip(MODULES, sections):
-            flags = set(re.findall(r"<longflag>(.*?)</longflag>", text_of(module, "CLI", module + "CLI.xml")))
+            flags, _ = options_of(module)
             for flag in re.findall(r"--(\w+)", section):
                 self.assertIn(flag, flags, f"{module} in README.md")
 
+
+class PagesTest(unittest.TestCase):
+    def test_every_option_and_its_default_is_in_the_module_page(self):
+        for module in MODULES:
+            rows = re.findall(r"^\| `--(\w+)[^|]*\| *([^|]*?) *\|", text_of("Docs", module + ".md"), re.M)
+            flags, _ = options_of(module)
+            self.assertEqual(len(rows), len(dict(rows)), f"{module}: an option is there twice")
+            self.assertEqual(dict(rows), flags, module)
+
+    def test_options_in_running_text_exist(self):
+        known = {flag for module in MODULES for flag in options_of(module)[0]} | {"help", "version", "xml"}
+        for page in PAGES:
+            for flag in re.findall(r"`--(\w+)", text_of(page)):
+                self.assertIn(flag, known, page)
+
+    def test_positional_arguments_are_those_of_the_module(self):
+        for module in MODULES:
+            usage = re.search(rf"^    {module}CLI \[options\] (.*)$", text_of("Docs", module + ".md"), re.M).group(1)
+            self.assertEqual([word.split(".")[0] for word in usage.split()], options_of(module)[1], module)
+
     def test_links_lead_somewhere(self):
-        text = text_of("README.md")
-        for target in re.findall(r"\]\(([^)]+)\)", text):
-            if target.startswith("#"):
-                headings = re.findall(r"^#+ (.*)$", text, re.M)
-                anchors = [re.sub(r"[^\w -]", "", heading).lower().replace(" ", "-") for heading in headings]
-                self.assertIn(target[1:], anchors)
-            elif "://" not in target:
-                self.assertTrue(os.path.exists(os.path.join(ROOT, target)), target)
+        for page in PAGES:
+            for target in re.findall(r"\]\(([^)]+)\)", text_of(page)):
+                if "://" in target:
+                    continue
+                file, _, anchor = target.partition("#")
+                path = os.path.normpath(os.path.join(os.path.dirname(page), file)) if file else page
+                self.assertTrue(os.path.exists(os.path.join(ROOT, path)), f"{target} in {page}")
+                if anchor:
+                    self.assertIn(anchor, anchors_of(path), f"{target} in {page}")
+
+    def test_pictures_are_small_and_shown(self):
+        shown = {os.path.normpath(os.path.join(os.path.dirname(page), target))
+                 for page in PAGES for target in re.findall(r"!\[[^]]+\]\(([^)]+)\)", text_of(page))}
+        there = {os.path.relpath(file, ROOT) for file in glob.glob(os.path.join(ROOT, "Docs", "images", "*"))}
+        self.assertEqual(shown, there)
+        for file in there:
+            self.assertLess(os.path.getsize(os.path.join(ROOT, file)), 400_000, file)
 
 
 if __name__ == "__main__":
