@@ -338,8 +338,8 @@ private:
     if (label != 0) placeEvidence(x, id, label, out);
   }
 
-  /// Every face of a tetrahedron that lies in a voxel face towards a smaller label is an interface face. The one that covers
-  /// the centre of its voxel face takes the evidence there.
+  /// Every face of a tetrahedron that lies between voxels, towards a smaller label, is an interface face. It takes the
+  /// evidence at the centres of the voxel faces that it covers: none, one or, between large tetrahedra, several.
   void placeEvidence(const Tet& t, std::int32_t id, Label label, AmbientLattice& out) const
   {
     for (int f = 0; f < 4; ++f)
@@ -358,11 +358,24 @@ private:
         }
         if (here[axis] == beyond[axis] || labelAt(beyond[0], beyond[1], beyond[2]) >= label) continue;
         out.interfaceFaces.push_back({ id, f });
-        if (!coversCentre(a, b, c, axis, here)) continue;
-        Vec3 p;
+        Index low = here, high = here; // voxels beside the face
         for (int k = 0; k < 3; ++k)
-          p[k] = m_Map.grid.spacing[k] * (k == axis ? 0.5 * (here[k] + beyond[k]) : here[k]);
-        out.ambient.evidence.push_back({ p, 0, id, f });
+        {
+          if (k == axis) continue;
+          low[k] = voxel(std::min({ a[k], b[k], c[k] }), k);
+          high[k] = voxel(std::max({ a[k], b[k], c[k] }) - 0.5, k);
+        }
+        Index at;
+        for (at[2] = low[2]; at[2] <= high[2]; ++at[2])
+          for (at[1] = low[1]; at[1] <= high[1]; ++at[1])
+            for (at[0] = low[0]; at[0] <= high[0]; ++at[0])
+            {
+              if (!coversCentre(a, b, c, axis, at)) continue;
+              Vec3 p{ double(at[0]), double(at[1]), double(at[2]) };
+              p[axis] = 0.5 * (here[axis] + beyond[axis]);
+              for (int k = 0; k < 3; ++k) p[k] *= m_Map.grid.spacing[k];
+              out.ambient.evidence.push_back({ p, 0, id, f });
+            }
       }
     }
   }
