@@ -20,6 +20,7 @@
 #include <vtkSMPTools.h>
 
 #include <filesystem>
+#include <optional>
 #include <sstream>
 
 using namespace surgicalmesher;
@@ -29,25 +30,35 @@ namespace
 
 using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
-EdgeLength readEdgeLength(const CommandLine& line, const SurfaceFile& content)
+/// L(x), mm. A scale volume also gives the frame to improve the mesh in: its own, in which copies of all inputs that lie
+/// elsewhere in the world have the same numbers.
+struct Lengths
+{
+  EdgeLength inWorld;
+  EdgeLength inFrame; ///< the same as inWorld without a frame
+  std::optional<Grid> frame;
+};
+
+Lengths readLengths(const CommandLine& line, const SurfaceFile& content)
 {
   const std::string scaleFile = line.text("scale");
   const double uniform = line.number("edgeLength");
   if (!scaleFile.empty() && uniform > 0)
     throw UsageError("--scale and --edgeLength are both given, expected one of them");
-  if (uniform > 0) return [uniform](const Vec3&) { return uniform; };
+  const auto anywhere = [](const EdgeLength& edgeLength) { return Lengths{ edgeLength, edgeLength, {} }; };
+  if (uniform > 0) return anywhere([uniform](const Vec3&) { return uniform; });
   if (!scaleFile.empty())
   {
     const ScaleField scale = readScale(scaleFile);
     requireCover(scale, content.surface.points, scaleFile);
-    return scale;
+    return { scale, inFrameOf(scale.grid, scale), scale.grid };
   }
   if (content.targetEdgeLength.empty())
   {
     throw UsageError("neither --scale nor --edgeLength is given, and " + line.text("surface") +
                      " has no point array TargetEdgeLength, expected one of them");
   }
-  return edgeLengthFromPoints(content.surface.points, content.targetEdgeLength);
+  return anywhere(edgeLengthFromPoints(content.surface.points, content.targetEdgeLength));
 }
 
 void makeFillable(SurfaceFile& content, const std::string& name)
@@ -92,6 +103,14 @@ TetraMesh ambientTetrahedra(const CommandLine& line, SurfaceFile& content, const
   }
   makeFillable(content, surfaceName);
   return fillWithTetrahedra(content.surface, edgeLength, surfaceName);
+}
+
+void improve(TetraMesh& ambient, const Lengths& lengths, const Progress& progress)
+{
+  const std::optional<Grid>& frame = lengths.frame;
+  for (Vec3& p : ambient.points) p = frame ? inFrameOf(*frame, p) : p;
+  improveMesh(ambient, [&](const Vec3& p) { return float(lengths.inFrame(p)); }, {}, progress);
+  for (Vec3& p : ambient.points) p = frame ? frame->gridToWorld(p) : p;
 }
 
 MeshFile assemble(const TetraMesh& ambient, const EdgeLength& edgeLength, const TissueTable& tissues,
@@ -180,10 +199,11 @@ void mesh(CommandLine& line)
   const Progress progress = line.progress();
   report(progress, 0, "reading");
   SurfaceFile content = readSurface(line.text("surface"));
-  const EdgeLength edgeLength = readEdgeLength(line, content);
+  const Lengths lengths = readLengths(line, content);
+  const EdgeLength& edgeLength = lengths.inWorld;
   report(progress, 0.1, "tetrahedra");
   TetraMesh ambient = ambientTetrahedra(line, content, edgeLength);
-  improveMesh(ambient, [&](const Vec3& p) { return float(edgeLength(p)); }, {}, subProgress(progress, 0.3, 0.8));
+  improve(ambient, lengths, subProgress(progress, 0.3, 0.8));
   report(progress, 0.8, "sub-meshes");
   SubMeshes division;
   const MeshFile result = assemble(ambient, edgeLength, content.tissues, division);

@@ -1,9 +1,22 @@
 #include "ScaleField.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace surgicalmesher
 {
+
+namespace
+{
+
+/// To a millionth, never -0.
+Vec3 rounded(const Vec3& v)
+{
+  const auto round = [](double x) { return std::round(x * 1e6) / 1e6 + 0.0; };
+  return { round(v.x), round(v.y), round(v.z) };
+}
+
+} // namespace
 
 double ScaleField::operator()(const Vec3& world) const
 {
@@ -27,6 +40,28 @@ double ScaleField::operator()(const Vec3& world) const
   const auto alongJ = [&](std::size_t offset) { return mix(alongI(offset), alongI(offset + step[1]), weight[1]); };
   return mix(alongJ(0), alongJ(step[2]), weight[2]);
 }
+
+Grid inOwnFrame(const Grid& grid)
+{
+  Grid own;
+  own.size = grid.size;
+  own.spacing = rounded(grid.spacing);
+  return own;
+}
+
+ScaleField inFrameOf(const Grid& frame, const ScaleField& scale)
+{
+  ScaleField moved = scale;
+  moved.grid.spacing = rounded(scale.grid.spacing);
+  moved.grid.origin = inFrameOf(frame, scale.grid.origin);
+  for (Vec3& axis : moved.grid.axes)
+  {
+    axis = rounded({ dot(axis, frame.axes[0]), dot(axis, frame.axes[1]), dot(axis, frame.axes[2]) });
+  }
+  return moved;
+}
+
+Vec3 inFrameOf(const Grid& frame, const Vec3& world) { return rounded(frame.worldToGrid(world)); }
 
 ScaleField uniformScale(double edgeLength)
 {

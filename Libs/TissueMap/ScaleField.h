@@ -17,6 +17,16 @@ struct ScaleField
   double operator()(const Vec3& world) const;
 };
 
+/// The grid seen from its own grid frame: origin 0, axes along x, y, z. Spacing is rounded as below.
+Grid inOwnFrame(const Grid& grid);
+
+/// The same lengths seen from the grid frame of `frame`. Placement is rounded to 1e-6 mm, more than headers in single
+/// precision hold: map and scale then give the same numbers, bit by bit, as copies of both that lie elsewhere in the world.
+ScaleField inFrameOf(const Grid& frame, const ScaleField& scale);
+
+/// A world position seen from the grid frame of `frame`, rounded likewise.
+Vec3 inFrameOf(const Grid& frame, const Vec3& world);
+
 /// One length everywhere.
 ScaleField uniformScale(double edgeLength);
 

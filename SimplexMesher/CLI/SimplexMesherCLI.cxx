@@ -203,7 +203,9 @@ void run(CommandLine& line)
 
   SurfaceMesherOptions options;
   options.maximumDistance = line.number("maximumDistance");
-  SurfaceMesh mesh = meshTissues(map, scale, options, subProgress(progress, 0.06, 0.9));
+  const Grid world = map.grid;
+  map.grid = inOwnFrame(world);
+  SurfaceMesh mesh = meshTissues(map, inFrameOf(world, scale), options, subProgress(progress, 0.06, 0.9));
 
   report(progress, 0.9, "checks");
   requireSound(mesh.ambient.mesh, "surface");
@@ -213,7 +215,7 @@ void run(CommandLine& line)
   content.boundaryDistance = distancesToMap(content.surface, map);
   for (Vec3& p : content.surface.points)
   {
-    p = map.grid.gridToWorld(p);
+    p = world.gridToWorld(p);
     content.targetEdgeLength.push_back(scale(p));
   }
   content.tissues = map.table;
@@ -223,7 +225,7 @@ void run(CommandLine& line)
   if (!ambientFile.empty())
   {
     MeshFile ambient;
-    ambient.mesh = toWorld(std::move(mesh.ambient.mesh), map.grid);
+    ambient.mesh = toWorld(std::move(mesh.ambient.mesh), world);
     ambient.tissues = map.table;
     for (const Vec3& p : ambient.mesh.points) ambient.targetEdgeLength.push_back(scale(p));
     writeMesh(ambient, ambientFile);

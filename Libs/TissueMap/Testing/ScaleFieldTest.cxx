@@ -56,6 +56,40 @@ TEST(ScaleField, IsConstantBeyondTheVolume)
   EXPECT_NEAR(at({ 1, 1, 1e30 }), at({ 1, 1, 6 }), 1e-9);
 }
 
+TEST(ScaleField, HasTheSameNumbersInTheFrameOfAMapWhereverBothLie)
+{
+  Grid map; // beside the scale's grid, with axes of its own
+  map.origin = { 11, -18.75, 6.5 };
+  map.axes = { Vec3{ 0.8, 0.6, 0 }, Vec3{ -0.6, 0.8, 0 }, Vec3{ 0, 0, 1 } };
+  const ScaleField scale = affineScale({ 0.5, -1, 0.25 });
+  const ScaleField seen = inFrameOf(map, scale);
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int n = 0; n < 100; ++n)
+  {
+    Grid turn; // to anywhere else
+    const Vec3 a{ any(random), any(random), any(random) }, b{ any(random), any(random), any(random) };
+    turn.axes[0] = a / norm(a);
+    turn.axes[2] = cross(a, b) / norm(cross(a, b));
+    turn.axes[1] = cross(turn.axes[2], turn.axes[0]);
+    turn.origin = { 100 * any(random), 100 * any(random), 100 * any(random) };
+    const auto turned = [&turn](Grid grid)
+    {
+      grid.origin = turn.gridToWorld(grid.origin);
+      for (Vec3& axis : grid.axes) axis = turn.gridToWorld(axis) - turn.origin;
+      for (int i = 0; i < 3; ++i) grid.spacing[i] *= norm(grid.axes[i]);
+      return grid;
+    };
+    const ScaleField other = inFrameOf(turned(map), ScaleField{ turned(scale.grid), scale.lengths });
+    EXPECT_EQ(other.grid.origin, seen.grid.origin);
+    EXPECT_EQ(other.grid.spacing, seen.grid.spacing);
+    EXPECT_EQ(other.grid.axes, seen.grid.axes);
+    const Vec3 p{ 3 * any(random), 3 * any(random), 3 * any(random) };
+    EXPECT_EQ(other(p), seen(p));
+    EXPECT_NEAR(seen(p), scale(map.gridToWorld(p)), 1e-4);
+  }
+}
+
 TEST(ScaleField, IsUniformWhereAskedFor)
 {
   const ScaleField scale = uniformScale(2.5);
