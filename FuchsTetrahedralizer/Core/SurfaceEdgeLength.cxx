@@ -8,6 +8,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkStaticPointLocator.h>
 
+#include <cmath>
+
 namespace surgicalmesher
 {
 
@@ -26,14 +28,15 @@ EdgeLength edgeLengthFromPoints(const std::vector<Vec3>& points, const std::vect
 
 void requireCover(const ScaleField& scale, const std::vector<Vec3>& points, const std::string& scaleFile)
 {
-  constexpr double tolerance = 1e-3; // voxels: headers are rounded
   for (const Vec3& p : points)
   {
     const Vec3 q = scale.grid.worldToGrid(p);
+    const double allowance = 0.5 * scale(p);
     for (int axis = 0; axis < 3; ++axis)
     {
-      const double index = q[axis] / scale.grid.spacing[axis];
-      if (index >= -0.5 - tolerance && index <= scale.grid.size[axis] - 0.5 + tolerance) continue;
+      const double middle = 0.5 * (scale.grid.size[axis] - 1) * scale.grid.spacing[axis];
+      const double halfSide = 0.5 * scale.grid.size[axis] * scale.grid.spacing[axis];
+      if (std::abs(q[axis] - middle) <= halfSide + allowance) continue;
       throw InputError(scaleFile + ": the scale volume leaves out part of the surface at " + place(p) +
                        ", expected it to cover all of it");
     }

@@ -28,15 +28,15 @@ TEST(RequireCover, NamesTheFirstPointOutside)
   scale.grid.size = { 2, 2, 2 };
   scale.grid.spacing = { 10, 10, 10 };
   scale.lengths.assign(8, 1);
-  EXPECT_NO_THROW(requireCover(scale, { { -5, -5, -5 }, { 15, 15, 15 } }, "scale.nrrd"));
+  EXPECT_NO_THROW(requireCover(scale, { { -5.4, -5, -5 }, { 15, 15, 15.4 } }, "scale.nrrd"));
   try
   {
-    requireCover(scale, { { 0, 0, 0 }, { 0, 15.5, 0 } }, "scale.nrrd");
+    requireCover(scale, { { 0, 0, 0 }, { 0, 15.6, 0 } }, "scale.nrrd");
     FAIL();
   }
   catch (const InputError& error)
   {
-    EXPECT_NE(std::string(error.what()).find("(0, 15.5, 0) mm"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("(0, 15.6, 0) mm"), std::string::npos) << error.what();
   }
 }
 
