@@ -159,7 +159,7 @@ TEST_P(MeshedShape, IsSoundAndHasTheMapsTopology)
   for (const Shape& shape : shapes())
   {
     SCOPED_TRACE(shape.name);
-    if (GetParam() < 1 && shape.map.labels.size() > 3000) continue; // millions of tetrahedra
+    if (GetParam() < 1 && shape.map.labels.size() > 1000) continue; // millions of tetrahedra
     const SurfaceMesh mesh = meshed(shape.map, uniformScale(GetParam()));
     EXPECT_EQ(faultOf(mesh, shape.map), "");
     ASSERT_FALSE(mesh.evolution.empty());

@@ -188,6 +188,7 @@ class RandomOperations : public ::testing::TestWithParam<double>
 TEST_P(RandomOperations, KeepEveryPromise)
 {
   const double rmsLimit = GetParam();
+  OperationCounts total;
   for (unsigned seed = 1; seed <= 8; ++seed)
   {
     std::mt19937 random(seed);
@@ -220,11 +221,15 @@ TEST_P(RandomOperations, KeepEveryPromise)
       if (HasFailure()) return;
     }
     EXPECT_EQ(topologyOf(complex), topology);
-    EXPECT_GT(operations.counts.collapses, 10);
-    EXPECT_GT(operations.counts.moves, 10);
-    EXPECT_GT(operations.counts.flips, 5);
-    EXPECT_GT(operations.counts.splits, 10);
+    total.collapses += operations.counts.collapses;
+    total.moves += operations.counts.moves;
+    total.flips += operations.counts.flips;
+    total.splits += operations.counts.splits;
   }
+  EXPECT_GT(total.collapses, 80);
+  EXPECT_GT(total.moves, 80);
+  EXPECT_GT(total.flips, 40);
+  EXPECT_GT(total.splits, 80);
 }
 
 INSTANTIATE_TEST_SUITE_P(LooseAndStrict, RandomOperations, ::testing::Values(anyDistance, 0.4));
