@@ -16,6 +16,14 @@ target_compile_options(SurgicalMesherFlags INTERFACE
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>
   $<$<AND:$<BOOL:${SurgicalMesher_WARNINGS_AS_ERRORS}>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-Werror>)
 
+# Every executable ends at the first error that the address or undefined behaviour sanitizer finds.
+option(SurgicalMesher_SANITIZE "Build with the address and undefined behaviour sanitizers" OFF)
+if(SurgicalMesher_SANITIZE)
+  set(sanitize -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_options(SurgicalMesherFlags INTERFACE ${sanitize})
+  target_link_options(SurgicalMesherFlags INTERFACE ${sanitize})
+endif()
+
 function(surgicalmesher_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
