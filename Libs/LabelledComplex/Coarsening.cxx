@@ -44,7 +44,7 @@ public:
   BlockCoarsening(GuardedOperations& operations, double level, const CoarseningOptions& options)
     : m_Operations(operations), m_Complex(operations.complex()), m_Level(level), m_Options(options),
       m_Low(sine2OfDegrees(options.minimumAngle)), m_Good(sine2OfDegrees(options.goodAngle)),
-      m_Queued(m_Complex.points.size(), 0), m_Tries(m_Complex.points.size(), 0)
+      m_Queued(m_Complex.points.size(), 0), m_Tries(m_Complex.points.size(), 0), m_Seen(m_Complex.points.size(), 0)
   {
   }
 
@@ -90,37 +90,58 @@ private:
   /// Neighbours of v nearer than shortEdge, nearest first.
   void shortNeighbours(std::int32_t v)
   {
-    m_Complex.star(v, m_Star);
+    ++m_Stamp;
+    m_Seen[v] = m_Stamp;
     m_Near.clear();
-    for (std::int32_t t : m_Star)
+    for (std::int32_t t : m_Operations.star(v))
       for (std::int32_t x : m_Complex.tets[t])
       {
-        if (x == v || std::any_of(m_Near.begin(), m_Near.end(), [&](const Neighbour& n) { return n.vertex == x; })) continue;
-        m_Near.push_back({ ratio(v, x), x });
+        if (m_Seen[x] == m_Stamp) continue;
+        m_Seen[x] = m_Stamp;
+        const double r = ratio(v, x);
+        if (r < m_Options.shortEdge) m_Near.push_back({ r, x });
       }
-    m_Near.erase(std::remove_if(m_Near.begin(), m_Near.end(), [&](const Neighbour& n) { return n.ratio >= m_Options.shortEdge; }),
-                 m_Near.end());
     std::sort(m_Near.begin(), m_Near.end(), [](const Neighbour& a, const Neighbour& b) {
       return a.ratio != b.ratio ? a.ratio < b.ratio : a.vertex < b.vertex;
     });
   }
 
+  struct Candidate
+  {
+    double quality;
+    std::int32_t vertex;
+    Vec3 position;
+  };
+
+  /// Collapses u onto a near neighbour: the nearest that leaves good angles, else the one that leaves the best.
   void visit(std::int32_t u)
   {
     ++m_Tries[u];
     shortNeighbours(u);
     const Vec3 from = m_Complex.points[u];
-    for (double floor : { m_Good, m_Low })
+    m_Candidates.clear();
+    for (double share : { 1.0, 0.5, 0.0 })
       for (const Neighbour& n : m_Near)
       {
+        if (share < 1 && m_Complex.locked[n.vertex]) continue;
         const Vec3 to = m_Complex.points[n.vertex];
-        for (double share : { 1.0, 0.5, 0.0 })
-          if (m_Operations.collapse(u, n.vertex, share == 1 ? to : from + share * (to - from), floor, m_Options.longEdge))
-          {
-            wake(n.vertex);
-            return;
-          }
+        const Vec3 p = share == 1 ? to : from + share * (to - from);
+        const double q = m_Operations.qualityAfterCollapse(u, n.vertex, p, m_Low);
+        if (q < m_Low) continue;
+        if (q >= m_Good && collapse(u, { q, n.vertex, p })) return;
+        if (q < m_Good) m_Candidates.push_back({ q, n.vertex, p });
       }
+    std::stable_sort(m_Candidates.begin(), m_Candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; });
+    for (const Candidate& c : m_Candidates)
+      if (collapse(u, c)) return;
+  }
+
+  bool collapse(std::int32_t u, const Candidate& c)
+  {
+    if (!m_Operations.collapse(u, c.vertex, c.position, m_Low, m_Options.longEdge)) return false;
+    wake(c.vertex);
+    return true;
   }
 
   /// After a collapse onto v: v and its neighbours may have become short or removable.
@@ -139,8 +160,10 @@ private:
   const double m_Low, m_Good;
   std::vector<std::uint8_t> m_Queued, m_Tries;
   LengthQueue m_Queue;
-  std::vector<std::int32_t> m_Star;
   std::vector<Neighbour> m_Near;
+  std::vector<Candidate> m_Candidates;
+  std::vector<std::uint32_t> m_Seen;
+  std::uint32_t m_Stamp = 0;
 };
 
 } // namespace

@@ -50,6 +50,16 @@ GuardedOperations::GuardedOperations(TetComplex& complex, ScaleFunction scale, d
 {
 }
 
+const std::vector<std::int32_t>& GuardedOperations::cachedStar(std::int32_t v, std::vector<std::int32_t>& star, std::int32_t& of)
+{
+  if (of != v)
+  {
+    m_Complex.star(v, star);
+    of = v;
+  }
+  return star;
+}
+
 double GuardedOperations::starQuality(const std::vector<std::int32_t>& tetrahedra) const
 {
   double worst = std::numeric_limits<double>::max();
@@ -303,50 +313,54 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
   return evidenceStays();
 }
 
+double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast)
+{
+  const auto& c = m_Complex;
+  double worst = std::numeric_limits<double>::max();
+  for (std::int32_t t : star(u))
+    if (!c.contains(t, v))
+    {
+      worst = std::min(worst, lenient(t, c.qualityWith(t, u, p)));
+      if (worst < atLeast) return worst;
+    }
+  if (p == c.points[v]) return worst;
+  for (std::int32_t t : cachedStar(v, m_StarOfV, m_StarOfVVertex))
+    if (!c.contains(t, u))
+    {
+      worst = std::min(worst, lenient(t, c.qualityWith(t, v, p)));
+      if (worst < atLeast) return worst;
+    }
+  return worst;
+}
+
 bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality, double maximumRatio)
 {
   auto& c = m_Complex;
   const bool moves = !(p == c.points[v]);
   if (c.locked[u] || (moves && c.locked[v])) return false;
-  c.star(u, m_Star);
-  std::int32_t seed = -1;
-  for (std::int32_t t : m_Star)
-    if (c.contains(t, v))
-      seed = t;
-    else if (lenient(t, c.qualityWith(t, u, p)) < minimumQuality)
-      return false;
-  if (seed < 0) return false;
-  const bool inside = singleLabel(m_Star);
-  if (moves || !inside)
-  {
-    c.star(v, m_StarOfV);
-    if (moves)
-    {
-      if (inside && !singleLabel(m_StarOfV)) return false; // the interface stays where it is
-      for (std::int32_t t : m_StarOfV)
-        if (!c.contains(t, u) && lenient(t, c.qualityWith(t, v, p)) < minimumQuality) return false;
-    }
-  }
+  const bool inside = singleLabel(star(u));
+  // An interface vertex keeps an inner one away from it; its star, if locked, may show only some of its labels.
+  if (!inside && c.locked[v]) return false;
+  if (moves && inside && !singleLabel(cachedStar(v, m_StarOfV, m_StarOfVVertex))) return false;
+  if (qualityAfterCollapse(u, v, p, minimumQuality) < minimumQuality) return false;
   if (!keepsLengths(u, v, p, maximumRatio)) return false;
   if (!inside)
   {
-    if (c.locked[v]) return false; // its star may show only some of its labels
-    if (!c.ring(u, v, seed, m_Ring, m_RingVertices)) return false;
+    cachedStar(v, m_StarOfV, m_StarOfVVertex);
+    const auto seed = std::find_if(m_Star.begin(), m_Star.end(), [&](std::int32_t t) { return c.contains(t, v); });
+    if (seed == m_Star.end() || !c.ring(u, v, *seed, m_Ring, m_RingVertices)) return false;
     if (!keepsTissues(u, v, m_Star, m_Ring, m_RingVertices)) return false;
     if (!collapseKeepsEvidence(u, v, p)) return false;
     detachEvidence();
   }
   c.collapse(u, v, m_Star);
+  changed();
   if (moves)
   {
     c.points[v] = p;
     c.lengths[v] = m_Scale(p);
   }
-  if (!inside)
-  {
-    c.star(v, m_StarOfV);
-    attachEvidence(m_StarOfV);
-  }
+  if (!inside) attachEvidence(star(v));
   ++counts.collapses;
   return true;
 }
@@ -356,8 +370,7 @@ bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, 
 bool GuardedOperations::move(std::int32_t v, const Vec3& p, double minimumQuality)
 {
   if (m_Complex.locked[v]) return false;
-  m_Complex.star(v, m_Star);
-  for (std::int32_t t : m_Star)
+  for (std::int32_t t : star(v))
     if (lenient(t, m_Complex.qualityWith(t, v, p)) < minimumQuality) return false;
   if (!singleLabel(m_Star))
   {
@@ -468,6 +481,7 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
     detachEvidence();
   }
   const auto ids = c.replace(m_Ring, fresh, labels);
+  changed();
   attachEvidence(ids);
   ++counts.flips;
   return true;
@@ -508,6 +522,7 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
       labels.push_back(c.labels[t]);
     }
   const auto ids = c.replace(m_Ring, fresh, labels);
+  changed();
   attachEvidence(ids);
   lastSplitVertex = m;
   ++counts.splits;

@@ -33,6 +33,13 @@ public:
   double quality(std::int32_t t) const { return lenient(t, m_Complex.quality(t)); }
   double starQuality(const std::vector<std::int32_t>& tetrahedra) const;
 
+  /// Tetrahedra at v; kept until the next operation that changes anything, so asking again costs nothing.
+  const std::vector<std::int32_t>& star(std::int32_t v) { return cachedStar(v, m_Star, m_StarVertex); }
+
+  /// The worst quality that merging u into v at p would leave among the changed tetrahedra, or some value below
+  /// `atLeast` if it is less than that.
+  double qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast);
+
   /// Merges u into its neighbour v, which moves to p, if every changed tetrahedron reaches `minimumQuality` and no edge at
   /// v becomes longer than maximumRatio times the target (one that is longer may stay, but not grow). A vertex of the
   /// interface collapses only along it.
@@ -70,6 +77,8 @@ private:
     std::int32_t to;   ///< index into m_NewFaces
   };
 
+  const std::vector<std::int32_t>& cachedStar(std::int32_t v, std::vector<std::int32_t>& star, std::int32_t& of);
+  void changed() { m_StarVertex = m_StarOfVVertex = -1; }
   double lenient(std::int32_t t, double q) const { return m_Complex.labels[t] == 0 ? q * backgroundLeniency : q; }
   double lenient(Label label, double q) const { return label == 0 ? q * backgroundLeniency : q; }
   bool keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
@@ -89,6 +98,7 @@ private:
   TetComplex& m_Complex;
   ScaleFunction m_Scale;
   double m_MeanSquareLimit;
+  std::int32_t m_StarVertex = -1, m_StarOfVVertex = -1; ///< whose stars the next two are; -1: nobody's
   std::vector<std::int32_t> m_Star, m_StarOfV, m_Ring, m_RingVertices, m_EdgeRing, m_EdgeRingVertices;
   std::vector<Face> m_OldFaces, m_NewFaces;
   std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of m_OldFaces

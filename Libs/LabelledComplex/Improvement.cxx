@@ -45,9 +45,8 @@ private:
 
   void relax(std::int32_t v)
   {
-    m_Complex.star(v, m_Star);
     m_Faces.clear();
-    for (std::int32_t t : m_Star)
+    for (std::int32_t t : m_Operations.star(v))
       for (int i = 0; i < 4; ++i)
       {
         const std::int32_t n = m_Complex.neighbours[t][i];
@@ -59,29 +58,33 @@ private:
         m_Faces.push_back({ t, i, others[0], others[1] });
       }
     const Vec3 step = m_Faces.empty() ? towardsMiddle(v) : onInterface(v);
-    const double before = m_Operations.starQuality(m_Star);
+    const double before = m_Operations.starQuality(m_Operations.star(v));
     const double floor = std::min(m_Good, before);
     for (double share : { 1.0, 0.5, 0.25 })
       if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : floor)) return;
   }
 
-  /// Mean of the centroids of the tetrahedra at v, each weighed by its volume in units of its target volume.
-  Vec3 towardsMiddle(std::int32_t v) const
+  /// Where the edges at v would like it: the mean, over its neighbours x, of the point at the target distance from x in the
+  /// direction of v. A descent step of the sum of (|vx| - L)^2.
+  Vec3 towardsMiddle(std::int32_t v)
   {
+    m_Degree.clear();
+    for (std::int32_t t : m_Operations.star(v))
+      for (std::int32_t x : m_Complex.tets[t])
+        if (x != v && std::none_of(m_Degree.begin(), m_Degree.end(), [&](const auto& d) { return d.first == x; }))
+          m_Degree.push_back({ x, 0 });
     Vec3 sum;
-    double total = 0;
-    for (std::int32_t t : m_Star)
-    {
-      const auto& x = m_Complex.tets[t];
-      Vec3 c;
-      double length = 0;
-      for (std::int32_t u : x) c += m_Complex.points[u], length += m_Complex.lengths[u];
-      const double volume = orient(m_Complex.points[x[0]], m_Complex.points[x[1]], m_Complex.points[x[2]], m_Complex.points[x[3]]);
-      const double w = volume / (length * length * length);
-      sum += (0.25 * w) * c;
-      total += w;
-    }
-    return sum / total - m_Complex.points[v];
+    for (const auto& [x, unused] : m_Degree) sum += wish(v, x);
+    return sum / double(m_Degree.size());
+  }
+
+  /// The way of v towards (for x too far) or from (for x too near) its target distance to x, and half the way to x itself,
+  /// which evens out the directions.
+  Vec3 wish(std::int32_t v, std::int32_t x) const
+  {
+    const Vec3 d = m_Complex.points[x] - m_Complex.points[v];
+    const double target = 0.5 * (m_Complex.lengths[v] + m_Complex.lengths[x]);
+    return (m_Options.spread * (1 - target / norm(d)) + 1 - m_Options.spread) * d;
   }
 
   /// Least squares over the evidence of the faces at v, held by a spring to the middle of the neighbours on the interface.
@@ -136,17 +139,16 @@ private:
     for (const auto& [u, degree] : m_Degree)
     {
       if (curves && degree <= 2) continue;
-      sum += m_Complex.points[u];
+      sum += wish(v, u);
       total += 1;
     }
-    return sum / total - m_Complex.points[v];
+    return sum / total;
   }
 
   GuardedOperations& m_Operations;
   TetComplex& m_Complex;
   const RelaxationOptions& m_Options;
   const double m_Good;
-  std::vector<std::int32_t> m_Star;
   std::vector<SheetFace> m_Faces;
   std::vector<std::pair<std::int32_t, int>> m_Degree;
 };
@@ -184,31 +186,43 @@ public:
 
   void run()
   {
+    m_Touched.assign(m_Complex.points.size(), 1);
     for (int pass = 0; pass < m_Options.passes; ++pass)
     {
       std::vector<std::pair<double, std::int32_t>> bad;
       for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
-        if (m_Complex.alive(t))
+        if (m_Complex.alive(t) && isTouched(t))
           if (const double q = m_Operations.quality(t); q < m_Target) bad.push_back({ q, t });
+      if (bad.empty()) break;
       std::sort(bad.begin(), bad.end());
-      bool any = false;
+      m_Touched.assign(m_Complex.points.size(), 0);
       for (const auto& [q, t] : bad)
-        if (m_Complex.alive(t) && m_Operations.quality(t) < m_Target && improve(t)) any = true;
-      if (!any) break;
+        if (m_Complex.alive(t) && m_Operations.quality(t) < m_Target) improve(t);
     }
   }
 
 private:
-  bool improve(std::int32_t t)
+  /// Whether anything near t has changed since it was last tried.
+  bool isTouched(std::int32_t t) const
   {
-    bool any = false;
+    const auto& x = m_Complex.tets[t];
+    return m_Touched[x[0]] || m_Touched[x[1]] || m_Touched[x[2]] || m_Touched[x[3]];
+  }
+
+  void touchStar(std::int32_t v)
+  {
+    m_Touched.resize(m_Complex.points.size(), 1);
+    for (std::int32_t t : m_Operations.star(v))
+      for (std::int32_t x : m_Complex.tets[t]) m_Touched[x] = 1;
+  }
+
+  void improve(std::int32_t t)
+  {
     for (int round = 0; round < 4; ++round)
     {
       const bool done = removeAnEdge(t) || moveAVertex(t) || collapseAnEdge(t) || (m_Options.split && splitAnEdge(t));
-      any = any || done;
-      if (!done || !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target) break;
+      if (!done || !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target) return;
     }
-    return any;
   }
 
   template <class F> bool forEachEdge(std::int32_t t, F&& f)
@@ -225,7 +239,11 @@ private:
     return forEachEdge(t, [&](std::int32_t a, std::int32_t b) {
       if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
       if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
-      return m_Operations.removeEdge(a, b, t, m_Operations.starQuality(m_Ring) * 1.0001 + 1e-9);
+      if (!m_Operations.removeEdge(a, b, t, m_Operations.starQuality(m_Ring) * 1.0001 + 1e-9)) return false;
+      m_Touched.resize(m_Complex.points.size(), 1);
+      m_Touched[a] = m_Touched[b] = 1;
+      for (std::int32_t v : m_RingVertices) m_Touched[v] = 1;
+      return true;
     });
   }
 
@@ -244,7 +262,7 @@ private:
   double starWith(std::int32_t v, const Vec3& p, double atLeast) const
   {
     double worst = std::numeric_limits<double>::max();
-    for (std::int32_t t : m_Star)
+    for (std::int32_t t : m_Operations.star(v))
     {
       double q = m_Complex.qualityWith(t, v, p);
       if (m_Complex.labels[t] == 0) q *= backgroundLeniency;
@@ -258,45 +276,49 @@ private:
   bool optimise(std::int32_t v)
   {
     if (m_Complex.locked[v]) return false;
-    m_Complex.star(v, m_Star);
-    double best = m_Operations.starQuality(m_Star);
+    double best = m_Operations.starQuality(m_Operations.star(v));
     const double start = best;
     const double size = m_Complex.lengths[v];
     double step = 0.12 * size;
-    for (int trial = 0; trial < 24 && best < m_Target && step > 0.004 * size; ++trial)
+    for (int trial = 0; trial < m_Options.trials && best < m_Target && step > 0.004 * size; ++trial)
     {
       const Vec3 p = m_Complex.points[v];
-      const Vec3 direction = trial % 2 == 0 ? gradient(v, p, 1e-3 * size) : m_Directions.next();
+      const Vec3 direction = trial % 3 != 2 ? gradient(v, p, best, 1e-4 * size) : m_Directions.next();
       const Vec3 q = p + step * direction;
       if (starWith(v, q, best) > best && m_Operations.move(v, q, best))
       {
-        m_Complex.star(v, m_Star);
-        best = m_Operations.starQuality(m_Star);
+        best = m_Operations.starQuality(m_Operations.star(v));
         step *= 1.3;
       }
       else
         step *= 0.8;
     }
-    return best > start * (1 + 1e-4);
+    if (!(best > start * (1 + 1e-3))) return false;
+    touchStar(v);
+    return true;
   }
 
-  /// Unit direction in which the worst tetrahedron at v improves fastest.
-  Vec3 gradient(std::int32_t v, const Vec3& p, double h) const
+  /// Unit direction that lifts the worst tetrahedra at v: the sum of the unit gradients of all that are nearly as bad as
+  /// the worst.
+  Vec3 gradient(std::int32_t v, const Vec3& p, double worst, double h) const
   {
-    std::int32_t worst = m_Star[0];
-    double q = std::numeric_limits<double>::max();
-    for (std::int32_t t : m_Star)
-      if (const double x = m_Operations.quality(t); x < q) q = x, worst = t;
-    Vec3 g;
-    for (int a = 0; a < 3; ++a)
+    Vec3 sum;
+    for (std::int32_t t : m_Operations.star(v))
     {
-      Vec3 up = p, down = p;
-      up[a] += h;
-      down[a] -= h;
-      g[a] = m_Complex.qualityWith(worst, v, up) - m_Complex.qualityWith(worst, v, down);
+      const double q = m_Operations.quality(t);
+      if (q > 1.15 * worst) continue;
+      Vec3 g;
+      for (int a = 0; a < 3; ++a)
+      {
+        Vec3 up = p;
+        up[a] += h;
+        g[a] = m_Complex.qualityWith(t, v, up) - m_Complex.quality(t);
+      }
+      const double n = norm(g);
+      if (n > 0) sum += g / n;
     }
-    const double n = norm(g);
-    return n > 0 ? g / n : Vec3{ 1, 0, 0 };
+    const double n = norm(sum);
+    return n > 0 ? sum / n : Vec3{ 1, 0, 0 };
   }
 
   bool collapseAnEdge(std::int32_t t)
@@ -307,9 +329,12 @@ private:
       for (const auto& [u, v] : { std::pair(a, b), std::pair(b, a) })
       {
         if (m_Complex.locked[u]) continue;
-        m_Complex.star(u, m_Star);
-        const double before = m_Operations.starQuality(m_Star);
-        if (m_Operations.collapse(u, v, m_Complex.points[v], before * 1.0001 + 1e-9, m_Options.longEdge)) return true;
+        const double before = m_Operations.starQuality(m_Operations.star(u));
+        if (m_Operations.collapse(u, v, m_Complex.points[v], before * 1.0001 + 1e-9, m_Options.longEdge))
+        {
+          touchStar(v);
+          return true;
+        }
       }
       return false;
     });
@@ -351,7 +376,9 @@ private:
       else
         step *= 0.85;
     }
-    return best > before * 1.0001 + 1e-9 && m_Operations.split(a, b, seed, p, before * 1.0001 + 1e-9);
+    if (!(best > before * 1.0001 + 1e-9) || !m_Operations.split(a, b, seed, p, before * 1.0001 + 1e-9)) return false;
+    touchStar(m_Operations.lastSplitVertex);
+    return true;
   }
 
   GuardedOperations& m_Operations;
@@ -359,7 +386,8 @@ private:
   const ImprovementOptions& m_Options;
   const double m_Target;
   Directions m_Directions;
-  std::vector<std::int32_t> m_Star, m_Ring, m_RingVertices;
+  std::vector<std::uint8_t> m_Touched; ///< per vertex
+  std::vector<std::int32_t> m_Ring, m_RingVertices;
 };
 
 } // namespace

@@ -10,6 +10,7 @@ namespace surgicalmesher
 struct RelaxationOptions
 {
   double goodAngle = 25; ///< degrees; a move that lowers the worst angle at its vertex is taken only above this
+  double spread = 0.8;   ///< weight of the target lengths against the mere middle of the neighbours
   double fit = 1;        ///< weight of the evidence against an even spacing of the vertices
 };
 
@@ -24,7 +25,8 @@ struct ImprovementOptions
   double longEdge = 1.6;
   bool split = true;
   double splitEdge = 1.0;    ///< splits are tried on edges from this share of the target on
-  int passes = 3;
+  int trials = 12;           ///< positions tried for each vertex
+  int passes = 3;            ///< later passes work only where something has changed
 };
 
 /// Worst first: edge removal, vertex optimisation, collapse, split of the tetrahedra below the target, until nothing helps.

@@ -45,22 +45,24 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
   ambient.mesh = mesh;
   for (const Vec3& p : mesh.points) ambient.lengths.push_back(scale(p));
   placeEvidence(ambient, options.surfaceTolerance);
-  ImprovementOptions improvement;
-  improvement.targetAngle = options.targetAngle;
   for (int i = 0; i < options.sweeps; ++i)
   {
-    const double from = double(i) / options.sweeps, to = double(i + 1) / options.sweeps;
-    // Splits cost regular sizes: at first only of long edges, in the end wherever they mend an angle.
-    improvement.splitEdge = i + 1 < options.sweeps ? 1.2 : 0.7;
+    const bool last = i + 1 == options.sweeps;
+    ImprovementOptions improvement;
+    // Splits cost regular sizes and drift costs fidelity: both only in the end, where an angle is still bad.
+    improvement.targetAngle = last ? 0.9 * options.targetAngle : options.targetAngle;
+    improvement.split = last;
+    improvement.splitEdge = 0.8;
+    improvement.trials = last ? 20 : 12;
     sweepBlocks(
       ambient, i, blockSize,
       [&](TetComplex& block)
       {
-        GuardedOperations operations(block, scale, 0.6);
-        relaxBlock(operations);
+        GuardedOperations operations(block, scale, last ? 0.8 : 0.3);
+        if (!last) relaxBlock(operations);
         improveBlock(operations, improvement);
       },
-      [&](double fraction, const std::string&) { report(progress, from + (to - from) * fraction, "improvement"); });
+      [&](double fraction, const std::string&) { report(progress, (i + fraction) / options.sweeps, "improvement"); });
   }
   mesh = std::move(ambient.mesh);
 }

@@ -18,7 +18,7 @@ namespace surgicalmesher
 
 struct LatticeOptions
 {
-  double relativeSize = 1.0; ///< cubes are cut until their side is at most this share of the target edge length
+  double relativeSize = 0.8; ///< cubes are cut until their side is at most this share of the target edge length
   int mostLevelsBelowVoxel = 2;
 };
 

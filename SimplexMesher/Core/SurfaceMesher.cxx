@@ -69,76 +69,109 @@ void setTolerances(AmbientMesh& ambient, const Vec3& spacing, const ScaleFunctio
   }
 }
 
+/// What one sweep over the blocks does.
+struct Step
+{
+  std::string name;
+  double rmsLimit = 0.45; ///< see GuardedOperations
+  double level = 0;       ///< mm, size that short edges are collapsed to; 0: none
+  bool again = false;     ///< collapses once more after relaxation and repair have made room
+  bool relax = true;
+  ImprovementOptions improvement;
+};
+
+ImprovementOptions improvementTo(double angle, double splitEdge, int trials, int passes)
+{
+  ImprovementOptions o;
+  o.targetAngle = angle;
+  o.split = splitEdge > 0;
+  o.splitEdge = splitEdge;
+  o.trials = trials;
+  o.passes = passes;
+  return o;
+}
+
+/// Levels of size, each about 1.5 times the one before: a single pass to the final lengths would leave a ragged mesh.
+std::vector<Step> coarseningSteps(const Grid& grid, double longest)
+{
+  const double least = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+  Step step;
+  step.name = "coarsening";
+  step.again = true;
+  std::vector<Step> steps;
+  for (double level = 1.6 * least; level < longest; level *= 1.48)
+  {
+    step.level = level;
+    // The first levels hold most of the tetrahedra, in a lattice that is still regular: repair pays later.
+    step.improvement = improvementTo(level < 3 * least ? 0 : 15, 0, 8, 1);
+    steps.push_back(step);
+  }
+  step.level = longest;
+  step.improvement = improvementTo(15, 0, 8, 1);
+  steps.insert(steps.end(), 3, step);
+  return steps;
+}
+
+/// The angle aimed at rises from step to step: sizes suffer less than from one step straight to the end. Only what is still
+/// bad afterwards may stray farther from the evidence, or be split.
+std::vector<Step> improvementSteps(double longest)
+{
+  std::vector<Step> steps;
+  const auto add = [&](double rmsLimit, double level, bool relax, const ImprovementOptions& improvement)
+  { steps.push_back({ "improvement", rmsLimit, level, false, relax, improvement }); };
+  add(0.3, longest, true, improvementTo(20, 0, 8, 2));
+  add(0.25, longest, true, improvementTo(28, 0, 8, 2));
+  add(0.25, longest, true, improvementTo(34, 0, 8, 1));
+  add(0.25, longest, true, improvementTo(34, 0, 8, 1));
+  add(0.5, 0, false, improvementTo(29, 1, 16, 3));
+  add(0.25, 0, true, improvementTo(34, 0, 12, 2));
+  add(0.6, 0, false, improvementTo(30, 0.8, 20, 3));
+  return steps;
+}
+
+void work(GuardedOperations& operations, const Step& step)
+{
+  CoarseningOptions coarsening;
+  coarsening.minimumAngle = 5;
+  if (step.level > 0) coarsenBlock(operations, step.level, coarsening);
+  if (step.relax) relaxBlock(operations);
+  if (step.improvement.targetAngle > 0) improveBlock(operations, step.improvement);
+  if (step.again) coarsenBlock(operations, step.level, coarsening);
+}
+
 } // namespace
 
 SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& scale, const SurfaceMesherOptions& options,
                         const Progress& progress)
 {
   SurfaceMesh result;
-  AmbientMesh& ambient = result.ambient;
   const ScaleFunction lengthAt = [&](const Vec3& p) { return float(scale(map.grid.gridToWorld(p))); };
-  {
-    AmbientLattice lattice = ambientLattice(map, scale, {}, subProgress(progress, 0, 0.04));
-    smoothInterface(lattice, map.grid.spacing);
-    ambient = std::move(lattice.ambient);
-  }
-  setTolerances(ambient, map.grid.spacing, lengthAt, options.maximumDistance);
+  AmbientLattice lattice = ambientLattice(map, scale, {}, subProgress(progress, 0, 0.06));
+  smoothInterface(lattice, map.grid.spacing);
+  result.ambient = std::move(lattice.ambient);
+  setTolerances(result.ambient, map.grid.spacing, lengthAt, options.maximumDistance);
 
-  Evolution evolution(ambient, result.evolution);
+  Evolution evolution(result.ambient, result.evolution);
   evolution.record("lattice");
-  int round = 0;
-  const auto sweep = [&](const std::string& stage, double from, double to, double rmsLimit,
-                         const std::function<void(GuardedOperations&)>& work)
+  std::vector<Step> steps = coarseningSteps(map.grid, *std::max_element(scale.lengths.begin(), scale.lengths.end()));
+  const std::vector<Step> improving = improvementSteps(steps.back().level);
+  steps.insert(steps.end(), improving.begin(), improving.end());
+  for (std::size_t i = 0; i < steps.size(); ++i)
   {
-    const Progress part = subProgress(progress, from, to);
-    const Progress named = [&](double fraction, const std::string&) { report(part, fraction, stage); };
+    const Step& step = steps[i];
+    const Progress part = subProgress(progress, 0.1 + 0.9 * double(i) / double(steps.size()),
+                                      0.1 + 0.9 * double(i + 1) / double(steps.size()));
     sweepBlocks(
-      ambient, round++, blockSize,
+      result.ambient, int(i), blockSize,
       [&](TetComplex& block)
       {
-        GuardedOperations operations(block, lengthAt, rmsLimit);
-        work(operations);
+        GuardedOperations operations(block, lengthAt, step.rmsLimit);
+        work(operations, step);
         evolution.count(operations.counts);
       },
-      named);
-    evolution.record(stage);
-  };
-
-  CoarseningOptions coarsening;
-  coarsening.minimumAngle = 5;
-  ImprovementOptions repair;
-  repair.targetAngle = 15;
-  repair.split = false;
-  repair.passes = 1;
-  const auto coarsen = [&](double level)
-  {
-    return [&, level](GuardedOperations& operations)
-    {
-      coarsenBlock(operations, level, coarsening);
-      relaxBlock(operations);
-      improveBlock(operations, repair);
-      coarsenBlock(operations, level, coarsening);
-      relaxBlock(operations);
-    };
-  };
-  // Levels of size, each about 1.5 times the one before: a single pass to the final lengths would leave a ragged mesh.
-  const double longest = *std::max_element(scale.lengths.begin(), scale.lengths.end());
-  const double least = std::min({ map.grid.spacing.x, map.grid.spacing.y, map.grid.spacing.z });
-  std::vector<double> levels;
-  for (double level = 1.6 * least; level < longest; level *= 1.48) levels.push_back(level);
-  levels.insert(levels.end(), 3, longest);
-  for (std::size_t i = 0; i < levels.size(); ++i)
-    sweep("coarsening", 0.1 + 0.4 * double(i) / double(levels.size()), 0.1 + 0.4 * double(i + 1) / double(levels.size()), 0.45,
-          coarsen(levels[i]));
-
-  ImprovementOptions improvement;
-  improvement.splitEdge = 1.2;
-  for (int i = 0; i < 4; ++i)
-    sweep("improvement", 0.5 + 0.12 * i, 0.62 + 0.12 * i, 0.3, [&](GuardedOperations& operations) {
-      coarsenBlock(operations, longest, coarsening);
-      relaxBlock(operations);
-      improveBlock(operations, improvement);
-    });
+      [&](double fraction, const std::string&) { report(part, fraction, step.name); });
+    evolution.record(step.name);
+  }
   return result;
 }
 
