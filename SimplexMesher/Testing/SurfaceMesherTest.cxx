@@ -243,11 +243,24 @@ TEST(SurfaceMesher, AMapsPlaceDoesNotMatter)
 {
   TissueMap map = cropped(atlasPart(), { 24, 24, 24 }, { 20, 16, 18 });
   prepareMap(map, {});
+  const ScaleField scale = radialScale(map.grid, map.grid.gridToWorld({ 5, 6, 7 }), 1, 5, 3, 8);
   TissueMap turned = map;
   const double c = std::cos(0.4), s = std::sin(0.4);
   turned.grid.axes = { Vec3{ c, s, 0 }, Vec3{ -s * c, c * c, s }, Vec3{ s * s, -c * s, c } };
   turned.grid.origin = { 101, -57, 33 };
+  ScaleField turnedScale = scale;
+  turnedScale.grid.axes = turned.grid.axes;
+  turnedScale.grid.origin = turned.grid.gridToWorld(map.grid.worldToGrid(scale.grid.origin));
   expectSameBytes(meshed(turned, uniformScale(2.5)), meshed(map, uniformScale(2.5)));
+
+  // A graded scale is read in the world, with rounding, unless both are brought to the frame of the map.
+  const auto meshedInOwnFrame = [](TissueMap m, const ScaleField& scaleInWorld)
+  {
+    const ScaleField own = inFrameOf(m.grid, scaleInWorld);
+    m.grid = inOwnFrame(m.grid);
+    return meshed(m, own);
+  };
+  expectSameBytes(meshedInOwnFrame(turned, turnedScale), meshedInOwnFrame(map, scale));
 }
 
 TEST(SurfaceMesher, CanBeCancelledAnywhere)
