@@ -239,7 +239,7 @@ def draw_tetrahedra(folder, target):
     paint(mesh, tissue_colors(mesh)[cell_array(mesh, "TissueLabel")])
     view = (-0.25, 1, -0.2)
     whole = [actor_of(extracted(mesh, behind & ~child), edge_width=0.5),
-             actor_of(extracted(mesh, behind & child), edge_width=0.4, color=CHILD_COLOR)]
+             actor_of(extracted(mesh, behind & child), edge_width=0.25, color=CHILD_COLOR)]
     apart = [actor_of(extracted(mesh, behind & child), edge_width=0.7)]
     figure = new_figure(1500, 900)
     figure.figimage(rendered(whole, view, (920, 790)), 10, 10)
