@@ -84,8 +84,8 @@ TEST(ReferenceSurface, ComesCloserToTheSphereThatWasDigitised)
     const TissueMap map = ball(radius);
     const Vec3 centre = middleOf(map);
     const AmbientLattice before = latticeOf(map), after = smoothed(map);
-    EXPECT_LT(rmsOfVertices(after, centre, radius), 0.5 * rmsOfVertices(before, centre, radius)) << radius;
-    EXPECT_LT(rmsOfEvidence(after, centre, radius), 0.7 * rmsOfEvidence(before, centre, radius)) << radius;
+    EXPECT_LT(rmsOfVertices(after, centre, radius), 0.6 * rmsOfVertices(before, centre, radius)) << radius;
+    EXPECT_LT(rmsOfEvidence(after, centre, radius), 0.85 * rmsOfEvidence(before, centre, radius)) << radius;
     const double volume = checkSurface(interfaceOf(after.ambient.mesh)).at(1).volume;
     const double voxels = checkSurface(interfaceOf(before.ambient.mesh)).at(1).volume;
     EXPECT_NEAR(volume, voxels, 0.01 * voxels) << radius;
@@ -178,6 +178,7 @@ TEST(ReferenceSurface, EvidenceGoesAlongWithItsFace)
   AmbientLattice lattice = latticeOf(map);
   SmoothingOptions options;
   options.minimumAngle = 1; // no move is cut short
+  options.evidence = 1;
   smoothInterface(lattice, map.grid.spacing, options);
   const auto& mesh = lattice.ambient.mesh;
   for (const auto& e : lattice.ambient.evidence)
