@@ -19,11 +19,20 @@ struct MeshSizeEstimate
 /// 4 V / A, with V its volume and A its boundary area in the 12 mm around (a plate of thickness h gives 2 h, a rod or ball
 /// of radius r gives 2 r or 4/3 r). Then, with A_s the area of smooth interface that a voxel face stands for,
 ///
-///     triangles  = sum over interface faces of A_s / (sqrt(3)/4 L^2)
+///     triangles  = sum over interface faces of A_s / (sqrt(3)/4 (s L)^2)
 ///     tetrahedra = sum over tissue voxels of dV / (c L^3) + b * triangles
 ///
-/// The second term counts the tetrahedra of thin sheets and small tissues, which have surface but hardly volume. The
-/// constants are at the top of MeshSizeEstimate.cxx.
+/// The last term counts the tetrahedra of thin sheets and small tissues, which have surface but hardly volume. The
+/// constants are at the top of MeshSizeEstimate.cxx. Estimate over real number, measured on maps whose islands under
+/// 30 mm^3 were removed only before meshing (a noisy map has less to mesh then, and is overestimated):
+///
+///                                                          triangles   tetrahedra
+///     jhu189, 189 brain tissues, L 1 to 8 mm                    0.83         0.91
+///     the same, L 2 to 10 mm                                    0.71         0.77
+///     SPL atlas, 312 tissues, many of them thin, 1 to 8 mm      1.01         0.83
+///     head of 53 tissues, noisy, 1 to 8 mm                      1.40         0.92
+///     21 organs of a CT, 0.98 x 0.98 x 2.5 mm, 1 to 8 mm        1.15         1.05
+///     boxes of 40 mm of jhu189, L 2, 4, 6, 1 to 8 mm    0.90 .. 1.09 1.04 .. 1.10
 MeshSizeEstimate estimateMeshSize(const TissueMap& map, const ScaleField& scale);
 
 } // namespace surgicalmesher

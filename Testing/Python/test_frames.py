@@ -1,6 +1,6 @@
 """A map, its copies with other axes, and a target in every form of file give the same mesh. usage: test_frames.py BIN OUTDIR
 
-The maps are cut out of a real one and written here, NRRD by NRRD's own definition, NIfTI by nibabel.
+The maps are cut out of a real one and written by other code than the project's.
 """
 import json
 import os
@@ -14,23 +14,13 @@ import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
+from maps import LPS_FROM_RAS, cut_out, write_nrrd  # noqa: E402
 from meshfiles import read_mesh  # noqa: E402
 
 BIN, OUTDIR = sys.argv[1:3]
-ATLAS = "/usr/share/mricron/templates/jhu189.nii.gz"
 BOX = np.s_[64:90, 92:116, 32:56]
 TARGET = np.array([0.0, 8.0, -8.0])  # LPS
-LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
 ROUNDING = 1e-3  # mm
-
-
-def cut_out():
-    """Labels of the box and their affine to LPS."""
-    atlas = nibabel.load(ATLAS)
-    labels = np.rint(np.asanyarray(atlas.dataobj)[BOX]).astype(np.uint16)
-    affine = LPS_FROM_RAS @ atlas.affine @ np.array([[1, 0, 0, BOX[0].start], [0, 1, 0, BOX[1].start],
-                                                      [0, 0, 1, BOX[2].start], [0, 0, 0, 1]])
-    return labels, affine
 
 
 def turned(labels, affine, axes, flips):
@@ -54,16 +44,6 @@ def rotation():
                       [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
     result[:3, 3] = [13, -7, 21]
     return result
-
-
-def write_nrrd(file, labels, affine, space="left-posterior-superior"):
-    if space == "right-anterior-superior":
-        affine = LPS_FROM_RAS @ affine
-    vectors = ["(%s)" % ",".join("%.17g" % x for x in affine[:3, column]) for column in range(4)]
-    header = ("NRRD0005\ntype: uint16\ndimension: 3\nspace: %s\nsizes: %d %d %d\nspace directions: %s %s %s\n"
-              "space origin: %s\nendian: little\nencoding: raw\n\n" % (space, *labels.shape, *vectors))
-    with open(file, "wb") as out:
-        out.write(header.encode() + labels.tobytes(order="F"))
 
 
 def write_nifti(file, labels, affine):
@@ -103,7 +83,7 @@ class FramesTest(unittest.TestCase):
         shutil.rmtree(OUTDIR, ignore_errors=True)
         os.makedirs(OUTDIR)
         os.chdir(OUTDIR)
-        cls.labels, cls.affine = cut_out()
+        cls.labels, cls.affine = cut_out(BOX)
         write_nrrd("reference.nrrd", cls.labels, cls.affine)
         write_markups("target.mrk.json", TARGET, "LPS")
         cls.reference = mesh_of("reference.nrrd", "target.mrk.json")
