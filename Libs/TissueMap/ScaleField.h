@@ -21,7 +21,7 @@ struct ScaleField
 Grid inOwnFrame(const Grid& grid);
 
 /// The same lengths seen from the grid frame of `frame`. Placement is rounded to 1e-6 mm, more than headers in single
-/// precision hold: map and scale then give the same numbers, bit by bit, as copies of both that lie elsewhere in the world.
+/// precision hold: map and scale then give the same numbers, bit by bit, as copies of both that lie elsewhere.
 ScaleField inFrameOf(const Grid& frame, const ScaleField& scale);
 
 /// A world position seen from the grid frame of `frame`, rounded likewise.

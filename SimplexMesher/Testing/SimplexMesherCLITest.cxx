@@ -156,7 +156,8 @@ TEST_F(SimplexMesherCLI, KeepsNamesAndColours)
 {
   folder.write("names.ctbl", "1 bone 200 200 180 255\n7 pituitary_gland 255 100 50 255\n9 absent 1 2 3 255\n");
   expectDone("--edgeLength 2 --names names.ctbl --preparedLabelMap p.nrrd map.nrrd s.vtp");
-  for (const TissueTable& table : { readTissueMap(folder.file("p.nrrd")).table, readSurface(folder.file("s.vtp")).tissues })
+  for (const TissueTable& table :
+       { readTissueMap(folder.file("p.nrrd")).table, readSurface(folder.file("s.vtp")).tissues })
   {
     ASSERT_EQ(table.size(), 2u);
     EXPECT_EQ(table.at(1).name, "bone");
@@ -175,7 +176,8 @@ TEST_F(SimplexMesherCLI, RefusesMapsAtFault)
   folder.write("real.nrrd", nrrd("float", cubeGeometry(2), std::vector<float>(8, 0.5f)));
   folder.write("negative.nrrd", nrrd("int16", cubeGeometry(2), std::vector<std::int16_t>(8, -1)));
   folder.write("series.nrrd", nrrd("uint8", "dimension: 4\nsizes: 2 2 2 2\n", ones));
-  folder.write("vector.nrrd", nrrd("uint8", "dimension: 4\nsizes: 2 2 2 2\nkinds: vector domain domain domain\n", ones));
+  folder.write("vector.nrrd",
+               nrrd("uint8", "dimension: 4\nsizes: 2 2 2 2\nkinds: vector domain domain domain\n", ones));
   writeTissueMap(map, folder.file("cut.nii.gz"));
   const std::string whole = readBytes(folder.file("cut.nii.gz"));
   folder.write("cut.nii.gz", whole.substr(0, whole.size() / 2));

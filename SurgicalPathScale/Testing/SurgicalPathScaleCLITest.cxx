@@ -103,6 +103,10 @@ TEST_F(SurgicalPathScaleCLI, RefusesBadInputWithOneLineAndStatusOne)
   folder.write("empty.nrrd", nrrd("uint8", cubeGeometry(2), std::vector<std::uint8_t>(8, 0)));
   folder.write("real.nrrd", nrrd("float", cubeGeometry(2), std::vector<float>(8, 0.5f)));
   folder.write("negative.nrrd", nrrd("int16", cubeGeometry(2), std::vector<std::int16_t>(8, -1)));
+  const std::vector<std::uint8_t> ones(16, 1);
+  folder.write("series.nrrd", nrrd("uint8", "dimension: 4\nsizes: 2 2 2 2\n", ones));
+  folder.write("vector.nrrd",
+               nrrd("uint8", "dimension: 4\nsizes: 2 2 2 2\nkinds: vector domain domain domain\n", ones));
   writeTissueMap(map, folder.file("cut.nii.gz"));
   const std::string whole = readBytes(folder.file("cut.nii.gz"));
   folder.write("cut.nii.gz", whole.substr(0, whole.size() / 2));
@@ -113,6 +117,8 @@ TEST_F(SurgicalPathScaleCLI, RefusesBadInputWithOneLineAndStatusOne)
   expectRefused("--targetPoint 0,0,0 empty.nrrd scale.nrrd", 1, "empty.nrrd: no voxel but background");
   expectRefused("--targetPoint 0,0,0 real.nrrd scale.nrrd", 1, "real.nrrd: a voxel of value 0.5");
   expectRefused("--targetPoint 0,0,0 negative.nrrd scale.nrrd", 1, "negative.nrrd: a voxel of value -1");
+  expectRefused("--targetPoint 0,0,0 series.nrrd scale.nrrd", 1, "series.nrrd: ");
+  expectRefused("--targetPoint 0,0,0 vector.nrrd scale.nrrd", 1, "vector.nrrd: ");
   expectRefused("--targetPoint 0,0,0 cut.nii.gz scale.nrrd", 1, "cut.nii.gz: ");
   expectRefused("--targets missing.fcsv map.nrrd scale.nrrd", 1, "missing.fcsv: no such file");
   expectRefused("--targets nan.fcsv map.nrrd scale.nrrd", 1, "nan.fcsv:1: ");
@@ -120,6 +126,12 @@ TEST_F(SurgicalPathScaleCLI, RefusesBadInputWithOneLineAndStatusOne)
   expectRefused("--path point.fcsv map.nrrd scale.nrrd", 1, "point.fcsv: a path of one point");
   expectRefused("--targets target.fcsv --tissueLengths lengths.csv map.nrrd scale.nrrd", 1, "lengths.csv:2: ");
   expectRefused("--targets target.fcsv map.nrrd nowhere/scale.nrrd", 1, "nowhere");
+}
+
+TEST_F(SurgicalPathScaleCLI, LeavesNoFileHalfWritten)
+{
+  expectSaysThatAFileCanNotGrow("--targets target.fcsv --spacing 0.5 --report r.json map.nrrd scale.nrrd");
+  expectSaysThatTheDiskIsFull("--targets target.fcsv --spacing 0.4 --report disk/r.json map.nrrd disk/scale.nrrd");
 }
 
 TEST_F(SurgicalPathScaleCLI, RefusesBadCommandLinesWithOneLineAndStatusTwo)

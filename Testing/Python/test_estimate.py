@@ -1,4 +1,4 @@
-"""The size that SurgicalPathScale foretells is that of the mesh, within a factor of 1.5. usage: test_estimate.py BIN OUTDIR"""
+"""The foretold mesh size is that of the mesh, within a factor of 1.5. usage: test_estimate.py BIN OUTDIR"""
 import json
 import os
 import shutil

@@ -1,4 +1,4 @@
-"""A map, its copies with other axes, and a target in every form of file give the same mesh. usage: test_frames.py BIN OUTDIR
+"""Copies of a map with other axes, and targets in every form, give the same mesh. usage: test_frames.py BIN OUTDIR
 
 The maps are cut out of a real one and written by other code than the project's.
 """

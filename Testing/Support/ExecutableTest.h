@@ -36,7 +36,7 @@ protected:
     EXPECT_EQ(result.err, "");
   }
 
-  /// That the run ends with this status, one line on stderr that holds `expected`, and the files that were there before.
+  /// That the run ends with this status, one line on stderr that holds `expected`, and no file more or less.
   void expectRefused(const std::string& arguments, int status, const std::string& expected) const
   {
     const std::vector<std::string> before = folder.files();
@@ -53,14 +53,15 @@ protected:
     EXPECT_EQ(folder.files(), before) << arguments;
   }
 
-  /// The same on a full disk of 32 kB, mounted on the subfolder `disk`, where the outputs are to go. Skips the test where
-  /// no user may mount one.
+  /// The same on a full disk of 32 kB, mounted on the subfolder `disk`, where the outputs are to go. Skips the test
+  /// where no user may mount one.
   void expectSaysThatTheDiskIsFull(const std::string& arguments) const
   {
     std::filesystem::create_directory(folder.file("disk"));
-    const Outcome result = shell("exec unshare -rm sh -c 'mount -t tmpfs -o size=32k none disk || exit 99; \"$0\" \"$@\"; "
-                                 "status=$?; ls -A disk >&2; exit $status' " +
-                                 commandOf(arguments));
+    const Outcome result =
+      shell("exec unshare -rm sh -c 'mount -t tmpfs -o size=32k none disk || exit 99; \"$0\" \"$@\"; "
+            "status=$?; ls -A disk >&2; exit $status' " +
+            commandOf(arguments));
     if (result.status > 3) GTEST_SKIP() << "no small file system can be mounted here: " << result.err;
     expectFailure(result, 1, "disk/", arguments);
   }
@@ -92,8 +93,8 @@ private:
   Outcome shell(const std::string& script) const
   {
     const TemporaryFolder streams;
-    const std::string command = "cd '" + folder.file("") + "' && { " + script + "; } >'" + streams.file("out") + "' 2>'" +
-                                streams.file("err") + "'";
+    const std::string command = "cd '" + folder.file("") + "' && { " + script + "; } >'" + streams.file("out") +
+                                "' 2>'" + streams.file("err") + "'";
     const int status = std::system(command.c_str());
     return { WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), readBytes(streams.file("out")),
              readBytes(streams.file("err")) };
@@ -103,12 +104,13 @@ private:
   {
     const TemporaryFolder streams;
     const std::string out = "'" + streams.file("out") + "'";
-    const Outcome result = shell(commandOf(arguments) + " >" + out + " & id=$!; while kill -0 $id && ! grep -q '" + stage +
-                                 "' " + out + "; do sleep 0.02; done; kill -" + signal + " $id; wait $id");
+    const Outcome result = shell(commandOf(arguments) + " >" + out + " & id=$!; while kill -0 $id && ! grep -q '" +
+                                 stage + "' " + out + "; do sleep 0.02; done; kill -" + signal + " $id; wait $id");
     return result.status;
   }
 
-  static void expectFailure(const Outcome& result, int status, const std::string& expected, const std::string& arguments)
+  static void expectFailure(const Outcome& result, int status, const std::string& expected,
+                            const std::string& arguments)
   {
     EXPECT_EQ(result.status, status) << arguments << "\n" << result.err;
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << arguments << "\n" << result.err;
