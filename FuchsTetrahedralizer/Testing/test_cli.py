@@ -158,7 +158,8 @@ class FuchsTetrahedralizer(unittest.TestCase):
                 properties = vtk.vtkMassProperties()
                 properties.SetInputData(surface)
                 volume = report["quality"]["whole"]["volume"]
-                self.assertAlmostEqual(volume / properties.GetVolume(), 1, places=3)
+                # The surface may move by 0.02 of the edge length while the tetrahedra improve.
+                self.assertLess(abs(volume - properties.GetVolume()), 0.02 * length * properties.GetSurfaceArea())
 
     def test_nested_shells_are_tissues_in_each_other(self):
         surface = together(sphere(10), sphere(6, 1), sphere(2, 2), sphere(3, 20))

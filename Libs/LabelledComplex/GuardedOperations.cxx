@@ -283,7 +283,7 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
     }
     addNewFace(corners[0], corners[1], corners[2], ids, x, y);
   };
-  const auto facesAt = [&](std::int32_t end, std::int32_t other, const std::vector<std::int32_t>& star)
+  const auto facesAt = [&](std::int32_t end, std::int32_t other, const std::vector<std::int32_t>& star, bool changing)
   {
     for (std::int32_t t : star)
     {
@@ -294,13 +294,14 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
         if (c.tets[t][i] == end || n < 0 || c.labels[n] == c.labels[t]) continue;
         if (c.contains(n, other)) continue; // dealt with from the ring
         if (n < t) continue;
-        gather(t, i);
+        if (changing) gather(t, i);
         addMoved(t, i, c.labels[t], c.labels[n]);
       }
     }
   };
-  facesAt(u, v, m_Star);
-  if (!(p == c.points[v])) facesAt(v, u, m_StarOfV);
+  facesAt(u, v, m_Star, true);
+  // Faces at v that stay as they are keep their points, and may take others.
+  facesAt(v, u, m_StarOfV, !(p == c.points[v]));
   for (std::int32_t t : m_Ring)
   {
     const int iu = c.indexOf(t, u), iv = c.indexOf(t, v);

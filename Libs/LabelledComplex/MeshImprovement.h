@@ -10,7 +10,7 @@ namespace surgicalmesher
 
 struct MeshImprovementOptions
 {
-  double surfaceTolerance = 0.05; ///< how far the surface may move from where it was, as a share of the target length
+  double surfaceTolerance = 0.02; ///< how far the surface may move from where it was, as a share of the target length
   double targetAngle = 34;        ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
   int sweeps = 3;
 };
