@@ -106,7 +106,10 @@ class Runtime(unittest.TestCase):
         self.assertEqual(progress[-1], 1)
 
     def test_progress_on_a_terminal(self):
-        parent, child = pty.openpty()
+        try:
+            parent, child = pty.openpty()
+        except OSError as error:
+            self.skipTest(f"no pseudo-terminal here: {error}")
         done = subprocess.run([MODULE, "in", self.result], stdout=child, stderr=subprocess.PIPE, timeout=120)
         os.close(child)
         text = os.read(parent, 1 << 20).decode()
@@ -161,6 +164,9 @@ class Runtime(unittest.TestCase):
     def test_a_full_disk(self):
         script = (
             'mount -t tmpfs -o size=64k none "$1" || exit 99; shift; "$@"; status=$?; ls -A "$0" >&2; exit $status')
+        allowed = subprocess.run(["unshare", "-rm", "true"], capture_output=True, text=True, timeout=120)
+        if allowed.returncode != 0:
+            self.skipTest("no small file system can be mounted here: " + allowed.stderr.strip())
         done = subprocess.run(
             ["unshare", "-rm", "sh", "-c", script, self.folder, self.folder,
              MODULE, "--count", "100000", "in", self.result],
