@@ -3,9 +3,13 @@
 #ifndef _WIN32
 
 #include <cerrno>
+#include <csignal>
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 
 namespace surgicalmesher
 {
@@ -62,6 +66,9 @@ std::optional<std::string> runInSeparateProcess(const std::function<std::string(
   const pid_t child = fork();
   if (child == 0)
   {
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // a cancelled run takes its child along
+#endif
     close(ends[0]);
     runAsChild(ends[1], work);
   }
