@@ -6,7 +6,6 @@
 #include "ReferenceSurface.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <mutex>
 
@@ -60,47 +59,13 @@ private:
   OperationCounts m_Counts;
 };
 
-/// The labels on both sides of the voxel face whose centre is `p`.
-std::array<Label, 2> labelsBeside(const Vec3& p, const TissueMap& map)
+void setTolerances(AmbientMesh& ambient, const Vec3& spacing, const ScaleFunction& scale, double bound)
 {
-  std::array<int, 3> low, high;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const double index = p[axis] / map.grid.spacing[axis];
-    low[axis] = int(std::floor(index + 0.25));
-    high[axis] = int(std::floor(index + 0.75));
-  }
-  const auto labelAt = [&](const std::array<int, 3>& v)
-  { return map.grid.contains(v[0], v[1], v[2]) ? map.labels[map.grid.index(v[0], v[1], v[2])] : Label(0); };
-  return { labelAt(low), labelAt(high) };
-}
-
-/// Mean thickness of each tissue, mm: twice its volume over its area, a voxel surface being about half as large again as
-/// the smooth one.
-std::vector<double> tissueThicknesses(const AmbientMesh& ambient, const TissueMap& map)
-{
-  const Vec3& s = map.grid.spacing;
-  std::vector<double> volume(65536, 0), area(65536, 0);
-  for (const Label label : map.labels) volume[label] += s.x * s.y * s.z;
-  const double face = std::cbrt(s.x * s.y * s.z * s.x * s.y * s.z);
-  for (const auto& e : ambient.evidence)
-    for (const Label label : labelsBeside(e.position, map)) area[label] += face / 1.5;
-  for (std::size_t k = 0; k < volume.size(); ++k) volume[k] = area[k] > 0 ? 2 * volume[k] / area[k] : 0;
-  return volume;
-}
-
-/// For a fresh lattice, whose evidence is still at the centres of voxel faces. Where a tissue is thin the surface follows it closely, or it would lose much of its volume.
-void setTolerances(AmbientMesh& ambient, const TissueMap& map, const ScaleFunction& scale, double bound)
-{
-  const Vec3& spacing = map.grid.spacing;
   const double voxel = std::max({ spacing.x, spacing.y, spacing.z });
-  const std::vector<double> thickness = tissueThicknesses(ambient, map);
   for (auto& e : ambient.evidence)
   {
-    double tolerance = 0.45 * voxel + 0.11 * scale(e.position);
-    for (const Label label : labelsBeside(e.position, map))
-      if (label != 0) tolerance = std::min(tolerance, std::max(0.5 * voxel, 0.25 * thickness[label]));
-    e.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
+    e.tolerance = float(0.45 * voxel + 0.11 * scale(e.position));
+    if (bound > 0) e.tolerance = std::min(e.tolerance, float(bound));
   }
 }
 
@@ -182,9 +147,9 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& scale, const Sur
   SurfaceMesh result;
   const ScaleFunction lengthAt = [&](const Vec3& p) { return float(scale(map.grid.gridToWorld(p))); };
   AmbientLattice lattice = ambientLattice(map, scale, {}, subProgress(progress, 0, 0.06));
-  setTolerances(lattice.ambient, map, lengthAt, options.maximumDistance);
   smoothInterface(lattice, map.grid.spacing);
   result.ambient = std::move(lattice.ambient);
+  setTolerances(result.ambient, map.grid.spacing, lengthAt, options.maximumDistance);
 
   Evolution evolution(result.ambient, result.evolution);
   evolution.record("lattice");

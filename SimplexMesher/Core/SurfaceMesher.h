@@ -16,7 +16,7 @@ namespace surgicalmesher
 struct SurfaceMesherOptions
 {
   double maximumDistance = 0; ///< mm; bound on the distance of any boundary point of the map to the surface; 0: automatic,
-                              ///< 0.45 voxel + 0.11 L, less where a tissue is thin
+                              ///< 0.45 voxel + 0.11 L
 };
 
 /// The mesh after one step.
