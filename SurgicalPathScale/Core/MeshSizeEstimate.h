@@ -30,7 +30,7 @@ struct MeshSizeEstimate
 ///     jhu189, 189 brain tissues, L 1 to 8 mm                    0.83         0.91
 ///     the same, L 2 to 10 mm                                    0.71         0.77
 ///     SPL atlas, 312 tissues, many of them thin, 1 to 8 mm      0.87         0.78
-///     head of 53 tissues, noisy, 1 to 8 mm                      1.40         0.92
+///     head of 53 tissues, noisy, 1 to 8 mm                      1.24         0.90
 ///     21 organs of a CT, 0.98 x 0.98 x 2.5 mm, 1 to 8 mm        1.11         1.00
 ///     boxes of 40 mm of jhu189, L 2, 4, 6, 1 to 8 mm    0.90 .. 1.09 1.04 .. 1.10
 MeshSizeEstimate estimateMeshSize(const TissueMap& map, const ScaleField& scale);
