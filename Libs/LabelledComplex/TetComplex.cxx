@@ -105,8 +105,6 @@ bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::ve
   tetrahedra.clear();
   vertices.clear();
   std::int32_t t = seed, from = -1;
-  for (std::int32_t v : tets[t])
-    if (v != a && v != b) from = v;
   // Which of the two rotations is taken is fixed by the seed's winding: (a, b, from, to) positive.
   {
     const Tet& x = tets[t];

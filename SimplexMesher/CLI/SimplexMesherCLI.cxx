@@ -1,5 +1,6 @@
 // SimplexMesherCLI: label map and scale in; prepared map, shared surface of all tissues and its ambient tetrahedra out.
 
+#include "BoundaryDistance.h"
 #include "CommandLine.h"
 #include "ComplexChecks.h"
 #include "ComplexIO.h"
@@ -15,8 +16,6 @@
 #include <rapidjson/stringbuffer.h>
 #include <vtkSMPTools.h>
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
 
 using namespace surgicalmesher;
@@ -48,48 +47,6 @@ void requireTopology(const TetraMesh& mesh, const std::map<Label, Betti>& wanted
     if (at == got.end()) throw EngineError("surface: tissue " + std::to_string(label) + " got lost");
     if (!(at->second == betti)) throw EngineError("surface: tissue " + std::to_string(label) + " changed its topology");
   }
-}
-
-/// Signed distance, mm, of each surface point to the nearest face between voxels of different labels: positive where the
-/// map has the label in front of the surface, negative otherwise. NaN-free: beyond the search range, the range itself.
-std::vector<double> distancesToMap(const SurfaceComplex& surface, const TissueMap& map)
-{
-  constexpr int reach = 4; // voxels
-  const Grid& g = map.grid;
-  const auto labelAt = [&](int i, int j, int k) { return g.contains(i, j, k) ? map.labels[g.index(i, j, k)] : Label(0); };
-  std::vector<Label> front(surface.points.size(), 0);
-  for (std::size_t t = surface.triangles.size(); t-- > 0;)
-    for (std::int32_t v : surface.triangles[t]) front[v] = surface.labels[t][1];
-  std::vector<double> out(surface.points.size());
-  vtkSMPTools::For(0, vtkIdType(out.size()), [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType v = begin; v < end; ++v)
-    {
-      const Vec3& p = surface.points[v];
-      int c[3];
-      for (int a = 0; a < 3; ++a) c[a] = int(std::lround(p[a] / g.spacing[a]));
-      double best = reach * std::min({ g.spacing.x, g.spacing.y, g.spacing.z });
-      best *= best;
-      for (int k = c[2] - reach; k <= c[2] + reach; ++k)
-        for (int j = c[1] - reach; j <= c[1] + reach; ++j)
-          for (int i = c[0] - reach; i <= c[0] + reach; ++i)
-            for (int a = 0; a < 3; ++a)
-            {
-              const int next[3] = { i + (a == 0), j + (a == 1), k + (a == 2) };
-              if (labelAt(i, j, k) == labelAt(next[0], next[1], next[2])) continue;
-              const int here[3] = { i, j, k };
-              double d2 = 0;
-              for (int b = 0; b < 3; ++b)
-              {
-                const double off = std::abs(p[b] - (b == a ? here[b] + 0.5 : here[b]) * g.spacing[b]);
-                const double beyond = std::max(0.0, off - (b == a ? 0 : 0.5 * g.spacing[b]));
-                d2 += beyond * beyond;
-              }
-              best = std::min(best, d2);
-            }
-      out[v] = (labelAt(c[0], c[1], c[2]) == front[v] ? 1 : -1) * std::sqrt(best);
-    }
-  });
-  return out;
 }
 
 TetraMesh toWorld(TetraMesh mesh, const Grid& grid)
@@ -212,7 +169,7 @@ void run(CommandLine& line)
   requireTopology(mesh.ambient.mesh, topology);
   SurfaceFile content;
   content.surface = interfaceOf(mesh.ambient.mesh);
-  content.boundaryDistance = distancesToMap(content.surface, map);
+  content.boundaryDistance = boundaryDistances(content.surface, map);
   for (Vec3& p : content.surface.points)
   {
     p = world.gridToWorld(p);
