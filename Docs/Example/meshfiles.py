@@ -58,10 +58,10 @@ def cell_array(dataset, name):
 
 
 def read_mesh(file):
-    """Tetrahedra: points (n, 3), tetrahedra (m, 4), tissue (m,), submesh (m,)."""
+    """Tetrahedra: points (n, 3), tetrahedra (m, 4), tissue (m,), submesh (m,) or None in meshes of other programs."""
     grid = read_dataset(file)
     return SimpleNamespace(
         points=vtk_to_numpy(grid.GetPoints().GetData()).astype(float),
         tetrahedra=vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4),
         tissue=cell_array(grid, "TissueLabel"),
-        submesh=cell_array(grid, "SubMesh"))
+        submesh=cell_array(grid, "SubMesh") if grid.GetCellData().HasArray("SubMesh") else None)
