@@ -1,0 +1,47 @@
+#include "Export.h"
+
+#include "AbaqusExport.h"
+#include "Errors.h"
+#include "FebioExport.h"
+#include "VtkExport.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+namespace surgicalmesher
+{
+
+const std::vector<ExportFormat>& exportFormats()
+{
+  static const std::vector<ExportFormat> formats{
+    { ".feb", "FEBio 4.0", writeFebio },
+    { ".inp", "Abaqus, CalculiX", writeAbaqus },
+    { ".vtk", "legacy VTK, SOFA", writeVtk },
+    { ".vtu", "VTK", writeVtk },
+  };
+  return formats;
+}
+
+const ExportFormat& exportFormatOf(const std::string& file)
+{
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  std::string known;
+  for (const ExportFormat& format : exportFormats())
+  {
+    if (format.extension == extension) return format;
+    known += (known.empty() ? "" : ", ") + format.extension;
+  }
+  throw UsageError(file + ": extension \"" + extension + "\" found, one of " + known + " expected");
+}
+
+void exportModel(const FiniteElementModel& model, const std::string& file, const Destination& destination)
+{
+  const Destination place = destination ? destination : [](const std::string& finalPath) { return finalPath; };
+  exportFormatOf(file).write(model, file, place);
+  writeBytes(setNamesJSON(model), place(file + ".names.json"));
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,16 @@
+#pragma once
+/// VTK's own formats (.vtu, legacy .vtk): tetrahedra alone, as SOFA and SlicerSOFA read them.
+
+#include "Export.h"
+
+namespace surgicalmesher
+{
+
+/// The arrays of writeMesh(); sets are in the cell arrays TissueLabel, SubMesh and Constitutive.
+void writeVtk(const FiniteElementModel& model, const std::string& file, const Destination& destination);
+
+/// The shells as a .vtp: triangles whose point array VolumePointId says which point of the mesh each of theirs is; cell
+/// arrays TissueLabel and Thickness (mm); field data as in writeMesh(). Throws InputError if the model has none.
+void writeShells(const FiniteElementModel& model, const std::string& file);
+
+} // namespace surgicalmesher
