@@ -217,10 +217,15 @@ std::string CommandLine::outputFile(const std::string& name)
   return file.empty() ? file : d->outputs.temporary(file);
 }
 
-std::vector<std::string> CommandLine::outputFiles(const std::string& name)
+std::vector<std::string> CommandLine::outputNames(const std::string& name) const
 {
   const auto isOutput = [](const Parameter& p) { return p.isFile() && p.output && p.multiple; };
-  std::vector<std::string> files = d->values(d->parameter(name, isOutput, "list of output files"));
+  return d->values(d->parameter(name, isOutput, "list of output files"));
+}
+
+std::vector<std::string> CommandLine::outputFiles(const std::string& name)
+{
+  std::vector<std::string> files = outputNames(name);
   for (std::string& file : files) file = d->outputs.temporary(file);
   return files;
 }

@@ -16,7 +16,7 @@ import xml.dom.minidom
 SOURCE = os.path.abspath(sys.argv.pop(2))
 EXECUTABLE = os.path.abspath(sys.argv.pop(1))
 
-ACCESSORS = "given|flag|integer|number|text|texts|numbers|points|outputFile|outputFiles|returnValue"
+ACCESSORS = "given|flag|integer|number|text|texts|numbers|points|outputFile|outputFiles|outputNames|returnValue"
 
 
 def run(*arguments):
