@@ -50,11 +50,14 @@ constexpr const char* kTissueLabel = "TissueLabel";
 constexpr const char* kSubMesh = "SubMesh";
 constexpr const char* kConstitutive = "Constitutive";
 constexpr const char* kInterface = "Interface";
+constexpr const char* kInterfaceId = "InterfaceId";
+constexpr const char* kVolumePointId = "VolumePointId";
 constexpr const char* kTargetEdgeLength = "TargetEdgeLength";
 constexpr const char* kBoundaryDistance = "BoundaryDistance";
 constexpr const char* kTissueIds = "TissueIds";
 constexpr const char* kTissueNames = "TissueNames";
 constexpr const char* kTissueColors = "TissueColors";
+constexpr const char* kTissueRoles = "TissueRoles";
 
 /// Keeps the first error VTK reports while it lives: readers tell of damaged content in no other way.
 class ErrorWindow : public vtkOutputWindow
@@ -285,14 +288,15 @@ vtkDataArray* arrayOf(vtkFieldData* data, const char* name, vtkIdType items, int
   return array;
 }
 
-/// Component c of tuple i as an integer in [0, highest].
-std::int32_t integerAt(vtkDataArray* array, vtkIdType i, int c, int highest, const std::string& file)
+/// Component c of tuple i as an integer in [lowest, highest].
+std::int32_t integerAt(vtkDataArray* array, vtkIdType i, int c, int lowest, int highest, const std::string& file)
 {
   const double value = array->GetComponent(i, c);
-  if (!(value >= 0 && value <= highest) || value != std::floor(value))
+  if (!(value >= lowest && value <= highest) || value != std::floor(value))
   {
     refuse(file, std::string("array ") + array->GetName() + " has the value " + std::to_string(value) + " at " +
-                   std::to_string(i) + ", expected an integer from 0 to " + std::to_string(highest));
+                   std::to_string(i) + ", expected an integer from " + std::to_string(lowest) + " to " +
+                   std::to_string(highest));
   }
   return static_cast<std::int32_t>(value);
 }
@@ -315,13 +319,13 @@ std::vector<double> numbersOf(vtkFieldData* data, const char* name, vtkIdType it
 }
 
 std::vector<std::int32_t> integersOf(vtkFieldData* data, const char* name, vtkIdType items, int highest,
-                                     const std::string& file)
+                                     const std::string& file, int lowest = 0)
 {
   vtkDataArray* array = arrayOf(data, name, items, 1, file);
   std::vector<std::int32_t> integers(array ? items : 0);
   for (std::size_t i = 0; i < integers.size(); ++i)
   {
-    integers[i] = integerAt(array, i, 0, highest, file);
+    integers[i] = integerAt(array, i, 0, lowest, highest, file);
   }
   return integers;
 }
@@ -337,12 +341,14 @@ TissueTable tissuesOf(vtkFieldData* data)
   vtkDataArray* ids = data->GetArray(kTissueIds);
   auto* names = vtkStringArray::SafeDownCast(data->GetAbstractArray(kTissueNames));
   vtkDataArray* colors = data->GetArray(kTissueColors);
+  auto* roles = vtkStringArray::SafeDownCast(data->GetAbstractArray(kTissueRoles));
   for (vtkIdType i = 0; ids && i < ids->GetNumberOfTuples(); ++i)
   {
     const double id = ids->GetComponent(i, 0);
     if (!(id >= 0 && id <= kHighestLabel)) continue;
     Tissue& tissue = table[static_cast<Label>(id)];
     if (names && i < names->GetNumberOfValues()) tissue.name = names->GetValue(i);
+    tissue.isShell = roles && i < roles->GetNumberOfValues() && roles->GetValue(i) == "shell";
     if (colors && colors->GetNumberOfComponents() == 3 && i < colors->GetNumberOfTuples())
     {
       colors->GetTuple(i, tissue.color.data());
@@ -440,7 +446,7 @@ void addFieldData(vtkFieldData* data, const std::set<Label>& present, const Tiss
 {
   addStrings(data, kSpace, { "LPS" });
   std::vector<int> ids;
-  std::vector<std::string> names;
+  std::vector<std::string> names, roles;
   std::vector<double> colors;
   for (const Label label : present)
   {
@@ -450,11 +456,13 @@ void addFieldData(vtkFieldData* data, const std::set<Label>& present, const Tiss
     ids.push_back(label);
     names.push_back(tissue.name.empty() ? "tissue " + std::to_string(label) : tissue.name);
     colors.insert(colors.end(), tissue.color.begin(), tissue.color.end());
+    roles.push_back(tissue.isShell ? "shell" : "mesh");
   }
   if (ids.empty()) return;
   addArray<vtkIntArray>(data, kTissueIds, ids);
   addStrings(data, kTissueNames, names);
   addArray<vtkDoubleArray>(data, kTissueColors, colors, 3);
+  if (std::count(roles.begin(), roles.end(), "shell") > 0) addStrings(data, kTissueRoles, roles);
 }
 
 /// Through memory, because VTK's writers don't notice every failure of the disk.
@@ -580,7 +588,7 @@ SurfaceFile readSurface(const std::string& file)
     {
       for (int side = 0; side < 2; ++side)
       {
-        surface.labels[i][side] = static_cast<Label>(integerAt(labels, i, side, kHighestLabel, file));
+        surface.labels[i][side] = static_cast<Label>(integerAt(labels, i, side, 0, kHighestLabel, file));
       }
       if (surface.labels[i][0] == surface.labels[i][1])
       {
@@ -642,6 +650,8 @@ MeshFile readMesh(const std::string& file)
   result.constitutive = integersOf(cellData, kConstitutive, cellCount, 2, file);
   result.subMeshInterface = integersOf(grid->GetPointData(), kInterface, pointCount, 1, file);
   result.targetEdgeLength = numbersOf(grid->GetPointData(), kTargetEdgeLength, pointCount, 0, file);
+  result.volumePointId = integersOf(grid->GetPointData(), kVolumePointId, pointCount, kHighestInteger, file);
+  result.interfaceId = integersOf(grid->GetPointData(), kInterfaceId, pointCount, kHighestInteger, file, -1);
   result.tissues = tissuesOf(grid->GetFieldData());
   requireSound(result.mesh, file);
   return result;
@@ -657,6 +667,8 @@ void writeMesh(const MeshFile& content, const std::string& file)
   addArray<vtkIntArray>(grid->GetCellData(), kConstitutive, content.constitutive);
   addArray<vtkIntArray>(grid->GetPointData(), kInterface, content.subMeshInterface);
   addArray<vtkDoubleArray>(grid->GetPointData(), kTargetEdgeLength, content.targetEdgeLength);
+  addArray<vtkIntArray>(grid->GetPointData(), kVolumePointId, content.volumePointId);
+  addArray<vtkIntArray>(grid->GetPointData(), kInterfaceId, content.interfaceId);
   const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
   addFieldData(grid->GetFieldData(), present, content.tissues);
   const std::string extension = extensionOf(file);

@@ -31,7 +31,8 @@ struct SurfaceFile
 SurfaceFile readSurface(const std::string& file);
 
 /// Writes a .vtp: BoundaryLabels (if any), TargetEdgeLength and BoundaryDistance (if not empty), SPACE, TissueIds,
-/// TissueNames and TissueColors (RGB in 0..1) of the tissues that occur.
+/// TissueNames, TissueColors (RGB in 0..1) and, where there is a shell, TissueRoles ("mesh", "shell") of the tissues that
+/// occur.
 void writeSurface(const SurfaceFile& content, const std::string& file);
 
 /// Labelled tetrahedra and what travels with them in their file. Empty vectors: the file has none.
@@ -42,6 +43,8 @@ struct MeshFile
   std::vector<std::int32_t> constitutive;     ///< per tetrahedron: 0 linear, 1 nonlinear, 2 null displacement
   std::vector<std::int32_t> subMeshInterface; ///< per point: 1 where two sub-meshes meet, else 0
   std::vector<double> targetEdgeLength;       ///< per point, mm
+  std::vector<std::int32_t> volumePointId;    ///< per point of a part: its id in the whole mesh
+  std::vector<std::int32_t> interfaceId;      ///< per point of a part: its number on the child/parent interface, -1 none
   TissueTable tissues;                        ///< names and colours
 };
 

@@ -39,6 +39,10 @@ TissueTable readTissueTable(const std::string& file);
 /// the map doesn't have.
 void completeTissueTable(TissueMap& map, const std::string& file);
 
+/// The label that `text` means: a number from 0 to 65535, or a name of `names` (underscores and blanks are the same).
+/// Returns false if it is neither.
+bool findTissue(const std::string& text, const TissueTable& names, Label& label);
+
 /// Control points of every markup in a .mrk.json (Fiducial, Curve, ClosedCurve, Line) or .fcsv file, in LPS mm, whatever
 /// the file's own coordinate system; a ClosedCurve ends with its first point again. One list per markup that has points;
 /// points that are not placed (positionStatus) are left out. Refused: no point at all, coordinates that are no finite

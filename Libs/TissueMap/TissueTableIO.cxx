@@ -50,6 +50,12 @@ bool parseTissue(const std::vector<std::string>& words, Tissue& tissue)
   return count >= 2;
 }
 
+std::string comparable(std::string name)
+{
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return text::trimmed(name);
+}
+
 } // namespace
 
 TissueTable readTissueTable(const std::string& file)
@@ -87,6 +93,23 @@ void completeTissueTable(TissueMap& map, const std::string& file)
     if (entry != map.table.end()) present.insert(*entry);
   }
   map.table = present;
+}
+
+bool findTissue(const std::string& text, const TissueTable& names, Label& label)
+{
+  long number = 0;
+  if (text::parseInteger(text, 0, 65535, number))
+  {
+    label = Label(number);
+    return true;
+  }
+  for (const auto& entry : names)
+  {
+    if (entry.second.name.empty() || comparable(entry.second.name) != comparable(text)) continue;
+    label = entry.first;
+    return true;
+  }
+  return false;
 }
 
 } // namespace surgicalmesher

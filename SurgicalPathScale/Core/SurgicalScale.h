@@ -11,6 +11,7 @@
 /// triangles and tetrahedra. Lengths and distances in mm.
 
 #include "Distance.h"
+#include "Gradation.h"
 #include "Progress.h"
 #include "ScaleField.h"
 #include "TissueMap.h"
@@ -81,9 +82,5 @@ Grid scaleGrid(const Grid& map, double spacing);
 /// Throws as checkScaleOptions does.
 ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
                                 const SurgicalScaleOptions& options, const Progress& progress = {});
-
-/// Lowers L to the largest function below it that rises by no more than `slope` per mm between any two voxel centres:
-/// L'(x) = min over all voxels y of L(y) + slope |x - y|. Exact; slope > 0.
-void limitGradation(ScaleField& scale, double slope);
 
 } // namespace surgicalmesher

@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "TextFile.h"
+#include "TissueMapIO.h"
 
 #include <algorithm>
 #include <set>
@@ -58,30 +59,7 @@ double readValue(const std::vector<std::string>& fields, int column, double miss
   return value;
 }
 
-std::string comparable(std::string name)
-{
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return text::trimmed(name);
-}
-
 } // namespace
-
-bool findTissue(const std::string& text, const TissueTable& names, Label& label)
-{
-  long number = 0;
-  if (text::parseInteger(text, 0, 65535, number))
-  {
-    label = Label(number);
-    return true;
-  }
-  for (const auto& entry : names)
-  {
-    if (entry.second.name.empty() || comparable(entry.second.name) != comparable(text)) continue;
-    label = entry.first;
-    return true;
-  }
-  return false;
-}
 
 std::map<Label, TissueLength> readTissueLengths(const std::string& file, const LengthRange& range,
                                                 const TissueTable& names)

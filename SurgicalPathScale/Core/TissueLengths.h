@@ -15,8 +15,4 @@ namespace surgicalmesher
 std::map<Label, TissueLength> readTissueLengths(const std::string& file, const LengthRange& range,
                                                 const TissueTable& names);
 
-/// The label that `text` means: a number from 0 to 65535, or a name of `names` (underscores and blanks are the same).
-/// Returns false if it is neither.
-bool findTissue(const std::string& text, const TissueTable& names, Label& label);
-
 } // namespace surgicalmesher

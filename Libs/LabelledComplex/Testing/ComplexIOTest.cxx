@@ -98,8 +98,10 @@ MeshFile someMesh()
   {
     content.targetEdgeLength.push_back(2 + p.x);
     content.subMeshInterface.push_back(p.x > 0);
+    content.interfaceId.push_back(p.x > 0 ? static_cast<std::int32_t>(content.volumePointId.size()) : -1);
+    content.volumePointId.push_back(2 * static_cast<std::int32_t>(content.volumePointId.size()));
   }
-  content.tissues[2] = { "bone", { 1, 1, 0 } };
+  content.tissues[2] = { "bone", { 1, 1, 0 }, true };
   return content;
 }
 
@@ -159,8 +161,12 @@ TEST_F(ComplexIO, MeshComesBackAsItWasFromBothFormats)
     EXPECT_EQ(read.subMesh, written.subMesh);
     EXPECT_EQ(read.constitutive, written.constitutive);
     EXPECT_EQ(read.subMeshInterface, written.subMeshInterface);
+    EXPECT_EQ(read.volumePointId, written.volumePointId);
+    EXPECT_EQ(read.interfaceId, written.interfaceId);
     EXPECT_EQ(read.targetEdgeLength, written.targetEdgeLength);
     EXPECT_EQ(read.tissues.at(2).name, "bone");
+    EXPECT_TRUE(read.tissues.at(2).isShell);
+    EXPECT_FALSE(read.tissues.at(1).isShell);
     writeMesh(read, path("b" + extension));
     EXPECT_EQ(bytesOf(path("a" + extension)), bytesOf(path("b" + extension))) << extension;
   }
@@ -335,6 +341,8 @@ TEST_F(ComplexIO, RefusesMeshesThatAreNotSound)
   unused.mesh.points.push_back({});
   unused.targetEdgeLength.push_back(1);
   unused.subMeshInterface.push_back(0);
+  unused.volumePointId.push_back(0);
+  unused.interfaceId.push_back(-1);
   refused(unused, "belongs to no tetrahedron");
 
   vtkNew<vtkUnstructuredGrid> mixed;

@@ -1,7 +1,7 @@
 // limitGradation: branch and bound over a pyramid of minima. A block of voxels is left out when even its least length, at
 // the distance of its nearest corner, would not lower what has been found so far.
 
-#include "SurgicalScale.h"
+#include "Gradation.h"
 
 #include <vtkSMPTools.h>
 

@@ -1,0 +1,246 @@
+#include "TissueSettings.h"
+
+#include "Errors.h"
+#include "TextFile.h"
+#include "TissueMapIO.h"
+
+#include <algorithm>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+enum Column
+{
+  ColumnLabel,
+  ColumnName,
+  ColumnRole,
+  ColumnMinimum,
+  ColumnMaximum,
+  ColumnProtected,
+  ColumnIslands,
+  ColumnCavities,
+  ColumnCount
+};
+
+const std::array<const char*, ColumnCount> columnNames{ "label",   "name",      "role",    "minimum",
+                                                        "maximum", "protected", "islands", "cavities" };
+
+/// Field number of each column; -1 for one that the header row lacks.
+using Columns = std::array<int, ColumnCount>;
+
+[[noreturn]] void fail(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
+
+/// One row of the table.
+struct Row
+{
+  std::string where; ///< file and line
+  std::vector<std::string> fields;
+  const Columns& columns;
+
+  std::string at(Column column) const
+  {
+    const int n = columns[column];
+    return n >= 0 && n < int(fields.size()) ? fields[n] : std::string();
+  }
+};
+
+Columns readHeader(const std::vector<std::string>& fields, const std::string& where)
+{
+  Columns columns;
+  columns.fill(-1);
+  for (std::size_t n = 0; n < fields.size(); ++n)
+  {
+    const auto found = std::find(columnNames.begin(), columnNames.end(), text::lowerCase(fields[n]));
+    if (found == columnNames.end() || columns[found - columnNames.begin()] >= 0)
+    {
+      fail(where, "column \"" + fields[n] +
+                    "\", expected label, name, role, minimum, maximum, protected, islands, cavities, each at most once");
+    }
+    columns[found - columnNames.begin()] = int(n);
+  }
+  if (columns[ColumnLabel] < 0 && columns[ColumnName] < 0) fail(where, "no column label or name in the header row");
+  return columns;
+}
+
+Label readTissue(const Row& row, const TissueMap& map, const std::vector<Label>& present)
+{
+  const std::string tissue = row.at(ColumnLabel).empty() ? row.at(ColumnName) : row.at(ColumnLabel);
+  Label label = 0;
+  if (!findTissue(tissue, map.table, label) || label == 0)
+  {
+    fail(row.where, "\"" + tissue + "\" is neither a label from 1 to 65535 nor the name of a tissue of the map");
+  }
+  if (!std::binary_search(present.begin(), present.end(), label))
+  {
+    fail(row.where, "tissue " + tissue + " has no voxel in the map, expected one that has");
+  }
+  return label;
+}
+
+void readRole(const Row& row, TissueSetting& setting)
+{
+  const std::string role = row.at(ColumnRole);
+  const std::string word = text::lowerCase(role.substr(0, role.find_first_of(" \t")));
+  if (word == "group") setting.group = text::trimmed(role.substr(word.size()));
+  if (word.empty() || text::lowerCase(role) == "mesh") setting.role = TissueRole::Mesh;
+  else if (text::lowerCase(role) == "shell") setting.role = TissueRole::Shell;
+  else if (text::lowerCase(role) == "leave") setting.role = TissueRole::Leave;
+  else if (!setting.group.empty()) setting.role = TissueRole::Group;
+  else fail(row.where, "role \"" + role + "\", expected mesh, group NAME, shell or leave");
+}
+
+/// An empty field leaves `value` alone.
+void readNumber(const Row& row, Column column, bool mayBeZero, double& value)
+{
+  const std::string field = row.at(column);
+  double number = 0;
+  if (field.empty()) return;
+  if (!text::parseNumber(field, number) || number < 0 || (number == 0 && !mayBeZero))
+  {
+    fail(row.where, std::string(columnNames[column]) + " \"" + field + "\", expected a finite number " +
+                      (mayBeZero ? "of at least 0" : "above 0"));
+  }
+  value = number;
+}
+
+bool readProtected(const Row& row)
+{
+  const std::string field = text::lowerCase(row.at(ColumnProtected));
+  if (field == "yes" || field == "true" || field == "1") return true;
+  if (field.empty() || field == "no" || field == "false" || field == "0") return false;
+  fail(row.where, "protected \"" + field + "\", expected yes or no");
+}
+
+TissueSetting readSetting(const Row& row)
+{
+  TissueSetting setting;
+  readRole(row, setting);
+  readNumber(row, ColumnMinimum, false, setting.minimumEdgeLength);
+  readNumber(row, ColumnMaximum, false, setting.maximumEdgeLength);
+  readNumber(row, ColumnIslands, true, setting.islandVolume);
+  readNumber(row, ColumnCavities, true, setting.cavityVolume);
+  setting.isProtected = readProtected(row);
+  double& minimum = setting.minimumEdgeLength;
+  double& maximum = setting.maximumEdgeLength;
+  if (minimum > 0 && maximum > 0 && minimum > maximum)
+    fail(row.where, "the minimum edge length is above the maximum");
+  if (setting.role != TissueRole::Shell) return setting;
+  if (minimum > 0 && maximum > 0 && minimum < maximum)
+    fail(row.where, "a shell of two edge lengths, expected one, as minimum or maximum");
+  minimum = maximum = std::max(minimum, maximum);
+  return setting;
+}
+
+/// The smaller of two values that both may be left open.
+double smaller(double a, double b, double open) { return a == open ? b : b == open ? a : std::min(a, b); }
+
+/// What a group asks for, of what two of its members do. An open minimum is a minimum of 0.
+TissueSetting joined(const TissueSetting& a, const TissueSetting& b)
+{
+  TissueSetting both = a;
+  both.minimumEdgeLength = std::min(a.minimumEdgeLength, b.minimumEdgeLength);
+  both.maximumEdgeLength = smaller(a.maximumEdgeLength, b.maximumEdgeLength, 0);
+  both.islandVolume = smaller(a.islandVolume, b.islandVolume, -1);
+  both.cavityVolume = smaller(a.cavityVolume, b.cavityVolume, -1);
+  both.isProtected = a.isProtected || b.isProtected;
+  return both;
+}
+
+std::vector<TissueGroup> groupsOf(const TissueSettings& settings)
+{
+  std::map<std::string, TissueGroup> byName;
+  for (const auto& [label, setting] : settings)
+  {
+    if (setting.role != TissueRole::Group) continue;
+    TissueGroup& group = byName[setting.group];
+    group.name = setting.group;
+    group.members.push_back(label);
+    group.label = group.members.front();
+  }
+  std::vector<TissueGroup> groups;
+  for (const auto& [name, group] : byName) groups.push_back(group);
+  std::sort(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.label < b.label; });
+  return groups;
+}
+
+void joinGroup(const TissueGroup& group, TissueMap& map, TissueSettings& settings)
+{
+  TissueSetting together = settings.at(group.label);
+  for (const Label member : group.members)
+  {
+    together = joined(together, settings.at(member));
+    if (member == group.label) continue;
+    settings.erase(member);
+    map.table.erase(member);
+  }
+  settings[group.label] = together;
+  map.table[group.label].name = group.name;
+}
+
+} // namespace
+
+TissueSettings readTissueSettings(const std::string& file, const TissueMap& map)
+{
+  const std::vector<Label> present = presentLabels(map);
+  TissueSettings settings;
+  Columns columns{};
+  bool hasHeader = false;
+  const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
+  for (std::size_t n = 0; n < lines.size(); ++n)
+  {
+    const std::string line = text::trimmed(lines[n]);
+    if (line.empty() || line[0] == '#') continue;
+    const Row row{ file + ":" + std::to_string(n + 1), text::splitFields(line), columns };
+    if (!hasHeader)
+    {
+      columns = readHeader(row.fields, row.where);
+      hasHeader = true;
+      continue;
+    }
+    const Label label = readTissue(row, map, present);
+    if (!settings.emplace(label, readSetting(row)).second)
+      fail(row.where, "tissue " + std::to_string(label) + " is listed for the second time");
+  }
+  if (settings.empty()) throw InputError(file + ": no tissue, expected a header row and a row for each tissue");
+  const auto isLeft = [&](Label label)
+  {
+    const auto found = settings.find(label);
+    return found != settings.end() && found->second.role == TissueRole::Leave;
+  };
+  if (std::all_of(present.begin(), present.end(), isLeft))
+    throw InputError(file + ": every tissue is left out, expected one to mesh");
+  return settings;
+}
+
+TissueSelection selectTissues(TissueMap& map, TissueSettings& settings)
+{
+  TissueSelection selection;
+  selection.tableOfInput = map.table;
+  selection.groups = groupsOf(settings);
+  std::vector<Label> becomes(std::size_t(1) << 16);
+  for (std::size_t label = 0; label < becomes.size(); ++label) becomes[label] = Label(label);
+  for (const TissueGroup& group : selection.groups)
+  {
+    for (const Label member : group.members) becomes[member] = group.label;
+    joinGroup(group, map, settings);
+  }
+  for (const auto& [label, setting] : settings)
+  {
+    if (setting.role == TissueRole::Shell) map.table[label].isShell = true;
+    if (setting.role != TissueRole::Leave) continue;
+    becomes[label] = 0;
+    selection.voxelsLeft[label] = 0;
+    map.table.erase(label);
+  }
+  for (Label& label : map.labels)
+  {
+    if (label != 0 && becomes[label] == 0) ++selection.voxelsLeft[label];
+    label = becomes[label];
+  }
+  return selection;
+}
+
+} // namespace surgicalmesher
