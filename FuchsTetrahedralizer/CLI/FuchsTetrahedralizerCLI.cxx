@@ -9,6 +9,7 @@
 #include "FuchsTetrahedralizerCLIXML.h"
 #include "MeshImprovement.h"
 #include "MeshQuality.h"
+#include "SubMeshExport.h"
 #include "SubMeshes.h"
 #include "SurfaceEdgeLength.h"
 #include "SurfaceTetrahedralization.h"
@@ -128,6 +129,20 @@ MeshFile assemble(const TetraMesh& ambient, const EdgeLength& edgeLength, const 
   return result;
 }
 
+void writeChildAndParent(CommandLine& line, const MeshFile& whole)
+{
+  const std::string parentFile = line.outputFile("parentMesh"), childFile = line.outputFile("childMesh");
+  if (!parentFile.empty()) writeMesh(partOf(whole, [](std::int32_t subMesh) { return subMesh == 0; }), parentFile);
+  if (childFile.empty()) return;
+  const MeshFile children = partOf(whole, [](std::int32_t subMesh) { return subMesh > 0; });
+  if (children.mesh.tetrahedra.empty())
+  {
+    throw InputError(line.text("surface") + ": the mesh has no child, as its edge length is the same everywhere; "
+                                            "expected lengths with a finer region for --childMesh");
+  }
+  writeMesh(children, childFile);
+}
+
 void write(JsonWriter& json, const char* key, const std::vector<std::int32_t>& values)
 {
   json.Key(key);
@@ -210,6 +225,7 @@ void mesh(CommandLine& line)
   report(progress, 0.9, "checks");
   requireSound(result.mesh, "final check");
   writeMesh(result, line.outputFile("mesh"));
+  writeChildAndParent(line, result);
   const MeshQuality quality = assessQuality(result.mesh, result.subMesh, edgeLength);
   const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty()) writeBytes(reportOf(result, division, quality, !line.text("ambient").empty()), reportFile);
