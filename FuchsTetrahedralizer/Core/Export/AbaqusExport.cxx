@@ -1,11 +1,122 @@
 #include "AbaqusExport.h"
 
+#include "TextNumbers.h"
+
 namespace surgicalmesher
 {
-
-void writeAbaqus(const FiniteElementModel&, const std::string& file, const Destination& destination)
+namespace
 {
-  writeBytes("", destination(file));
+
+constexpr std::size_t kNumberLength = 20; ///< of a data field that CalculiX reads
+constexpr std::size_t kIdsPerLine = 16;
+
+/// Abaqus's number of the face opposite to each corner: S1 has the corners 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1.
+constexpr int kFaceNumber[4] = { 3, 4, 2, 1 };
+
+std::string number(double value) { return textOf(value, kNumberLength); }
+
+/// Rows of ids that count from 1, each after a number of its own from `first` on.
+template <class Rows>
+void appendRows(std::string& text, const Rows& rows, std::size_t first)
+{
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    text += std::to_string(first + i);
+    for (const std::int32_t id : rows[i]) text += ", " + std::to_string(id + 1);
+    text += "\n";
+  }
+}
+
+void appendNodes(std::string& text, const std::vector<Vec3>& points)
+{
+  text += "*NODE, NSET=all_nodes\n";
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Vec3& p = points[i];
+    text += std::to_string(i + 1) + ", " + number(p.x) + ", " + number(p.y) + ", " + number(p.z) + "\n";
+  }
+}
+
+void appendElements(std::string& text, const FiniteElementModel& model)
+{
+  const auto& tetrahedra = model.content.mesh.tetrahedra;
+  text += "*ELEMENT, TYPE=C3D4, ELSET=all_elements\n";
+  appendRows(text, tetrahedra, 1);
+  std::size_t first = tetrahedra.size() + 1;
+  for (const Shell& shell : model.shells)
+  {
+    text += "*ELEMENT, TYPE=S3, ELSET=" + shell.name + "\n";
+    appendRows(text, shell.triangles, first);
+    first += shell.triangles.size();
+  }
+}
+
+void appendSets(std::string& text, const FiniteElementModel& model)
+{
+  for (const ElementSet& set : model.elementSets)
+  {
+    text += "*ELSET, ELSET=" + set.name + "\n";
+    appendIds(text, set.tetrahedra, kIdsPerLine);
+  }
+  for (const NodeSet& set : model.nodeSets)
+  {
+    text += "*NSET, NSET=" + set.name + "\n";
+    appendIds(text, set.points, kIdsPerLine);
+  }
+  for (const SurfaceSet& set : model.surfaces)
+  {
+    text += "*SURFACE, NAME=" + set.name + ", TYPE=ELEMENT\n";
+    for (const auto& [tetrahedron, face] : set.faces)
+    {
+      text += std::to_string(tetrahedron + 1) + ", S" + std::to_string(kFaceNumber[face]) + "\n";
+    }
+  }
+}
+
+/// Neo-Hooke: U = C10 (I1 - 3) + (J - 1)^2 / D1 with C10 half the shear modulus, D1 two over the bulk modulus.
+void appendMaterial(std::string& text, const Material& material)
+{
+  const double E = material.youngsModulus, nu = material.poissonsRatio;
+  text += "*MATERIAL, NAME=" + material.name + "\n";
+  if (material.law == MaterialLaw::LinearElastic) text += "*ELASTIC\n" + number(E) + ", " + number(nu) + "\n";
+  else text += "*HYPERELASTIC, NEO HOOKE\n" + number(E / (4 * (1 + nu))) + ", " + number(6 * (1 - 2 * nu) / E) + "\n";
+  text += "*DENSITY\n" + number(material.density) + "\n";
+}
+
+void appendSections(std::string& text, const FiniteElementModel& model)
+{
+  for (const Material& material : model.materials) appendMaterial(text, material);
+  for (const Section& section : model.sections)
+  {
+    text += "*SOLID SECTION, ELSET=" + model.elementSets[section.elementSet].name +
+            ", MATERIAL=" + model.materials[section.material].name + "\n";
+  }
+  for (const Shell& shell : model.shells)
+  {
+    text += "*SHELL SECTION, ELSET=" + shell.name + ", MATERIAL=" + model.materials[shell.material].name + "\n" +
+            number(shell.thickness) + "\n";
+  }
+}
+
+void appendClamps(std::string& text, const FiniteElementModel& model)
+{
+  for (const NodeSet& set : model.nodeSets)
+  {
+    if (set.kind == SetKind::NullDisplacement) text += "*BOUNDARY\n" + set.name + ", 1, 3\n";
+  }
+}
+
+} // namespace
+
+void writeAbaqus(const FiniteElementModel& model, const std::string& file, const Destination& destination)
+{
+  std::string text = "*HEADING\nLPS; mm, N, MPa, tonne, s\n";
+  appendNodes(text, model.content.mesh.points);
+  appendElements(text, model);
+  appendSets(text, model);
+  appendSections(text, model);
+  appendClamps(text, model);
+  writeBytes(text, destination(file));
 }
 
 } // namespace surgicalmesher

@@ -1,11 +1,151 @@
 #include "FebioExport.h"
 
+#include "TextNumbers.h"
+
+#include <set>
+
 namespace surgicalmesher
 {
-
-void writeFebio(const FiniteElementModel&, const std::string& file, const Destination& destination)
+namespace
 {
-  writeBytes("", destination(file));
+
+constexpr std::size_t kIdsPerLine = 16;
+
+/// <tag id="n">a,b,c</tag> for each row, ids counted from 1.
+template <class Rows>
+void appendRows(std::string& text, const char* tag, const Rows& rows, std::size_t first)
+{
+  for (std::size_t i = 0; i < rows.size(); ++i)
+  {
+    text += "      <" + std::string(tag) + " id=\"" + std::to_string(first + i) + "\">";
+    const char* separator = "";
+    for (const std::int32_t id : rows[i])
+    {
+      text += separator + std::to_string(id + 1);
+      separator = ",";
+    }
+    text += "</" + std::string(tag) + ">\n";
+  }
+}
+
+void appendMaterials(std::string& text, const FiniteElementModel& model)
+{
+  text += "  <Material>\n";
+  for (std::size_t i = 0; i < model.materials.size(); ++i)
+  {
+    const Material& material = model.materials[i];
+    const char* law = material.law == MaterialLaw::NeoHookean ? "neo-Hookean" : "isotropic elastic";
+    text += "    <material id=\"" + std::to_string(i + 1) + "\" name=\"" + material.name + "\" type=\"" + law + "\">\n";
+    text += "      <density>" + textOf(material.density) + "</density>\n";
+    text += "      <E>" + textOf(material.youngsModulus) + "</E>\n";
+    text += "      <v>" + textOf(material.poissonsRatio) + "</v>\n    </material>\n";
+  }
+  text += "  </Material>\n";
+}
+
+void appendNodes(std::string& text, const std::vector<Vec3>& points)
+{
+  text += "    <Nodes name=\"all_nodes\">\n";
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Vec3& p = points[i];
+    text += "      <node id=\"" + std::to_string(i + 1) + "\">" + textOf(p.x) + "," + textOf(p.y) + "," + textOf(p.z) +
+            "</node>\n";
+  }
+  text += "    </Nodes>\n";
+}
+
+/// Parts: an element belongs to exactly one, the one of its section or shell.
+void appendParts(std::string& text, const FiniteElementModel& model)
+{
+  const auto& tetrahedra = model.content.mesh.tetrahedra;
+  for (const Section& section : model.sections)
+  {
+    const ElementSet& set = model.elementSets[section.elementSet];
+    text += "    <Elements type=\"tet4\" name=\"" + set.name + "\">\n";
+    for (const std::int32_t t : set.tetrahedra) appendRows(text, "elem", std::vector{ tetrahedra[t] }, t + 1);
+    text += "    </Elements>\n";
+  }
+  std::size_t first = tetrahedra.size() + 1;
+  for (const Shell& shell : model.shells)
+  {
+    text += "    <Elements type=\"tri3\" name=\"" + shell.name + "\">\n";
+    appendRows(text, "elem", shell.triangles, first);
+    text += "    </Elements>\n";
+    first += shell.triangles.size();
+  }
+}
+
+void appendSets(std::string& text, const FiniteElementModel& model)
+{
+  for (const NodeSet& set : model.nodeSets)
+  {
+    text += "    <NodeSet name=\"" + set.name + "\">\n";
+    appendIds(text, set.points, kIdsPerLine, ",");
+    text += "    </NodeSet>\n";
+  }
+  for (const SurfaceSet& set : model.surfaces)
+  {
+    text += "    <Surface name=\"" + set.name + "\">\n";
+    appendRows(text, "tri3", set.triangles, 1);
+    text += "    </Surface>\n";
+  }
+  std::set<std::int32_t> parts; // are element sets of the same name already
+  for (const Section& section : model.sections) parts.insert(section.elementSet);
+  for (std::size_t i = 0; i < model.elementSets.size(); ++i)
+  {
+    if (parts.count(static_cast<std::int32_t>(i)) != 0) continue;
+    text += "    <ElementSet name=\"" + model.elementSets[i].name + "\">\n";
+    appendIds(text, model.elementSets[i].tetrahedra, kIdsPerLine, ",");
+    text += "    </ElementSet>\n";
+  }
+}
+
+void appendDomains(std::string& text, const FiniteElementModel& model)
+{
+  const auto attributes = [&](const SetInfo& set, std::int32_t material)
+  { return " name=\"" + set.name + "\" mat=\"" + model.materials[material].name + "\""; };
+  text += "  <MeshDomains>\n";
+  for (const Section& section : model.sections)
+  {
+    text += "    <SolidDomain" + attributes(model.elementSets[section.elementSet], section.material) + "/>\n";
+  }
+  for (const Shell& shell : model.shells)
+  {
+    text += "    <ShellDomain" + attributes(shell, shell.material) + ">\n      <shell_thickness>" +
+            textOf(shell.thickness) + "</shell_thickness>\n    </ShellDomain>\n";
+  }
+  text += "  </MeshDomains>\n";
+}
+
+void appendClamps(std::string& text, const FiniteElementModel& model)
+{
+  for (const NodeSet& set : model.nodeSets)
+  {
+    if (set.kind != SetKind::NullDisplacement) continue;
+    text += "  <Boundary>\n    <bc name=\"null_displacement\" type=\"zero displacement\" node_set=\"" + set.name +
+            "\">\n      <x_dof>1</x_dof>\n      <y_dof>1</y_dof>\n      <z_dof>1</z_dof>\n    </bc>\n  </Boundary>\n";
+  }
+}
+
+} // namespace
+
+void writeFebio(const FiniteElementModel& model, const std::string& file, const Destination& destination)
+{
+  std::string text = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<febio_spec version=\"4.0\">\n"
+                     "  <!-- LPS; mm, N, MPa, tonne, s -->\n  <Module type=\"solid\"/>\n"
+                     "  <Control>\n    <analysis>STATIC</analysis>\n    <time_steps>1</time_steps>\n"
+                     "    <step_size>1</step_size>\n    <solver type=\"solid\"/>\n  </Control>\n";
+  appendMaterials(text, model);
+  text += "  <Mesh>\n";
+  appendNodes(text, model.content.mesh.points);
+  appendParts(text, model);
+  appendSets(text, model);
+  text += "  </Mesh>\n";
+  appendDomains(text, model);
+  appendClamps(text, model);
+  text += "</febio_spec>\n";
+  writeBytes(text, destination(file));
 }
 
 } // namespace surgicalmesher

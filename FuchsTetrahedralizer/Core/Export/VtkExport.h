@@ -10,7 +10,7 @@ namespace surgicalmesher
 void writeVtk(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 
 /// The shells as a .vtp: triangles whose point array VolumePointId says which point of the mesh each of theirs is; cell
-/// arrays TissueLabel and Thickness (mm); field data as in writeMesh(). Throws InputError if the model has none.
+/// arrays TissueLabel and Thickness (mm); field data as in writeMesh().
 void writeShells(const FiniteElementModel& model, const std::string& file);
 
 } // namespace surgicalmesher
