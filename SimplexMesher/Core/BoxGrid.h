@@ -1,0 +1,80 @@
+#pragma once
+/// Items in space by the cells of a regular grid that their boxes touch: who is near whom.
+
+#include "Vec3.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+struct Box
+{
+  Vec3 low, high;
+
+  static Box around(const Vec3& p, double reach = 0) { return { p - Vec3{ reach, reach, reach }, p + Vec3{ reach, reach, reach } }; }
+  void add(const Vec3& p)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      low[a] = std::min(low[a], p[a]);
+      high[a] = std::max(high[a], p[a]);
+    }
+  }
+};
+
+class BoxGrid
+{
+public:
+  explicit BoxGrid(double cellSize) : m_Size(cellSize) {}
+
+  void insert(std::int32_t item, const Box& box)
+  {
+    forCells(box, [&](std::uint64_t key) { m_Cells[key].push_back(item); });
+  }
+
+  /// `box` as it was inserted with.
+  void remove(std::int32_t item, const Box& box)
+  {
+    forCells(box, [&](std::uint64_t key) {
+      auto& items = m_Cells[key];
+      items.erase(std::find(items.begin(), items.end(), item));
+    });
+  }
+
+  /// Items of all cells that the box touches, each once, ascending.
+  void find(const Box& box, std::vector<std::int32_t>& items) const
+  {
+    items.clear();
+    forCells(box, [&](std::uint64_t key) {
+      const auto at = m_Cells.find(key);
+      if (at != m_Cells.end()) items.insert(items.end(), at->second.begin(), at->second.end());
+    });
+    std::sort(items.begin(), items.end());
+    items.erase(std::unique(items.begin(), items.end()), items.end());
+  }
+
+private:
+  template <class Action> void forCells(const Box& box, const Action& action) const
+  {
+    std::int64_t from[3], to[3];
+    for (int a = 0; a < 3; ++a)
+    {
+      from[a] = std::int64_t(std::floor(box.low[a] / m_Size));
+      to[a] = std::int64_t(std::floor(box.high[a] / m_Size));
+    }
+    for (std::int64_t k = from[2]; k <= to[2]; ++k)
+      for (std::int64_t j = from[1]; j <= to[1]; ++j)
+        for (std::int64_t i = from[0]; i <= to[0]; ++i)
+          action((std::uint64_t(i) & mask) | (std::uint64_t(j) & mask) << 21 | (std::uint64_t(k) & mask) << 42);
+  }
+
+  static constexpr std::uint64_t mask = (1u << 21) - 1;
+  double m_Size;
+  std::unordered_map<std::uint64_t, std::vector<std::int32_t>> m_Cells; // only looked up, never walked through
+};
+
+} // namespace surgicalmesher
