@@ -1,0 +1,108 @@
+"""What the Snakefile asks about a cohort: its patients, the files that a stage reads, and the command that it runs."""
+import os
+import re
+import shlex
+import subprocess
+import xml.etree.ElementTree as xml
+
+from snakemake.exceptions import WorkflowError
+
+PROGRAMS = {"scale": "SurgicalPathScaleCLI", "surface": "SimplexMesherCLI", "mesh": "FuchsTetrahedralizerCLI"}
+# Said by the workflow itself.
+RESERVED = {"scale", "edgeLength", "ambient", "preparedLabelMap", "outputLabelMap", "report", "threads"}
+SETTINGS = {"folder", "threads", "options", "patients"}
+PATIENT_NAME = re.compile(r"[A-Za-z0-9][\w.-]*")
+
+
+def flags_of(program):
+    """Long flag -> (kind, whether it names a file to read, whether it names a file to write), from the program's XML."""
+    try:
+        description = subprocess.run([program, "--xml"], check=True, stdout=subprocess.PIPE).stdout
+    except OSError:
+        raise WorkflowError(f"{program}: not found; expected in SURGICALMESHER_BIN, build/bin or on the path") from None
+    flags = {}
+    for parameter in xml.fromstring(description).iterfind("parameters/*"):
+        if parameter.find("longflag") is not None:
+            channel = parameter.findtext("channel")
+            flags[parameter.findtext("longflag")] = (parameter.tag, channel == "input", channel == "output")
+    return flags
+
+
+def values_of(option):
+    return option if isinstance(option, list) else [option]
+
+
+class Cohort:
+    """`config` has the members folder, threads, options (of all patients) and patients (name -> map and options of its
+    own). Raises WorkflowError on anything else, and on options that no program has."""
+
+    def __init__(self, config):
+        self.flags = {stage: flags_of(program) for stage, program in PROGRAMS.items()}
+        for name in config:
+            if name not in SETTINGS:
+                raise WorkflowError(f"configuration: unknown member {name}, expected {', '.join(sorted(SETTINGS))}")
+        if not isinstance(config.get("patients"), dict) or not config["patients"]:
+            raise WorkflowError("configuration: no patients, expected --configfile FILE with a mapping `patients`")
+        self.folder = config.get("folder", "cohort")
+        self.threads = config.get("threads", 2)
+        common = config.get("options") or {}
+        self.check("options", common)
+        self.patients = {}
+        for name, patient in config["patients"].items():
+            if not PATIENT_NAME.fullmatch(str(name)):
+                raise WorkflowError(f"configuration: patient {name!r}, expected a name of letters, digits, _ - and .")
+            if not isinstance(patient, dict) or not isinstance(patient.get("map"), str):
+                raise WorkflowError(f"configuration: patient {name} has no map")
+            self.check(f"patient {name}", {key: patient[key] for key in patient if key != "map"})
+            self.patients[str(name)] = {**common, **patient}
+
+    def check(self, where, options):
+        for name, option in options.items():
+            kinds = [flags[name] for flags in self.flags.values() if name in flags]
+            if name in RESERVED:
+                raise WorkflowError(f"configuration: {where}: {name} is the workflow's own, expected options beside it")
+            if not kinds:
+                raise WorkflowError(f"configuration: {where}: no program has an option {name}")
+            if kinds[0][2] and any(os.path.basename(str(value)) != value for value in values_of(option)):
+                raise WorkflowError(f"configuration: {where}: {name} {option}, expected a file name without a folder")
+
+    def files(self, stage, patient):
+        """Input files as they are; missing ones are left to the program, whose message goes into the table."""
+        options = self.patients[patient]
+        files = [str(value) for name, (_, is_input, _) in self.flags[stage].items() if is_input and name in options
+                 for value in values_of(options[name])]
+        if stage != "mesh":
+            files.append(options["map"])
+        return [file for file in files if os.path.exists(file)]
+
+    def options(self, stage, patient, folder):
+        for name, (kind, _, is_output) in self.flags[stage].items():
+            for value in values_of(self.patients[patient].get(name, [])):
+                if kind == "boolean":
+                    yield from ["--" + name] if value else []
+                else:
+                    yield from ["--" + name, os.path.join(folder, value) if is_output else str(value)]
+
+    def has_null_displacement(self, patient):
+        return any(float(self.patients[patient].get(name, 0)) > 0
+                   for name in ("nullDisplacementRadius", "nullDisplacementPathDistance"))
+
+    def command(self, stage, patient, folder):
+        """The stage's command but for --threads; it writes into `folder`, whose neighbours are the earlier stages'."""
+        root = os.path.dirname(folder)
+        scale, surface = os.path.join(root, "scale"), os.path.join(root, "surface")
+        label_map = self.patients[patient]["map"]
+        words = [PROGRAMS[stage], *self.options(stage, patient, folder), "--report", f"{folder}/report.json"]
+        if stage == "scale":
+            if self.has_null_displacement(patient):
+                words += ["--outputLabelMap", f"{folder}/labels.nrrd"]
+            words += [label_map, f"{folder}/scale.nrrd"]
+        elif stage == "surface":
+            if self.has_null_displacement(patient):
+                label_map = f"{scale}/labels.nrrd"
+            words += ["--scale", f"{scale}/scale.nrrd", "--preparedLabelMap", f"{folder}/prepared.nrrd",
+                      "--ambient", f"{folder}/ambient.vtu", label_map, f"{folder}/surface.vtp"]
+        else:
+            words += ["--scale", f"{scale}/scale.nrrd", "--ambient", f"{surface}/ambient.vtu",
+                      f"{surface}/surface.vtp", f"{folder}/mesh.vtu"]
+        return shlex.join(words)

@@ -1,0 +1,63 @@
+#!/usr/bin/python3
+"""Runs one stage for one patient. usage: stage.py STAGE FOLDER LOG [--after FOLDER] -- COMMAND...
+
+Leaves run.json in FOLDER: stage, exit status, error line, seconds and peak memory (bytes). The exit statuses 1 to 3,
+by which the programs refuse their input, are results like others; if the stage before ended with one, it is handed on
+and nothing runs. Whatever else goes wrong is the machine's fault and ends this script with status 1.
+"""
+import argparse
+import json
+import os
+import resource
+import subprocess
+import sys
+import time
+
+RESULTS = range(4)
+
+
+def read_arguments():
+    parser = argparse.ArgumentParser(description="Runs one stage for one patient.")
+    parser.add_argument("stage")
+    parser.add_argument("folder")
+    parser.add_argument("log")
+    parser.add_argument("--after")
+    parser.add_argument("command", nargs="+")
+    return parser.parse_args()
+
+
+def failure_of(folder):
+    """The run.json of a stage that failed, else None."""
+    if folder is None:
+        return None
+    with open(os.path.join(folder, "run.json"), encoding="utf-8") as file:
+        run = json.load(file)
+    return run if run["status"] else None
+
+
+def run(arguments):
+    start = time.monotonic()
+    with open(arguments.log, "w", encoding="utf-8") as log:
+        process = subprocess.run(arguments.command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.PIPE,
+                                 text=True, check=False)
+        log.write(process.stderr)
+        lines = process.stderr.split("\n")
+        if process.returncode not in RESULTS:
+            end = f"signal {-process.returncode}" if process.returncode < 0 else f"status {process.returncode}"
+            log.write(f"{arguments.command[0]} ended by {end}\n")
+            sys.exit(1)
+    return {"stage": arguments.stage, "status": process.returncode, "error": lines[0] if process.returncode else "",
+            "seconds": round(time.monotonic() - start, 2),
+            "peakMemory": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024}
+
+
+def main():
+    arguments = read_arguments()
+    os.makedirs(arguments.folder, exist_ok=True)
+    result = failure_of(arguments.after) or run(arguments)
+    with open(os.path.join(arguments.folder, "run.json"), "w", encoding="utf-8") as file:
+        json.dump(result, file, indent=2)
+
+
+if __name__ == "__main__":
+    main()
