@@ -3,7 +3,13 @@
 #include "AbaqusExport.h"
 #include "Errors.h"
 #include "FebioExport.h"
+#include "GmshExport.h"
+#include "MeditExport.h"
+#include "TissueSurfaceExport.h"
 #include "VtkExport.h"
+#ifdef SURGICALMESHER_HDF5
+#include "XdmfExport.h"
+#endif
 
 #include <algorithm>
 #include <cctype>
@@ -17,8 +23,16 @@ const std::vector<ExportFormat>& exportFormats()
   static const std::vector<ExportFormat> formats{
     { ".feb", "FEBio 4.0", writeFebio },
     { ".inp", "Abaqus, CalculiX", writeAbaqus },
+    { ".mesh", "Medit, FreeFEM", writeMedit },
+    { ".msh", "Gmsh 4.1", writeGmsh41 },
+    { ".msh2", "Gmsh 2.2, GetFEM", writeGmsh22 },
+    { ".ply", "one closed surface per tissue", writeTissueSurfaces },
+    { ".stl", "one closed surface per tissue", writeTissueSurfaces },
     { ".vtk", "legacy VTK, SOFA", writeVtk },
     { ".vtu", "VTK", writeVtk },
+#ifdef SURGICALMESHER_HDF5
+    { ".xdmf", "XDMF, FEniCSx", writeXdmf },
+#endif
   };
   return formats;
 }

@@ -1,0 +1,187 @@
+#include "XdmfExport.h"
+
+#include "Errors.h"
+#include "SetTags.h"
+
+#include <vtk_hdf5.h>
+
+#include <filesystem>
+#include <type_traits>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+/// An HDF5 handle, closed at the end of its life.
+class Handle
+{
+public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : m_Id(id), m_Close(close)
+  {
+    if (id < 0) throw EngineError("HDF5: no memory for the exported mesh");
+  }
+  ~Handle() { m_Close(m_Id); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+
+  operator hid_t() const { return m_Id; }
+
+private:
+  hid_t m_Id;
+  herr_t (*m_Close)(hid_t);
+};
+
+void require(bool done)
+{
+  if (!done) throw EngineError("HDF5: the exported mesh can't be composed");
+}
+
+/// A file in memory, so that failures of the disk are told by writeBytes() alone.
+class MemoryFile
+{
+public:
+  MemoryFile() : m_Access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), m_File(create(m_Access), H5Fclose) {}
+
+  /// `values` as a table of `columns` columns, or as a list if there is one column only.
+  template <class Value>
+  void add(const std::string& name, const Value* values, std::size_t rows, int columns)
+  {
+    static_assert(std::is_same_v<Value, double> || std::is_same_v<Value, std::int32_t>);
+    const hid_t memory = std::is_same_v<Value, double> ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT32;
+    const hid_t stored = std::is_same_v<Value, double> ? H5T_IEEE_F64LE : H5T_STD_I32LE;
+    const hsize_t size[2]{ rows, static_cast<hsize_t>(columns) };
+    const Handle space(H5Screate_simple(columns == 1 ? 1 : 2, size, nullptr), H5Sclose);
+    const Handle plain(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    require(H5Pset_obj_track_times(plain, false) >= 0); // the same content, the same bytes
+    const Handle set(H5Dcreate2(m_File, name.c_str(), stored, space, H5P_DEFAULT, plain, H5P_DEFAULT), H5Dclose);
+    require(H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+  }
+
+  std::string bytes() const
+  {
+    require(H5Fflush(m_File, H5F_SCOPE_GLOBAL) >= 0);
+    const auto size = H5Fget_file_image(m_File, nullptr, 0);
+    require(size > 0);
+    std::string image(static_cast<std::size_t>(size), '\0');
+    require(H5Fget_file_image(m_File, image.data(), image.size()) == size);
+    return image;
+  }
+
+private:
+  static hid_t create(hid_t access)
+  {
+    require(H5Pset_fapl_core(access, std::size_t(1) << 20, false) >= 0);
+    return H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  }
+
+  Handle m_Access, m_File;
+};
+
+std::string escaped(const std::string& text)
+{
+  std::string result;
+  for (const char c : text)
+  {
+    if (c == '&') result += "&amp;";
+    else if (c == '<') result += "&lt;";
+    else result += c;
+  }
+  return result;
+}
+
+/// One .xdmf with one grid, and the .h5 that it refers to.
+class XdmfFile
+{
+public:
+  XdmfFile(const std::string& file, const std::string& grid) : m_Xdmf(file), m_Heavy(file)
+  {
+    m_Heavy.replace_extension(".h5");
+    m_Text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"" + grid +
+             "\" GridType=\"Uniform\">\n";
+  }
+
+  template <std::size_t N>
+  void topology(const char* type, const std::vector<std::array<std::int32_t, N>>& cells)
+  {
+    m_Text += std::string("<Topology TopologyType=\"") + type + "\" NumberOfElements=\"" +
+              std::to_string(cells.size()) + "\">" + item("topology", cells.data()->data(), cells.size(), N) +
+              "</Topology>\n";
+  }
+
+  void geometry(const std::vector<Vec3>& points)
+  {
+    m_Text += "<Geometry GeometryType=\"XYZ\">" + item("geometry", &points.data()->x, points.size(), 3) +
+              "</Geometry>\n";
+  }
+
+  template <class Value>
+  void attribute(const std::string& name, const char* center, const std::vector<Value>& values)
+  {
+    m_Text += "<Attribute Name=\"" + name + "\" AttributeType=\"Scalar\" Center=\"" + center + "\">" +
+              item(name, values.data(), values.size(), 1) + "</Attribute>\n";
+  }
+
+  void write(const Destination& destination)
+  {
+    writeBytes(m_Data.bytes(), destination(m_Heavy.string()));
+    writeBytes(m_Text + "</Grid>\n</Domain>\n</Xdmf>\n", destination(m_Xdmf.string()));
+  }
+
+private:
+  template <class Value>
+  std::string item(const std::string& name, const Value* values, std::size_t rows, int columns)
+  {
+    m_Data.add(name, values, rows, columns);
+    const bool real = std::is_same_v<Value, double>;
+    return std::string("<DataItem NumberType=\"") + (real ? "Float" : "Int") + "\" Precision=\"" + (real ? "8" : "4") +
+           "\" Format=\"HDF\" Dimensions=\"" + std::to_string(rows) +
+           (columns > 1 ? " " + std::to_string(columns) : "") + "\">" + escaped(m_Heavy.filename().string()) + ":/" +
+           name + "</DataItem>";
+  }
+
+  std::filesystem::path m_Xdmf, m_Heavy;
+  std::string m_Text;
+  MemoryFile m_Data;
+};
+
+void writeTetrahedra(const MeshFile& content, const std::string& file, const Destination& destination)
+{
+  XdmfFile xdmf(file, "mesh");
+  xdmf.topology("Tetrahedron", content.mesh.tetrahedra);
+  xdmf.geometry(content.mesh.points);
+  const std::vector<std::int32_t> labels(content.mesh.labels.begin(), content.mesh.labels.end());
+  xdmf.attribute("TissueLabel", "Cell", labels);
+  xdmf.attribute("SubMesh", "Cell", content.subMesh);
+  xdmf.attribute("Constitutive", "Cell", content.constitutive);
+  if (!content.targetEdgeLength.empty()) xdmf.attribute("TargetEdgeLength", "Node", content.targetEdgeLength);
+  xdmf.write(destination);
+}
+
+void writeFacets(const FiniteElementModel& model, const std::string& file, const Destination& destination)
+{
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int32_t> tags;
+  for (const FacePiece& piece : tagsOf(model).facePieces)
+  {
+    triangles.insert(triangles.end(), piece.triangles.begin(), piece.triangles.end());
+    tags.resize(triangles.size(), piece.tag);
+  }
+  XdmfFile xdmf(file, "facets");
+  xdmf.topology("Triangle", triangles);
+  xdmf.geometry(model.content.mesh.points);
+  xdmf.attribute("FacetTag", "Cell", tags);
+  xdmf.write(destination);
+}
+
+} // namespace
+
+void writeXdmf(const FiniteElementModel& model, const std::string& file, const Destination& destination)
+{
+  const std::filesystem::path path(file);
+  const std::string facets = path.stem().string() + "_facets" + path.extension().string();
+  writeTetrahedra(model.content, file, destination);
+  writeFacets(model, (path.parent_path() / facets).string(), destination);
+}
+
+} // namespace surgicalmesher
