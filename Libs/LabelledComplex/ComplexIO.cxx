@@ -629,6 +629,24 @@ void writeSurface(const SurfaceFile& content, const std::string& file)
   writeXML(writer.Get(), data, file);
 }
 
+void writePolygons(const PolygonFile& content, const std::string& file)
+{
+  if (extensionOf(file) != ".vtp") refuse(file, "polygons are written as .vtp");
+  vtkNew<vtkCellArray> cells;
+  for (const auto& polygon : content.polygons)
+  {
+    const std::vector<vtkIdType> ids(polygon.begin(), polygon.end());
+    cells->InsertNextCell(vtkIdType(ids.size()), ids.data());
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(vtkPointsOf(content.points));
+  data->SetPolys(cells);
+  addArray<vtkIntArray>(data->GetCellData(), kTissueLabel, std::vector<int>(content.labels.begin(), content.labels.end()));
+  addFieldData(data->GetFieldData(), std::set<Label>(content.labels.begin(), content.labels.end()), content.tissues);
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writeXML(writer.Get(), data, file);
+}
+
 MeshFile readMesh(const std::string& file)
 {
   requireReadable(file);

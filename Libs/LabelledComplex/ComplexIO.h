@@ -35,6 +35,18 @@ SurfaceFile readSurface(const std::string& file);
 /// occur.
 void writeSurface(const SurfaceFile& content, const std::string& file);
 
+/// Polygons of one tissue each, a simplex mesh for one, and what travels with them in their file.
+struct PolygonFile
+{
+  std::vector<Vec3> points;
+  std::vector<std::vector<std::int32_t>> polygons; ///< point ids
+  std::vector<Label> labels;                       ///< per polygon
+  TissueTable tissues;                             ///< names and colours
+};
+
+/// Writes a .vtp: cell array TissueLabel, and field data as writeSurface does.
+void writePolygons(const PolygonFile& content, const std::string& file);
+
 /// Labelled tetrahedra and what travels with them in their file. Empty vectors: the file has none.
 struct MeshFile
 {

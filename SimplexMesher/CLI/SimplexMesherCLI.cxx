@@ -8,6 +8,7 @@
 #include "Errors.h"
 #include "FaceNeighbours.h"
 #include "MapPreparation.h"
+#include "SimplexMesh.h"
 #include "SimplexMesherCLIXML.h"
 #include "SurfaceMesher.h"
 #include "TissueMapIO.h"
@@ -142,6 +143,20 @@ std::string reportOf(const SurfaceComplex& surface, const PreparationReport& pre
   return std::string(buffer.GetString()) + "\n";
 }
 
+PolygonFile simplexMeshFile(const SurfaceFile& surface)
+{
+  const SimplexMesh mesh = simplexMeshOf(surface.surface);
+  PolygonFile content;
+  content.points = mesh.points;
+  content.tissues = surface.tissues;
+  for (SimplexFace& face : simplexFaces(mesh))
+  {
+    content.polygons.push_back(std::move(face.vertices));
+    content.labels.push_back(face.tissue);
+  }
+  return content;
+}
+
 void run(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
@@ -178,6 +193,8 @@ void run(CommandLine& line)
   content.tissues = map.table;
   report(progress, 0.95, "writing");
   writeSurface(content, line.outputFile("surface"));
+  const std::string simplexMesh = line.outputFile("simplexMesh");
+  if (!simplexMesh.empty()) writePolygons(simplexMeshFile(content), simplexMesh);
   const std::string ambientFile = line.outputFile("ambient");
   if (!ambientFile.empty())
   {

@@ -4,6 +4,13 @@
 #include "VoxelMesh.h"
 
 #include <rapidjson/document.h>
+#include <vtkCell.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkXMLPolyDataReader.h>
 
 #include <cmath>
 #include <limits>
@@ -93,6 +100,35 @@ TEST_F(SimplexMesherCLI, WritesEveryOutputAndNoOther)
   rapidjson::Document report;
   report.Parse(readBytes(folder.file("r.json")).c_str());
   EXPECT_EQ(report["triangles"].GetUint64(), surface.surface.triangles.size());
+}
+
+TEST_F(SimplexMesherCLI, WritesTheSimplexMeshDualToTheSurface)
+{
+  expectDone("--scale scale.nrrd --simplexMesh simplex.vtp map.nrrd s.vtp");
+  const SurfaceComplex surface = readSurface(folder.file("s.vtp")).surface;
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(folder.file("simplex.vtp").c_str());
+  reader->Update();
+  vtkPolyData* simplex = reader->GetOutput();
+  ASSERT_EQ(simplex->GetNumberOfPoints(), vtkIdType(surface.triangles.size()));
+  vtkDataArray* labels = simplex->GetCellData()->GetArray("TissueLabel");
+  ASSERT_TRUE(labels);
+  // Three corners of a polygon for each triangle, and each tissue on it but the outside.
+  std::map<Label, int> expected, corners;
+  for (const auto& pair : surface.labels)
+    for (const Label label : pair)
+      if (label != 0) expected[label] += 3;
+  for (vtkIdType c = 0; c < simplex->GetNumberOfCells(); ++c)
+    corners[Label(labels->GetTuple1(c))] += int(simplex->GetCell(c)->GetNumberOfPoints());
+  EXPECT_EQ(corners, expected);
+  ASSERT_TRUE(simplex->GetFieldData()->GetAbstractArray("SPACE"));
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+  {
+    const auto& [a, b, c] = surface.triangles[t];
+    Vec3 vertex;
+    simplex->GetPoint(vtkIdType(t), &vertex.x);
+    EXPECT_LT(norm((surface.points[a] + surface.points[b] + surface.points[c]) / 3 - vertex), 1e-4);
+  }
 }
 
 TEST_F(SimplexMesherCLI, ClosesATissueThatTheBorderCuts)
