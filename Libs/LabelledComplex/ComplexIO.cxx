@@ -465,6 +465,11 @@ void addFieldData(vtkFieldData* data, const std::set<Label>& present, const Tiss
   if (std::count(roles.begin(), roles.end(), "shell") > 0) addStrings(data, kTissueRoles, roles);
 }
 
+void removeStrings(vtkFieldData* data)
+{
+  for (const char* name : { kSpace, kTissueNames, kTissueRoles }) data->RemoveArray(name);
+}
+
 /// Through memory, because VTK's writers don't notice every failure of the disk.
 template <class Writer>
 void writeXML(Writer* writer, vtkDataSet* data, const std::string& file)
@@ -675,7 +680,7 @@ MeshFile readMesh(const std::string& file)
   return result;
 }
 
-void writeMesh(const MeshFile& content, const std::string& file)
+void writeMesh(const MeshFile& content, const std::string& file, FieldTexts texts)
 {
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(vtkPointsOf(content.mesh.points));
@@ -689,6 +694,7 @@ void writeMesh(const MeshFile& content, const std::string& file)
   addArray<vtkIntArray>(grid->GetPointData(), kInterfaceId, content.interfaceId);
   const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
   addFieldData(grid->GetFieldData(), present, content.tissues);
+  if (texts == FieldTexts::LeftOut) removeStrings(grid->GetFieldData());
   const std::string extension = extensionOf(file);
   if (extension == ".vtk")
   {

@@ -65,8 +65,15 @@ struct MeshFile
 /// or flat, points that no tetrahedron uses.
 MeshFile readMesh(const std::string& file);
 
+/// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them.
+enum class FieldTexts
+{
+  Written,
+  LeftOut
+};
+
 /// Writes a .vtu (compressed) or a legacy .vtk (binary), by the file's extension.
-void writeMesh(const MeshFile& content, const std::string& file);
+void writeMesh(const MeshFile& content, const std::string& file, FieldTexts texts = FieldTexts::Written);
 
 /// Writes `bytes` to `file`, and throws InputError unless all of them arrived there.
 void writeBytes(const std::string& bytes, const std::string& file);

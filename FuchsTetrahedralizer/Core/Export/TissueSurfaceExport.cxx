@@ -1,11 +1,11 @@
 #include "TissueSurfaceExport.h"
 
 #include "Errors.h"
+#include "ExportText.h"
 
 #include <vtkCellArray.h>
 #include <vtkErrorCode.h>
 #include <vtkNew.h>
-#include <vtkPLYWriter.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSTLWriter.h>
@@ -35,28 +35,34 @@ std::map<std::int32_t, Triangles> surfacesOf(const FiniteElementModel& model)
 }
 
 /// Points in the order of the mesh, those of the triangles alone.
-vtkSmartPointer<vtkPolyData> polyDataOf(const std::vector<Vec3>& points, const Triangles& triangles)
+SurfaceComplex compact(const std::vector<Vec3>& points, const Triangles& triangles)
 {
-  std::map<std::int32_t, vtkIdType> newId;
+  std::map<std::int32_t, std::int32_t> newId;
   for (const auto& triangle : triangles)
   {
     for (const std::int32_t id : triangle) newId[id] = 0;
   }
-  vtkNew<vtkPoints> vertices;
-  vertices->SetDataTypeToFloat();
-  for (auto& [id, place] : newId) place = vertices->InsertNextPoint(&points[id].x);
-  vtkNew<vtkCellArray> cells;
-  for (const auto& [a, b, c] : triangles) cells->InsertNextCell({ newId[a], newId[b], newId[c] });
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  result->SetPoints(vertices);
-  result->SetPolys(cells);
+  SurfaceComplex result;
+  for (auto& [id, place] : newId)
+  {
+    place = static_cast<std::int32_t>(result.points.size());
+    result.points.push_back(points[id]);
+  }
+  for (const auto& [a, b, c] : triangles) result.triangles.push_back({ newId[a], newId[b], newId[c] });
   return result;
 }
 
-void writeSTL(vtkPolyData* surface, const std::string& file)
+void writeSTL(const SurfaceComplex& surface, const std::string& file)
 {
+  vtkNew<vtkPoints> points;
+  for (const Vec3& p : surface.points) points->InsertNextPoint(p.x, p.y, p.z);
+  vtkNew<vtkCellArray> cells;
+  for (const auto& [a, b, c] : surface.triangles) cells->InsertNextCell({ a, b, c });
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(cells);
   vtkNew<vtkSTLWriter> writer;
-  writer->SetInputData(surface);
+  writer->SetInputData(data);
   writer->SetFileName(file.c_str());
   writer->SetFileTypeToBinary();
   writer->SetHeader("SPACE=LPS closed surface of a tissue, mm");
@@ -67,16 +73,16 @@ void writeSTL(vtkPolyData* surface, const std::string& file)
   }
 }
 
-void writePLY(vtkPolyData* surface, const std::string& file)
+/// Not by VTK, whose writer rounds to single precision, fails in silence, and in 9.1 leaves its string empty.
+void writePLY(const SurfaceComplex& surface, const std::string& file)
 {
-  vtkNew<vtkPLYWriter> writer;
-  writer->SetInputData(surface);
-  writer->SetFileTypeToBinary();
-  writer->SetDataByteOrderToLittleEndian();
-  writer->AddComment("SPACE=LPS");
-  writer->WriteToOutputStringOn();
-  writer->Write();
-  writeBytes(writer->GetOutputString(), file);
+  ExportText out;
+  out << "ply\nformat ascii 1.0\ncomment SPACE=LPS\nelement vertex " << surface.points.size()
+      << "\nproperty double x\nproperty double y\nproperty double z\nelement face " << surface.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vec3& p : surface.points) out << p << '\n';
+  for (const auto& [a, b, c] : surface.triangles) out << "3 " << a << ' ' << b << ' ' << c << '\n';
+  writeBytes(out.str(), file);
 }
 
 } // namespace
@@ -93,7 +99,7 @@ void writeTissueSurfaces(const FiniteElementModel& model, const std::string& fil
     if (set.kind != SetKind::Tissue) continue;
     const std::string name = path.stem().string() + "." + set.name + path.extension().string();
     const std::string place = destination((path.parent_path() / name).string());
-    const auto surface = polyDataOf(model.content.mesh.points, surfaces.at(set.ids[0]));
+    const SurfaceComplex surface = compact(model.content.mesh.points, surfaces.at(set.ids[0]));
     extension == ".stl" ? writeSTL(surface, place) : writePLY(surface, place);
   }
 }

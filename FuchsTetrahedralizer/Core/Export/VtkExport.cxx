@@ -99,7 +99,7 @@ void addTissues(vtkPolyData* data, const FiniteElementModel& model)
 
 void writeVtk(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
-  writeMesh(model.content, destination(file));
+  writeMesh(model.content, destination(file), FieldTexts::LeftOut);
 }
 
 void writeShells(const FiniteElementModel& model, const std::string& file)

@@ -6,7 +6,7 @@
 namespace surgicalmesher
 {
 
-/// The arrays of writeMesh(); sets are in the cell arrays TissueLabel, SubMesh and Constitutive.
+/// The arrays of writeMesh(), without texts; sets are in the cell arrays TissueLabel, SubMesh and Constitutive.
 void writeVtk(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 
 /// The shells as a .vtp: triangles whose point array VolumePointId says which point of the mesh each of theirs is; cell
