@@ -1,5 +1,6 @@
 #include "FiniteElementModel.h"
 #include "SetNames.h"
+#include "SetTags.h"
 
 #include <rapidjson/prettywriter.h>
 #include <rapidjson/stringbuffer.h>
@@ -31,6 +32,7 @@ void writeSet(JsonWriter& json, const SetInfo& set, const std::string& type, std
   write(json, "type", type);
   write(json, "kind", nameOf(set.kind));
   write(json, "original", set.original);
+  json.SetFormatOptions(rapidjson::kFormatSingleLineArray);
   json.Key("ids");
   json.StartArray();
   for (const std::int32_t id : set.ids) json.Int(id);
@@ -39,35 +41,60 @@ void writeSet(JsonWriter& json, const SetInfo& set, const std::string& type, std
   json.StartArray();
   for (const double channel : set.color) json.Double(channel);
   json.EndArray();
+  json.SetFormatOptions(rapidjson::kFormatDefault);
   json.Key("size");
   json.Uint64(size);
 }
 
+void writeTag(JsonWriter& json, std::int32_t tag)
+{
+  json.Key("tag");
+  json.Int(tag);
+}
+
+/// And the tags of the disjoint pieces that formats with one number per face know.
+void writeFaceTags(JsonWriter& json, const SetTags& tags, std::int32_t tag)
+{
+  writeTag(json, tag);
+  json.Key("faceTags");
+  json.SetFormatOptions(rapidjson::kFormatSingleLineArray);
+  json.StartArray();
+  for (const std::int32_t piece : piecesOf(tags, tag)) json.Int(piece);
+  json.EndArray();
+  json.SetFormatOptions(rapidjson::kFormatDefault);
+}
+
 void writeSets(JsonWriter& json, const FiniteElementModel& model)
 {
+  const SetTags tags = tagsOf(model);
   json.Key("sets");
   json.StartArray();
-  for (const ElementSet& set : model.elementSets)
+  for (std::size_t i = 0; i < model.elementSets.size(); ++i)
   {
-    writeSet(json, set, "elements", set.tetrahedra.size());
+    writeSet(json, model.elementSets[i], "elements", model.elementSets[i].tetrahedra.size());
+    writeTag(json, tags.elementSets[i]);
     json.EndObject();
   }
-  for (const SurfaceSet& set : model.surfaces)
+  for (std::size_t i = 0; i < model.surfaces.size(); ++i)
   {
-    writeSet(json, set, "faces", set.faces.size());
-    write(json, "nodes", set.nodeSet);
+    writeSet(json, model.surfaces[i], "faces", model.surfaces[i].faces.size());
+    write(json, "nodes", model.surfaces[i].nodeSet);
+    writeFaceTags(json, tags, tags.surfaces[i]);
     json.EndObject();
   }
   for (const NodeSet& set : model.nodeSets)
   {
     writeSet(json, set, "nodes", set.points.size());
+    if (set.kind == SetKind::NullDisplacement) writeTag(json, tags.nullDisplacement);
     json.EndObject();
   }
-  for (const Shell& shell : model.shells)
+  for (std::size_t i = 0; i < model.shells.size(); ++i)
   {
+    const Shell& shell = model.shells[i];
     writeSet(json, shell, "shell", shell.triangles.size());
     write(json, "thickness", shell.thickness);
     write(json, "material", model.materials[shell.material].name);
+    writeFaceTags(json, tags, tags.shells[i]);
     json.EndObject();
   }
   json.EndArray();
