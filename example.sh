@@ -1,21 +1,48 @@
 #!/usr/bin/env bash
-# Meshes a 189-tissue brain atlas around a surgical target, from label map to finite elements.
-# usage: ./example.sh [OUTDIR]      (default build/example)
+# From label map to finite elements: the 189 tissues of a brain atlas around a target, or a map of your own.
+# usage: ./example.sh [OUTDIR]                             (default build/example)
+#        ./example.sh OUTDIR MAP [--OPTION VALUE]...       with --targets FILE or --path FILE, and any option of the
+#                                                          modules; --nullDisplacement... marks far tissue first
 # Installs Debian packages that are missing, builds the three modules, and leaves the meshes, a report and pictures.
 # With SURGICALMESHER_BIN set to a folder of modules already built, it uses these.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")" && pwd)
+outputs=(scale.nrrd labels.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu {scale,surface,mesh,report}.json
+  {surface,tetrahedra,scale,histograms}.png log.txt)
+
+# usage: refuse STATUS MESSAGE
+refuse()
+{
+  echo "example.sh: $2" >&2
+  exit "$1"
+}
+
+if [[ ${1:-} == -* ]]; then
+  sed -n 's/^# //; 2,5p' "$0" >&2
+  [[ $1 == --help ]] && exit 0
+  exit 2
+fi
 folder=${1:-$root/build/example}
-mkdir -p "$folder"
-folder=$(cd "$folder" && pwd)
+map=${2:-}
+if (($# > 1)); then
+  [[ $map != -* ]] || refuse 2 "$map: expected a label map before the options"
+  [[ -f $map ]] || refuse 1 "$map: no such file, expected a label map"
+  map=$(realpath "$map")
+fi
 
 if [[ -z ${SURGICALMESHER_BIN:-} ]]; then
   "$root/CMake/build.sh" SurgicalPathScaleCLI SimplexMesherCLI FuchsTetrahedralizerCLI
 fi
 export PATH="${SURGICALMESHER_BIN:-$root/build/bin}:$PATH"
+options=$(/usr/bin/python3 "$root/Docs/Example/options.py" "${@:3}") || exit
+mkdir -p "$folder"
+folder=$(cd "$folder" && pwd)
 cd "$folder"
-rm -f -- scale.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu {scale,surface,mesh,report}.json ./*.png log.txt
+for file in "${outputs[@]}"; do
+  [[ ! $map -ef $file ]] || refuse 2 "$map would be overwritten, expected another folder for the results"
+done
+rm -f -- "${outputs[@]}"
 
 # The modules' progress is for a terminal; elsewhere it goes to the log.
 seconds=()
@@ -27,6 +54,48 @@ stage()
   if [[ -t 1 ]]; then "$@"; else "$@" >>log.txt; fi
   seconds+=("$name=$(awk -v a="$start" -v b="$EPOCHREALTIME" 'BEGIN { print b - a }')")
 }
+
+# The options that $options deals out to a stage, in the array `words`.
+words_for()
+{
+  local stage flag value
+  words=()
+  while IFS=$'\t' read -r stage flag value; do
+    if [[ $stage == "$1" ]]; then words+=("$flag" ${value:+"$value"}); fi
+  done <<<"$options"
+}
+
+mesh_own_map()
+{
+  local words labels=$map
+  words_for scale
+  if [[ ${words[*]} == *--nullDisplacement* ]]; then
+    labels=labels.nrrd
+    words+=(--outputLabelMap "$labels")
+  fi
+  stage scale SurgicalPathScaleCLI "${words[@]}" --report scale.json "$map" scale.nrrd
+  words_for surface
+  stage surface SimplexMesherCLI "${words[@]}" --scale scale.nrrd --preparedLabelMap prepared.nrrd \
+    --ambient ambient.vtu --report surface.json "$labels" surface.vtp
+  words_for mesh
+  stage mesh FuchsTetrahedralizerCLI "${words[@]}" --scale scale.nrrd --ambient ambient.vtu --report mesh.json \
+    surface.vtp mesh.vtu
+}
+
+illustrate_and_report()
+{
+  stage pictures xvfb-run -a /usr/bin/python3 "$root/Docs/Example/pictures.py" .
+  echo
+  /usr/bin/python3 "$root/Docs/Example/report.py" . "${seconds[@]}"
+  echo
+  echo "Written to $folder: scale.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu report.json and four pictures"
+}
+
+if [[ -n $map ]]; then
+  mesh_own_map
+  illustrate_and_report
+  exit
+fi
 
 cp /usr/share/mricron/templates/jhu189.nii.gz .
 cat >target.mrk.json <<'END'
@@ -47,9 +116,4 @@ stage scale SurgicalPathScaleCLI --targets target.mrk.json --minimumEdgeLength 1
 stage surface SimplexMesherCLI --scale scale.nrrd --minimumIslandVolume 30 --preparedLabelMap prepared.nrrd \
   --ambient ambient.vtu --report surface.json jhu189.nii.gz surface.vtp
 stage mesh FuchsTetrahedralizerCLI --scale scale.nrrd --ambient ambient.vtu --report mesh.json surface.vtp mesh.vtu
-stage pictures xvfb-run -a /usr/bin/python3 "$root/Docs/Example/pictures.py" . 0 0 -10
-
-echo
-/usr/bin/python3 "$root/Docs/Example/report.py" . "${seconds[@]}"
-echo
-echo "Written to $folder: scale.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu report.json and four pictures"
+illustrate_and_report

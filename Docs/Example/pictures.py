@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Draws the example's pictures. usage: pictures.py FOLDER X Y Z
+"""Draws the example's pictures. usage: pictures.py FOLDER
 
-Reads scale.nrrd, prepared.nrrd, surface.vtp, mesh.vtu and mesh.json in FOLDER and writes surface.png, tetrahedra.png,
-scale.png and histograms.png beside them. X Y Z is the target (LPS, mm). Needs a display: on a machine without one, run
-it by xvfb-run.
+Reads scale.nrrd, prepared.nrrd, surface.vtp, mesh.vtu, scale.json and mesh.json in FOLDER and writes surface.png,
+tetrahedra.png, scale.png and histograms.png beside them. Cuts are made at the first target, or where the first path
+ends. Needs a display: on a machine without one, run it by xvfb-run.
 """
 import json
 import os
@@ -250,7 +250,7 @@ def draw_tetrahedra(folder, target):
     save(figure, os.path.join(folder, "tetrahedra.png"))
 
 
-def draw_slice(axes, labels, affine, lengths_at, target, normal):
+def draw_slice(axes, labels, affine, lengths_at, target, paths, normal):
     """Target edge lengths and tissue boundaries on the voxel layer through the target, across grid axis `normal`."""
     at = int(np.rint(np.linalg.solve(affine, [*target, 1])[normal]))
     layer = np.take(labels, min(max(at, 0), labels.shape[normal] - 1), axis=normal)
@@ -269,8 +269,12 @@ def draw_slice(axes, labels, affine, lengths_at, target, normal):
         middles = np.stack([x, y], axis=-1)[:differs.shape[0], :differs.shape[1]][differs] + ahead
         borders.append(np.stack([middles - across, middles + across], axis=1))
     axes.add_collection(LineCollection(np.concatenate(borders), colors="white", linewidths=0.5, alpha=0.8))
-    contours = axes.contour(x, y, lengths, levels=range(2, 8), colors=INK, linewidths=1.1)
-    axes.clabel(contours, levels=[5, 6, 7], fmt="%g mm", fontsize=9)  # nearer in they would overlap
+    levels = np.arange(np.floor(lengths.min()) + 1, np.ceil(lengths.max()))
+    if len(levels):
+        contours = axes.contour(x, y, lengths, levels=levels, colors=INK, linewidths=1.1)
+        axes.clabel(contours, levels=levels[len(levels) // 2:], fmt="%g mm", fontsize=9)  # nearer in they would overlap
+    for path in paths:
+        axes.plot(path[:, u], path[:, v], color=CHILD_COLOR, linewidth=2)
     axes.plot(target[u], target[v], "+", color=CHILD_COLOR, markersize=15, markeredgewidth=2.5)
     axes.set(aspect="equal", xlim=(x.min(), x.max()), ylim=(y.min(), y.max()))
     axes.set_xlabel("LPS"[u] + " (mm)")
@@ -278,17 +282,19 @@ def draw_slice(axes, labels, affine, lengths_at, target, normal):
     return shown
 
 
-def draw_scale(folder, target):
+def draw_scale(folder, target, paths):
     scale, scale_affine = read_nrrd(os.path.join(folder, "scale.nrrd"))
     labels, affine = read_nrrd(os.path.join(folder, "prepared.nrrd"))
     figure = new_figure(1500, 830)
     axial = figure.add_axes((0.05, 0.08, 0.37, 0.80))
     sagittal = figure.add_axes((0.47, 0.08, 0.43, 0.80))
     for axes, normal in ((axial, 2), (sagittal, 0)):
-        shown = draw_slice(axes, labels, affine, lambda at: interpolated(scale, scale_affine, at), target, normal)
+        shown = draw_slice(axes, labels, affine, lambda at: interpolated(scale, scale_affine, at), target,
+                           paths, normal)
     axial.invert_yaxis()
     figure.colorbar(shown, cax=figure.add_axes((0.925, 0.15, 0.013, 0.66)), label="target edge length (mm)")
-    headline(figure, 30, "The scale: target edge length around the target (+)",
+    around = "the target (+) and along the path" if paths else "the target (+)"
+    headline(figure, 30, f"The scale: target edge length around {around}",
              "axial slice, anterior at the top; sagittal slice, anterior to the left; tissue boundaries in white")
     save(figure, os.path.join(folder, "scale.png"))
 
@@ -327,10 +333,14 @@ def draw_histograms(folder):
 
 
 def main():
-    if len(sys.argv) != 5:
-        sys.exit("usage: pictures.py FOLDER X Y Z")
-    folder, target = sys.argv[1], np.array(sys.argv[2:], float)
-    draw_scale(folder, target)
+    if len(sys.argv) != 2:
+        sys.exit("usage: pictures.py FOLDER")
+    folder = sys.argv[1]
+    with open(os.path.join(folder, "scale.json"), encoding="utf-8") as file:
+        focus = json.load(file)
+    paths = [np.array(path["points"], float) for path in focus["paths"]]
+    target = np.array(focus["targets"][0] if focus["targets"] else paths[0][-1], float)
+    draw_scale(folder, target, paths)
     draw_histograms(folder)
     draw_surface(folder, target)
     draw_tetrahedra(folder, target)

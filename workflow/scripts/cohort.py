@@ -2,30 +2,15 @@
 import os
 import re
 import shlex
-import subprocess
-import xml.etree.ElementTree as xml
+import sys
 
 from snakemake.exceptions import WorkflowError
 
-PROGRAMS = {"scale": "SurgicalPathScaleCLI", "surface": "SimplexMesherCLI", "mesh": "FuchsTetrahedralizerCLI"}
-# Said by the workflow itself.
-RESERVED = {"scale", "edgeLength", "ambient", "preparedLabelMap", "outputLabelMap", "report", "threads"}
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Docs", "Example"))
+from options import PROGRAMS, OptionError, check_value, flag_named, flags_by_stage  # noqa: E402
+
 SETTINGS = {"folder", "threads", "options", "patients"}
 PATIENT_NAME = re.compile(r"[A-Za-z0-9][\w.-]*")
-
-
-def flags_of(program):
-    """Long flag -> (kind, whether it names a file to read, whether it names a file to write), from the program's XML."""
-    try:
-        description = subprocess.run([program, "--xml"], check=True, stdout=subprocess.PIPE).stdout
-    except OSError:
-        raise WorkflowError(f"{program}: not found; expected in SURGICALMESHER_BIN, build/bin or on the path") from None
-    flags = {}
-    for parameter in xml.fromstring(description).iterfind("parameters/*"):
-        if parameter.find("longflag") is not None:
-            channel = parameter.findtext("channel")
-            flags[parameter.findtext("longflag")] = (parameter.tag, channel == "input", channel == "output")
-    return flags
 
 
 def values_of(option):
@@ -37,7 +22,10 @@ class Cohort:
     own). Raises WorkflowError on anything else, and on options that no program has."""
 
     def __init__(self, config):
-        self.flags = {stage: flags_of(program) for stage, program in PROGRAMS.items()}
+        try:
+            self.flags = flags_by_stage()
+        except OptionError as error:
+            raise WorkflowError(str(error)) from None
         for name in config:
             if name not in SETTINGS:
                 raise WorkflowError(f"configuration: unknown member {name}, expected {', '.join(sorted(SETTINGS))}")
@@ -57,31 +45,32 @@ class Cohort:
             self.patients[str(name)] = {**common, **patient}
 
     def check(self, where, options):
-        for name, option in options.items():
-            kinds = [flags[name] for flags in self.flags.values() if name in flags]
-            if name in RESERVED:
-                raise WorkflowError(f"configuration: {where}: {name} is the workflow's own, expected options beside it")
-            if not kinds:
-                raise WorkflowError(f"configuration: {where}: no program has an option {name}")
-            if kinds[0][2] and any(os.path.basename(str(value)) != value for value in values_of(option)):
-                raise WorkflowError(f"configuration: {where}: {name} {option}, expected a file name without a folder")
+        try:
+            for name, option in options.items():
+                if name == "threads":
+                    raise OptionError("threads is the same for all, expected outside of options and patients")
+                flag = flag_named(name, self.flags)
+                for value in values_of(option):
+                    check_value(name, flag, str(value))
+        except OptionError as error:
+            raise WorkflowError(f"configuration: {where}: {error}") from None
 
     def files(self, stage, patient):
         """Input files as they are; missing ones are left to the program, whose message goes into the table."""
         options = self.patients[patient]
-        files = [str(value) for name, (_, is_input, _) in self.flags[stage].items() if is_input and name in options
+        files = [str(value) for name, flag in self.flags[stage].items() if flag.is_input and name in options
                  for value in values_of(options[name])]
         if stage != "mesh":
             files.append(options["map"])
         return [file for file in files if os.path.exists(file)]
 
     def options(self, stage, patient, folder):
-        for name, (kind, _, is_output) in self.flags[stage].items():
+        for name, flag in self.flags[stage].items():
             for value in values_of(self.patients[patient].get(name, [])):
-                if kind == "boolean":
+                if flag.kind == "boolean":
                     yield from ["--" + name] if value else []
                 else:
-                    yield from ["--" + name, os.path.join(folder, value) if is_output else str(value)]
+                    yield from ["--" + name, os.path.join(folder, value) if flag.is_output else str(value)]
 
     def has_null_displacement(self, patient):
         return any(float(self.patients[patient].get(name, 0)) > 0
