@@ -173,25 +173,18 @@ public:
   {
   }
 
-  /// Returns what was in small regions at first.
-  RemovedVoxels run(std::map<Label, std::size_t>& regionsRemoved)
+  void run()
   {
-    const RemovedVoxels first = removeSmallRegions(&regionsRemoved);
+    removeSmallRegions();
     applyShareRule();
-    removeSmallRegions(nullptr); // that the share rule cut off
-    return first;
+    removeSmallRegions(); // that the share rule cut off
   }
 
 private:
-  RemovedVoxels removeSmallRegions(std::map<Label, std::size_t>* count)
+  void removeSmallRegions()
   {
     const Regions regions = connectedRegions(m_Map);
-    const std::vector<bool> isSmall = smallRegions(regions);
-    for (std::size_t r = 0; count && r < isSmall.size(); ++r)
-    {
-      if (isSmall[r]) ++(*count)[regions.list[r].label];
-    }
-    return removeRegions(m_Map, regions, isSmall, m_Closed);
+    removeRegions(m_Map, regions, smallRegions(regions), m_Closed);
   }
 
   /// A region counts as small by the least s in it.
@@ -350,80 +343,45 @@ std::set<Label> halved(const std::map<Label, std::size_t>& before, const TissueM
   return result;
 }
 
-/// Flags for voxels of a map, from their indices in a padded copy.
-std::vector<bool> withoutMargin(const std::vector<std::size_t>& voxels, const Grid& paddedGrid, int margin,
-                                const Grid& grid)
-{
-  std::vector<bool> flags(grid.voxelCount(), false);
-  for (const std::size_t v : voxels)
-  {
-    const int i = int(v % paddedGrid.size[0]), j = int(v / paddedGrid.size[0] % paddedGrid.size[1]);
-    flags[grid.index(i - margin, j - margin, int(v / paddedGrid.size[0] / paddedGrid.size[1]) - margin)] = true;
-  }
-  return flags;
-}
-
-void countChanges(const TissueMap& before, const TissueMap& after, const std::vector<bool>& inRegion,
-                  FeatureReport& report)
-{
-  for (std::size_t v = 0; v < before.labels.size(); ++v)
-  {
-    const Label from = before.labels[v], to = after.labels[v];
-    if (from == to) continue;
-    ++report.voxelsChanged;
-    ++(inRegion[v] ? report.changes[from].regionVoxels : report.changes[from].thinVoxelsLost);
-    ++report.changes[to].narrowVoxelsGained;
-  }
-  const std::map<Label, Betti> topologyBefore = tissueTopology(before), topologyAfter = tissueTopology(after);
-  for (auto& [label, changes] : report.changes)
-  {
-    if (label == 0) continue;
-    changes.before = topologyBefore.at(label);
-    changes.after = topologyAfter.at(label);
-  }
-}
-
 } // namespace
 
-FeatureReport simplifyFeatures(TissueMap& map, const ScaleField& scale, const FeatureOptions& options,
+std::set<Label> simplifyFeatures(TissueMap& map, const ScaleField& scale, const FeatureOptions& options,
                                const Progress& progress)
 {
   const Vec3& s = map.grid.spacing;
   const double smallest = std::min({ s.x, s.y, s.z });
   const double longest = *std::max_element(scale.lengths.begin(), scale.lengths.end());
   const double largest = std::min(options.featureScale * longest, largestSize * smallest);
-  FeatureReport result;
-  if (!(largest >= smallest)) return result;
+  std::set<Label> keptWhole;
+  if (!(largest >= smallest)) return keptWhole;
 
   // The largest ball reaches over the border by as much as this.
   const int margin = 1 + int((largest / smallest + 1) / 2);
   const std::map<Label, std::size_t> voxels = countVoxels(map);
   std::set<Label> closed = options.protectedLabels;
   TissueMap simplified = map;
-  std::map<Label, std::size_t> regionsRemoved;
-  std::vector<bool> inRegion;
   for (double done = 0;; done += (0.9 - done) / 2)
   {
     report(progress, done, "Simplifying features");
     TissueMap work = padded(map, margin);
-    regionsRemoved.clear();
-    const RemovedVoxels regions =
-      Simplifier(work, margin, scale, options.featureScale, largest, closed).run(regionsRemoved);
+    Simplifier(work, margin, scale, options.featureScale, largest, closed).run();
     copyWithoutMargin(work, margin, simplified);
     const std::set<Label> tooSmall = halved(voxels, simplified);
-    if (tooSmall.empty())
-    {
-      inRegion = withoutMargin(regions.voxels, work.grid, margin, map.grid);
-      break;
-    }
-    result.keptWhole.insert(tooSmall.begin(), tooSmall.end());
+    if (tooSmall.empty()) break;
+    keptWhole.insert(tooSmall.begin(), tooSmall.end());
     closed.insert(tooSmall.begin(), tooSmall.end());
   }
-  for (const auto& [label, count] : regionsRemoved) result.changes[label].regionsRemoved = count;
-  countChanges(map, simplified, inRegion, result);
   report(progress, 1, "Simplifying features");
   map.labels.swap(simplified.labels);
-  return result;
+  return keptWhole;
+}
+
+std::vector<bool> voxelsBelowScale(const Grid& grid, const ScaleField& scale, double featureScale)
+{
+  const FeatureSizes sizes(grid, 0, scale, featureScale);
+  std::vector<bool> below(grid.voxelCount());
+  for (std::size_t v = 0; v < below.size(); ++v) below[v] = sizes.at(v) == 0;
+  return below;
 }
 
 } // namespace surgicalmesher

@@ -11,14 +11,12 @@
 /// every boundary that is not flat. It takes as many rounds as s has voxels, and a last search for small regions
 /// follows. A narrow passage through a wall that is itself thin can remain.
 
-#include "DigitalTopology.h"
 #include "Progress.h"
 #include "ScaleField.h"
 #include "TissueMap.h"
 
-#include <cstddef>
-#include <map>
 #include <set>
+#include <vector>
 
 namespace surgicalmesher
 {
@@ -29,26 +27,14 @@ struct FeatureOptions
   std::set<Label> protectedLabels; ///< keep every voxel and gain none; label 0 protects the background
 };
 
-struct FeatureChanges
-{
-  std::size_t regionsRemoved = 0;     ///< islands; of label 0, pockets
-  std::size_t regionVoxels = 0;       ///< voxels in them that belong to another label now
-  std::size_t thinVoxelsLost = 0;     ///< of handles, necks, walls and ends, to other labels
-  std::size_t narrowVoxelsGained = 0; ///< in tunnels, cavities and clefts, from other labels (removed regions included)
-  Betti before, after;                ///< what that did to the tissue's topology; zero for label 0
-};
-
-struct FeatureReport
-{
-  std::map<Label, FeatureChanges> changes; ///< only tissues with a change
-  std::set<Label> keptWhole;               ///< tissues that would have lost more than half: left as if protected
-  std::size_t voxelsChanged = 0;
-};
-
 /// Simplifies the map at `scale`. A voxel changes only where s(x) is at least the smallest voxel spacing; sizes over 16
-/// of that spacing count as 16. No tissue disappears. Deterministic. The map may hold new diagonal contacts afterwards:
-/// prepareMap() comes next. If `progress` throws, the map is as it was.
-FeatureReport simplifyFeatures(TissueMap& map, const ScaleField& scale, const FeatureOptions& options,
-                               const Progress& progress = {});
+/// of that spacing count as 16. No tissue disappears: one that would lose more than half of its voxels is left as if
+/// protected, and these are returned. Deterministic. The map may hold new diagonal contacts afterwards. If `progress`
+/// throws, the map is as it was.
+std::set<Label> simplifyFeatures(TissueMap& map, const ScaleField& scale, const FeatureOptions& options,
+                                 const Progress& progress = {});
+
+/// The voxels where s(x) is below the smallest voxel spacing.
+std::vector<bool> voxelsBelowScale(const Grid& grid, const ScaleField& scale, double featureScale);
 
 } // namespace surgicalmesher

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <sstream>
@@ -158,26 +159,99 @@ std::vector<std::size_t> findCriticalBlocks(const TissueMap& map)
   return result;
 }
 
-/// Regions of a padded map that are under the volume asked for.
-std::vector<bool> findIslands(const Regions& regions, const Grid& grid, const PreparationOptions& options)
+double volumeFor(Label label, const std::map<Label, double>& exceptions, double general)
 {
-  const double voxelVolume = grid.spacing.x * grid.spacing.y * grid.spacing.z;
+  const auto exception = exceptions.find(label);
+  return exception == exceptions.end() ? general : exception->second;
+}
+
+/// Of each region of background, the volume under which it is to go.
+std::vector<double> cavityVolumes(const TissueMap& map, const Regions& regions, const PreparationOptions& options)
+{
+  std::vector<double> volumes(regions.list.size(), options.cavityVolumes.empty() ? options.minimumCavityVolume : HUGE_VAL);
+  if (options.cavityVolumes.empty()) return volumes;
+  const auto steps = neighbourSteps(map.grid);
+  const std::size_t size = map.grid.size[0];
+  for (std::size_t row = 0; row + 1 < regions.rowBegins.size(); ++row)
+  {
+    for (std::size_t r = regions.rowBegins[row]; r < regions.rowBegins[row + 1]; ++r)
+    {
+      const auto [begin, region] = regions.runs[r];
+      if (region == 0 || regions.list[region].label != 0) continue;
+      const std::size_t end = r + 1 < regions.rowBegins[row + 1] ? regions.runs[r + 1].begin : size;
+      for (std::size_t v = row * size + begin; v < row * size + end; ++v)
+      {
+        for (const int face : faceNeighbours)
+        {
+          const Label label = map.labels[v + steps[face]];
+          if (label == 0) continue;
+          volumes[region] = std::min(volumes[region], volumeFor(label, options.cavityVolumes, options.minimumCavityVolume));
+        }
+      }
+    }
+  }
+  return volumes;
+}
+
+/// Regions of a padded map that are under the volume asked for.
+std::vector<bool> findIslands(const TissueMap& map, const Regions& regions, const PreparationOptions& options)
+{
+  const Vec3& s = map.grid.spacing;
+  const double voxelVolume = s.x * s.y * s.z;
+  const std::vector<double> cavities = cavityVolumes(map, regions, options);
   std::vector<bool> isIsland = largestRegions(regions);
   for (std::size_t r = 0; r < regions.list.size(); ++r)
   {
     const auto [label, voxels] = regions.list[r];
     const bool isLargest = isIsland[r] && label != 0;
-    const double minimum = label == 0 ? options.minimumPocketVolume : options.minimumIslandVolume;
-    isIsland[r] = r != 0 && !isLargest && voxels * voxelVolume < minimum && !options.untouchedIslands.count(label);
+    const double minimum =
+      label == 0 ? cavities[r] : volumeFor(label, options.islandVolumes, options.minimumIslandVolume);
+    isIsland[r] = r != 0 && !isLargest && voxels * voxelVolume < minimum;
   }
   return isIsland;
+}
+
+/// Leaves out the regions that hold a fixed voxel.
+void spareFixed(std::vector<bool>& chosen, const Regions& regions, const Grid& grid, const std::vector<bool>& fixedVoxels)
+{
+  const std::size_t size = grid.size[0];
+  for (std::size_t row = 0; row + 1 < regions.rowBegins.size(); ++row)
+  {
+    for (std::size_t r = regions.rowBegins[row]; r < regions.rowBegins[row + 1]; ++r)
+    {
+      const auto [begin, region] = regions.runs[r];
+      if (!chosen[region]) continue;
+      const std::size_t end = r + 1 < regions.rowBegins[row + 1] ? regions.runs[r + 1].begin : size;
+      for (std::size_t v = row * size + begin; v < row * size + end; ++v)
+      {
+        if (fixedVoxels[v]) chosen[region] = false;
+      }
+    }
+  }
+}
+
+/// Flags of a map's voxels for its copy with a margin of one, whose voxels all are flagged.
+std::vector<bool> paddedFlags(const std::vector<bool>& flags, const Grid& grid)
+{
+  const std::size_t sizeI = grid.size[0] + 2, sizeJ = grid.size[1] + 2;
+  std::vector<bool> result(sizeI * sizeJ * (grid.size[2] + 2), true);
+  std::size_t n = 0;
+  for (int k = 1; k <= grid.size[2]; ++k)
+  {
+    for (int j = 1; j <= grid.size[1]; ++j)
+    {
+      for (int i = 1; i <= grid.size[0]; ++i) result[(k * sizeJ + j) * sizeI + i] = flags[n++];
+    }
+  }
+  return result;
 }
 
 /// Empties a queue of critical blocks of a padded map, one voxel at a time.
 ///
 /// Each change is the cheapest among the voxels and labels of the block at hand: it leaves few critical blocks around
 /// the voxel, labels that hang together as they did, and little interface. A voxel becomes dearer with every change, so
-/// the search cannot circle for ever, and where no change helps it wanders until one does.
+/// the search cannot circle for ever, and where no change helps it wanders until one does. Within limits a search that
+/// has become dear is given up instead: the block goes back to what it was.
 class ContactResolver
 {
 public:
@@ -187,6 +261,18 @@ public:
   {
     for (const Label label : map.labels) ++m_Voxels[label];
   }
+
+  /// `original` is well-composed, and the same as the map in all fixed voxels.
+  ContactResolver(TissueMap& map, const TissueMap& original, std::vector<bool> fixedVoxels,
+                  const std::set<Label>& closedLabels)
+    : ContactResolver(map)
+  {
+    m_Original = &original;
+    m_Fixed = std::move(fixedVoxels);
+    m_Closed = closedLabels;
+  }
+
+  const std::vector<bool>& fixedVoxels() const { return m_Fixed; }
 
   void enqueue(std::size_t block)
   {
@@ -214,6 +300,11 @@ public:
       m_States[block] &= ~queued;
       if (!isCritical(gather(m_Map, block, m_Corners))) continue;
       const Change change = bestChange(block);
+      if (m_Original && (change.cost == std::numeric_limits<int>::max() || changesOf(change.voxel) >= patience))
+      {
+        restore(block);
+        continue;
+      }
       if (changesLeft-- == 0 || change.cost == std::numeric_limits<int>::max()) throwUnresolved(block);
       apply(change);
     }
@@ -231,6 +322,7 @@ private:
 
   static constexpr std::uint8_t queued = 128; ///< in m_States; the other bits count the changes of the voxel
   static constexpr std::uint8_t maximumCount = 127;
+  static constexpr int patience = 16; ///< changes of a voxel, where there is an original to go back to
 
   /// Queues the critical ones of the eight blocks around a voxel.
   void enqueueAround(std::size_t voxel)
@@ -247,8 +339,23 @@ private:
     ++m_Voxels[to];
   }
 
-  /// The cheapest change of one voxel of the block to another label of the block. Neither the margin nor the last voxel
-  /// of a label is touched; cost stays at its maximum if nothing else is left.
+  void restore(std::size_t block)
+  {
+    for (const std::ptrdiff_t corner : m_Corners)
+    {
+      const std::size_t voxel = block + corner;
+      m_Fixed[voxel] = true;
+      if (m_Map.labels[voxel] == m_Original->labels[voxel]) continue;
+      recordChange(m_Map.labels[voxel], m_Original->labels[voxel]);
+      m_Map.labels[voxel] = m_Original->labels[voxel];
+      enqueueAround(voxel);
+    }
+  }
+
+  bool isFixed(std::size_t voxel) const { return inMargin(voxel) || (m_Original && m_Fixed[voxel]); }
+
+  /// The cheapest change of one voxel of the block to another label of the block. Neither fixed voxels nor the last voxel
+  /// of a label are touched; cost stays at its maximum if nothing else is left.
   Change bestChange(std::size_t block) const
   {
     Change best;
@@ -256,13 +363,14 @@ private:
     for (int c = 0; c < 8; ++c)
     {
       const std::size_t voxel = block + m_Corners[c];
-      if (inMargin(voxel) || (labels[c] != 0 && m_Voxels[labels[c]] == 1)) continue;
+      if (isFixed(voxel) || (labels[c] != 0 && m_Voxels[labels[c]] == 1)) continue;
       const Neighbourhood around = gather(m_Map, voxel, m_Around);
       const int price = changesOf(voxel) - criticalBlocks(around);
       for (int l = 0; l < 8; ++l)
       {
         if (labels[l] == labels[c] || std::find(labels.begin(), labels.begin() + l, labels[l]) != labels.begin() + l)
           continue;
+        if (m_Closed.count(labels[l])) continue;
         const Change change{ price + costOf(around, labels[l]), noise(voxel, labels[l]), voxel, labels[l] };
         if (std::tie(change.cost, change.noise) < std::tie(best.cost, best.noise)) best = change;
       }
@@ -334,6 +442,9 @@ private:
   std::vector<std::uint8_t> m_States;
   std::vector<std::size_t> m_Voxels; ///< of each label
   std::vector<std::size_t> m_Queue;
+  const TissueMap* m_Original = nullptr;
+  std::vector<bool> m_Fixed; ///< empty without an original
+  std::set<Label> m_Closed;
 };
 
 /// Books every voxel that differs: as an island's if it was in an island of the given map, else as a contact's.
@@ -376,7 +487,7 @@ PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, 
   const auto removeIslands = [&](bool count)
   {
     const Regions regions = connectedRegions(work);
-    const std::vector<bool> isIsland = findIslands(regions, work.grid, options);
+    const std::vector<bool> isIsland = findIslands(work, regions, options);
     for (std::size_t r = 0; count && r < isIsland.size(); ++r)
     {
       if (isIsland[r]) ++result.changes[regions.list[r].label].islandsRemoved;
@@ -406,6 +517,29 @@ PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, 
   report(progress, 1, "Resolving contacts");
   copyWithoutMargin(work, 1, map);
   return result;
+}
+
+void prepareAgain(TissueMap& map, const TissueMap& prepared, const PreparationOptions& options,
+                  const ChangeLimits& limits)
+{
+  TissueMap work = padded(map, 1);
+  const TissueMap original = padded(prepared, 1);
+  ContactResolver resolver(work, original, paddedFlags(limits.fixedVoxels, map.grid), limits.closedLabels);
+  for (const std::size_t block : findCriticalBlocks(work)) resolver.enqueue(block);
+  constexpr int maximumRounds = 20;
+  for (int round = 0; round < maximumRounds; ++round)
+  {
+    resolver.run();
+    const Regions regions = connectedRegions(work);
+    std::vector<bool> isIsland = findIslands(work, regions, options);
+    spareFixed(isIsland, regions, work.grid, resolver.fixedVoxels());
+    const std::vector<Label> before = work.labels;
+    const RemovedVoxels cutOff = removeRegions(work, regions, isIsland, limits.closedLabels);
+    if (work.labels == before) break;
+    resolver.updateAfter(cutOff);
+  }
+  resolver.run();
+  copyWithoutMargin(work, 1, map);
 }
 
 } // namespace surgicalmesher

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <map>
 #include <set>
+#include <vector>
 
 namespace surgicalmesher
 {
@@ -22,13 +23,14 @@ struct PreparationOptions
   /// mm^3; face-connected components of a tissue smaller than this go to the labels around them. The largest component
   /// of a tissue always stays, however small.
   double minimumIslandVolume = 0;
-  double minimumPocketVolume = 0;   ///< mm^3; the same for enclosed background
-  std::set<Label> untouchedIslands; ///< tissues (or background) whose islands all stay
+  std::map<Label, double> islandVolumes; ///< the same for tissues that are exceptions; 0 keeps all
+  double minimumCavityVolume = 0;        ///< mm^3; the same for enclosed background
+  std::map<Label, double> cavityVolumes; ///< by tissue around it; of several the smallest counts
 };
 
 struct TissueChanges
 {
-  std::size_t islandsRemoved = 0; ///< components of the given map; pockets, for background
+  std::size_t islandsRemoved = 0; ///< components of the given map; cavities, for background
   std::size_t islandVoxels = 0;   ///< voxels in them that belong to another label now
   std::size_t voxelsLost = 0;     ///< to other labels, while resolving contacts
   std::size_t voxelsGained = 0;   ///< from other labels, while resolving contacts
@@ -44,9 +46,22 @@ struct PreparationReport
 /// Number of critical 2x2x2 blocks of the map, padded by one layer of background.
 std::size_t countCriticalBlocks(const TissueMap& map);
 
-/// Removes islands, then resolves every contact; afterwards countCriticalBlocks() is 0, and every tissue that was
+/// Removes islands and cavities, then resolves every contact; afterwards countCriticalBlocks() is 0, and every tissue that was
 /// present still is. Without islands to remove only voxels near critical blocks change. Deterministic. Throws
 /// EngineError if a contact cannot be resolved, with its place in mm; the map is then as it was.
 PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, const Progress& progress = {});
+
+/// Which voxels of a prepared map a change has to leave alone.
+struct ChangeLimits
+{
+  std::vector<bool> fixedVoxels; ///< by voxel: keep their label
+  std::set<Label> closedLabels;  ///< gain no voxel
+};
+
+/// Prepares a changed copy of a prepared map, within limits that the change has kept: removes the islands that it cut
+/// off, and resolves the contacts that it made. Succeeds always, as voxels can go back to what they were; islands that
+/// hold a fixed voxel, or one gone back, stay.
+void prepareAgain(TissueMap& map, const TissueMap& prepared, const PreparationOptions& options,
+                  const ChangeLimits& limits);
 
 } // namespace surgicalmesher

@@ -1,5 +1,6 @@
 #include "FeatureSimplification.h"
 
+#include "DigitalTopology.h"
 #include "MapPreparation.h"
 #include "TissueMapIO.h"
 
@@ -51,7 +52,7 @@ FeatureOptions scaleOf(double featureScale)
   return options;
 }
 
-FeatureReport simplify(TissueMap& map, double size)
+std::set<Label> simplify(TissueMap& map, double size)
 {
   return simplifyFeatures(map, uniformScale(2 * size), scaleOf(0.5));
 }
@@ -97,10 +98,8 @@ TEST(FeatureSimplification, NarrowTunnelClosesAndWideOneStays)
     TissueMap map =
       blockWith([r = radius](int i, int j, int, Label l) { return distanceFromAxis(i, j) < r ? Label(0) : l; });
     ASSERT_EQ(tissueTopology(map).at(1), (Betti{ 1, 1, 0 }));
-    const FeatureReport report = simplify(map, 5);
+    simplify(map, 5);
     EXPECT_EQ(tissueTopology(map).at(1), (Betti{ 1, tunnels, 0 })) << "radius " << radius;
-    EXPECT_EQ(report.changes.at(1).before.tunnels, 1);
-    EXPECT_EQ(report.changes.at(1).after.tunnels, tunnels);
   }
 }
 
@@ -130,13 +129,9 @@ TEST(FeatureSimplification, SmallIslandsAndPocketsGo)
       if (i >= 20 && i < 22 && j >= 20 && j < 22 && k >= 20 && k < 22) return Label(2); // an island of 8 mm^3
       return k >= 30 ? Label(2) : l;
     });
-  const FeatureReport report = simplify(map, 4);
+  simplify(map, 4);
   EXPECT_EQ(tissueTopology(map).at(1), (Betti{ 1, 0, 0 }));
   EXPECT_EQ(tissueTopology(map).at(2).components, 1);
-  EXPECT_EQ(report.changes.at(0).regionsRemoved, 1u);
-  EXPECT_EQ(report.changes.at(0).regionVoxels, 27u);
-  EXPECT_EQ(report.changes.at(2).regionsRemoved, 1u);
-  EXPECT_EQ(report.changes.at(2).regionVoxels, 8u);
 }
 
 TEST(FeatureSimplification, FlatAndGentlyRoundedBoundariesStay)
@@ -163,16 +158,18 @@ TEST(FeatureSimplification, MapBelowTheScaleStays)
   TissueMap map = noise(random, 24, 4);
   map.grid.spacing = { 1, 1.5, 2 };
   const TissueMap before = map;
-  EXPECT_EQ(simplifyFeatures(map, uniformScale(8), scaleOf(0)).voxelsChanged, 0u);
-  EXPECT_EQ(simplifyFeatures(map, uniformScale(1.9), scaleOf(0.5)).voxelsChanged, 0u);
+  simplifyFeatures(map, uniformScale(8), scaleOf(0));
+  simplifyFeatures(map, uniformScale(1.9), scaleOf(0.5));
   EXPECT_EQ(map.labels, before.labels);
 
   const ScaleField scale = gradedScale(map.grid);
-  EXPECT_GT(simplifyFeatures(map, scale, scaleOf(0.5)).voxelsChanged, 0u);
+  simplifyFeatures(map, scale, scaleOf(0.5));
+  EXPECT_GT(differences(map, before), 0u);
+  const std::vector<bool> below = voxelsBelowScale(map.grid, scale, 0.5);
   for (std::size_t v = 0; v < map.labels.size(); ++v)
   {
-    if (0.5 * scale.lengths[v] >= 1) continue;
-    EXPECT_EQ(map.labels[v], before.labels[v]);
+    EXPECT_EQ(below[v], 0.5 * scale.lengths[v] < 1);
+    EXPECT_TRUE(!below[v] || map.labels[v] == before.labels[v]);
   }
 }
 
@@ -198,31 +195,19 @@ TEST(FeatureSimplification, TissueSmallerThanTheScaleIsKeptWhole)
   const auto rod = [](int i, int j, int k, Label l) { return i == 15 && j == 15 && k > 8 && k < 24 ? Label(2) : l; };
   TissueMap map = blockWith(rod);
   const TissueMap before = map;
-  const FeatureReport report = simplify(map, 4);
-  EXPECT_EQ(report.keptWhole, (std::set<Label>{ 2 }));
+  EXPECT_EQ(simplify(map, 4), (std::set<Label>{ 2 }));
   EXPECT_EQ(std::count(map.labels.begin(), map.labels.end(), 2),
             std::count(before.labels.begin(), before.labels.end(), 2));
 }
 
-TEST(FeatureSimplification, ReportAddsUpOnNoise)
+TEST(FeatureSimplification, NoTissueLosesMoreThanHalf)
 {
   std::mt19937 random(3);
   for (int trial = 0; trial < 30; ++trial)
   {
     TissueMap map = noise(random, 18, 2 + trial % 5);
     const TissueMap before = map;
-    const FeatureReport report = simplifyFeatures(map, gradedScale(map.grid), scaleOf(0.25 * (1 + trial % 6)));
-    std::size_t lost = 0, gained = 0;
-    for (const auto& [label, changes] : report.changes)
-    {
-      lost += changes.regionVoxels + changes.thinVoxelsLost;
-      gained += changes.narrowVoxelsGained;
-      EXPECT_EQ(changes.after, label == 0 ? Betti{} : tissueTopology(map).at(label));
-    }
-    EXPECT_EQ(report.voxelsChanged, differences(map, before));
-    EXPECT_EQ(lost, report.voxelsChanged);
-    EXPECT_EQ(gained, report.voxelsChanged);
-    EXPECT_EQ(presentLabels(map), presentLabels(before));
+    simplifyFeatures(map, gradedScale(map.grid), scaleOf(0.25 * (1 + trial % 6)));
     for (const Label label : presentLabels(before))
     {
       const auto voxels = [label](const TissueMap& m) { return std::count(m.labels.begin(), m.labels.end(), label); };

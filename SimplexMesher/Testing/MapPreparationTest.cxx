@@ -239,12 +239,13 @@ TEST(MapPreparation, IslandsAndPocketsGoOrStayAsAsked)
   const TissueMap before = map;
 
   PreparationOptions options;
-  options.minimumIslandVolume = options.minimumPocketVolume = 10;
-  options.untouchedIslands = { 0, 2 };
+  options.minimumIslandVolume = options.minimumCavityVolume = 10;
+  options.islandVolumes = { { 2, 0 } };
+  options.cavityVolumes = { { 1, 1 } };
   prepareMap(map, options);
   EXPECT_EQ(map.labels, before.labels);
 
-  options.untouchedIslands = { 2 };
+  options.cavityVolumes = { { 1, 1.5 } };
   const PreparationReport report = prepareMap(map, options);
   EXPECT_EQ(at(map, 5, 2, 2), 1);
   EXPECT_EQ(at(map, 2, 2, 2), 2);

@@ -1,0 +1,41 @@
+#include "ScaledPreparation.h"
+
+#include "Errors.h"
+
+namespace surgicalmesher
+{
+
+ScaledPreparationReport prepareAtScale(TissueMap& map, const ScaleField& scale, const PreparationOptions& preparation,
+                                       const FeatureOptions& features, const Progress& progress)
+{
+  ScaledPreparationReport result;
+  TissueMap prepared = map;
+  const bool simplifies = features.featureScale > 0;
+  result.preparation = prepareMap(prepared, preparation, subProgress(progress, 0, simplifies ? 0.3 : 1));
+  if (!simplifies)
+  {
+    map.labels.swap(prepared.labels);
+    return result;
+  }
+  TissueMap simplified = prepared;
+  result.keptWhole = simplifyFeatures(simplified, scale, features, subProgress(progress, 0.3, 0.8));
+
+  report(progress, 0.8, "Resolving contacts");
+  ChangeLimits limits{ voxelsBelowScale(map.grid, scale, features.featureScale), features.protectedLabels };
+  limits.closedLabels.insert(result.keptWhole.begin(), result.keptWhole.end());
+  for (std::size_t v = 0; v < map.labels.size(); ++v)
+  {
+    if (limits.closedLabels.count(prepared.labels[v])) limits.fixedVoxels[v] = true;
+  }
+  prepareAgain(simplified, prepared, preparation, limits);
+  if (presentLabels(simplified) != presentLabels(prepared))
+    throw EngineError("map preparation: a tissue got lost in simplification");
+
+  report(progress, 0.9, "Listing what changed");
+  result.simplification = mapChanges(prepared, simplified);
+  report(progress, 1, "Listing what changed");
+  map.labels.swap(simplified.labels);
+  return result;
+}
+
+} // namespace surgicalmesher

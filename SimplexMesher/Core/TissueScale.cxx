@@ -1,0 +1,195 @@
+#include "TissueScale.h"
+
+#include "Gradation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+constexpr float unlimited = std::numeric_limits<float>::infinity();
+
+/// Limits on L at the voxels of a scale volume.
+class LengthLimits
+{
+public:
+  LengthLimits(const ScaleField& scale, const Grid& map)
+    : minima(scale.lengths.size(), 0), maxima(scale.lengths.size(), unlimited), m_Scale(scale.grid), m_Map(map)
+  {
+    // From a voxel's centre, how far its corners reach along the axes of the scale.
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      m_HalfVoxel[axis] = 0;
+      for (int a = 0; a < 3; ++a)
+        m_HalfVoxel[axis] += std::abs(dot(m_Scale.axes[axis], map.axes[a])) * map.spacing[a] / 2;
+    }
+  }
+
+  std::vector<float> minima, maxima;
+
+  /// Calls visit(index) for the scale's voxels that interpolation in a voxel of the map refers to.
+  template <typename Visit>
+  void visitAround(std::size_t voxel, const Visit& visit) const
+  {
+    const Vec3 p = m_Scale.worldToGrid(worldOf(voxel));
+    std::array<int, 3> from, to;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double last = m_Scale.size[axis] - 1;
+      const auto clamped = [&](double index) { return int(std::min(last, std::max(0.0, index))); };
+      from[axis] = clamped(std::floor((p[axis] - m_HalfVoxel[axis]) / m_Scale.spacing[axis]));
+      to[axis] = clamped(std::ceil((p[axis] + m_HalfVoxel[axis]) / m_Scale.spacing[axis]));
+    }
+    for (int k = from[2]; k <= to[2]; ++k)
+    {
+      for (int j = from[1]; j <= to[1]; ++j)
+      {
+        for (int i = from[0]; i <= to[0]; ++i) visit(m_Scale.index(i, j, k));
+      }
+    }
+  }
+
+  /// Brings L into the limits, and lets it rise slowly from where that lowered it.
+  void apply(ScaleField& scale, double gradation) const
+  {
+    ScaleField lowered = scale;
+    bool any = false;
+    for (std::size_t n = 0; n < scale.lengths.size(); ++n)
+    {
+      const float within = limited(scale.lengths[n], n);
+      lowered.lengths[n] = within < scale.lengths[n] ? within : unlimited;
+      any = any || within < scale.lengths[n];
+      scale.lengths[n] = within;
+    }
+    if (!any || gradation <= 0) return;
+    limitGradation(lowered, gradation);
+    for (std::size_t n = 0; n < scale.lengths.size(); ++n)
+      scale.lengths[n] = limited(std::min(scale.lengths[n], lowered.lengths[n]), n);
+  }
+
+private:
+  float limited(float length, std::size_t n) const { return std::min(std::max(length, minima[n]), maxima[n]); }
+
+  Vec3 worldOf(std::size_t voxel) const
+  {
+    const std::size_t sizeI = m_Map.size[0], sizeJ = m_Map.size[1];
+    const Vec3& s = m_Map.spacing;
+    return m_Map.gridToWorld(
+      { double(voxel % sizeI) * s.x, double(voxel / sizeI % sizeJ) * s.y, double(voxel / sizeI / sizeJ) * s.z });
+  }
+
+  Grid m_Scale, m_Map;
+  std::array<double, 3> m_HalfVoxel;
+};
+
+bool hasLengths(const TissueSetting& setting) { return setting.minimumEdgeLength > 0 || setting.maximumEdgeLength > 0; }
+
+/// Calls visit(voxel, setting) for every voxel of a tissue in `settings`.
+template <typename Visit>
+void visitVoxels(const TissueMap& map, const TissueSettings& settings, const Visit& visit)
+{
+  std::vector<const TissueSetting*> byLabel(std::size_t(1) << 16, nullptr);
+  for (const auto& [label, setting] : settings) byLabel[label] = &setting;
+  for (std::size_t v = 0; v < map.labels.size(); ++v)
+  {
+    if (const TissueSetting* setting = byLabel[map.labels[v]]) visit(v, *setting);
+  }
+}
+
+} // namespace
+
+ScaleField scaleVolume(const ScaleField& scale, const Grid& map)
+{
+  if (scale.lengths.size() > 1) return scale;
+  ScaleField volume;
+  volume.grid = map;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    volume.grid.size[axis] = map.size[axis] / 2 + 2; // from a voxel before the first to one beyond the last, or more
+    volume.grid.spacing[axis] = 2 * map.spacing[axis];
+  }
+  volume.grid.origin = map.gridToWorld(-1 * map.spacing);
+  volume.lengths.assign(volume.grid.voxelCount(), scale.lengths.at(0));
+  return volume;
+}
+
+void completeShells(TissueSettings& settings, const TissueMap& map, const ScaleField& scale)
+{
+  TissueSettings open;
+  for (const auto& [label, setting] : settings)
+  {
+    if (setting.role == TissueRole::Shell && !hasLengths(setting)) open.emplace(label, setting);
+  }
+  if (open.empty()) return;
+  std::map<Label, double> least;
+  const Vec3& s = map.grid.spacing;
+  visitVoxels(map, open,
+              [&](std::size_t v, const TissueSetting&)
+              {
+                const std::size_t sizeI = map.grid.size[0], sizeJ = map.grid.size[1];
+                const double length = scale(map.grid.gridToWorld(
+                  { double(v % sizeI) * s.x, double(v / sizeI % sizeJ) * s.y, double(v / sizeI / sizeJ) * s.z }));
+                const auto [entry, isNew] = least.emplace(map.labels[v], length);
+                if (!isNew) entry->second = std::min(entry->second, length);
+              });
+  for (const auto& [label, length] : least)
+    settings[label].minimumEdgeLength = settings[label].maximumEdgeLength = length;
+}
+
+ScaleField followTissues(const ScaleField& scale, const TissueMap& map, const TissueSettings& settings, double gradation)
+{
+  TissueSettings solids, shells;
+  for (const auto& [label, setting] : settings)
+  {
+    if (hasLengths(setting)) (setting.role == TissueRole::Shell ? shells : solids).emplace(label, setting);
+  }
+  ScaleField result = scale;
+  LengthLimits limits(scale, map.grid);
+  visitVoxels(map, solids,
+              [&](std::size_t v, const TissueSetting& setting)
+              {
+                const float minimum = float(setting.minimumEdgeLength);
+                const float maximum = setting.maximumEdgeLength > 0 ? float(setting.maximumEdgeLength) : unlimited;
+                limits.visitAround(v,
+                                   [&](std::size_t n)
+                                   {
+                                     limits.minima[n] = std::max(limits.minima[n], minimum);
+                                     limits.maxima[n] = std::min(limits.maxima[n], maximum);
+                                   });
+              });
+  std::vector<float> shellLengths(shells.empty() ? 0 : scale.lengths.size(), unlimited);
+  visitVoxels(map, shells,
+              [&](std::size_t v, const TissueSetting& setting)
+              {
+                limits.visitAround(v, [&](std::size_t n)
+                                   { shellLengths[n] = std::min(shellLengths[n], float(setting.maximumEdgeLength)); });
+              });
+  for (std::size_t n = 0; n < shellLengths.size(); ++n)
+  {
+    if (shellLengths[n] < unlimited) limits.minima[n] = limits.maxima[n] = shellLengths[n];
+  }
+  limits.apply(result, gradation);
+  return result;
+}
+
+ScaleField followThickness(const ScaleField& scale, const TissueMap& map, const std::vector<ThinVoxel>& thinVoxels,
+                           double gradation)
+{
+  const Vec3& s = map.grid.spacing;
+  const float least = float(std::min({ s.x, s.y, s.z }));
+  LengthLimits limits(scale, map.grid);
+  for (const ThinVoxel& thin : thinVoxels)
+  {
+    const float length = std::max(least, thin.thickness);
+    limits.visitAround(thin.voxel, [&](std::size_t n) { limits.maxima[n] = std::min(limits.maxima[n], length); });
+  }
+  ScaleField result = scale;
+  limits.apply(result, gradation);
+  return result;
+}
+
+} // namespace surgicalmesher

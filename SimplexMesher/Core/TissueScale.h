@@ -1,0 +1,33 @@
+#pragma once
+/// Edge lengths that single tissues ask for, brought into the scale.
+
+#include "LocalThickness.h"
+#include "ScaleField.h"
+#include "TissueSettings.h"
+
+namespace surgicalmesher
+{
+
+/// `scale` if it covers the map; a scale of one value everywhere (uniformScale) becomes a volume of two voxels' spacing.
+ScaleField scaleVolume(const ScaleField& scale, const Grid& map);
+
+/// Gives every shell without an edge length the smallest that `scale` has on it.
+void completeShells(TissueSettings& settings, const TissueMap& map, const ScaleField& scale);
+
+/// The scale that follows the settings: within a tissue and on its surface,
+///
+///     L' = min(max(L, minimum), maximum)
+///
+/// on all voxels of `scale` that linear interpolation there refers to. Where several tissues meet, the largest minimum and
+/// the smallest maximum count, the maximum first; on a shell, the smallest length of shells counts alone. Around places
+/// where L was lowered it rises by at most `gradation` per mm; 0 sets no limit.
+///
+/// `scale` is a volume (scaleVolume).
+ScaleField followTissues(const ScaleField& scale, const TissueMap& map, const TissueSettings& settings, double gradation);
+
+/// The scale that follows thin tissues: at every thin voxel L' = min(L, max(thickness, smallest voxel spacing)), rising
+/// from there by at most `gradation` per mm. `scale` is a volume.
+ScaleField followThickness(const ScaleField& scale, const TissueMap& map, const std::vector<ThinVoxel>& thinVoxels,
+                           double gradation);
+
+} // namespace surgicalmesher
