@@ -4,9 +4,12 @@
 #include "CommandLine.h"
 #include "ComplexChecks.h"
 #include "ComplexIO.h"
+#include "ConstitutiveTags.h"
 #include "Errors.h"
+#include "Export.h"
 #include "FaceNeighbours.h"
 #include "FuchsTetrahedralizerCLIXML.h"
+#include "MaterialTable.h"
 #include "MeshImprovement.h"
 #include "MeshQuality.h"
 #include "SubMeshExport.h"
@@ -15,6 +18,7 @@
 #include "SurfaceTetrahedralization.h"
 #include "SurfaceValidity.h"
 #include "TissueMapIO.h"
+#include "VtkExport.h"
 
 #include <rapidjson/prettywriter.h>
 #include <rapidjson/stringbuffer.h>
@@ -22,6 +26,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <sstream>
 
 using namespace surgicalmesher;
@@ -62,10 +67,17 @@ Lengths readLengths(const CommandLine& line, const SurfaceFile& content)
   return anywhere(edgeLengthFromPoints(content.surface.points, content.targetEdgeLength));
 }
 
-void makeFillable(SurfaceFile& content, const std::string& name)
+/// Makes the surface ready for the start that was chosen; it has labels then.
+void prepareSurface(const CommandLine& line, SurfaceFile& content)
 {
   SurfaceComplex& surface = content.surface;
+  const std::string name = line.text("surface");
   const bool labelled = !surface.labels.empty();
+  if (!line.text("ambient").empty())
+  {
+    if (labelled) return;
+    throw InputError(name + ": no BoundaryLabels, expected them in a surface with ambient tetrahedra");
+  }
   surface = labelled ? withoutDuplicatePoints(surface) : closedShellsToTissues(surface, name);
   if (labelled) requireFillable(surface, name);
 }
@@ -89,33 +101,115 @@ void makeFillable(SurfaceFile& content, const std::string& name)
   throw InputError(std::string(refusal.what()) + "; these triangles are in " + file);
 }
 
-TetraMesh ambientTetrahedra(const CommandLine& line, SurfaceFile& content, const EdgeLength& edgeLength)
+TetraMesh ambientTetrahedra(const CommandLine& line, const SurfaceComplex& surface, const EdgeLength& edgeLength)
 {
   const std::string surfaceName = line.text("surface"), ambientName = line.text("ambient");
-  if (!ambientName.empty())
-  {
-    if (content.surface.labels.empty())
-    {
-      throw InputError(surfaceName + ": no BoundaryLabels, expected them in a surface with ambient tetrahedra");
-    }
-    TetraMesh ambient = readMesh(ambientName).mesh;
-    requireInterfacesAre(content.surface, surfaceName, ambient, ambientName);
-    return ambient;
-  }
-  makeFillable(content, surfaceName);
-  return fillWithTetrahedra(content.surface, edgeLength, surfaceName);
+  if (ambientName.empty()) return fillWithTetrahedra(surface, edgeLength, surfaceName);
+  TetraMesh ambient = readMesh(ambientName).mesh;
+  requireInterfacesAre(surface, surfaceName, ambient, ambientName);
+  return ambient;
 }
 
 void improve(TetraMesh& ambient, const Lengths& lengths, const Progress& progress)
 {
   const std::optional<Grid>& frame = lengths.frame;
   for (Vec3& p : ambient.points) p = frame ? inFrameOf(*frame, p) : p;
-  improveMesh(ambient, [&](const Vec3& p) { return float(lengths.inFrame(p)); }, {}, progress);
+  improveMesh(
+    ambient, [&](const Vec3& p) { return float(lengths.inFrame(p)); }, {}, progress);
   for (Vec3& p : ambient.points) p = frame ? frame->gridToWorld(p) : p;
 }
 
+ConstitutiveRule readConstitutiveRule(const CommandLine& line)
+{
+  ConstitutiveRule rule;
+  rule.targets = line.points("targetPoint");
+  for (const std::string& file : line.texts("targets"))
+  {
+    for (const std::vector<Vec3>& points : readMarkups(file))
+    {
+      rule.targets.insert(rule.targets.end(), points.begin(), points.end());
+    }
+  }
+  const Path typed = line.points("pathPoint");
+  if (typed.size() == 1) throw UsageError("--pathPoint is given once, expected two points or more");
+  if (!typed.empty()) rule.paths.push_back(typed);
+  for (const std::string& file : line.texts("path"))
+  {
+    for (const Path& path : readMarkups(file))
+    {
+      if (path.size() < 2) throw InputError(file + ": a path of one point, expected two points or more");
+      rule.paths.push_back(path);
+    }
+  }
+  rule.nonlinearDistance = line.number("nonlinearDistance");
+  rule.nullTargetRadius = line.number("nullDisplacementRadius");
+  rule.nullPathDistance = line.number("nullDisplacementPathDistance");
+  rule.nullPathDistanceAtTarget = line.number("nullDisplacementPathDistanceAtTarget");
+  checkConstitutiveRule(rule);
+  return rule;
+}
+
+/// A shell option: TISSUE, or TISSUE:NEIGHBOUR, each a label or a name; `outside` stands for 0.
+ShellChoice readShell(const std::string& text, const TissueTable& names, const std::set<Label>& present)
+{
+  ShellChoice choice;
+  const auto isTissue = [&](const std::string& name, Label& label)
+  { return findTissue(name, names, label) && present.count(label) > 0; };
+  if (isTissue(text, choice.label)) return choice;
+  for (std::size_t colon = text.find(':'); colon != text.npos; colon = text.find(':', colon + 1))
+  {
+    const std::string neighbour = text.substr(colon + 1);
+    Label other = 0;
+    const bool known = neighbour == "outside" || neighbour == "0" || isTissue(neighbour, other);
+    if (!known || !isTissue(text.substr(0, colon), choice.label)) continue;
+    choice.neighbour = other;
+    return choice;
+  }
+  throw UsageError("--shell: \"" + text + "\" found, TISSUE or TISSUE:NEIGHBOUR with labels or names of the mesh's " +
+                   "tissues expected");
+}
+
+/// What the command line alone can tell.
+void requireUsableExports(const CommandLine& line)
+{
+  for (const std::string& file : line.outputNames("export")) exportFormatOf(file);
+  const bool chosen = !line.texts("shell").empty();
+  if (line.given("shells") && !chosen) throw UsageError("--shells is given, but no --shell");
+  if (chosen && !line.given("shells") && !line.given("export"))
+    throw UsageError("--shell is given, but neither --shells nor --export");
+}
+
+FiniteElementOptions readFiniteElementOptions(const CommandLine& line, const SurfaceFile& content)
+{
+  std::set<Label> present;
+  for (const auto& sides : content.surface.labels) present.insert(sides.begin(), sides.end());
+  present.erase(0);
+  FiniteElementOptions options;
+  const std::string materials = line.text("materials");
+  if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present);
+  for (const std::string& shell : line.texts("shell"))
+  {
+    options.shells.push_back(readShell(shell, content.tissues, present));
+    options.shells.back().thickness = line.number("shellThickness");
+  }
+  return options;
+}
+
+void writeExports(CommandLine& line, const MeshFile& content, const FiniteElementOptions& options)
+{
+  const std::vector<std::string> files = line.outputNames("export");
+  const std::string shells = line.outputFile("shells");
+  if (files.empty() && shells.empty()) return;
+  const FiniteElementModel model = finiteElementModel(content, options);
+  if (!shells.empty()) writeShells(model, shells);
+  for (const std::string& file : files)
+  {
+    exportModel(model, file, [&](const std::string& finalPath) { return line.outputPath(finalPath); });
+  }
+}
+
 MeshFile assemble(const TetraMesh& ambient, const EdgeLength& edgeLength, const TissueTable& tissues,
-                  SubMeshes& division)
+                  const ConstitutiveRule& rule, SubMeshes& division)
 {
   MeshFile result;
   result.mesh = withoutOutside(ambient);
@@ -123,6 +217,7 @@ MeshFile assemble(const TetraMesh& ambient, const EdgeLength& edgeLength, const 
   division = divideIntoSubMeshes(result.mesh, edgeLength);
   result.subMesh = division.ofTetrahedron;
   result.constitutive = constitutiveModels(result.mesh, result.subMesh, tissues);
+  tagByDistance(result.mesh, rule, result.constitutive);
   result.subMeshInterface.assign(result.mesh.points.size(), 0);
   for (const std::int32_t id : division.interfacePoints) result.subMeshInterface[id] = 1;
   for (const Vec3& p : result.mesh.points) result.targetEdgeLength.push_back(edgeLength(p));
@@ -213,19 +308,24 @@ void mesh(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
+  requireUsableExports(line);
+  const ConstitutiveRule rule = readConstitutiveRule(line);
   SurfaceFile content = readSurface(line.text("surface"));
   const Lengths lengths = readLengths(line, content);
   const EdgeLength& edgeLength = lengths.inWorld;
   report(progress, 0.1, "tetrahedra");
-  TetraMesh ambient = ambientTetrahedra(line, content, edgeLength);
+  prepareSurface(line, content);
+  const FiniteElementOptions options = readFiniteElementOptions(line, content);
+  TetraMesh ambient = ambientTetrahedra(line, content.surface, edgeLength);
   improve(ambient, lengths, subProgress(progress, 0.3, 0.8));
   report(progress, 0.8, "sub-meshes");
   SubMeshes division;
-  const MeshFile result = assemble(ambient, edgeLength, content.tissues, division);
+  const MeshFile result = assemble(ambient, edgeLength, content.tissues, rule, division);
   report(progress, 0.9, "checks");
   requireSound(result.mesh, "final check");
   writeMesh(result, line.outputFile("mesh"));
   writeChildAndParent(line, result);
+  writeExports(line, result, options);
   const MeshQuality quality = assessQuality(result.mesh, result.subMesh, edgeLength);
   const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty()) writeBytes(reportOf(result, division, quality, !line.text("ambient").empty()), reportFile);
