@@ -219,13 +219,14 @@ std::string CommandLine::outputFile(const std::string& name)
 
 std::vector<std::string> CommandLine::outputNames(const std::string& name) const
 {
-  const auto isOutput = [](const Parameter& p) { return p.isFile() && p.output && p.multiple; };
-  return d->values(d->parameter(name, isOutput, "list of output files"));
+  const auto isOutput = [](const Parameter& p) { return p.isFile() && p.output; };
+  return d->values(d->parameter(name, isOutput, "output file"));
 }
 
 std::vector<std::string> CommandLine::outputFiles(const std::string& name)
 {
-  std::vector<std::string> files = outputNames(name);
+  const auto isOutput = [](const Parameter& p) { return p.isFile() && p.output && p.multiple; };
+  std::vector<std::string> files = d->values(d->parameter(name, isOutput, "list of output files"));
   for (std::string& file : files) file = d->outputs.temporary(file);
   return files;
 }

@@ -48,7 +48,7 @@ public:
   /// to has been checked before the function was called; an output that was asked for has to be written.
   std::string outputFile(const std::string& name);
   std::vector<std::string> outputFiles(const std::string& name); ///< multiple="true"
-  /// The final names of the same files, in the same order: to write by outputPath(), with sidecars named after them.
+  /// The final names of the same files, one or many: to write by outputPath(), with sidecars named after them.
   std::vector<std::string> outputNames(const std::string& name) const;
   /// The same for a file the XML doesn't list (a sidecar next to an output). Throws InputError if it can't be created.
   std::string outputPath(const std::string& finalPath);

@@ -21,6 +21,10 @@ std::vector<std::string> splitWords(const std::string& line);
 /// Fields of one line of comma-separated values, trimmed; a field in double quotes may hold commas, and "" for a quote.
 std::vector<std::string> splitFields(const std::string& line);
 
+/// UTF-8 without control characters: these become blanks, and bytes that are no UTF-8 question marks. Names from files
+/// then do no harm in the files they go to.
+std::string legible(const std::string& text);
+
 std::string trimmed(const std::string& text);
 std::string lowerCase(std::string text);
 

@@ -36,7 +36,7 @@ void requireCover(const ScaleField& scale, const Grid& grid, const std::string& 
 TissueTable readTissueTable(const std::string& file);
 
 /// Adds the names and colours of a table file (none if `file` is empty) to the map's own, and forgets those of tissues that
-/// the map doesn't have.
+/// the map doesn't have. All names are legible afterwards (TextFile.h).
 void completeTissueTable(TissueMap& map, const std::string& file);
 
 /// The label that `text` means: a number from 0 to 65535, or a name of `names` (underscores and blanks are the same).

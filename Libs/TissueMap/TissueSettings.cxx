@@ -56,8 +56,9 @@ Columns readHeader(const std::vector<std::string>& fields, const std::string& wh
     const auto found = std::find(columnNames.begin(), columnNames.end(), text::lowerCase(fields[n]));
     if (found == columnNames.end() || columns[found - columnNames.begin()] >= 0)
     {
-      fail(where, "column \"" + fields[n] +
-                    "\", expected label, name, role, minimum, maximum, protected, islands, cavities, each at most once");
+      fail(where,
+           "column \"" + fields[n] +
+             "\", expected label, name, role, minimum, maximum, protected, islands, cavities, each at most once");
     }
     columns[found - columnNames.begin()] = int(n);
   }
@@ -125,8 +126,7 @@ TissueSetting readSetting(const Row& row)
   setting.isProtected = readProtected(row);
   double& minimum = setting.minimumEdgeLength;
   double& maximum = setting.maximumEdgeLength;
-  if (minimum > 0 && maximum > 0 && minimum > maximum)
-    fail(row.where, "the minimum edge length is above the maximum");
+  if (minimum > 0 && maximum > 0 && minimum > maximum) fail(row.where, "the minimum edge length is above the maximum");
   if (setting.role != TissueRole::Shell) return setting;
   if (minimum > 0 && maximum > 0 && minimum < maximum)
     fail(row.where, "a shell of two edge lengths, expected one, as minimum or maximum");
@@ -193,7 +193,7 @@ TissueSettings readTissueSettings(const std::string& file, const TissueMap& map)
   {
     const std::string line = text::trimmed(lines[n]);
     if (line.empty() || line[0] == '#') continue;
-    const Row row{ file + ":" + std::to_string(n + 1), text::splitFields(line), columns };
+    const Row row{ file + ":" + std::to_string(n + 1), text::splitFields(text::legible(line)), columns };
     if (!hasHeader)
     {
       columns = readHeader(row.fields, row.where);

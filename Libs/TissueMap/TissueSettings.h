@@ -49,9 +49,9 @@ struct TissueGroup
 /// What became of the tissues of a map.
 struct TissueSelection
 {
-  std::vector<TissueGroup> groups;           ///< by label
-  std::map<Label, std::size_t> voxelsLeft;   ///< tissues left out
-  TissueTable tableOfInput;                  ///< names and colours before
+  std::vector<TissueGroup> groups;         ///< by label
+  std::map<Label, std::size_t> voxelsLeft; ///< tissues left out
+  TissueTable tableOfInput;                ///< names and colours before
 };
 
 /// Joins groups, and makes background of the tissues left out; map.table and `settings` follow: a group has the smallest

@@ -90,7 +90,9 @@ void completeTissueTable(TissueMap& map, const std::string& file)
   for (const Label label : presentLabels(map))
   {
     const auto entry = map.table.find(label);
-    if (entry != map.table.end()) present.insert(*entry);
+    if (entry == map.table.end()) continue;
+    present.insert(*entry);
+    present[label].name = text::legible(entry->second.name);
   }
   map.table = present;
 }

@@ -98,7 +98,8 @@ public:
     {
       for (const Voxels& piece : partsOf(voxels, m_Steps, false)) changes.push_back(gained(label, piece));
     }
-    std::stable_sort(changes.begin(), changes.end(), [](const MapChange& a, const MapChange& b)
+    std::stable_sort(changes.begin(), changes.end(),
+                     [](const MapChange& a, const MapChange& b)
                      { return std::tie(a.label, a.kind) < std::tie(b.label, b.kind); });
     return changes;
   }
@@ -134,10 +135,11 @@ private:
 
   bool touchesByFace(const Voxels& part, const Voxels& piece) const
   {
-    return std::any_of(part.begin(), part.end(), [&](std::size_t voxel)
+    return std::any_of(part.begin(), part.end(),
+                       [&](std::size_t voxel)
                        {
-                         return std::any_of(faceNeighbours.begin(), faceNeighbours.end(), [&](int face)
-                                            { return holds(piece, voxel + m_Steps[face]); });
+                         return std::any_of(faceNeighbours.begin(), faceNeighbours.end(),
+                                            [&](int face) { return holds(piece, voxel + m_Steps[face]); });
                        });
   }
 
@@ -149,8 +151,8 @@ private:
     {
       if (touchesByFace(part, piece)) regions.push_back(m_RegionsAfter.at(part.front()));
     }
-    const bool areOne = std::count(regions.begin(), regions.end(), regions.empty() ? 0 : regions[0]) ==
-                        std::ptrdiff_t(regions.size());
+    const bool areOne =
+      std::count(regions.begin(), regions.end(), regions.empty() ? 0 : regions[0]) == std::ptrdiff_t(regions.size());
     const ChangeKind kind = regions.empty()       ? ChangeKind::Island
                             : regions.size() == 1 ? ChangeKind::End
                             : areOne              ? ChangeKind::Handle
@@ -162,9 +164,7 @@ private:
   {
     const auto remains = [&](std::size_t v) { return m_Before.labels[v] != label && m_After.labels[v] != label; };
     const std::size_t parts = partsOf(around(piece, remains), m_Steps, false).size();
-    const ChangeKind kind = parts == 0   ? ChangeKind::Cavity
-                            : parts == 1 ? ChangeKind::Cleft
-                                         : ChangeKind::Tunnel;
+    const ChangeKind kind = parts == 0 ? ChangeKind::Cavity : parts == 1 ? ChangeKind::Cleft : ChangeKind::Tunnel;
     return { label, kind, piece.size(), placeOf(piece) };
   }
 

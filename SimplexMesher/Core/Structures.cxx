@@ -51,13 +51,15 @@ std::vector<Structure> structuresOf(const TissueMap& map)
     if (label == 0) continue;
     structures.push_back({ label, nameOf(label, map.table), voxels, map.grid.gridToWorld(centres[r]), topology[r] });
   }
-  std::stable_sort(structures.begin(), structures.end(), [](const Structure& a, const Structure& b)
+  std::stable_sort(structures.begin(), structures.end(),
+                   [](const Structure& a, const Structure& b)
                    { return a.label != b.label ? a.label < b.label : a.voxels > b.voxels; });
   for (std::size_t begin = 0, end; begin < structures.size(); begin = end)
   {
     end = begin;
     while (end < structures.size() && structures[end].label == structures[begin].label) ++end;
-    for (std::size_t n = begin; end - begin > 1 && n < end; ++n) structures[n].name += " " + std::to_string(n - begin + 1);
+    for (std::size_t n = begin; end - begin > 1 && n < end; ++n)
+      structures[n].name += " " + std::to_string(n - begin + 1);
   }
   return structures;
 }

@@ -140,15 +140,17 @@ void completeShells(TissueSettings& settings, const TissueMap& map, const ScaleF
     settings[label].minimumEdgeLength = settings[label].maximumEdgeLength = length;
 }
 
-ScaleField followTissues(const ScaleField& scale, const TissueMap& map, const TissueSettings& settings, double gradation)
+ScaleField followTissues(const ScaleField& scale, const TissueMap& map, const TissueSettings& settings,
+                         double gradation)
 {
   TissueSettings solids, shells;
   for (const auto& [label, setting] : settings)
   {
     if (hasLengths(setting)) (setting.role == TissueRole::Shell ? shells : solids).emplace(label, setting);
   }
-  ScaleField result = scale;
-  LengthLimits limits(scale, map.grid);
+  if (solids.empty() && shells.empty()) return scale;
+  ScaleField result = scaleVolume(scale, map.grid);
+  LengthLimits limits(result, map.grid);
   visitVoxels(map, solids,
               [&](std::size_t v, const TissueSetting& setting)
               {
@@ -161,7 +163,7 @@ ScaleField followTissues(const ScaleField& scale, const TissueMap& map, const Ti
                                      limits.maxima[n] = std::min(limits.maxima[n], maximum);
                                    });
               });
-  std::vector<float> shellLengths(shells.empty() ? 0 : scale.lengths.size(), unlimited);
+  std::vector<float> shellLengths(shells.empty() ? 0 : result.lengths.size(), unlimited);
   visitVoxels(map, shells,
               [&](std::size_t v, const TissueSetting& setting)
               {
@@ -181,13 +183,13 @@ ScaleField followThickness(const ScaleField& scale, const TissueMap& map, const 
 {
   const Vec3& s = map.grid.spacing;
   const float least = float(std::min({ s.x, s.y, s.z }));
-  LengthLimits limits(scale, map.grid);
+  ScaleField result = scaleVolume(scale, map.grid);
+  LengthLimits limits(result, map.grid);
   for (const ThinVoxel& thin : thinVoxels)
   {
     const float length = std::max(least, thin.thickness);
     limits.visitAround(thin.voxel, [&](std::size_t n) { limits.maxima[n] = std::min(limits.maxima[n], length); });
   }
-  ScaleField result = scale;
   limits.apply(result, gradation);
   return result;
 }

@@ -22,11 +22,12 @@ void completeShells(TissueSettings& settings, const TissueMap& map, const ScaleF
 /// the smallest maximum count, the maximum first; on a shell, the smallest length of shells counts alone. Around places
 /// where L was lowered it rises by at most `gradation` per mm; 0 sets no limit.
 ///
-/// `scale` is a volume (scaleVolume).
-ScaleField followTissues(const ScaleField& scale, const TissueMap& map, const TissueSettings& settings, double gradation);
+/// Without a tissue that has lengths, `scale` itself; otherwise a volume (scaleVolume).
+ScaleField followTissues(const ScaleField& scale, const TissueMap& map, const TissueSettings& settings,
+                         double gradation);
 
 /// The scale that follows thin tissues: at every thin voxel L' = min(L, max(thickness, smallest voxel spacing)), rising
-/// from there by at most `gradation` per mm. `scale` is a volume.
+/// from there by at most `gradation` per mm. A volume (scaleVolume).
 ScaleField followThickness(const ScaleField& scale, const TissueMap& map, const std::vector<ThinVoxel>& thinVoxels,
                            double gradation);
 

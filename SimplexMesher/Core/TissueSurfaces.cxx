@@ -13,7 +13,9 @@ namespace
 class PointCopier
 {
 public:
-  explicit PointCopier(const SurfaceFile& all) : m_All(all), m_Ids(all.surface.points.size()), m_Owner(m_Ids.size(), 0) {}
+  explicit PointCopier(const SurfaceFile& all) : m_All(all), m_Ids(all.surface.points.size()), m_Owner(m_Ids.size(), 0)
+  {
+  }
 
   std::int32_t copy(std::int32_t point, Label owner, SurfaceFile& part)
   {

@@ -109,7 +109,8 @@ TEST(MapChanges, PassagePocketAndPit)
 
 TEST(MapChanges, IslandAndTipByTissue)
 {
-  const TissueMap before = slabs([](int i, int j, int k) { return k == 12 && j == 12 && i < 6 ? 3 : isStrand(i, j, 9) && k < 11; });
+  const TissueMap before =
+    slabs([](int i, int j, int k) { return k == 12 && j == 12 && i < 6 ? 3 : isStrand(i, j, 9) && k < 11; });
   const TissueMap after = slabs([](int, int, int) { return 0; });
   const std::vector<MapChange> changes = mapChanges(before, after);
   EXPECT_EQ(theOnly(ChangeKind::Island, 3, changes).voxels, 4u);

@@ -65,7 +65,8 @@ TEST(LocalThickness, SheetIsAsThickAsItIs)
     const TissueMap map = sheetOf(thickness);
     const LocalThickness found = measureThickness(map, uniformScale(6));
     const double facing = 2 * 26 * 26 / found.tissues.at(1).area; // the rest is rim
-    EXPECT_GT(found.tissues.at(1).thinArea / found.tissues.at(1).area, thickness <= 3 ? 0.98 : 0.8 * facing) << thickness;
+    EXPECT_GT(found.tissues.at(1).thinArea / found.tissues.at(1).area, thickness <= 3 ? 0.98 : 0.8 * facing)
+      << thickness;
     std::vector<float> values;
     for (const ThinVoxel& thin : found.thinVoxels)
     {
@@ -89,10 +90,12 @@ TEST(LocalThickness, NothingIsThinWhereTheLengthIsSmaller)
 TEST(LocalThickness, BallIsAsThickAsItsDiameterWhateverTheVoxels)
 {
   const Vec3 spacing{ 1, 0.8, 1.25 };
-  const TissueMap map = paintedMap({ 24, 30, 20 },
-                                   [&](int i, int j, int k)
-                                   { return norm({ (i - 11.5) * spacing.x, (j - 14.5) * spacing.y, (k - 9.5) * spacing.z }) < 6; },
-                                   spacing);
+  const TissueMap map = paintedMap(
+    { 24, 30, 20 },
+    [&](int i, int j, int k) {
+      return norm({ (i - 11.5) * spacing.x, (j - 14.5) * spacing.y, (k - 9.5) * spacing.z }) < 6;
+    },
+    spacing);
   const TissueThickness thin = measureThickness(map, uniformScale(14)).tissues.at(1);
   const TissueThickness thick = measureThickness(map, uniformScale(9)).tissues.at(1);
   EXPECT_GT(thin.thinArea, 0.95 * thin.area);

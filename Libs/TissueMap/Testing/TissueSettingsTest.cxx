@@ -1,5 +1,5 @@
-#include "TestFiles.h"
 #include "TissueSettings.h"
+#include "TestFiles.h"
 
 using namespace surgicalmesher;
 using namespace surgicalmesher::test;

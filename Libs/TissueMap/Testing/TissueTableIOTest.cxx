@@ -59,3 +59,23 @@ TEST(TissueTable, RefusesLinesThatAreNone)
   expectRefused("12\n", "expected a label");
   expectRefused("# nothing\n\n", "no tissue");
 }
+
+TEST(TissueTable, NamesOfAMapBecomeLegible)
+{
+  TissueMap map;
+  map.grid.size = { 6, 1, 1 };
+  map.labels = { 1, 2, 3, 4, 5, 6 };
+  map.table[1].name = "na\xc3\xafve \xe2\x82\xac \xf0\x9f\xa7\xa0"; // UTF-8 of two, three and four bytes
+  map.table[2].name = "caf\xe9";                                    // Latin-1
+  map.table[3].name = "a\tb\x01\x7f";
+  map.table[4].name = "\xc0\xaf \xed\xa0\x80 \xf5\x80\x80\x80"; // overlong, surrogate, beyond Unicode
+  map.table[5].name = "cut \xe2\x82";
+  map.table[6].name = "../<x>\"&";
+  completeTissueTable(map, "");
+  EXPECT_EQ(map.table.at(1).name, "na\xc3\xafve \xe2\x82\xac \xf0\x9f\xa7\xa0");
+  EXPECT_EQ(map.table.at(2).name, "caf?");
+  EXPECT_EQ(map.table.at(3).name, "a b  ");
+  EXPECT_EQ(map.table.at(4).name, "?? ??? ????");
+  EXPECT_EQ(map.table.at(5).name, "cut ??");
+  EXPECT_EQ(map.table.at(6).name, "../<x>\"&");
+}
