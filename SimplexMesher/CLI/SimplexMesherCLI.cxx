@@ -4,19 +4,18 @@
 #include "CommandLine.h"
 #include "ComplexChecks.h"
 #include "ComplexIO.h"
-#include "DigitalTopology.h"
 #include "Errors.h"
 #include "FaceNeighbours.h"
-#include "MapPreparation.h"
+#include "Report.h"
 #include "SimplexMesh.h"
 #include "SimplexMesherCLIXML.h"
-#include "SurfaceMesher.h"
 #include "TissueMapIO.h"
+#include "TissueScale.h"
+#include "TissueSurfaces.h"
 
-#include <rapidjson/prettywriter.h>
-#include <rapidjson/stringbuffer.h>
 #include <vtkSMPTools.h>
 
+#include <filesystem>
 #include <sstream>
 
 using namespace surgicalmesher;
@@ -24,14 +23,13 @@ using namespace surgicalmesher;
 namespace
 {
 
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
-
 ScaleField readScaleFor(const CommandLine& line, const Grid& grid)
 {
   const std::string file = line.text("scale");
   const double uniform = line.number("edgeLength");
   if (!file.empty() && uniform > 0) throw UsageError("--scale and --edgeLength are both given, expected one of them");
-  if (file.empty() && !(uniform > 0)) throw UsageError("neither --scale nor --edgeLength is given, expected one of them");
+  if (file.empty() && !(uniform > 0))
+    throw UsageError("neither --scale nor --edgeLength is given, expected one of them");
   if (uniform > 0) return uniformScale(uniform);
   ScaleField scale = readScale(file);
   requireCover(scale, grid, file);
@@ -56,91 +54,85 @@ TetraMesh toWorld(TetraMesh mesh, const Grid& grid)
   return mesh;
 }
 
-void write(JsonWriter& json, const char* key, double value)
+/// The map and what is asked of its tissues; groups are joined, and tissues left out are gone.
+TissueMap readMap(const CommandLine& line, SurfaceReport& results)
 {
-  json.Key(key);
-  json.Double(value);
+  TissueMap map = readTissueMap(line.text("labelMap"));
+  completeTissueTable(map, line.text("names"));
+  const std::string file = line.text("tissues");
+  if (!file.empty()) results.settings = readTissueSettings(file, map);
+  results.selection = selectTissues(map, results.settings);
+  return map;
 }
 
-void write(JsonWriter& json, const char* key, std::size_t value)
+PreparationOptions readPreparation(const CommandLine& line, const TissueSettings& settings)
 {
-  json.Key(key);
-  json.Uint64(value);
-}
-
-void writePreparation(JsonWriter& json, const PreparationReport& preparation)
-{
-  json.Key("preparation");
-  json.StartObject();
-  write(json, "criticalBlocksBefore", preparation.criticalBlocksBefore);
-  write(json, "contactVoxelsChanged", preparation.contactVoxelsChanged);
-  json.Key("changes");
-  json.StartArray();
-  for (const auto& [label, changes] : preparation.changes)
+  PreparationOptions options;
+  options.minimumIslandVolume = line.number("minimumIslandVolume");
+  options.minimumCavityVolume = line.number("minimumCavityVolume");
+  for (const auto& [label, setting] : settings)
   {
-    json.StartObject();
-    write(json, "label", std::size_t(label));
-    write(json, "islandsRemoved", changes.islandsRemoved);
-    write(json, "islandVoxels", changes.islandVoxels);
-    write(json, "voxelsLost", changes.voxelsLost);
-    write(json, "voxelsGained", changes.voxelsGained);
-    json.EndObject();
+    if (setting.islandVolume >= 0) options.islandVolumes[label] = setting.islandVolume;
+    if (setting.cavityVolume >= 0) options.cavityVolumes[label] = setting.cavityVolume;
   }
-  json.EndArray();
-  json.EndObject();
+  return options;
 }
 
-void writeTopology(JsonWriter& json, const std::map<Label, Betti>& topology)
+FeatureOptions readFeatures(const CommandLine& line, const TissueSettings& settings)
 {
-  json.Key("topology");
-  json.StartArray();
-  for (const auto& [label, betti] : topology)
+  FeatureOptions options;
+  options.featureScale = line.number("featureScale");
+  for (const auto& [label, setting] : settings)
   {
-    json.StartObject();
-    write(json, "label", std::size_t(label));
-    write(json, "components", std::size_t(betti.components));
-    write(json, "tunnels", std::size_t(betti.tunnels));
-    write(json, "cavities", std::size_t(betti.cavities));
-    json.EndObject();
+    if (setting.isProtected) options.protectedLabels.insert(label);
   }
-  json.EndArray();
+  return options;
 }
 
-void writeEvolution(JsonWriter& json, const std::vector<EvolutionStep>& evolution)
+/// Makes the map what the surface is to be faithful to.
+void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const Progress& progress,
+             SurfaceReport& results)
 {
-  json.Key("evolution");
-  json.StartArray();
-  for (const EvolutionStep& step : evolution)
+  const FeatureOptions features = readFeatures(line, results.settings);
+  results.featureScale = features.featureScale;
+  TissueSettings settings = results.settings;
+  completeShells(settings, map, scale);
+  results.preparation = prepareAtScale(map, followTissues(scale, map, settings, line.number("gradation")),
+                                       readPreparation(line, results.settings), features, progress);
+  results.topology = tissueTopology(map);
+  results.structures = structuresOf(map);
+  results.tissues = map.table;
+  const std::string file = line.outputFile("preparedLabelMap");
+  if (!file.empty()) writeTissueMap(map, file);
+}
+
+/// The lengths that the surface follows on the prepared map.
+ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField& asked, SurfaceReport& results)
+{
+  const double gradation = line.number("gradation");
+  completeShells(results.settings, map, asked);
+  ScaleField scale = followTissues(asked, map, results.settings, gradation);
+  results.thickness = measureThickness(map, scale);
+  results.followsThickness = line.flag("followThickness");
+  if (results.followsThickness) scale = followThickness(scale, map, results.thickness.thinVoxels, gradation);
+  const std::string file = line.outputFile("followedScale");
+  if (!file.empty()) writeScale(scaleVolume(scale, map.grid), file);
+  return scale;
+}
+
+/// What is written of a surface in the grid frame of `map`, which lies at `world`.
+SurfaceFile surfaceFile(const TetraMesh& ambient, const TissueMap& map, const Grid& world, const ScaleField& scale)
+{
+  SurfaceFile content;
+  content.surface = interfaceOf(ambient);
+  content.boundaryDistance = boundaryDistances(content.surface, map);
+  for (Vec3& p : content.surface.points)
   {
-    json.StartObject();
-    json.Key("stage");
-    json.String(step.stage.c_str());
-    write(json, "tetrahedra", step.tetrahedra);
-    write(json, "meanDistance", step.meanDistance);
-    write(json, "maximumDistance", step.maximumDistance);
-    write(json, "collapses", std::size_t(step.operations.collapses));
-    write(json, "splits", std::size_t(step.operations.splits));
-    write(json, "flips", std::size_t(step.operations.flips));
-    write(json, "moves", std::size_t(step.operations.moves));
-    json.EndObject();
+    p = world.gridToWorld(p);
+    content.targetEdgeLength.push_back(scale(p));
   }
-  json.EndArray();
-}
-
-std::string reportOf(const SurfaceComplex& surface, const PreparationReport& preparation,
-                     const std::map<Label, Betti>& topology, const std::vector<EvolutionStep>& evolution)
-{
-  rapidjson::StringBuffer buffer;
-  JsonWriter json(buffer);
-  json.StartObject();
-  write(json, "tissues", topology.size());
-  write(json, "points", surface.points.size());
-  write(json, "triangles", surface.triangles.size());
-  writePreparation(json, preparation);
-  writeTopology(json, topology);
-  writeEvolution(json, evolution);
-  json.EndObject();
-  return std::string(buffer.GetString()) + "\n";
+  content.tissues = map.table;
+  return content;
 }
 
 PolygonFile simplexMeshFile(const SurfaceFile& surface)
@@ -157,21 +149,55 @@ PolygonFile simplexMeshFile(const SurfaceFile& surface)
   return content;
 }
 
+/// One file per tissue, named after the index and the label, beside the index.
+void writeTissueSurfaces(CommandLine& line, const SurfaceFile& content)
+{
+  const std::string index = line.outputFile("tissueSurfaces");
+  if (index.empty()) return;
+  const std::filesystem::path name = line.outputNames("tissueSurfaces").front();
+  std::map<Label, std::string> files;
+  for (const auto& [label, part] : tissueSurfaces(content))
+  {
+    files[label] = name.stem().string() + "-" + std::to_string(label) + ".vtp";
+    writeSurface(part, line.outputPath((name.parent_path() / files[label]).string()));
+  }
+  writeBytes(multiBlockIndex(files, content.tissues), index);
+}
+
+void writeAmbient(CommandLine& line, TetraMesh&& mesh, const Grid& world, const TissueTable& tissues,
+                  const ScaleField& scale)
+{
+  const std::string file = line.outputFile("ambient");
+  if (file.empty()) return;
+  MeshFile ambient;
+  ambient.mesh = toWorld(std::move(mesh), world);
+  ambient.tissues = tissues;
+  for (const Vec3& p : ambient.mesh.points) ambient.targetEdgeLength.push_back(scale(p));
+  writeMesh(ambient, file);
+}
+
+void writeReports(CommandLine& line, const SurfaceReport& results)
+{
+  const std::string report = line.outputFile("report");
+  if (!report.empty()) writeBytes(reportJson(results), report);
+  const std::string evolution = line.outputFile("evolution");
+  if (!evolution.empty()) writeBytes(evolutionCsv(results.evolution), evolution);
+  std::ostringstream summary;
+  summary << results.triangles << " triangles between " << results.topology.size() << " tissues, "
+          << results.preparation.preparation.contactVoxelsChanged << " voxels changed to resolve contacts";
+  line.message(summary.str());
+}
+
 void run(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
-  TissueMap map = readTissueMap(line.text("labelMap"));
-  completeTissueTable(map, line.text("names"));
-  const ScaleField scale = readScaleFor(line, map.grid);
-
-  PreparationOptions preparing;
-  preparing.minimumIslandVolume = line.number("minimumIslandVolume");
-  const PreparationReport preparation = prepareMap(map, preparing, subProgress(progress, 0.02, 0.06));
-  const std::string preparedFile = line.outputFile("preparedLabelMap");
-  if (!preparedFile.empty()) writeTissueMap(map, preparedFile);
-  const std::map<Label, Betti> topology = tissueTopology(map);
+  SurfaceReport results;
+  TissueMap map = readMap(line, results);
+  const ScaleField asked = readScaleFor(line, map.grid);
+  prepare(line, map, asked, subProgress(progress, 0.02, 0.06), results);
+  const ScaleField scale = lengthsFor(line, map, asked, results);
 
   SurfaceMesherOptions options;
   options.maximumDistance = line.number("maximumDistance");
@@ -181,35 +207,19 @@ void run(CommandLine& line)
 
   report(progress, 0.9, "checks");
   requireSound(mesh.ambient.mesh, "surface");
-  requireTopology(mesh.ambient.mesh, topology);
-  SurfaceFile content;
-  content.surface = interfaceOf(mesh.ambient.mesh);
-  content.boundaryDistance = boundaryDistances(content.surface, map);
-  for (Vec3& p : content.surface.points)
-  {
-    p = world.gridToWorld(p);
-    content.targetEdgeLength.push_back(scale(p));
-  }
-  content.tissues = map.table;
+  requireTopology(mesh.ambient.mesh, results.topology);
+  const SurfaceFile content = surfaceFile(mesh.ambient.mesh, map, world, scale);
+  results.points = content.surface.points.size();
+  results.triangles = content.surface.triangles.size();
+  results.evolution = mesh.evolution;
+
   report(progress, 0.95, "writing");
   writeSurface(content, line.outputFile("surface"));
+  writeTissueSurfaces(line, content);
   const std::string simplexMesh = line.outputFile("simplexMesh");
   if (!simplexMesh.empty()) writePolygons(simplexMeshFile(content), simplexMesh);
-  const std::string ambientFile = line.outputFile("ambient");
-  if (!ambientFile.empty())
-  {
-    MeshFile ambient;
-    ambient.mesh = toWorld(std::move(mesh.ambient.mesh), world);
-    ambient.tissues = map.table;
-    for (const Vec3& p : ambient.mesh.points) ambient.targetEdgeLength.push_back(scale(p));
-    writeMesh(ambient, ambientFile);
-  }
-  const std::string reportFile = line.outputFile("report");
-  if (!reportFile.empty()) writeBytes(reportOf(content.surface, preparation, topology, mesh.evolution), reportFile);
-  std::ostringstream summary;
-  summary << content.surface.triangles.size() << " triangles between " << topology.size() << " tissues, "
-          << preparation.contactVoxelsChanged << " voxels changed to resolve contacts";
-  line.message(summary.str());
+  writeAmbient(line, std::move(mesh.ambient.mesh), world, map.table, scale);
+  writeReports(line, results);
   report(progress, 1, "done");
 }
 

@@ -1,0 +1,288 @@
+#include "Report.h"
+
+#include <rapidjson/prettywriter.h>
+#include <rapidjson/stringbuffer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <locale>
+#include <sstream>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
+
+void write(JsonWriter& json, const char* key, double value)
+{
+  json.Key(key);
+  json.Double(value);
+}
+
+void write(JsonWriter& json, const char* key, std::size_t value)
+{
+  json.Key(key);
+  json.Uint64(value);
+}
+
+void write(JsonWriter& json, const char* key, const std::string& value)
+{
+  json.Key(key);
+  json.String(value.c_str(), rapidjson::SizeType(value.size()));
+}
+
+void write(JsonWriter& json, const char* key, bool value)
+{
+  json.Key(key);
+  json.Bool(value);
+}
+
+/// LPS mm, to a hundredth.
+void writePlace(JsonWriter& json, const Vec3& place)
+{
+  json.StartArray();
+  for (int axis = 0; axis < 3; ++axis) json.Double(std::round(place[axis] * 100) / 100 + 0.0);
+  json.EndArray();
+}
+
+/// An array of one object per item, filled by writeItem(item).
+template <typename Items, typename WriteItem>
+void writeObjects(JsonWriter& json, const char* key, const Items& items, const WriteItem& writeItem)
+{
+  json.Key(key);
+  json.StartArray();
+  for (const auto& item : items)
+  {
+    json.StartObject();
+    writeItem(item);
+    json.EndObject();
+  }
+  json.EndArray();
+}
+
+void writeTissue(JsonWriter& json, Label label, const TissueTable& table)
+{
+  write(json, "label", std::size_t(label));
+  write(json, "name", nameOf(label, table));
+}
+
+void writeBetti(JsonWriter& json, const Betti& betti)
+{
+  write(json, "components", std::size_t(betti.components));
+  write(json, "tunnels", std::size_t(betti.tunnels));
+  write(json, "cavities", std::size_t(betti.cavities));
+}
+
+std::vector<Label> labelsWhere(const TissueSettings& settings, const std::function<bool(const TissueSetting&)>& holds)
+{
+  std::vector<Label> labels;
+  for (const auto& [label, setting] : settings)
+  {
+    if (holds(setting)) labels.push_back(label);
+  }
+  return labels;
+}
+
+void writeSelection(JsonWriter& json, const SurfaceReport& report)
+{
+  const TissueTable& given = report.selection.tableOfInput;
+  json.Key("selection");
+  json.StartObject();
+  writeObjects(json, "groups", report.selection.groups,
+               [&](const TissueGroup& group)
+               {
+                 write(json, "label", std::size_t(group.label));
+                 write(json, "name", group.name);
+                 writeObjects(json, "members", group.members, [&](Label member) { writeTissue(json, member, given); });
+               });
+  writeObjects(json, "leftOut", report.selection.voxelsLeft,
+               [&](const auto& left)
+               {
+                 writeTissue(json, left.first, given);
+                 write(json, "voxels", left.second);
+               });
+  writeObjects(json, "shells", labelsWhere(report.settings, [](const auto& s) { return s.role == TissueRole::Shell; }),
+               [&](Label label)
+               {
+                 writeTissue(json, label, report.tissues);
+                 write(json, "edgeLength", report.settings.at(label).maximumEdgeLength);
+               });
+  writeObjects(json, "protected", labelsWhere(report.settings, [](const auto& s) { return s.isProtected; }),
+               [&](Label label) { writeTissue(json, label, report.tissues); });
+  json.EndObject();
+}
+
+void writePreparation(JsonWriter& json, const SurfaceReport& report)
+{
+  const PreparationReport& preparation = report.preparation.preparation;
+  json.Key("preparation");
+  json.StartObject();
+  write(json, "criticalBlocksBefore", preparation.criticalBlocksBefore);
+  write(json, "contactVoxelsChanged", preparation.contactVoxelsChanged);
+  writeObjects(json, "changes", preparation.changes,
+               [&](const auto& entry)
+               {
+                 const TissueChanges& changes = entry.second;
+                 writeTissue(json, entry.first, report.tissues);
+                 write(json, "islandsRemoved", changes.islandsRemoved);
+                 write(json, "islandVoxels", changes.islandVoxels);
+                 write(json, "voxelsLost", changes.voxelsLost);
+                 write(json, "voxelsGained", changes.voxelsGained);
+               });
+  json.EndObject();
+}
+
+/// The pieces of one tissue and kind.
+struct PieceRange
+{
+  std::vector<MapChange>::const_iterator begin, end;
+};
+
+std::vector<PieceRange> byTissueAndKind(const std::vector<MapChange>& changes)
+{
+  std::vector<PieceRange> ranges;
+  for (auto begin = changes.begin(); begin != changes.end();)
+  {
+    const auto end =
+      std::find_if(begin, changes.end(),
+                   [&](const MapChange& change) { return change.label != begin->label || change.kind != begin->kind; });
+    ranges.push_back({ begin, end });
+    begin = end;
+  }
+  return ranges;
+}
+
+void writeSimplification(JsonWriter& json, const SurfaceReport& report)
+{
+  std::size_t voxels = 0;
+  for (const MapChange& change : report.preparation.simplification)
+    voxels += change.kind < ChangeKind::Cavity ? change.voxels : 0;
+  json.Key("simplification");
+  json.StartObject();
+  write(json, "featureScale", report.featureScale);
+  write(json, "voxelsChanged", voxels);
+  writeObjects(json, "keptWhole", report.preparation.keptWhole,
+               [&](Label label) { writeTissue(json, label, report.tissues); });
+  writeObjects(json, "changes", byTissueAndKind(report.preparation.simplification),
+               [&](const PieceRange& pieces)
+               {
+                 std::size_t sum = 0;
+                 for (auto piece = pieces.begin; piece != pieces.end; ++piece) sum += piece->voxels;
+                 writeTissue(json, pieces.begin->label, report.tissues);
+                 write(json, "kind", std::string(nameOf(pieces.begin->kind)));
+                 write(json, "count", std::size_t(pieces.end - pieces.begin));
+                 write(json, "voxels", sum);
+                 json.Key("places");
+                 json.StartArray();
+                 for (auto piece = pieces.begin; piece != pieces.end; ++piece) writePlace(json, piece->place);
+                 json.EndArray();
+               });
+  json.EndObject();
+}
+
+void writeStructures(JsonWriter& json, const std::vector<Structure>& structures)
+{
+  writeObjects(json, "structures", structures,
+               [&](const Structure& structure)
+               {
+                 write(json, "label", std::size_t(structure.label));
+                 write(json, "name", structure.name);
+                 write(json, "voxels", structure.voxels);
+                 json.Key("centre");
+                 writePlace(json, structure.centre);
+                 write(json, "tunnels", std::size_t(structure.topology.tunnels));
+                 write(json, "cavities", std::size_t(structure.topology.cavities));
+               });
+}
+
+void writeThickness(JsonWriter& json, const SurfaceReport& report)
+{
+  std::vector<std::pair<Label, TissueThickness>> thin;
+  TissueThickness all;
+  for (const auto& [label, tissue] : report.thickness.tissues)
+  {
+    all.area += tissue.area;
+    all.thinArea += tissue.thinArea;
+    if (tissue.thinArea > 0) thin.emplace_back(label, tissue);
+  }
+  json.Key("thickness");
+  json.StartObject();
+  write(json, "followed", report.followsThickness);
+  write(json, "area", all.area);
+  write(json, "thinnerThanLength", all.thinArea);
+  write(json, "share", all.area > 0 ? all.thinArea / all.area : 0.0);
+  writeObjects(json, "tissues", thin,
+               [&](const auto& entry)
+               {
+                 const TissueThickness& tissue = entry.second;
+                 writeTissue(json, entry.first, report.tissues);
+                 write(json, "area", tissue.area);
+                 write(json, "thinnerThanLength", tissue.thinArea);
+                 write(json, "share", tissue.thinArea / tissue.area);
+                 write(json, "smallestThickness", tissue.smallest);
+               });
+  json.EndObject();
+}
+
+void writeEvolution(JsonWriter& json, const std::vector<EvolutionStep>& evolution)
+{
+  writeObjects(json, "evolution", evolution,
+               [&](const EvolutionStep& step)
+               {
+                 write(json, "stage", step.stage);
+                 write(json, "tetrahedra", step.tetrahedra);
+                 write(json, "meanDistance", step.meanDistance);
+                 write(json, "maximumDistance", step.maximumDistance);
+                 write(json, "collapses", std::size_t(step.operations.collapses));
+                 write(json, "splits", std::size_t(step.operations.splits));
+                 write(json, "flips", std::size_t(step.operations.flips));
+                 write(json, "moves", std::size_t(step.operations.moves));
+               });
+}
+
+} // namespace
+
+std::string reportJson(const SurfaceReport& report)
+{
+  rapidjson::StringBuffer buffer;
+  JsonWriter json(buffer);
+  json.SetFormatOptions(rapidjson::kFormatSingleLineArray);
+  json.StartObject();
+  write(json, "tissues", report.topology.size());
+  write(json, "points", report.points);
+  write(json, "triangles", report.triangles);
+  writeSelection(json, report);
+  writePreparation(json, report);
+  writeSimplification(json, report);
+  writeObjects(json, "topology", report.topology,
+               [&](const auto& tissue)
+               {
+                 write(json, "label", std::size_t(tissue.first));
+                 writeBetti(json, tissue.second);
+               });
+  writeStructures(json, report.structures);
+  writeThickness(json, report);
+  writeEvolution(json, report.evolution);
+  json.EndObject();
+  return std::string(buffer.GetString(), buffer.GetSize()) + "\n";
+}
+
+std::string evolutionCsv(const std::vector<EvolutionStep>& evolution)
+{
+  std::ostringstream csv;
+  csv.imbue(std::locale::classic());
+  csv << "step,stage,tetrahedra,meanDistance,maximumDistance,T1,T2,T7,moves\n";
+  std::size_t number = 0;
+  for (const EvolutionStep& step : evolution)
+  {
+    csv << number++ << ",\"" << step.stage << "\"," << step.tetrahedra << ',' << step.meanDistance << ','
+        << step.maximumDistance << ',' << step.operations.collapses << ',' << step.operations.splits << ','
+        << step.operations.flips << ',' << step.operations.moves << '\n';
+  }
+  return csv.str();
+}
+
+} // namespace surgicalmesher

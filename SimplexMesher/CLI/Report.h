@@ -1,0 +1,38 @@
+#pragma once
+/// What a run of the surface stage did, as JSON, and the evolution of its mesh as CSV.
+
+#include "LocalThickness.h"
+#include "ScaledPreparation.h"
+#include "Structures.h"
+#include "SurfaceMesher.h"
+#include "TissueSettings.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+struct SurfaceReport
+{
+  TissueTable tissues;       ///< of the map that was meshed
+  TissueSettings settings;   ///< as followed: groups joined, shells with their lengths
+  TissueSelection selection; ///< groups, and what was left out
+  double featureScale = 0;
+  ScaledPreparationReport preparation;
+  std::map<Label, Betti> topology; ///< of the prepared map
+  std::vector<Structure> structures;
+  LocalThickness thickness; ///< against the edge length asked for
+  bool followsThickness = false;
+  std::size_t points = 0, triangles = 0;
+  std::vector<EvolutionStep> evolution;
+};
+
+std::string reportJson(const SurfaceReport& report);
+
+/// One row per step: step, stage, tetrahedra, meanDistance, maximumDistance (mm), and the operations since the step
+/// before by their names in the simplex mesh: T1 (collapses), T2 (splits), T7 (flips), moves.
+std::string evolutionCsv(const std::vector<EvolutionStep>& evolution);
+
+} // namespace surgicalmesher
