@@ -3,6 +3,7 @@
 #include "Shapes.h"
 
 #include <limits>
+#include <set>
 
 using namespace surgicalmesher;
 using namespace surgicalmesher::test;
@@ -112,6 +113,54 @@ TEST_F(FuchsTetrahedralizerCLI, RefusesCommandLinesAtFault)
   expectRefused("--edgeLength 2 ball.vtp", 2, "mesh");
 }
 
+TEST_F(FuchsTetrahedralizerCLI, ExportsSeveralFormatsWithTheirSidecars)
+{
+  folder.write("m.csv", "tissue,model,youngsModulus,poissonsRatio\n5,linear,3,0.4\n");
+  expectDone("--edgeLength 4 --export a.inp --export b.feb --materials m.csv --shell 5:outside --shellThickness 0.5 "
+             "--shells s.vtp --targetPoint 10,0,0 --nonlinearDistance 5 --nullDisplacementRadius 15 ball.vtp m.vtu");
+  EXPECT_EQ(folder.files(), (std::vector<std::string>{ "a.inp", "a.inp.names.json", "b.feb", "b.feb.names.json",
+                                                       "ball.vtp", "m.csv", "m.vtu", "s.vtp", "scale.nrrd" }));
+  const MeshFile mesh = readMesh(folder.file("m.vtu"));
+  EXPECT_EQ(std::set<std::int32_t>(mesh.constitutive.begin(), mesh.constitutive.end()),
+            (std::set<std::int32_t>{ 0, 1, 2 }));
+  const std::string deck = readBytes(folder.file("a.inp"));
+  for (const char* card : { "NAME=material_tissue_5_linear_elastic", "TYPE=S3", "*BOUNDARY\nnull_displacement_nodes" })
+  {
+    EXPECT_NE(deck.find(card), std::string::npos) << card;
+  }
+}
+
+TEST_F(FuchsTetrahedralizerCLI, RefusesExportsAtFault)
+{
+  const std::string start = "--edgeLength 4 ", end = " ball.vtp m.vtu";
+  expectRefused(start + "--export a.inp --export a.foo" + end, 2, ".feb, .inp, ");
+  expectRefused(start + "--export nowhere/a.inp" + end, 1, "nowhere");
+  expectRefused(start + "--export m.vtu" + end, 2, "another output");
+  std::filesystem::create_directory(folder.file("a.inp.names.json"));
+  expectRefused(start + "--export b.feb --export a.inp" + end, 1, "a.inp.names.json: folder found");
+
+  expectRefused(start + "--shells s.vtp" + end, 2, "no --shell");
+  expectRefused(start + "--shell 5" + end, 2, "neither --shells nor --export");
+  for (const char* shell : { "6", "0", "nose", "5:7", ":5", "''" })
+  {
+    expectRefused(start + "--shells s.vtp --shell " + shell + end, 2, "TISSUE:NEIGHBOUR");
+  }
+  expectRefused(start + "--shells s.vtp --shell 5:5" + end, 1, "no face");
+}
+
+TEST_F(FuchsTetrahedralizerCLI, RefusesMaterialsAndDistancesAtFault)
+{
+  const std::string start = "--edgeLength 4 --export b.inp ", end = " ball.vtp m.vtu";
+  folder.write("nose.csv", "tissue,youngsModulus,poissonsRatio\nnose,3,0.4\n");
+  expectRefused(start + "--materials nose.csv" + end, 1, "nose.csv:2: ");
+  expectRefused(start + "--materials none.csv" + end, 1, "none.csv");
+  expectRefused(start + "--nonlinearDistance 5" + end, 2, "no target or path");
+  expectRefused(start + "--targetPoint 0,0,0" + end, 2, "distance");
+  expectRefused(start + "--targetPoint 0,0,0 --nullDisplacementPathDistance 5" + end, 2, "no path");
+  expectRefused(start + "--pathPoint 0,0,0 --nonlinearDistance 5" + end, 2, "two points");
+  expectRefused(start + "--targets none.fcsv --nonlinearDistance 5" + end, 1, "none.fcsv");
+}
+
 TEST_F(FuchsTetrahedralizerCLI, RefusesPlacesThatCanNotBeWrittenTo)
 {
   expectRefused("--edgeLength 2 ball.vtp nowhere/m.vtu", 1, "nowhere");
@@ -124,6 +173,11 @@ TEST_F(FuchsTetrahedralizerCLI, RefusesPlacesThatCanNotBeWrittenTo)
 TEST_F(FuchsTetrahedralizerCLI, SaysThatTheDiskIsFull)
 {
   expectSaysThatTheDiskIsFull("--edgeLength 1.5 --report disk/r.json ball.vtp disk/m.vtu");
+}
+
+TEST_F(FuchsTetrahedralizerCLI, SaysThatTheDiskIsFullOfAnExport)
+{
+  expectSaysThatTheDiskIsFull("--edgeLength 1.5 --export disk/a.inp ball.vtp m.vtu");
 }
 
 TEST_F(FuchsTetrahedralizerCLI, LeavesNothingWhenKilled)
