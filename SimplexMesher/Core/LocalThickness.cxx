@@ -1,5 +1,7 @@
 #include "LocalThickness.h"
 
+#include "PaddedMap.h"
+
 #include <vtkSMPTools.h>
 
 #include <algorithm>
@@ -11,67 +13,71 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr std::array<std::array<int, 3>, 6> faceSteps{
-  { { -1, 0, 0 }, { 1, 0, 0 }, { 0, -1, 0 }, { 0, 1, 0 }, { 0, 0, -1 }, { 0, 0, 1 } }
-};
+constexpr int margin = 2; // what a normal looks at; background, so that every chord ends there
 
+/// Chords through voxels of a padded map.
 class Chords
 {
 public:
-  explicit Chords(const TissueMap& map)
-    : m_Map(map), m_Step(std::min({ map.grid.spacing.x, map.grid.spacing.y, map.grid.spacing.z }) / 4)
+  explicit Chords(const TissueMap& paddedMap) : m_Map(paddedMap)
   {
+    const std::ptrdiff_t j = paddedMap.grid.size[0];
+    m_Strides = { 1, j, j * paddedMap.grid.size[1] };
   }
 
-  Label at(int i, int j, int k) const
-  {
-    return m_Map.grid.contains(i, j, k) ? m_Map.labels[m_Map.grid.index(i, j, k)] : Label(0);
-  }
-
-  /// mm^2 of voxel (i, j, k) that other labels touch.
-  double exposedArea(int i, int j, int k) const
+  /// mm^2 of the voxel that other labels touch.
+  double exposedArea(std::size_t voxel) const
   {
     const Vec3& s = m_Map.grid.spacing;
-    const Label own = at(i, j, k);
+    const std::array<double, 3> faces{ s.y * s.z, s.x * s.z, s.x * s.y };
     double area = 0;
-    for (const auto& [di, dj, dk] : faceSteps)
+    for (int axis = 0; axis < 3; ++axis)
     {
-      if (at(i + di, j + dj, k + dk) != own) area += di ? s.y * s.z : dj ? s.x * s.z : s.x * s.y;
+      for (const std::ptrdiff_t step : { -m_Strides[axis], m_Strides[axis] })
+        area += m_Map.labels[voxel + step] != m_Map.labels[voxel] ? faces[axis] : 0;
     }
     return area;
   }
 
-  /// Thickness at the centre of voxel (i, j, k), mm; anything from `limit` on if it is not below that.
-  double thickness(int i, int j, int k, double limit) const
+  /// Thickness at the centre of the voxel, mm; anything from `limit` on if it is not below that.
+  double thickness(std::size_t voxel, double limit) const
   {
     const Vec3& s = m_Map.grid.spacing;
-    const Vec3 centre{ i * s.x, j * s.y, k * s.z };
-    std::array<double, 3> along{ chord(centre, { 1, 0, 0 }, limit), chord(centre, { 0, 1, 0 }, limit),
-                                 chord(centre, { 0, 0, 1 }, limit) };
+    std::array<double, 3> along;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Vec3 direction;
+      direction[axis] = 1;
+      along[axis] = chord(voxel, direction, limit);
+    }
     std::sort(along.begin(), along.end());
-    const Vec3 normal = outwardNormal(i, j, k);
+    const Vec3 normal = outwardNormal(voxel);
     if (squaredNorm(normal) == 0) return along[0];
-    const double alongNormal = chord(centre, normal, limit);
+    const double alongNormal = chord(voxel, normal, limit);
     const bool isFlat = along[0] < 3.5 * std::max({ s.x, s.y, s.z }) && along[1] >= std::min(4 * along[0], limit);
     return isFlat ? std::min(alongNormal, along[0]) : alongNormal;
   }
 
 private:
   /// Of unit length, or 0 if the labels around show no direction.
-  Vec3 outwardNormal(int i, int j, int k) const
+  Vec3 outwardNormal(std::size_t voxel) const
   {
-    constexpr int reach = 2;
-    const Label own = at(i, j, k);
+    const Label own = m_Map.labels[voxel];
     std::array<int, 3> sum{ 0, 0, 0 };
-    for (int dk = -reach; dk <= reach; ++dk)
+    for (int dk = -margin; dk <= margin; ++dk)
     {
-      for (int dj = -reach; dj <= reach; ++dj)
+      for (int dj = -margin; dj <= margin; ++dj)
       {
-        for (int di = -reach; di <= reach; ++di)
+        const Label* row = m_Map.labels.data() + voxel + dj * m_Strides[1] + dk * m_Strides[2];
+        int others = 0;
+        for (int di = -margin; di <= margin; ++di)
         {
-          if (at(i + di, j + dj, k + dk) == own) continue;
-          sum[0] += di, sum[1] += dj, sum[2] += dk;
+          if (row[di] == own) continue;
+          ++others;
+          sum[0] += di;
         }
+        sum[1] += others * dj;
+        sum[2] += others * dk;
       }
     }
     const Vec3& s = m_Map.grid.spacing;
@@ -80,35 +86,43 @@ private:
     return length > 0 ? direction / length : Vec3{};
   }
 
-  double chord(const Vec3& centre, const Vec3& direction, double limit) const
+  double chord(std::size_t voxel, const Vec3& direction, double limit) const
   {
-    const double outwards = reach(centre, direction, limit);
-    return outwards + reach(centre, -direction, limit - outwards);
+    const double outwards = reach(voxel, direction, limit);
+    return outwards < limit ? outwards + reach(voxel, -direction, limit - outwards) : outwards;
   }
 
-  /// How far one stays in the label, to the middle of a step.
-  double reach(const Vec3& from, const Vec3& direction, double limit) const
+  /// How far one stays in the label from the centre of the voxel on, face by face (Amanatides and Woo 1987).
+  double reach(std::size_t voxel, const Vec3& direction, double limit) const
   {
-    const Label own = labelAt(from);
-    double way = m_Step / 2;
-    while (way < limit + m_Step && labelAt(from + way * direction) == own) way += m_Step;
-    return way - m_Step / 2;
-  }
-
-  Label labelAt(const Vec3& p) const
-  {
-    const Vec3& s = m_Map.grid.spacing;
-    return at(int(std::floor(p.x / s.x + 0.5)), int(std::floor(p.y / s.y + 0.5)), int(std::floor(p.z / s.z + 0.5)));
+    std::array<double, 3> next, between; // way to the next face across each axis, and from one to the other
+    std::array<std::ptrdiff_t, 3> steps;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double speed = std::abs(direction[axis]);
+      between[axis] = speed > 0 ? m_Map.grid.spacing[axis] / speed : HUGE_VAL;
+      next[axis] = between[axis] / 2;
+      steps[axis] = direction[axis] < 0 ? -m_Strides[axis] : m_Strides[axis];
+    }
+    const Label own = m_Map.labels[voxel];
+    for (;;)
+    {
+      const int axis = int(std::min_element(next.begin(), next.end()) - next.begin());
+      const double way = next[axis];
+      voxel += steps[axis];
+      if (way >= limit || m_Map.labels[voxel] != own) return way;
+      next[axis] += between[axis];
+    }
   }
 
   const TissueMap& m_Map;
-  double m_Step;
+  std::array<std::ptrdiff_t, 3> m_Strides;
 };
 
 /// Slice k of the map.
-LocalThickness measureSlice(const TissueMap& map, const ScaleField& scale, int k)
+LocalThickness measureSlice(const TissueMap& map, const TissueMap& paddedMap, const ScaleField& scale, int k)
 {
-  const Chords chords(map);
+  const Chords chords(paddedMap);
   const Grid& grid = map.grid;
   LocalThickness result;
   for (int j = 0; j < grid.size[1]; ++j)
@@ -116,13 +130,14 @@ LocalThickness measureSlice(const TissueMap& map, const ScaleField& scale, int k
     for (int i = 0; i < grid.size[0]; ++i)
     {
       const std::size_t voxel = grid.index(i, j, k);
+      const std::size_t inPadded = paddedMap.grid.index(i + margin, j + margin, k + margin);
       const Label label = map.labels[voxel];
-      const double area = label == 0 ? 0 : chords.exposedArea(i, j, k);
+      const double area = label == 0 ? 0 : chords.exposedArea(inPadded);
       if (area == 0) continue;
       TissueThickness& tissue = result.tissues[label];
       tissue.area += area;
       const double length = scale(grid.gridToWorld({ i * grid.spacing.x, j * grid.spacing.y, k * grid.spacing.z }));
-      const double thickness = chords.thickness(i, j, k, length);
+      const double thickness = chords.thickness(inPadded, length);
       if (!(thickness < length)) continue;
       tissue.smallest = tissue.thinArea == 0 ? thickness : std::min(tissue.smallest, thickness);
       tissue.thinArea += area;
@@ -149,11 +164,12 @@ void append(LocalThickness& all, const LocalThickness& more)
 
 LocalThickness measureThickness(const TissueMap& map, const ScaleField& scale)
 {
+  const TissueMap paddedMap = padded(map, margin);
   std::vector<LocalThickness> slices(map.grid.size[2]);
   vtkSMPTools::For(0, map.grid.size[2],
                    [&](vtkIdType begin, vtkIdType end)
                    {
-                     for (vtkIdType k = begin; k < end; ++k) slices[k] = measureSlice(map, scale, int(k));
+                     for (vtkIdType k = begin; k < end; ++k) slices[k] = measureSlice(map, paddedMap, scale, int(k));
                    });
   LocalThickness result;
   for (const LocalThickness& slice : slices) append(result, slice);

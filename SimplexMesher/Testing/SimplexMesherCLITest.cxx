@@ -15,6 +15,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 
 using namespace surgicalmesher;
 using namespace surgicalmesher::test;
@@ -78,8 +79,27 @@ protected:
     return volumes;
   }
 
+  rapidjson::Document parsed(const std::string& name) const
+  {
+    rapidjson::Document document;
+    document.Parse<rapidjson::kParseValidateEncodingFlag>(readBytes(folder.file(name)).c_str());
+    EXPECT_FALSE(document.HasParseError()) << name;
+    return document;
+  }
+
   TissueMap map;
 };
+
+/// Members of an array of objects that have this label.
+std::vector<const rapidjson::Value*> ofLabel(const rapidjson::Value& objects, unsigned label)
+{
+  std::vector<const rapidjson::Value*> found;
+  for (const rapidjson::Value& object : objects.GetArray())
+  {
+    if (object["label"].GetUint() == label) found.push_back(&object);
+  }
+  return found;
+}
 
 double volumeOf(const TissueMap& map, Label label)
 {
@@ -204,6 +224,203 @@ TEST_F(SimplexMesherCLI, KeepsNamesAndColours)
   EXPECT_EQ(readTissueMap(folder.file("q.nrrd")).table.at(7).name, "pituitary gland");
 }
 
+TEST_F(SimplexMesherCLI, JoinsLeavesOutAndHollowsTissues)
+{
+  const TissueMap layers = paintedMap({ 20, 12, 12 },
+                                      [](int i, int j, int k)
+                                      {
+                                        if (std::min({ i, j, k }) < 2 || std::max({ j, k }) >= 10 || i >= 18) return 0;
+                                        return i < 5 ? 4 : i < 8 ? 2 : i < 12 ? 9 : 6;
+                                      });
+  write("layers.nrrd", layers);
+  folder.write("names.ctbl", "2 a 10 20 30 255\n4 b 40 50 60 255\n6 c 0 0 0 255\n9 d 0 0 0 255\n");
+  folder.write("tissues.csv", "name,role,minimum,maximum\na,group a & b,,\n4,group a & b\nc,leave\nd,shell,,1.5\n");
+  expectDone("--edgeLength 3 --names names.ctbl --tissues tissues.csv --preparedLabelMap p.nrrd --ambient a.vtu "
+             "--followedScale f.nrrd --report r.json layers.nrrd s.vtp");
+
+  const TissueMap prepared = readTissueMap(folder.file("p.nrrd"));
+  const std::map<Label, Label> becomes{ { 0, 0 }, { 2, 2 }, { 4, 2 }, { 6, 0 }, { 9, 9 } };
+  for (std::size_t v = 0; v < layers.labels.size(); ++v) EXPECT_EQ(prepared.labels[v], becomes.at(layers.labels[v]));
+  const SurfaceFile surface = readSurface(folder.file("s.vtp"));
+  ASSERT_EQ(surface.tissues.size(), 2u);
+  EXPECT_EQ(surface.tissues.at(2).name, "a & b");
+  EXPECT_FALSE(surface.tissues.at(2).isShell);
+  EXPECT_TRUE(surface.tissues.at(9).isShell);
+  EXPECT_TRUE(readMesh(folder.file("a.vtu")).tissues.at(9).isShell);
+
+  const ScaleField followed = readScale(folder.file("f.nrrd"));
+  EXPECT_NEAR(followed({ 9.5, 6, 6 }), 1.5, 1e-5);
+  EXPECT_NEAR(followed({ 2, 2, 2 }), 1.5 + 0.3 * 4.5, 0.3); // by the gradation
+  std::set<std::int32_t> onShell;
+  for (std::size_t t = 0; t < surface.surface.triangles.size(); ++t)
+  {
+    const auto& [behind, front] = surface.surface.labels[t];
+    if (behind == 9 || front == 9)
+      onShell.insert(surface.surface.triangles[t].begin(), surface.surface.triangles[t].end());
+  }
+  for (const std::int32_t point : onShell) EXPECT_NEAR(surface.targetEdgeLength[point], 1.5, 1e-5);
+
+  const rapidjson::Document report = parsed("r.json");
+  const rapidjson::Value& selection = report["selection"];
+  EXPECT_STREQ(selection["groups"][0]["name"].GetString(), "a & b");
+  EXPECT_EQ(selection["groups"][0]["members"].Size(), 2u);
+  EXPECT_STREQ(selection["leftOut"][0]["name"].GetString(), "c");
+  EXPECT_EQ(selection["leftOut"][0]["voxels"].GetDouble(), volumeOf(layers, 6));
+  EXPECT_EQ(selection["shells"][0]["edgeLength"].GetDouble(), 1.5);
+}
+
+TEST_F(SimplexMesherCLI, ShortensLengthsWhereTissueIsThin)
+{
+  const TissueMap sheet = paintedMap({ 24, 24, 12 },
+                                     [](int i, int j, int k)
+                                     {
+                                       if (std::min({ i, j, k }) < 2 || std::max(i, j) >= 22 || k >= 10) return 0;
+                                       return k == 5 ? 3 : 1;
+                                     });
+  write("sheet.nrrd", sheet);
+  const std::string outputs = "--report r.json --followedScale f.nrrd sheet.nrrd s.vtp";
+  const auto thicknessOf3 = [&]
+  {
+    const rapidjson::Document report = parsed("r.json");
+    const auto tissues = ofLabel(report["thickness"]["tissues"], 3);
+    EXPECT_EQ(tissues.size(), 1u);
+    EXPECT_GT(tissues.at(0)->FindMember("share")->value.GetDouble(), 0.95);
+    return tissues.at(0)->FindMember("smallestThickness")->value.GetDouble();
+  };
+  expectDone("--edgeLength 3 " + outputs);
+  EXPECT_NEAR(thicknessOf3(), 1, 1e-6);
+  EXPECT_NEAR(readScale(folder.file("f.nrrd"))({ 12, 12, 5 }), 3, 1e-5);
+  expectDone("--edgeLength 3 --followThickness " + outputs);
+  EXPECT_NEAR(thicknessOf3(), 1, 1e-6);
+  EXPECT_NEAR(readScale(folder.file("f.nrrd"))({ 12, 12, 5 }), 1, 1e-5);
+}
+
+TEST_F(SimplexMesherCLI, SimplifiesAllButWhatIsProtected)
+{
+  // A wall of 1 with a hole of one voxel, a strand of 5, and an island of 1 in the air.
+  const TissueMap fine = paintedMap({ 26, 20, 20 },
+                                    [](int i, int j, int k)
+                                    {
+                                      if (std::min({ i, j, k }) < 2 || std::max({ j, k }) >= 18 || i >= 24) return 0;
+                                      if (i < 14) return j == 10 && k == 10 ? 0 : 1;
+                                      if (i >= 20) return 5;
+                                      if (j == 5 && k == 5) return 5;
+                                      return i == 17 && j == 14 && k == 14 ? 1 : 0;
+                                    });
+  write("fine.nrrd", fine);
+  folder.write("tissues.csv", "label,protected\n5,yes\n");
+  const std::string command =
+    "--edgeLength 8 --featureScale 0.5 --preparedLabelMap p.nrrd --report r.json fine.nrrd s.vtp";
+  const auto kinds = [&](unsigned label)
+  {
+    std::set<std::string> found;
+    const rapidjson::Document report = parsed("r.json");
+    for (const rapidjson::Value* change : ofLabel(report["simplification"]["changes"], label))
+    {
+      found.insert(change->FindMember("kind")->value.GetString());
+      EXPECT_EQ(change->FindMember("places")->value.Size(), change->FindMember("count")->value.GetUint());
+    }
+    return found;
+  };
+  const auto labelAt = [&](int i, int j, int k)
+  { return readTissueMap(folder.file("p.nrrd")).labels[fine.grid.index(i, j, k)]; };
+
+  expectDone(command);
+  EXPECT_EQ(labelAt(8, 10, 10), 1);
+  EXPECT_EQ(labelAt(17, 5, 5), 0);
+  EXPECT_EQ(kinds(1).count("islands"), 1u);
+  EXPECT_EQ(kinds(1).count("tunnels") + kinds(1).count("clefts"), 1u);
+  EXPECT_FALSE(kinds(5).empty());
+
+  expectDone("--tissues tissues.csv " + command);
+  EXPECT_EQ(labelAt(8, 10, 10), 1);
+  for (int i = 14; i < 20; ++i) EXPECT_EQ(labelAt(i, 5, 5), 5);
+  EXPECT_TRUE(kinds(5).empty());
+  EXPECT_EQ(parsed("r.json")["selection"]["protected"][0]["label"].GetUint(), 5u);
+}
+
+TEST_F(SimplexMesherCLI, KeepsIslandsAndCavitiesTissueByTissue)
+{
+  TissueMap holes = paintedMap({ 16, 12, 12 },
+                               [](int i, int j, int k)
+                               {
+                                 if (std::min({ i, j, k }) < 1 || std::max({ j, k }) >= 11 || i >= 15) return 0;
+                                 return i < 8 ? 1 : 2;
+                               });
+  for (const int i : { 4, 11 })
+  {
+    holes.labels[holes.grid.index(i, 4, 4)] = 0;
+    holes.labels[holes.grid.index(i, 8, 8)] = i < 8 ? 2 : 1;
+  }
+  write("holes.nrrd", holes);
+  folder.write("tissues.csv", "label,islands,cavities\n1,0,0\n2,,9\n");
+  const std::string command = "--edgeLength 4 --minimumIslandVolume 5 --preparedLabelMap p.nrrd ";
+  const auto labelAt = [&](int i, int jk)
+  { return readTissueMap(folder.file("p.nrrd")).labels[holes.grid.index(i, jk, jk)]; };
+  expectDone(command + "--minimumCavityVolume 5 holes.nrrd s.vtp");
+  EXPECT_EQ(labelAt(4, 4), 1);
+  EXPECT_EQ(labelAt(11, 4), 2);
+  EXPECT_EQ(labelAt(4, 8), 1);
+  EXPECT_EQ(labelAt(11, 8), 2);
+  expectDone(command + "--tissues tissues.csv holes.nrrd s.vtp");
+  EXPECT_EQ(labelAt(4, 4), 0) << "a cavity of 1, kept";
+  EXPECT_EQ(labelAt(11, 4), 2) << "a cavity of 2, filled";
+  EXPECT_EQ(labelAt(4, 8), 1) << "an island of 2, gone";
+  EXPECT_EQ(labelAt(11, 8), 1) << "an island of 1, kept";
+}
+
+TEST_F(SimplexMesherCLI, WritesEveryTissueApartWhateverItsName)
+{
+  folder.write("names.ctbl", "1 ../../<a>&b\x01\xff,c 200 200 180 255\n7 %s$(x)'`\\ 255 100 50 255\n");
+  folder.write("tissues.csv", "name,role\n\"../../<a>&b \xff,c\",mesh\n%s$(x)'`\\,shell\n");
+  expectDone("--scale scale.nrrd --names names.ctbl --tissues tissues.csv --tissueSurfaces t.vtm --evolution e.csv "
+             "--report r.json map.nrrd s.vtp");
+  EXPECT_EQ(folder.files(), (std::vector<std::string>{ "e.csv", "map.nrrd", "names.ctbl", "r.json", "s.vtp",
+                                                       "scale.nrrd", "t-1.vtp", "t-7.vtp", "t.vtm", "tissues.csv" }));
+  const std::map<Label, double> volumes = enclosedVolumes("s.vtp");
+  std::size_t sides = 0;
+  for (const Label label : { Label(1), Label(7) })
+  {
+    const std::string name = "t-" + std::to_string(label) + ".vtp";
+    const SurfaceFile part = readSurface(folder.file(name));
+    for (const auto& labels : part.surface.labels) EXPECT_EQ(labels[0], label);
+    EXPECT_NEAR(enclosedVolumes(name).at(label), volumes.at(label), 1e-6);
+    sides += part.surface.triangles.size();
+  }
+  const SurfaceFile whole = readSurface(folder.file("s.vtp"));
+  std::size_t expected = 0;
+  for (const auto& labels : whole.surface.labels) expected += (labels[0] != 0) + (labels[1] != 0);
+  EXPECT_EQ(sides, expected);
+  EXPECT_EQ(whole.tissues.at(1).name, "../../<a>&b ?,c");
+  const rapidjson::Document report = parsed("r.json");
+  EXPECT_STREQ(report["structures"][0]["name"].GetString(), "../../<a>&b ?,c");
+  EXPECT_NE(readBytes(folder.file("t.vtm")).find("name=\"../../&lt;a&gt;&amp;b ?,c\" file=\"t-1.vtp\""),
+            std::string::npos);
+
+  const std::string table = readBytes(folder.file("e.csv"));
+  EXPECT_EQ(table.rfind("step,stage,tetrahedra,meanDistance,maximumDistance,T1,T2,T7,moves\n", 0), 0u);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + report["evolution"].Size());
+}
+
+TEST_F(SimplexMesherCLI, RefusesTablesOfTissuesAtFault)
+{
+  const auto refuse = [&](const std::string& content, const std::string& expected)
+  {
+    folder.write("tissues.csv", content);
+    expectRefused("--edgeLength 2 --tissues tissues.csv --tissueSurfaces t.vtm --evolution e.csv map.nrrd s.vtp", 1,
+                  "tissues.csv" + expected);
+  };
+  refuse("label,role\nbone,mesh\n", ":2: \"bone\" is neither");
+  refuse("label,role\n3,mesh\n", ":2: tissue 3 has no voxel");
+  refuse("label,role\n1,mesh\n1,leave\n", ":3: tissue 1 is listed for the second time");
+  refuse("label,role\n1,solid\n", ":2: role \"solid\"");
+  refuse("role\nmesh\n", ":1: no column label or name");
+  refuse("label,minimum,maximum\n1,3,2\n", ":2: the minimum edge length is above");
+  refuse("label,role\n1,leave\n7,leave\n", ": every tissue is left out");
+  refuse("", ": no tissue");
+  expectRefused("--edgeLength 2 --tissues missing.csv map.nrrd s.vtp", 1, "missing.csv: no such file");
+}
+
 TEST_F(SimplexMesherCLI, RefusesMapsAtFault)
 {
   const std::vector<std::uint8_t> ones(16, 1);
@@ -251,7 +468,8 @@ TEST_F(SimplexMesherCLI, RefusesCommandLinesAtFault)
   expectRefused("map.nrrd s.vtp", 2, "neither --scale nor --edgeLength");
   expectRefused("--edgeLength 0 map.nrrd s.vtp", 2, "neither --scale nor --edgeLength");
   expectRefused("--edgeLength 2 --scale scale.nrrd map.nrrd s.vtp", 2, "both");
-  for (const char* option : { "--edgeLength", "--minimumIslandVolume", "--maximumDistance" })
+  for (const char* option : { "--edgeLength", "--minimumIslandVolume", "--minimumCavityVolume", "--featureScale",
+                              "--gradation", "--maximumDistance" })
   {
     for (const char* value : { "-1", "nan", "inf", "1e999", "two" })
     {
