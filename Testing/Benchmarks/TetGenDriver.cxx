@@ -1,9 +1,10 @@
-// TetGen inside a surface of CGAL's, to measure against: the usual way from a label map to tetrahedra in two steps.
+// TetGen inside a surface of ours or of CGAL's, to measure against: the usual way from a label map to tetrahedra in two
+// steps.
 //
-// usage: TetGenDriver MESH.vtu SCALE.nrrd OUT.vtu
+// usage: TetGenDriver SURFACE.vtp|MESH.vtu SCALE.nrrd OUT.vtu
 //
-// MESH.vtu is what Mesh3Driver leaves without --perturb and --exude; the faces between its tissues are the surface, and
-// nothing else of it is used. TetGen's own quality refinement (-q) with L at the surface's points for its sizes (-m).
+// SURFACE.vtp is what SimplexMesherCLI leaves. MESH.vtu is what Mesh3Driver leaves without --perturb and --exude; the
+// faces between its tissues are the surface, and nothing else of it is used. TetGen's own quality refinement (-q) with L at the surface's points for its sizes (-m).
 // Prints one JSON object: seconds of each phase, sizes, peak memory.
 
 #include "ComplexIO.h"
@@ -139,12 +140,24 @@ void labelRegions(const SurfaceComplex& surface, const std::map<Triangle, std::i
   }
 }
 
+/// The surface and its tissues, from a file of either kind.
+std::pair<SurfaceComplex, TissueTable> readInput(const std::string& name)
+{
+  if (name.size() > 4 && name.substr(name.size() - 4) == ".vtp")
+  {
+    const SurfaceFile file = readSurface(name);
+    if (file.surface.labels.empty()) throw InputError(name + ": no BoundaryLabels, expected a surface of all tissues");
+    return { file.surface, file.tissues };
+  }
+  const MeshFile file = readMesh(name);
+  return { interfaceOf(file.mesh), file.tissues };
+}
+
 void run(const std::string& surfaceFile, const std::string& scaleFile, const std::string& meshFile)
 {
   Stopwatch stopwatch;
-  const MeshFile source = readMesh(surfaceFile);
+  const auto [surface, tissues] = readInput(surfaceFile);
   const ScaleField scale = readScale(scaleFile);
-  const SurfaceComplex surface = interfaceOf(source.mesh);
   stopwatch.lap("read");
   tetgenio input, output;
   fillInput(surface, scale, input);
@@ -154,7 +167,7 @@ void run(const std::string& surfaceFile, const std::string& scaleFile, const std
   stopwatch.lap("TetGen");
   MeshFile file;
   file.mesh = withoutOutside(mesh);
-  file.tissues = source.tissues;
+  file.tissues = tissues;
   writeMesh(file, meshFile);
   stopwatch.lap("write");
   std::cout << runJSON("TetGen 1.5", stopwatch, file.mesh.points.size(), file.mesh.tetrahedra.size()) << '\n';
@@ -166,7 +179,7 @@ int main(int argc, char** argv)
 {
   try
   {
-    if (argc != 4) throw UsageError("usage: TetGenDriver MESH.vtu SCALE.nrrd OUT.vtu");
+    if (argc != 4) throw UsageError("usage: TetGenDriver SURFACE.vtp|MESH.vtu SCALE.nrrd OUT.vtu");
     run(argv[1], argv[2], argv[3]);
     return 0;
   }

@@ -1,0 +1,182 @@
+#!/usr/bin/python3
+"""Time, memory and quality of our stages and of other meshers on the same input, at doubling sizes.
+
+usage: benchmark.py BIN OUTDIR [--case PATTERN] [--threads N,N] [--page]
+
+BIN holds the three modules, Mesh3Driver and TetGenDriver; a driver that is missing is left out. Runs the cases whose
+names match the regular expression, prints a line for each run, and puts the records into OUTDIR/benchmark.json, beside
+those of other cases from earlier runs: every record has its commit. --page draws the curves of all records and writes
+the tables into Docs/Benchmarks.md.
+"""
+import argparse
+import json
+import os
+import platform
+import re
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
+import inputs  # noqa: E402
+from maps import write_nrrd  # noqa: E402
+from measures import dihedral_angles, edge_ratios, euler_numbers_of_mesh  # noqa: E402
+from meshfiles import interpolated, read_mesh, read_nrrd  # noqa: E402
+
+SCALE = ["--minimumEdgeLength", "1", "--maximumEdgeLength", "8", "--childRadius", "10", "--decayLength", "25"]
+ISLAND_VOLUME = "30"
+
+
+def measured(command):
+    """Runs a command: its figures, and what it printed. Processor seconds are those of all threads together: unlike the
+    seconds on the wall they hardly depend on what else the machine does."""
+    start = time.monotonic()
+    with open("errors.txt", "w", encoding="utf-8") as errors, subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors, text=True) as process:
+        output = process.stdout.read()
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if process.returncode:
+        with open("errors.txt", encoding="utf-8") as errors:
+            sys.exit(f"{' '.join(command)} ended with {process.returncode}: {errors.read()[-300:]}")
+    return {"seconds": round(time.monotonic() - start, 3),
+            "processorSeconds": round(usage.ru_utime + usage.ru_stime, 3),
+            "peakMemory": usage.ru_maxrss * 1024}, output
+
+
+def commit():
+    git = ["git", "-C", ROOT]
+    name = subprocess.run(git + ["rev-parse", "--short=12", "HEAD"], stdout=subprocess.PIPE, text=True, check=False)
+    changed = subprocess.run(git + ["status", "--porcelain", "--untracked-files=no"], stdout=subprocess.PIPE, text=True,
+                             check=False)
+    return name.stdout.strip() + ("+changes" if changed.stdout.strip() else "")
+
+
+def machine():
+    with open("/proc/cpuinfo", encoding="utf-8") as file:
+        models = re.findall(r"^model name\s*: (.*)$", file.read(), re.M)
+    memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    return {"processor": models[0] if models else platform.machine(), "processors": os.cpu_count(),
+            "memory": memory, "system": platform.platform()}
+
+
+def quality_of(mesh_file, wanted_euler):
+    """Measures of a mesh that do not come from the program that made it; OUTDIR/scale.nrrd is its scale."""
+    mesh = read_mesh(mesh_file)
+    scale, affine = read_nrrd("scale.nrrd")
+    angles = dihedral_angles(mesh)
+    ratios = edge_ratios(mesh, lambda positions: interpolated(scale, affine, positions))
+    euler = euler_numbers_of_mesh(mesh)
+    wrong = [label for label, number in wanted_euler.items() if label >= len(euler) or euler[label] != number]
+    return {"tetrahedra": len(mesh.tetrahedra), "minimumDihedral": round(float(angles.min()), 2),
+            "maximumDihedral": round(float(angles.max()), 2),
+            "below20Degrees": int((angles.min(axis=1) < 20).sum()),
+            "edgesNearTarget": round(float(np.mean((ratios >= 0.7) & (ratios <= 1.4))), 4),
+            "tissuesOfWrongEulerNumber": len(wrong)}
+
+
+def run_ours(modules, threads):
+    """Stage -> seconds and peak memory, of our modules on map.nrrd."""
+    def stage(program, *arguments):
+        return measured([os.path.join(modules, program), "--threads", str(threads), *arguments])[0]
+    return {
+        "scale": stage("SurgicalPathScaleCLI", "--targetPoint", "0,0,0", *SCALE, "map.nrrd", "scale.nrrd"),
+        "surface": stage("SimplexMesherCLI", "--scale", "scale.nrrd", "--minimumIslandVolume", ISLAND_VOLUME,
+                         "--preparedLabelMap", "prepared.nrrd", "--ambient", "ambient.vtu", "--report", "surface.json",
+                         "map.nrrd", "surface.vtp"),
+        "mesh": stage("FuchsTetrahedralizerCLI", "--scale", "scale.nrrd", "--ambient", "ambient.vtu", "surface.vtp",
+                      "mesh.vtu")}
+
+
+def run_driver(modules, driver, *arguments):
+    """(its name, figures of the whole with the seconds of its phases), or None if there is no such program."""
+    program = os.path.join(modules, driver)
+    if not os.path.exists(program):
+        return None
+    figures, output = measured([program, *arguments])
+    result = json.loads(output.strip().split("\n")[-1])
+    return result["program"], {"whole": {**figures, "phases": result["seconds"]}}
+
+
+def record_of(case, program, threads, description, stages, quality):
+    record = {"case": case.name, "series": case.series, "program": program, "threads": threads, "commit": commit(),
+              "input": description, "stages": stages,
+              "seconds": round(sum(stage["seconds"] for stage in stages.values()), 3),
+              "processorSeconds": round(sum(stage["processorSeconds"] for stage in stages.values()), 3),
+              "peakMemory": max(stage["peakMemory"] for stage in stages.values()), "quality": quality}
+    print(f"{case.name:16}{program:22}{threads} thread(s) {record['seconds']:9.1f} s"
+          f" (processor {record['processorSeconds']:.1f} s)"
+          f" {record['peakMemory'] / 1e6:9.0f} MB  {json.dumps(quality)}", flush=True)
+    return record
+
+
+def run_case(case, modules, threads):
+    """Records of ours for each number of threads, then of the other meshers."""
+    labels, affine = case.make()
+    write_nrrd("map.nrrd", labels, affine)
+    description = {"size": list(labels.shape), "spacing": case.spacing, "tissues": len(np.setdiff1d(labels, [0]))}
+    del labels
+    wanted = None
+    for number in threads:
+        stages = run_ours(modules, number)
+        if wanted is None:
+            with open("surface.json", encoding="utf-8") as file:
+                topology = json.load(file)["topology"]
+            wanted = {t["label"]: t["components"] - t["tunnels"] + t["cavities"] for t in topology}
+            description["interfaceFaces"] = inputs.interface_faces(read_nrrd("prepared.nrrd")[0])
+            quality = quality_of("mesh.vtu", wanted)
+        yield record_of(case, "SurgicalMesher", number, description, stages, quality)
+    peers = (("Mesh3Driver", "prepared.nrrd", "scale.nrrd", "peer.vtu", "--perturb", "--exude"),
+             ("TetGenDriver", "surface.vtp", "scale.nrrd", "peer.vtu"))
+    for driver, *arguments in peers:
+        result = run_driver(modules, driver, *arguments)
+        if result:
+            yield record_of(case, result[0], 1, description, result[1], quality_of("peer.vtu", wanted))
+
+
+def read_records(file):
+    if not os.path.exists(file):
+        return []
+    with open(file, encoding="utf-8") as stream:
+        return json.load(stream)["runs"]
+
+
+def merged(old, new):
+    """Records of earlier runs but for those measured again, in the order of the cases."""
+    def key(record):
+        return record["case"], record["program"], record["threads"]
+    order = {case.name: n for n, case in enumerate(inputs.CASES)}
+    records = {key(record): record for record in old + new}
+    return sorted(records.values(), key=lambda r: (order.get(r["case"], len(order)), r["program"], r["threads"]))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
+    parser.add_argument("modules")
+    parser.add_argument("folder")
+    parser.add_argument("--case", default="")
+    parser.add_argument("--threads", default="1,2")
+    parser.add_argument("--page", action="store_true")
+    arguments = parser.parse_args()
+    modules = os.path.abspath(arguments.modules)
+    os.makedirs(arguments.folder, exist_ok=True)
+    os.chdir(arguments.folder)
+    records = read_records("benchmark.json")
+    for case in inputs.CASES:
+        if not re.search(arguments.case, case.name):
+            continue
+        new = list(run_case(case, modules, [int(n) for n in arguments.threads.split(",")]))
+        records = merged(records, new)
+        with open("benchmark.json", "w", encoding="utf-8") as file:
+            json.dump({"machine": machine(), "runs": records}, file, indent=1)
+    if arguments.page:
+        import page  # pylint: disable=import-outside-toplevel  # matplotlib, for those who want it
+        page.write(records, machine())
+
+
+if __name__ == "__main__":
+    main()
