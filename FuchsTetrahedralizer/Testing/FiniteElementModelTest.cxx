@@ -254,7 +254,7 @@ MeshFile rowOf(const std::vector<std::string>& names)
 
 TEST(FiniteElementModel, HostileNamesAreMappedAndTheMapSaysSo)
 {
-  const std::string lengthy(200, 'x');
+  const std::string lengthy(200, 'x'), half(30, 'y');
   const std::vector<std::string> originals{ "Gray matter",
                                             "gray_matter",
                                             "Gray matter",
@@ -269,7 +269,9 @@ TEST(FiniteElementModel, HostileNamesAreMappedAndTheMapSaysSo)
                                             "",
                                             "tissue 11",
                                             "a|b,c;d<e>&f",
-                                            "outside" };
+                                            "outside",
+                                            half + "A" + half,
+                                            half + "B" + half };
   FiniteElementOptions options;
   for (Label label = 1; label <= 4; ++label) options.materials[label] = {};
   options.shells = { { 1, -1, 1 }, { 3, 4, 1 } };
