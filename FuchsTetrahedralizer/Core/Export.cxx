@@ -26,8 +26,8 @@ const std::vector<ExportFormat>& exportFormats()
     { ".mesh", "Medit, FreeFEM", writeMedit },
     { ".msh", "Gmsh 4.1", writeGmsh41 },
     { ".msh2", "Gmsh 2.2, GetFEM", writeGmsh22 },
-    { ".ply", "one closed surface per tissue", writeTissueSurfaces },
-    { ".stl", "one closed surface per tissue", writeTissueSurfaces },
+    { ".ply", "closed surfaces, one file per tissue", writeTissueSurfaces },
+    { ".stl", "closed surfaces, one file per tissue", writeTissueSurfaces },
     { ".vtk", "legacy VTK, SOFA", writeVtk },
     { ".vtu", "VTK", writeVtk },
 #ifdef SURGICALMESHER_HDF5

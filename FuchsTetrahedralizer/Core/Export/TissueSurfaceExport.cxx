@@ -21,14 +21,14 @@ namespace
 
 using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
-/// By label: the triangles of all interfaces that have the tissue behind them, wound out of it.
+/// By label: the triangles of all interfaces that have the tissue behind them, wound out of it. 0: the outer boundary.
 std::map<std::int32_t, Triangles> surfacesOf(const FiniteElementModel& model)
 {
   std::map<std::int32_t, Triangles> result;
   for (const SurfaceSet& surface : model.surfaces)
   {
-    if (surface.kind != SetKind::TissueInterface) continue;
-    Triangles& triangles = result[surface.ids[0]];
+    if (surface.kind != SetKind::TissueInterface && surface.kind != SetKind::OuterBoundary) continue;
+    Triangles& triangles = result[surface.kind == SetKind::OuterBoundary ? 0 : surface.ids[0]];
     triangles.insert(triangles.end(), surface.triangles.begin(), surface.triangles.end());
   }
   return result;
@@ -94,13 +94,17 @@ void writeTissueSurfaces(const FiniteElementModel& model, const std::string& fil
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   const std::map<std::int32_t, Triangles> surfaces = surfacesOf(model);
+  const auto write = [&](std::int32_t label, const std::string& finalPath)
+  {
+    const SurfaceComplex surface = compact(model.content.mesh.points, surfaces.at(label));
+    const std::string place = destination(finalPath);
+    extension == ".stl" ? writeSTL(surface, place) : writePLY(surface, place);
+  };
+  write(0, file);
   for (const ElementSet& set : model.elementSets)
   {
-    if (set.kind != SetKind::Tissue) continue;
     const std::string name = path.stem().string() + "." + set.name + path.extension().string();
-    const std::string place = destination((path.parent_path() / name).string());
-    const SurfaceComplex surface = compact(model.content.mesh.points, surfaces.at(set.ids[0]));
-    extension == ".stl" ? writeSTL(surface, place) : writePLY(surface, place);
+    if (set.kind == SetKind::Tissue) write(set.ids[0], (path.parent_path() / name).string());
   }
 }
 
