@@ -9,7 +9,7 @@ set -euo pipefail
 
 root=$(cd "$(dirname "$0")" && pwd)
 outputs=(scale.nrrd labels.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu {scale,surface,mesh,report}.json
-  {surface,tetrahedra,scale,histograms}.png log.txt)
+  {surface,tetrahedra,scale,evolution,histograms}.png log.txt)
 
 # usage: refuse STATUS MESSAGE
 refuse()
@@ -88,7 +88,7 @@ illustrate_and_report()
   echo
   /usr/bin/python3 "$root/Docs/Example/report.py" . "${seconds[@]}"
   echo
-  echo "Written to $folder: scale.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu report.json and four pictures"
+  echo "Written to $folder: scale.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu report.json and five pictures"
 }
 
 if [[ -n $map ]]; then

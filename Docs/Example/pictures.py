@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Draws the example's pictures. usage: pictures.py FOLDER
 
-Reads scale.nrrd, prepared.nrrd, surface.vtp, mesh.vtu, scale.json and mesh.json in FOLDER and writes surface.png,
-tetrahedra.png, scale.png and histograms.png beside them. Cuts are made at the first target, or where the first path
-ends. Needs a display: on a machine without one, run it by xvfb-run.
+Reads scale.nrrd, prepared.nrrd, surface.vtp, mesh.vtu and the three stages' reports in FOLDER and writes surface.png,
+tetrahedra.png, scale.png, evolution.png and histograms.png beside them. Cuts are made at the first target, or where
+the first path ends. Needs a display: on a machine without one, run it by xvfb-run.
 """
 import json
 import os
@@ -332,6 +332,40 @@ def draw_histograms(folder):
     save(figure, os.path.join(folder, "histograms.png"))
 
 
+def draw_evolution(folder):
+    """Size, distance to the map and operations of the surface stage, step by step, from its report."""
+    with open(os.path.join(folder, "surface.json"), encoding="utf-8") as file:
+        report = json.load(file)
+    steps = report["evolution"]
+    number = np.arange(len(steps))
+    figure = new_figure(1500, 560)
+    panels = [figure.add_axes((0.05 + 0.325 * n, 0.12, 0.28, 0.63)) for n in range(3)]
+    size, distance, operations = panels
+    size.bar(number, [step["tetrahedra"] for step in steps], color=BAR_COLOR, edgecolor="white", linewidth=0.4)
+    size.set_yscale("log")
+    size.set_ylabel("tetrahedra of tissues", fontsize=11)
+    distance.plot(number, [step["maximumDistance"] for step in steps], color=IDEAL_COLOR, marker="o", label="maximum")
+    distance.plot(number, [step["meanDistance"] for step in steps], color=BAR_COLOR, marker="o", label="mean")
+    distance.set_ylabel("distance to the boundary (mm)", fontsize=11)
+    distance.set_ylim(bottom=0)
+    for name, kind, color in (("T1: collapses", "collapses", BAR_COLOR), ("T2: splits", "splits", INK),
+                              ("T7: flips", "flips", IDEAL_COLOR)):
+        counts = np.array([step[kind] for step in steps], float)
+        operations.plot(number, np.where(counts > 0, counts, np.nan), color=color, marker="o", label=name)
+    operations.set_yscale("log")
+    operations.set_ylabel("operations in the step", fontsize=11)
+    for axes, title in zip(panels, ("Size", "Fidelity", "Operations")):
+        axes.set_title(title, fontsize=13, color=INK)
+        axes.set_xlabel("step", fontsize=12)
+        axes.spines[["top", "right"]].set_visible(False)
+    for axes in (distance, operations):
+        axes.legend(frameon=False)
+    first = next((n for n, step in enumerate(steps) if step["stage"] == "improvement"), len(steps))
+    headline(figure, 30, f"The evolution of the surface: {report['triangles']:,} triangles in the end",
+             f"steps 1 to {first - 1} coarsen, the others improve")
+    save(figure, os.path.join(folder, "evolution.png"))
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit("usage: pictures.py FOLDER")
@@ -341,6 +375,7 @@ def main():
     paths = [np.array(path["points"], float) for path in focus["paths"]]
     target = np.array(focus["targets"][0] if focus["targets"] else paths[0][-1], float)
     draw_scale(folder, target, paths)
+    draw_evolution(folder)
     draw_histograms(folder)
     draw_surface(folder, target)
     draw_tetrahedra(folder, target)

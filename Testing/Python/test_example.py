@@ -106,7 +106,7 @@ class ExampleTest(unittest.TestCase):
 
     def test_pictures_show_something(self):
         from matplotlib.image import imread
-        for name in ("surface", "tetrahedra", "scale", "histograms"):
+        for name in ("surface", "tetrahedra", "scale", "evolution", "histograms"):
             picture = imread(os.path.join(OUTDIR, name + ".png"))[..., :3]
             self.assertGreater(min(picture.shape[:2]), 500, name)
             ink = np.any(picture < 0.9, axis=-1)

@@ -18,7 +18,7 @@ from measures import euler_numbers_of_map, euler_numbers_of_mesh, signed_volumes
 from meshfiles import cell_array, read_dataset, read_mesh, read_nrrd  # noqa: E402
 
 BIN, OUTDIR = sys.argv[1:3]
-PICTURES = ("surface", "tetrahedra", "scale", "histograms")
+PICTURES = ("surface", "tetrahedra", "scale", "evolution", "histograms")
 
 
 def run(*arguments):
