@@ -17,6 +17,7 @@
 #include "SurfaceEdgeLength.h"
 #include "SurfaceTetrahedralization.h"
 #include "SurfaceValidity.h"
+#include "TextFile.h"
 #include "TissueMapIO.h"
 #include "VtkExport.h"
 
@@ -149,8 +150,8 @@ ConstitutiveRule readConstitutiveRule(const CommandLine& line)
   return rule;
 }
 
-/// A shell option: TISSUE, or TISSUE:NEIGHBOUR, each a label or a name; `outside` stands for 0.
-ShellChoice readShell(const std::string& text, const TissueTable& names, const std::set<Label>& present)
+/// TISSUE or TISSUE:NEIGHBOUR, each a label or a name; `outside` stands for 0. Nothing if it isn't one.
+std::optional<ShellChoice> findShell(const std::string& text, const TissueTable& names, const std::set<Label>& present)
 {
   ShellChoice choice;
   const auto isTissue = [&](const std::string& name, Label& label)
@@ -165,8 +166,27 @@ ShellChoice readShell(const std::string& text, const TissueTable& names, const s
     choice.neighbour = other;
     return choice;
   }
-  throw UsageError("--shell: \"" + text + "\" found, TISSUE or TISSUE:NEIGHBOUR with labels or names of the mesh's " +
-                   "tissues expected");
+  return {};
+}
+
+/// Slicer passes several in one text, separated by commas.
+std::vector<ShellChoice> readShells(const CommandLine& line, const TissueTable& names, const std::set<Label>& present)
+{
+  std::vector<ShellChoice> choices;
+  for (const std::string& option : line.texts("shell"))
+  {
+    const bool isOne = findShell(option, names, present).has_value();
+    for (const std::string& shell : isOne ? std::vector<std::string>{ option } : text::splitFields(option))
+    {
+      const std::optional<ShellChoice> choice = findShell(shell, names, present);
+      if (!choice)
+        throw UsageError("--shell: \"" + shell +
+                         "\" found, TISSUE or TISSUE:NEIGHBOUR with labels or names of the mesh's tissues expected");
+      choices.push_back(*choice);
+      choices.back().thickness = line.number("shellThickness");
+    }
+  }
+  return choices;
 }
 
 /// What the command line alone can tell.
@@ -187,11 +207,7 @@ FiniteElementOptions readFiniteElementOptions(const CommandLine& line, const Sur
   FiniteElementOptions options;
   const std::string materials = line.text("materials");
   if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present);
-  for (const std::string& shell : line.texts("shell"))
-  {
-    options.shells.push_back(readShell(shell, content.tissues, present));
-    options.shells.back().thickness = line.number("shellThickness");
-  }
+  options.shells = readShells(line, content.tissues, present);
   return options;
 }
 

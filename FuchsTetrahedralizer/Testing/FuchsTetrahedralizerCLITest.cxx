@@ -141,7 +141,7 @@ TEST_F(FuchsTetrahedralizerCLI, RefusesExportsAtFault)
 
   expectRefused(start + "--shells s.vtp" + end, 2, "no --shell");
   expectRefused(start + "--shell 5" + end, 2, "neither --shells nor --export");
-  for (const char* shell : { "6", "0", "nose", "5:7", ":5", "''" })
+  for (const char* shell : { "6", "0", "nose", "5:7", ":5", "''", "5,6" })
   {
     expectRefused(start + "--shells s.vtp --shell " + shell + end, 2, "TISSUE:NEIGHBOUR");
   }
