@@ -9,14 +9,13 @@ ScaledPreparationReport prepareAtScale(TissueMap& map, const ScaleField& scale, 
                                        const FeatureOptions& features, const Progress& progress)
 {
   ScaledPreparationReport result;
-  TissueMap prepared = map;
-  const bool simplifies = features.featureScale > 0;
-  result.preparation = prepareMap(prepared, preparation, subProgress(progress, 0, simplifies ? 0.3 : 1));
-  if (!simplifies)
+  if (!(features.featureScale > 0))
   {
-    map.labels.swap(prepared.labels);
+    result.preparation = prepareMap(map, preparation, progress);
     return result;
   }
+  TissueMap prepared = map;
+  result.preparation = prepareMap(prepared, preparation, subProgress(progress, 0, 0.3));
   TissueMap simplified = prepared;
   result.keptWhole = simplifyFeatures(simplified, scale, features, subProgress(progress, 0.3, 0.8));
 

@@ -39,10 +39,11 @@ public:
     std::array<int, 3> from, to;
     for (int axis = 0; axis < 3; ++axis)
     {
+      constexpr double rounding = 1e-6; // of headers: a node at the very edge has no weight
       const double last = m_Scale.size[axis] - 1;
       const auto clamped = [&](double index) { return int(std::min(last, std::max(0.0, index))); };
-      from[axis] = clamped(std::floor((p[axis] - m_HalfVoxel[axis]) / m_Scale.spacing[axis]));
-      to[axis] = clamped(std::ceil((p[axis] + m_HalfVoxel[axis]) / m_Scale.spacing[axis]));
+      from[axis] = clamped(std::floor((p[axis] - m_HalfVoxel[axis]) / m_Scale.spacing[axis] + rounding));
+      to[axis] = clamped(std::ceil((p[axis] + m_HalfVoxel[axis]) / m_Scale.spacing[axis] - rounding));
     }
     for (int k = from[2]; k <= to[2]; ++k)
     {
