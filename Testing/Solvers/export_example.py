@@ -1,0 +1,30 @@
+"""Exports the example's mesh in every format, tissues of even label twice as stiff. usage: export_example.py BIN EXAMPLE OUTDIR
+
+EXAMPLE is the folder that example.sh left.
+"""
+import os
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
+from meshfiles import cell_array, read_dataset  # noqa: E402
+
+BIN, EXAMPLE, OUTDIR = map(os.path.abspath, sys.argv[1:4])
+FORMATS = ("feb", "inp", "mesh", "msh", "msh2", "ply", "stl", "vtk", "vtu", "xdmf")
+
+shutil.rmtree(OUTDIR, ignore_errors=True)
+os.makedirs(OUTDIR)
+os.chdir(OUTDIR)
+surface = os.path.join(EXAMPLE, "surface.vtp")
+with open("materials.csv", "w", encoding="ascii") as table:
+    table.write("tissue, model, youngsModulus, poissonsRatio, density\n")
+    for label in np.setdiff1d(cell_array(read_dataset(surface), "BoundaryLabels"), [0]):
+        table.write("%d, linear, %d, 0.45, 1000\n" % (label, 6 if label % 2 == 0 else 3))
+subprocess.run([os.path.join(BIN, "FuchsTetrahedralizerCLI"), "--scale", os.path.join(EXAMPLE, "scale.nrrd"),
+                "--ambient", os.path.join(EXAMPLE, "ambient.vtu"), "--materials", "materials.csv",
+                *(word for extension in FORMATS for word in ("--export", "mesh." + extension)),
+                surface, "reference.vtu"], check=True, stdout=subprocess.DEVNULL)
