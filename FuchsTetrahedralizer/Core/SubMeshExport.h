@@ -14,8 +14,8 @@ namespace surgicalmesher
 /// The sub-meshes that `chosen` picks (0 parent, 1..n children), as one mesh: tetrahedra and points in the order of the
 /// whole, with all they carry there. Besides,
 /// - volumePointId is the point's id in the whole mesh,
-/// - interfaceId numbers the points where sub-meshes meet (subMeshInterface) from 0 in the whole mesh's order, the same in
-///   every part that has the point; -1 elsewhere.
+/// - interfaceId numbers the points where sub-meshes meet (subMeshInterface) from 0 in the whole mesh's order, the same
+///   in every part that has the point; -1 elsewhere.
 /// `whole` has to have subMesh and subMeshInterface.
 MeshFile partOf(const MeshFile& whole, const std::function<bool(std::int32_t subMesh)>& chosen);
 

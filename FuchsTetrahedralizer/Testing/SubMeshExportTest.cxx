@@ -34,7 +34,8 @@ MeshFile dividedBlock()
 std::vector<MeshFile> partsOf(const MeshFile& whole)
 {
   std::vector<MeshFile> parts;
-  for (std::int32_t k = 0; k < 3; ++k) parts.push_back(partOf(whole, [k](std::int32_t subMesh) { return subMesh == k; }));
+  for (std::int32_t k = 0; k < 3; ++k)
+    parts.push_back(partOf(whole, [k](std::int32_t subMesh) { return subMesh == k; }));
   return parts;
 }
 
@@ -83,7 +84,7 @@ TEST(SubMeshExport, PointsAreThoseOfTheWholeMeshAndAllUsed)
 TEST(SubMeshExport, InterfaceNumbersAreSharedAndComplete)
 {
   const MeshFile whole = dividedBlock();
-  std::vector<std::vector<std::int32_t>> sharers(whole.mesh.points.size()); // interface ids, one per part with the point
+  std::vector<std::vector<std::int32_t>> sharers(whole.mesh.points.size()); // interface ids, one per part
   for (const MeshFile& part : partsOf(whole))
   {
     for (std::size_t i = 0; i < part.interfaceId.size(); ++i)

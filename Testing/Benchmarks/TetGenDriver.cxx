@@ -4,14 +4,15 @@
 // usage: TetGenDriver SURFACE.vtp|MESH.vtu SCALE.nrrd OUT.vtu
 //
 // SURFACE.vtp is what SimplexMesherCLI leaves. MESH.vtu is what Mesh3Driver leaves without --perturb and --exude; the
-// faces between its tissues are the surface, and nothing else of it is used. TetGen's own quality refinement (-q) with L at the surface's points for its sizes (-m).
+// faces between its tissues are the surface, and nothing else of it is used. TetGen's own quality refinement (-q) with L
+// at the surface's points for its sizes (-m).
 // Prints one JSON object: seconds of each phase, sizes, peak memory.
 
 #include "ComplexIO.h"
 #include "Errors.h"
 #include "FaceNeighbours.h"
-#include "TissueMapIO.h"
 #include "Timing.h"
+#include "TissueMapIO.h"
 
 #include <tetgen.h>
 
@@ -118,8 +119,8 @@ void labelRegions(const SurfaceComplex& surface, const std::map<Triangle, std::i
     for (int c = 0; c < 3; ++c) face[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
     return face;
   };
-  const std::vector<std::int32_t> region = faceRegions(
-    faceNeighbours(mesh), [&](std::int32_t t, int f) { return onSurface.count(ascending(faceOf(t, f))) == 0; });
+  const std::vector<std::int32_t> region = faceRegions(faceNeighbours(mesh), [&](std::int32_t t, int f)
+                                                       { return onSurface.count(ascending(faceOf(t, f))) == 0; });
   std::map<std::int32_t, std::map<Label, int>> votes;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
   {
@@ -135,7 +136,8 @@ void labelRegions(const SurfaceComplex& surface, const std::map<Triangle, std::i
   for (const std::int32_t r : region)
   {
     const auto& of = votes[r];
-    const auto most = std::max_element(of.begin(), of.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto most =
+      std::max_element(of.begin(), of.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     mesh.labels.push_back(most == of.end() ? Label(0) : most->first);
   }
 }

@@ -3,8 +3,8 @@
 
 usage: fitness.py OUTDIR [--build BUILD | --bin BIN] [--map FILE] [--scales F,F,...] [--reuse] [--document]
 
-Meshes the map (default: jhu189) by all three with L from F to 8 F mm around a target, for every F (default: 1,1.5,2,3,4),
-and measures every mesh; Docs/Fitness.md says what and why. Writes fitness.json, fitness.csv, fitness.md (the table) and
+Meshes the map (default: jhu189) by all three with L from F to 8 F mm around a target, for every F (1,1.5,2,3,4), and
+measures every mesh; Docs/Fitness.md says what and why. Writes fitness.json, fitness.csv, fitness.md (the table) and
 fitness.png to OUTDIR. Without --bin, the programs are built in BUILD (default: build) first. --reuse takes meshes that
 are in OUTDIR already. --document puts table and picture into Docs/.
 """
@@ -33,7 +33,8 @@ from meshfiles import interpolated, read_mesh, read_nrrd  # noqa: E402
 from registration import condition_numbers, conjugate_gradients, registered, system  # noqa: E402
 
 PROGRAMS = ["SurgicalPathScaleCLI", "SimplexMesherCLI", "FuchsTetrahedralizerCLI", "Mesh3Driver", "TetGenDriver"]
-MESHERS = {"SurgicalMesher": ("#c8553d", "o"), "CGAL Mesh_3": ("#4c78a8", "s"), "CGAL surface + TetGen": ("#5a9367", "^")}
+MESHERS = {"SurgicalMesher": ("#c8553d", "o"), "CGAL Mesh_3": ("#4c78a8", "s"),
+           "CGAL surface + TetGen": ("#5a9367", "^")}
 TARGET = "0,0,-10"
 ISLAND = 30  # mm^3
 # The registration: weights are 1 N/mm per point. With this modulus, the first solution follows waves of a few points'
@@ -120,7 +121,7 @@ def cubes_to_tetrahedra(filled):
         ids = np.stack([np.ravel_multi_index(corner.T, size) for corner in corners], axis=1)
         even = (axes[0] + 1) % 3 == axes[1]
         tetrahedra.append(ids if even else ids[:, [0, 2, 1, 3]])
-    return np.stack(np.meshgrid(*map(np.arange, size), indexing="ij"), axis=-1).reshape(-1, 3), np.concatenate(tetrahedra)
+    return np.argwhere(np.ones(size, bool)), np.concatenate(tetrahedra)
 
 
 def synthetic_deformation(labels, affine):
@@ -222,8 +223,8 @@ def compare(runner, label_map, factors):
     """Rows of the table, one per mesher and size; a mesher that fails leaves a row without measures."""
     rows, reference = [], None
     for factor in factors:
-        runner.run("SurgicalPathScaleCLI", "--targetPoint", TARGET, "--minimumEdgeLength", factor, "--maximumEdgeLength",
-                   8 * factor, label_map, f"scale-{factor:g}.nrrd")
+        runner.run("SurgicalPathScaleCLI", "--targetPoint", TARGET, "--minimumEdgeLength", factor,
+                   "--maximumEdgeLength", 8 * factor, label_map, f"scale-{factor:g}.nrrd")
         for mesher, (name, steps) in steps_of(label_map, factor).items():
             row = {"mesher": mesher, "minimumEdgeLength": factor}
             try:
@@ -288,7 +289,8 @@ def draw(rows, file):
     figure, axes = plt.subplots(2, 4, figsize=(13, 6.2), dpi=80)
     for axis, (key, title, scale) in zip(axes.flat, PANELS):
         for mesher, (color, marker) in MESHERS.items():
-            done = sorted((row["hausdorffTissuesMean"], row[key]) for row in rows if row["mesher"] == mesher and key in row)
+            done = sorted((row["hausdorffTissuesMean"], row[key]) for row in rows
+                          if row["mesher"] == mesher and key in row)
             axis.plot(*np.transpose(done), color=color, marker=marker, label=mesher, linewidth=1.5)
         axis.set_title(title, fontsize=11)
         axis.set_yscale(scale)
@@ -335,7 +337,7 @@ def main():
     parser.add_argument("--build", default=os.path.join(ROOT, "build"))
     parser.add_argument("--bin")
     parser.add_argument("--map", default="/usr/share/mricron/templates/jhu189.nii.gz")
-    parser.add_argument("--scales", type=lambda text: [float(word) for word in text.split(",")], default=[1, 1.5, 2, 3, 4])
+    parser.add_argument("--scales", default="1,1.5,2,3,4")
     parser.add_argument("--reuse", action="store_true")
     parser.add_argument("--document", action="store_true")
     options = parser.parse_args()
@@ -344,7 +346,7 @@ def main():
     os.makedirs(options.folder, exist_ok=True)
     programs = os.path.abspath(options.bin or os.path.join(options.build, "bin"))
     runner = Runner(os.path.abspath(options.folder), programs, options.reuse)
-    rows = compare(runner, os.path.abspath(options.map), options.scales)
+    rows = compare(runner, os.path.abspath(options.map), list(map(float, options.scales.split(","))))
     write_results(options.folder, rows)
     print(table_of(rows))
     if options.document:

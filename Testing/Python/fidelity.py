@@ -1,7 +1,7 @@
 """How far the tissue boundaries of a mesh and those of its label map are apart.
 
-Boundaries are points: the centres of voxel faces between two labels, and points spread over the mesh's triangles between
-two labels. Hausdorff distances between them are as exact as the points are dense: half a voxel's diagonal at worst.
+Boundaries are points: the centres of voxel faces between two labels, and points spread over the mesh's triangles
+between two labels. Hausdorff distances between them are as exact as the points are dense: half a voxel's diagonal at worst.
 """
 from types import SimpleNamespace
 
@@ -60,7 +60,7 @@ def boundary_of_mesh(mesh, spacing):
 
 
 def hausdorff(a, b, share=1):
-    """Two-sided Hausdorff distance of two sets of points; with `share` below 1, of that share of either, the nearest."""
+    """Two-sided Hausdorff distance of two sets of points; with `share` below 1, of the nearest such share of both."""
     return max(np.quantile(cKDTree(there).query(here)[0], share) for here, there in ((a, b), (b, a)))
 
 

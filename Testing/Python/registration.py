@@ -1,4 +1,4 @@
-"""Non-rigid registration by finite elements after Clatz et al. (IEEE TMI 24(11), 2005), on displacements given at points.
+"""Non-rigid registration by finite elements after Clatz et al. (IEEE TMI 24(11), 2005), of displacements at points.
 
 U minimizes (H U - D)' (H U - D) + U' K U, where H interpolates the nodes' displacements at the registration points, D
 are the displacements found there, and K is the mesh's stiffness. What the stiffness held back is given back as a force,
