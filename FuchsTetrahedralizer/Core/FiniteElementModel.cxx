@@ -82,6 +82,21 @@ Ids pointsOf(const std::vector<std::array<std::int32_t, 3>>& triangles)
   return sortedUnique(std::move(ids));
 }
 
+/// Points where tetrahedra of several groups meet, ascending.
+Ids pointsOfSeveral(const TetraMesh& mesh, const Ids& group)
+{
+  Ids first(mesh.points.size(), -1), result;
+  for (std::size_t t = 0; t < group.size(); ++t)
+  {
+    for (const std::int32_t id : mesh.tetrahedra[t])
+    {
+      if (first[id] < 0) first[id] = group[t];
+      else if (first[id] != group[t]) result.push_back(id);
+    }
+  }
+  return sortedUnique(std::move(result));
+}
+
 const char* nameOfLaw(MaterialLaw law) { return law == MaterialLaw::NeoHookean ? "neo_hookean" : "linear_elastic"; }
 
 std::string tissueTitle(std::int32_t label, const TissueTable& tissues)
@@ -129,7 +144,7 @@ private:
   void reserveNames()
   {
     for (const char* name : { "all_nodes", "all_elements", "outer_boundary", "outer_boundary_nodes",
-                              "null_displacement_nodes", "submesh_interface_nodes" })
+                              "null_displacement_nodes", "submesh_interface_nodes", "outside" })
     {
       m_Names.unique(name);
     }
@@ -231,17 +246,14 @@ private:
 
   void addSubMeshInterfaces()
   {
-    Ids all;
     for (const auto& [ids, interface] : interfacesOf(m_Neighbours, m_Model.content.subMesh, -1))
     {
       if (ids[1] < 0) continue;
       addInterface(ids, interface, SetKind::SubMeshInterface, m_SubMeshName,
                    subMeshTitle(ids[0]) + " | " + subMeshTitle(ids[1]));
-      const Ids& points = m_Model.nodeSets.back().points;
-      all.insert(all.end(), points.begin(), points.end());
     }
     addNodeSet(info("submesh_interface_nodes", "all sub-mesh interfaces", SetKind::SubMeshInterface, {}),
-               sortedUnique(std::move(all)));
+               pointsOfSeveral(m_Mesh, m_Model.content.subMesh));
   }
 
   void addNullDisplacement()

@@ -25,7 +25,7 @@ enum class SetKind
   TissueMaterial,   ///< elements of a tissue with one material, where it has two; [label, constitutive class]
   OuterBoundary,    ///< faces and nodes of the whole mesh's boundary; []
   TissueInterface,  ///< faces: [label behind, label in front]; nodes: [higher label, lower label]; 0 is outside
-  SubMeshInterface, ///< likewise between sub-meshes; nodes of all such interfaces together: []
+  SubMeshInterface, ///< likewise between sub-meshes; nodes where any sub-meshes meet: []
   NullDisplacement, ///< nodes of null-displacement elements; []
   Shell             ///< triangles; [label] or [label, neighbour]
 };
