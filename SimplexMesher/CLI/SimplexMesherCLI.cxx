@@ -95,9 +95,7 @@ void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const P
 {
   const FeatureOptions features = readFeatures(line, results.settings);
   results.featureScale = features.featureScale;
-  TissueSettings settings = results.settings;
-  completeShells(settings, map, scale);
-  results.preparation = prepareAtScale(map, followTissues(scale, map, settings, line.number("gradation")),
+  results.preparation = prepareAtScale(map, followTissues(scale, map, results.settings, line.number("gradation")),
                                        readPreparation(line, results.settings), features, progress);
   results.topology = tissueTopology(map);
   results.structures = structuresOf(map);
@@ -110,11 +108,14 @@ void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const P
 ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField& asked, SurfaceReport& results)
 {
   const double gradation = line.number("gradation");
-  completeShells(results.settings, map, asked);
   ScaleField scale = followTissues(asked, map, results.settings, gradation);
   results.thickness = measureThickness(map, scale);
   results.followsThickness = line.flag("followThickness");
-  if (results.followsThickness) scale = followThickness(scale, map, results.thickness.thinVoxels, gradation);
+  if (results.followsThickness) // the bounds of the table hold all the same
+  {
+    scale = followThickness(scale, map, results.thickness.thinVoxels, gradation);
+    scale = followTissues(scale, map, results.settings, gradation);
+  }
   const std::string file = line.outputFile("followedScale");
   if (!file.empty()) writeScale(scaleVolume(scale, map.grid), file);
   return scale;
@@ -196,6 +197,7 @@ void run(CommandLine& line)
   SurfaceReport results;
   TissueMap map = readMap(line, results);
   const ScaleField asked = readScaleFor(line, map.grid);
+  completeShells(results.settings, map, asked);
   prepare(line, map, asked, subProgress(progress, 0.02, 0.06), results);
   const ScaleField scale = lengthsFor(line, map, asked, results);
 

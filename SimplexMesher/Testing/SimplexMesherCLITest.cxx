@@ -271,10 +271,10 @@ TEST_F(SimplexMesherCLI, JoinsLeavesOutAndHollowsTissues)
 
 TEST_F(SimplexMesherCLI, ShortensLengthsWhereTissueIsThin)
 {
-  const TissueMap sheet = paintedMap({ 24, 24, 12 },
+  const TissueMap sheet = paintedMap({ 16, 16, 12 },
                                      [](int i, int j, int k)
                                      {
-                                       if (std::min({ i, j, k }) < 2 || std::max(i, j) >= 22 || k >= 10) return 0;
+                                       if (std::min({ i, j, k }) < 2 || std::max(i, j) >= 14 || k >= 10) return 0;
                                        return k == 5 ? 3 : 1;
                                      });
   write("sheet.nrrd", sheet);
@@ -289,10 +289,13 @@ TEST_F(SimplexMesherCLI, ShortensLengthsWhereTissueIsThin)
   };
   expectDone("--edgeLength 3 " + outputs);
   EXPECT_NEAR(thicknessOf3(), 1, 1e-6);
-  EXPECT_NEAR(readScale(folder.file("f.nrrd"))({ 12, 12, 5 }), 3, 1e-5);
+  EXPECT_NEAR(readScale(folder.file("f.nrrd"))({ 8, 8, 5 }), 3, 1e-5);
   expectDone("--edgeLength 3 --followThickness " + outputs);
   EXPECT_NEAR(thicknessOf3(), 1, 1e-6);
-  EXPECT_NEAR(readScale(folder.file("f.nrrd"))({ 12, 12, 5 }), 1, 1e-5);
+  EXPECT_NEAR(readScale(folder.file("f.nrrd"))({ 8, 8, 5 }), 1, 1e-5);
+  folder.write("tissues.csv", "label,role,minimum\n3,shell,2\n");
+  expectDone("--edgeLength 3 --followThickness --tissues tissues.csv " + outputs);
+  EXPECT_NEAR(readScale(folder.file("f.nrrd"))({ 8, 8, 5 }), 2, 1e-5);
 }
 
 TEST_F(SimplexMesherCLI, SimplifiesAllButWhatIsProtected)
