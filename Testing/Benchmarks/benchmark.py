@@ -15,7 +15,6 @@ import platform
 import re
 import subprocess
 import sys
-import time
 
 import numpy as np
 
@@ -32,20 +31,14 @@ ISLAND_VOLUME = "30"
 
 
 def measured(command):
-    """Runs a command: its figures, and what it printed. Processor seconds are those of all threads together: unlike the
-    seconds on the wall they hardly depend on what else the machine does."""
-    start = time.monotonic()
-    with open("errors.txt", "w", encoding="utf-8") as errors, subprocess.Popen(
-            command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors, text=True) as process:
-        output = process.stdout.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
+    """Runs a command: its figures (see measured.py), and what it printed."""
+    watched = [sys.executable, os.path.join(HERE, "measured.py"), "figures.json", *command]
+    process = subprocess.run(watched, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                             check=False)
     if process.returncode:
-        with open("errors.txt", encoding="utf-8") as errors:
-            sys.exit(f"{' '.join(command)} ended with {process.returncode}: {errors.read()[-300:]}")
-    return {"seconds": round(time.monotonic() - start, 3),
-            "processorSeconds": round(usage.ru_utime + usage.ru_stime, 3),
-            "peakMemory": usage.ru_maxrss * 1024}, output
+        sys.exit(f"{' '.join(command)} ended with {process.returncode}: {process.stderr[-300:]}")
+    with open("figures.json", encoding="utf-8") as file:
+        return json.load(file), process.stdout
 
 
 def commit():
