@@ -123,7 +123,7 @@ def run_case(case, modules, threads):
             description["interfaceFaces"] = inputs.interface_faces(read_nrrd("prepared.nrrd")[0])
             quality = quality_of("mesh.vtu", wanted)
         yield record_of(case, "SurgicalMesher", number, description, stages, quality)
-    peers = (("Mesh3Driver", "prepared.nrrd", "scale.nrrd", "peer.vtu", "--perturb", "--exude"),
+    peers = (("Mesh3Driver", "prepared.nrrd", "scale.nrrd", "peer.vtu", "--perturb", "--exude", "--timeLimit", "0"),
              ("TetGenDriver", "surface.vtp", "scale.nrrd", "peer.vtu"))
     for driver, *arguments in peers:
         result = run_driver(modules, driver, *arguments)
