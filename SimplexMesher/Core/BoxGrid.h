@@ -45,16 +45,16 @@ public:
     });
   }
 
-  /// Items of all cells that the box touches, each once, ascending.
-  void find(const Box& box, std::vector<std::int32_t>& items) const
+  /// Hands over the items of all cells that the box touches, one after the other, until `visit` returns false. An item may
+  /// come several times. The order depends on nothing but the insertions and removals before.
+  template <class Visit> void visit(const Box& box, const Visit& visit) const
   {
-    items.clear();
+    bool goesOn = true;
     forCells(box, [&](std::uint64_t key) {
-      const auto at = m_Cells.find(key);
-      if (at != m_Cells.end()) items.insert(items.end(), at->second.begin(), at->second.end());
+      const auto at = goesOn ? m_Cells.find(key) : m_Cells.end();
+      if (at == m_Cells.end()) return;
+      for (std::size_t i = 0; i < at->second.size() && goesOn; ++i) goesOn = visit(at->second[i]);
     });
-    std::sort(items.begin(), items.end());
-    items.erase(std::unique(items.begin(), items.end()), items.end());
   }
 
 private:

@@ -48,7 +48,7 @@ SurfaceComplex smoothedBoundary(const TissueMap& map)
 }
 
 TissueBoundary::TissueBoundary(const SurfaceComplex& surface, double reach)
-  : m_Surface(surface), m_Reach(reach), m_Cell(2 * meanEdge(surface)), m_Grid(m_Cell)
+  : m_Surface(surface), m_Reach(reach), m_Cell(1.2 * meanEdge(surface)), m_Grid(m_Cell)
 {
   for (std::size_t t = 0; t < m_Surface.triangles.size(); ++t)
   {
@@ -57,32 +57,35 @@ TissueBoundary::TissueBoundary(const SurfaceComplex& surface, double reach)
     box.add(m_Surface.points[b]);
     box.add(m_Surface.points[c]);
     m_Grid.insert(std::int32_t(t), box);
+    m_Centroids.push_back((m_Surface.points[a] + m_Surface.points[b] + m_Surface.points[c]) / 3);
+    double radius = 0;
+    for (std::int32_t p : m_Surface.triangles[t]) radius = std::max(radius, norm(m_Surface.points[p] - m_Centroids[t]));
+    m_Radii.push_back(radius);
   }
 }
 
 std::optional<BoundaryPoint> TissueBoundary::nearest(const Vec3& p, const std::array<Label, 2>& tissues) const
 {
-  double best = std::numeric_limits<double>::infinity();
   BoundaryPoint found;
-  std::vector<std::int32_t> items;
+  found.distance = std::numeric_limits<double>::infinity();
+  const auto& points = m_Surface.points;
   for (double radius = std::min(0.5 * m_Cell, m_Reach);; radius = std::min(2 * radius, m_Reach))
   {
-    m_Grid.find(Box::around(p, radius), items);
-    for (std::int32_t t : items)
-    {
+    m_Grid.visit(Box::around(p, radius), [&](std::int32_t t) {
       const auto& labels = m_Surface.labels[t];
       const bool same = labels == tissues;
-      if (!same && !(labels[0] == tissues[1] && labels[1] == tissues[0])) continue;
+      const double farthest = found.distance + m_Radii[t];
+      if (!same && !(labels[0] == tissues[1] && labels[1] == tissues[0])) return true;
+      if (squaredNorm(p - m_Centroids[t]) >= farthest * farthest) return true;
       const auto& [a, b, c] = m_Surface.triangles[t];
-      const auto& points = m_Surface.points;
       const Vec3 q = nearestOnTriangle(p, points[a], points[b], points[c]);
-      const double d2 = squaredNorm(q - p);
-      if (d2 >= best) continue;
-      best = d2;
+      const double distance = norm(q - p);
+      if (distance >= found.distance) return true;
       const Vec3 n = cross(points[b] - points[a], points[c] - points[a]);
-      found = { q, (same ? 1 : -1) / std::max(norm(n), 1e-300) * n, std::sqrt(d2) };
-    }
-    if (best <= radius * radius) return found;
+      found = { q, (same ? 1 : -1) / std::max(norm(n), 1e-300) * n, distance };
+      return true;
+    });
+    if (found.distance <= radius) return found;
     if (radius >= m_Reach) return std::nullopt;
   }
 }

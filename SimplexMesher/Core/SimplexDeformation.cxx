@@ -1,0 +1,259 @@
+#include "SimplexDeformation.h"
+
+#include <queue>
+#include <sstream>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// A simplex edge by the two faces beside it, the shortest first.
+struct ShortEdge
+{
+  double ratio;
+  std::int32_t a, b;
+  bool operator<(const ShortEdge& e) const
+  { // std::priority_queue hands out the greatest
+    return ratio != e.ratio ? ratio > e.ratio : a != e.a ? a > e.a : b > e.b;
+  }
+};
+
+using ShortEdges = std::priority_queue<ShortEdge>;
+
+void addShortEdges(const SimplexOperators& mesh, std::int32_t a, double threshold, ShortEdges& heap)
+{
+  for (std::int32_t b : mesh.faceNeighbours(a))
+  {
+    const double ratio = mesh.edgeRatio(a, b);
+    if (ratio < threshold) heap.push({ ratio, std::min(a, b), std::max(a, b) });
+  }
+}
+
+/// Fuses the faces beside the edge, or beside one of the four edges at its ends: the pair that goes together best. Returns
+/// the face that there is now, or -1.
+std::int32_t fuseBest(SimplexOperators& mesh, std::int32_t a, std::int32_t b)
+{
+  struct Choice
+  {
+    double merit;
+    std::int32_t a, b;
+  };
+  std::vector<Choice> choices{ { mesh.fusion(a, b), a, b } };
+  for (std::int32_t end : mesh.endsOf(a, b))
+    if (end >= 0)
+      for (std::int32_t face : { a, b }) choices.push_back({ mesh.fusion(face, end), face, end });
+  std::stable_sort(choices.begin(), choices.end(), [](const Choice& x, const Choice& y) { return x.merit > y.merit; });
+  for (const Choice& c : choices)
+    if (c.merit > 0 && mesh.fuse(c.a, c.b)) return c.a;
+  return -1;
+}
+
+/// T1, the worst edge first.
+int fuseShortEdges(SimplexOperators& mesh, double threshold)
+{
+  ShortEdges heap;
+  for (std::size_t a = 0; a < mesh.points().size(); ++a) addShortEdges(mesh, std::int32_t(a), threshold, heap);
+  int count = 0;
+  while (!heap.empty())
+  {
+    const ShortEdge edge = heap.top();
+    heap.pop();
+    if (!mesh.alive(edge.a) || !mesh.alive(edge.b) || mesh.edgeRatio(edge.a, edge.b) != edge.ratio) continue;
+    const std::int32_t fused = fuseBest(mesh, edge.a, edge.b);
+    if (fused < 0) continue;
+    ++count;
+    addShortEdges(mesh, fused, threshold, heap);
+    for (std::int32_t b : mesh.faceNeighbours(fused)) addShortEdges(mesh, b, threshold, heap);
+  }
+  return count;
+}
+
+/// T2: faces whose centre leaves the boundary, whose vertices are too many, or too far from the next face's.
+int cutFaces(SimplexOperators& mesh, const AdaptationOptions& options)
+{
+  struct Need
+  {
+    double urgency;
+    std::int32_t face;
+  };
+  std::vector<Need> needs;
+  for (std::int32_t a = 0; a < std::int32_t(mesh.points().size()); ++a)
+  {
+    if (!mesh.alive(a)) continue;
+    double urgency = mesh.centreDistance(a) / mesh.proximity(mesh.points()[a]);
+    for (std::int32_t b : mesh.faceNeighbours(a))
+      if (const double ratio = mesh.edgeRatio(a, b); std::isfinite(ratio)) urgency = std::max(urgency, ratio / options.longEdge);
+    if (mesh.mostVertices(a) > options.mostVertices) urgency = std::max(urgency, 1.01);
+    if (urgency > 1) needs.push_back({ urgency, a });
+  }
+  std::stable_sort(needs.begin(), needs.end(), [](const Need& x, const Need& y) { return x.urgency > y.urgency; });
+  return int(std::count_if(needs.begin(), needs.end(), [&](const Need& need) { return mesh.cut(need.face); }));
+}
+
+/// T7 where it leaves better triangles, or faces with more nearly six vertices and triangles hardly worse.
+int swapEdges(SimplexOperators& mesh)
+{
+  const auto excess = [&](std::int32_t face, int change) {
+    const double n = double(mesh.mostVertices(face)) + change - 6;
+    return n * n;
+  };
+  int count = 0;
+  for (std::int32_t a = 0; a < std::int32_t(mesh.points().size()); ++a)
+    for (std::int32_t b : mesh.faceNeighbours(a))
+    {
+      const auto [c, d] = mesh.endsOf(a, b);
+      if (b < a || c < 0) continue;
+      const double before = mesh.edgeQuality(a, b);
+      const double gain = excess(a, 0) + excess(b, 0) + excess(c, 0) + excess(d, 0) - excess(a, -1) - excess(b, -1) -
+                          excess(c, 1) - excess(d, 1);
+      const double after = mesh.qualityAfterSwap(a, b);
+      if (after > 1.1 * before || (gain > 0 && after > 0.85 * before && after > 0.5)) count += mesh.swap(a, b);
+    }
+  return count;
+}
+
+void measure(const SimplexOperators& mesh, SimplexStep& step)
+{
+  step.vertices = mesh.surface().triangles.size();
+  step.faces = mesh.faceCount();
+  for (std::int32_t a = 0; a < std::int32_t(mesh.points().size()); ++a)
+  {
+    if (!mesh.alive(a)) continue;
+    const double distance = mesh.centreDistance(a);
+    step.meanDistance += distance / double(step.faces);
+    step.maximumDistance = std::max(step.maximumDistance, distance);
+  }
+}
+
+/// At each dual point, the mean of what its vertices have.
+std::vector<Vec3> meansAround(const SurfaceComplex& dual, const std::vector<Vec3>& perVertex)
+{
+  std::vector<Vec3> sum(dual.points.size());
+  std::vector<double> count(dual.points.size(), 0);
+  for (std::size_t t = 0; t < perVertex.size(); ++t)
+    for (std::int32_t p : dual.triangles[t])
+    {
+      sum[p] += perVertex[t];
+      ++count[p];
+    }
+  for (std::size_t p = 0; p < sum.size(); ++p) sum[p] = sum[p] / std::max(1., count[p]);
+  return sum;
+}
+
+/// Dual points can be rough and their triangles' centroids smooth, such as where points go up, down and nowhere in turn. No
+/// force on vertices sees that. This is the way to the mean of the vertices, less what of it the neighbourhood has in
+/// common, which is curvature. Points where tissues meet have none.
+std::vector<Vec3> hiddenRoughness(const SurfaceComplex& dual)
+{
+  const auto centroids = [&](const std::vector<Vec3>& x) {
+    std::vector<Vec3> c;
+    for (const auto& [p, q, r] : dual.triangles) c.push_back((x[p] + x[q] + x[r]) / 3);
+    return c;
+  };
+  std::vector<bool> inside(dual.points.size(), true);
+  std::vector<std::int32_t> sheet(dual.points.size(), -1);
+  for (std::size_t t = 0; t < dual.triangles.size(); ++t)
+    for (std::int32_t p : dual.triangles[t])
+    {
+      if (sheet[p] < 0) sheet[p] = std::int32_t(t);
+      if (dual.labels[sheet[p]] != dual.labels[t]) inside[p] = false;
+    }
+  std::vector<Vec3> away = meansAround(dual, centroids(dual.points));
+  for (std::size_t p = 0; p < away.size(); ++p) away[p] = inside[p] ? away[p] - dual.points[p] : Vec3{};
+  const std::vector<Vec3> common = meansAround(dual, centroids(away));
+  for (std::size_t p = 0; p < away.size(); ++p) away[p] = inside[p] ? away[p] - common[p] : Vec3{};
+  return away;
+}
+
+double shortestEdge(const SimplexOperators& mesh, std::int32_t a)
+{
+  double least = 1e300;
+  for (std::int32_t b : mesh.faceNeighbours(a)) least = std::min(least, norm(mesh.points()[b] - mesh.points()[a]));
+  return least;
+}
+
+} // namespace
+
+double SimplexMotion::step(SimplexOperators& mesh, const TissueBoundary& boundary)
+{
+  std::vector<std::int32_t> ids;
+  const SurfaceComplex dual = mesh.surface(&ids);
+  const std::vector<Vec3> inner = internalForces(simplexMeshOf(dual), m_Options.internalForce);
+  const std::vector<Vec3> outer = imageForces(dual, boundary);
+  std::vector<Vec3> force(dual.triangles.size());
+  for (std::size_t t = 0; t < force.size(); ++t) force[t] = m_Options.internal * inner[t] + m_Options.image * outer[t];
+  const std::vector<Vec3> way = meansAround(dual, force), hidden = hiddenRoughness(dual);
+  m_Last.resize(mesh.points().size());
+  double largest = 0;
+  for (std::size_t p = 0; p < way.size(); ++p)
+  {
+    const std::int32_t id = ids[p];
+    Vec3 wish = way[p] + 0.5 * hidden[p] + (1 - m_Options.damping) * m_Last[id];
+    const double limit = shortestEdge(mesh, id) / 3;
+    if (norm(wish) > limit) wish = limit / norm(wish) * wish;
+    m_Last[id] = {};
+    for (int tries = 0; tries < 4; ++tries, wish = 0.5 * wish)
+    {
+      if (!mesh.move(id, mesh.points()[id] + wish)) continue;
+      m_Last[id] = wish;
+      break;
+    }
+    largest = std::max(largest, norm(m_Last[id]));
+  }
+  return largest;
+}
+
+std::vector<double> relaxSimplexMesh(SimplexOperators& mesh, const TissueBoundary& boundary, const MotionOptions& options,
+                                     int mostSteps, double tolerance)
+{
+  SimplexMotion motion(options);
+  std::vector<double> ways;
+  for (int n = 0; n < mostSteps && (ways.empty() || ways.back() > tolerance); ++n) ways.push_back(motion.step(mesh, boundary));
+  return ways;
+}
+
+std::vector<SimplexStep> adaptSimplexMesh(SimplexOperators& mesh, const TissueBoundary& boundary,
+                                          const AdaptationOptions& options, const Progress& progress)
+{
+  std::vector<SimplexStep> steps(1);
+  measure(mesh, steps[0]);
+  int atRest = 0;
+  for (int n = 0; n < options.mostIterations && atRest < 3; ++n)
+  {
+    report(progress, double(n) / options.mostIterations, "adaptation");
+    SimplexStep step;
+    step.t1 = fuseShortEdges(mesh, options.shortEdge);
+    step.t2 = cutFaces(mesh, options);
+    step.t7 = swapEdges(mesh);
+    SimplexMotion motion(options.motion);
+    for (int m = 0; m < options.motionsPerIteration; ++m) step.largestMove = motion.step(mesh, boundary);
+    measure(mesh, step);
+    atRest = std::abs(step.t1 - step.t2) < options.rest * double(step.faces) ? atRest + 1 : 0;
+    steps.push_back(step);
+  }
+  relaxSimplexMesh(mesh, boundary, options.motion, options.lastMotions, 0);
+  if (options.lastMotions > 0)
+  {
+    steps.emplace_back();
+    measure(mesh, steps.back());
+  }
+  report(progress, 1, "adaptation");
+  return steps;
+}
+
+std::string evolutionCSV(const std::vector<SimplexStep>& steps)
+{
+  std::ostringstream out;
+  out << "iteration,faces,vertices,meanDistance,maximumDistance,T1,T2,T7,largestMove\n";
+  for (std::size_t n = 0; n < steps.size(); ++n)
+  {
+    const SimplexStep& s = steps[n];
+    out << n << ',' << s.faces << ',' << s.vertices << ',' << s.meanDistance << ',' << s.maximumDistance << ',' << s.t1 << ','
+        << s.t2 << ',' << s.t7 << ',' << s.largestMove << '\n';
+  }
+  return out.str();
+}
+
+} // namespace surgicalmesher
