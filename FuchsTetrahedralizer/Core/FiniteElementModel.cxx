@@ -175,7 +175,9 @@ private:
 
   void addElementSets()
   {
-    const auto add = [&](SetInfo info, const Ids& members) { m_Model.elementSets.push_back({ info, members }); };
+    const auto add = [&](SetInfo info, const Ids& members) {
+      m_Model.elementSets.push_back({ std::move(info), members });
+    };
     for (const auto& [label, members] : membersOf(m_Mesh.labels))
     {
       add(info(m_TissueName[label], tissueTitle(label, m_Tissues), SetKind::Tissue, { label }), members);
