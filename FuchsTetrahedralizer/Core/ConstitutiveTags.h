@@ -1,6 +1,6 @@
 #pragma once
-/// Constitutive classes by distance from the surgery: where tissue deforms most it is worth a nonlinear law, farther away a
-/// linear one, and farthest it is held still (Audette et al., Computer Aided Surgery 12(1), 2007).
+/// Constitutive classes by distance from the surgery: where tissue deforms most it is worth a nonlinear law, farther
+/// away a linear one, and farthest it is held still (Audette et al., Computer Aided Surgery 12(1), 2007).
 
 #include "Distance.h"
 #include "TetraMesh.h"
@@ -21,14 +21,14 @@ struct ConstitutiveRule
   double nullPathDistanceAtTarget = 0;
 };
 
-/// Throws UsageError if a distance is negative or not finite, or has no target or path to be measured from, or a target or
-/// path has no distance to go with it.
+/// Throws UsageError if a distance is negative or not finite, or has no target or path to be measured from, or a target
+/// or path has no distance to go with it.
 void checkConstitutiveRule(const ConstitutiveRule& rule);
 
-/// Changes the classes (0 linear, 1 nonlinear, 2 null displacement) of tetrahedra by where their centroids lie: nonlinear
-/// up to the nonlinear distance from the nearest target or path and linear beyond; null displacement where a centroid is
-/// both beyond the radius of every target and outside the tube around every path. What is null displacement already stays
-/// so. Tetrahedra and rule in the same frame; throws as checkConstitutiveRule does.
+/// Changes the classes (0 linear, 1 nonlinear, 2 null displacement) of tetrahedra by where their centroids lie:
+/// nonlinear up to the nonlinear distance from the nearest target or path and linear beyond; null displacement where a
+/// centroid is both beyond the radius of every target and outside the tube around every path. What is null displacement
+/// already stays so. Tetrahedra and rule in the same frame; throws as checkConstitutiveRule does.
 void tagByDistance(const TetraMesh& mesh, const ConstitutiveRule& rule, std::vector<std::int32_t>& constitutive);
 
 } // namespace surgicalmesher

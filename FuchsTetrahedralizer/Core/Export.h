@@ -8,8 +8,8 @@
 namespace surgicalmesher
 {
 
-/// Where to write a file now that will finally have another name: CommandLine::outputPath for outputs that appear whole or
-/// not at all. A file that mentions a sidecar uses its final name.
+/// Where to write a file now that will finally have another name: CommandLine::outputPath for outputs that appear whole
+/// or not at all. A file that mentions a sidecar uses its final name.
 using Destination = std::function<std::string(const std::string& finalPath)>;
 
 struct ExportFormat

@@ -1,9 +1,9 @@
 #pragma once
-/// A mesh as solvers see it: named sets of elements, nodes and faces, materials, shells. Every export is written from this
-/// and from nothing else.
+/// A mesh as solvers see it: named sets of elements, nodes and faces, materials, shells. Every export is written from
+/// this and from nothing else.
 ///
-/// Ids of points and tetrahedra count from 0, as in the mesh; formats that count from 1 add 1. Lengths in mm, LPS. Units
-/// of materials are consistent with that: N, tonne, s, hence MPa and tonne/mm^3.
+/// Ids of points and tetrahedra count from 0, as in the mesh; formats that count from 1 add 1. Lengths in mm, LPS.
+/// Units of materials are consistent with that: N, tonne, s, hence MPa and tonne/mm^3.
 
 #include "ComplexIO.h"
 
@@ -61,8 +61,8 @@ struct TetrahedronFace
   std::int32_t face;
 };
 
-/// An oriented surface. An interface between a and b is two such sets, one of a's tetrahedra and one of b's, with the same
-/// triangles in the same order and opposite winding; the one with the higher id behind comes first.
+/// An oriented surface. An interface between a and b is two such sets, one of a's tetrahedra and one of b's, with the
+/// same triangles in the same order and opposite winding; the one with the higher id behind comes first.
 struct SurfaceSet : SetInfo
 {
   std::vector<TetrahedronFace> faces;
@@ -137,8 +137,9 @@ struct FiniteElementOptions
   std::vector<ShellChoice> shells;           ///< a face that several ask for belongs to the first
 };
 
-/// Sets, sections and shells of a mesh without label 0, as requireSound() wants it. An empty `subMesh` or `constitutive`
-/// stands for zeros. Throws InputError for a shell of a tissue that isn't there, or without a single face.
+/// Sets, sections and shells of a mesh without label 0, as requireSound() wants it. An empty `subMesh` or
+/// `constitutive` stands for zeros. Throws InputError for a shell of a tissue that isn't there, or without a single
+/// face.
 FiniteElementModel finiteElementModel(const MeshFile& content, const FiniteElementOptions& options = {});
 
 /// The sets by name as JSON: what a sidecar file holds. Format in Docs/FuchsTetrahedralizer.md.

@@ -1,8 +1,8 @@
 #pragma once
 /// Names that every format accepts.
 ///
-/// One grammar for all: an ASCII letter, then letters, digits and underscores (no two in a row, none at the end), at most
-/// 80 characters (CalculiX), different from all others in upper case, too (Abaqus and CalculiX fold).
+/// One grammar for all: an ASCII letter, then letters, digits and underscores (no two in a row, none at the end), at
+/// most 80 characters (CalculiX), different from all others in upper case, too (Abaqus and CalculiX fold).
 
 #include <cstddef>
 #include <set>
@@ -13,9 +13,9 @@ namespace surgicalmesher
 
 constexpr std::size_t kLongestName = 80;
 
-/// `text` (UTF-8) in that grammar: Latin letters lose their accents, anything else becomes an underscore, leading digits
-/// get an `n` before them; a text longer than `length` keeps its head and its tail, where left and right differ. Empty if
-/// no letter or digit is left.
+/// `text` (UTF-8) in that grammar: Latin letters lose their accents, anything else becomes an underscore, leading
+/// digits get an `n` before them; a text longer than `length` keeps its head and its tail, where left and right differ.
+/// Empty if no letter or digit is left.
 std::string validName(const std::string& text, std::size_t length = kLongestName);
 
 /// `text` with bytes that are no UTF-8 taken as Latin-1: what JSON and XML can carry.

@@ -28,7 +28,8 @@ void named(Array& array, const char* name, vtkFieldData* owner)
   owner->AddArray(array);
 }
 
-/// Points of the mesh that shells use, in its order; `shellId` receives for each point of the mesh its place among them.
+/// Points of the mesh that shells use, in its order; `shellId` receives for each point of the mesh its place among
+/// them.
 void addPoints(vtkPolyData* data, const FiniteElementModel& model, std::vector<std::int32_t>& shellId)
 {
   const std::vector<Vec3>& meshPoints = model.content.mesh.points;
