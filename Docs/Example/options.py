@@ -13,6 +13,8 @@ PROGRAMS = {"scale": "SurgicalPathScaleCLI", "surface": "SimplexMesherCLI", "mes
 # Said by whoever runs the stages, one after the other.
 RESERVED = {"scale", "edgeLength", "ambient", "preparedLabelMap", "outputLabelMap", "report"}
 
+FOCUS = {"targets", "path", "targetPoint", "pathPoint"}
+
 
 class OptionError(ValueError):
     """One line."""
@@ -51,6 +53,14 @@ def flag_named(name, stages):
     raise OptionError(f"no module has an option {name}")
 
 
+def is_taken(stage, name, given):
+    """Whether a stage that knows an option takes it, when those of the names `given` are there. Far tissue is marked in
+    the map by the first stage; the last one takes targets and paths only to measure the nonlinear distance from them."""
+    if stage != "mesh":
+        return True
+    return not name.startswith("nullDisplacement") and (name not in FOCUS or "nonlinearDistance" in given)
+
+
 def check_value(name, flag, value):
     if flag.is_output and os.path.basename(value) != value:
         raise OptionError(f"{name} {value}: expected the name of a file, without a folder")
@@ -79,9 +89,11 @@ def parsed(words, stages):
 def main():
     try:
         stages = flags_by_stage()
-        for name, value in parsed(sys.argv[1:], stages):
+        options = list(parsed(sys.argv[1:], stages))
+        given = {name for name, _ in options}
+        for name, value in options:
             for stage, flags in stages.items():
-                if name in flags:
+                if name in flags and is_taken(stage, name, given):
                     text = "" if value is None else os.path.abspath(value) if flags[name].is_input else value
                     print(stage, "--" + name, text, sep="\t")
     except OptionError as error:

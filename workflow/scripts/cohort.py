@@ -7,7 +7,7 @@ import sys
 from snakemake.exceptions import WorkflowError
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Docs", "Example"))
-from options import PROGRAMS, OptionError, check_value, flag_named, flags_by_stage  # noqa: E402
+from options import PROGRAMS, OptionError, check_value, flag_named, flags_by_stage, is_taken  # noqa: E402
 
 SETTINGS = {"folder", "threads", "options", "patients"}
 PATIENT_NAME = re.compile(r"[A-Za-z0-9][\w.-]*")
@@ -55,26 +55,31 @@ class Cohort:
         except OptionError as error:
             raise WorkflowError(f"configuration: {where}: {error}") from None
 
+    def flags_for(self, stage, patient):
+        """(name, Flag) of the options that the patient has and the stage takes."""
+        options = self.patients[patient]
+        return [(name, flag) for name, flag in self.flags[stage].items()
+                if name in options and is_taken(stage, name, options)]
+
     def files(self, stage, patient):
         """Input files as they are; missing ones are left to the program, whose message goes into the table."""
         options = self.patients[patient]
-        files = [str(value) for name, flag in self.flags[stage].items() if flag.is_input and name in options
+        files = [str(value) for name, flag in self.flags_for(stage, patient) if flag.is_input
                  for value in values_of(options[name])]
         if stage != "mesh":
             files.append(options["map"])
         return [file for file in files if os.path.exists(file)]
 
     def options(self, stage, patient, folder):
-        for name, flag in self.flags[stage].items():
-            for value in values_of(self.patients[patient].get(name, [])):
+        for name, flag in self.flags_for(stage, patient):
+            for value in values_of(self.patients[patient][name]):
                 if flag.kind == "boolean":
                     yield from ["--" + name] if value else []
                 else:
                     yield from ["--" + name, os.path.join(folder, value) if flag.is_output else str(value)]
 
     def has_null_displacement(self, patient):
-        return any(float(self.patients[patient].get(name, 0)) > 0
-                   for name in ("nullDisplacementRadius", "nullDisplacementPathDistance"))
+        return any(name in self.patients[patient] for name in ("nullDisplacementRadius", "nullDisplacementPathDistance"))
 
     def command(self, stage, patient, folder):
         """The stage's command but for --threads; it writes into `folder`, whose neighbours are the earlier stages'."""
