@@ -15,21 +15,22 @@ namespace surgicalmesher
 /// 0.8 L, of voxels where tissues meet; nothing later is as large. With F the voxel faces between labels (those towards
 /// the outside included), K the number of these cubes in tissue, and N the voxels,
 ///
-///     bytes = 25 MB + 700 F + 370 K + 45 N
+///     bytes = 25 MB + 750 F + 370 K + 40 N
 ///
-/// The constants were fitted to the peaks below and then raised by about 5 %, so that the estimate errs on the safe side.
-/// Estimate over measured peak (MB), islands under 30 mm^3 removed:
+/// The constants were fitted to the peaks below and then raised, so that the estimate errs on the safe side. Estimate over
+/// measured peak (MB), islands under 30 mm^3 removed:
 ///
 ///                                                   measured  estimate
-///     box of 60 mm of jhu189, L 0.7 to 8 mm             114      1.11
-///     the same, L 1 to 8 mm                             111      1.09
-///     the same, L 4 mm                                   99      1.11
-///     the same, L 1 mm                                  633      1.03
+///     box of 60 mm of jhu189, L 0.7 to 8 mm             114      1.14
+///     the same, L 1 to 8 mm                             111      1.12
+///     the same, L 4 mm                                   99      1.16
+///     the same, L 1 mm                                  633      1.04
 ///     box of 15 mm at 0.5 mm, L 0.5 mm                  526      1.01
 ///     two balls, one in the other, 1 M voxels, L 2 mm   209      1.19
-///     the same, L 8 mm                                  105      1.06
-///     jhu189 whole at 1 mm, L 1 to 8 mm                 566      1.02
-///     jhu189 whole at 0.5 mm, L 1 to 8 mm              2688      1.06
+///     the same, L 8 mm                                  105      1.03
+///     jhu189 whole at 1 mm, L 1 to 8 mm                 580      1.00
+///     jhu189 whole at 0.5 mm, L 1 to 8 mm              2688      1.04
+///     head of 256^3 voxels along a path, L 1 to 10 mm   995      1.17
 std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale);
 
 /// Throws InputError, with the map's name and both figures, if less than `needed` bytes are available. Does nothing where
