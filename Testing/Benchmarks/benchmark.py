@@ -2,11 +2,12 @@
 """Time, memory and quality of our stages and of other meshers on the same input, at doubling sizes.
 
 usage: benchmark.py BIN OUTDIR [--case PATTERN] [--threads N,N] [--page]
+       benchmark.py BIN OUTDIR --map FILE.nii.gz --targets FILE [--spacing MM] [--featureScale S] [--threads N,N]
 
 BIN holds the three modules, Mesh3Driver and TetGenDriver; a driver that is missing is left out. Runs the cases whose
 names match the regular expression, prints a line for each run, and puts the records into OUTDIR/benchmark.json, beside
 those of other cases from earlier runs: every record has its commit. --page draws the curves of all records and writes
-the tables into Docs/Benchmarks.md.
+the tables into Docs/Benchmarks.md. With --map, the one case is that map, resampled to voxels of --spacing (1 mm).
 """
 import argparse
 import json
@@ -72,14 +73,13 @@ def quality_of(mesh_file, wanted_euler):
             "tissuesOfWrongEulerNumber": len(wrong)}
 
 
-def run_ours(modules, threads):
+def run_ours(case, modules, threads, surface_options):
     """Stage -> seconds and peak memory, of our modules on map.nrrd."""
     def stage(program, *arguments):
         return measured([os.path.join(modules, program), "--threads", str(threads), *arguments])[0]
     return {
-        "scale": stage("SurgicalPathScaleCLI", "--targetPoint", "0,0,0", *SCALE, "map.nrrd", "scale.nrrd"),
-        "surface": stage("SimplexMesherCLI", "--scale", "scale.nrrd", "--minimumIslandVolume", ISLAND_VOLUME,
-                         "--preparedLabelMap", "prepared.nrrd", "--ambient", "ambient.vtu", "--report", "surface.json",
+        "scale": stage("SurgicalPathScaleCLI", *case.focus, *SCALE, "map.nrrd", "scale.nrrd"),
+        "surface": stage("SimplexMesherCLI", "--scale", "scale.nrrd", *surface_options, "--preparedLabelMap", "prepared.nrrd", "--ambient", "ambient.vtu", "--report", "surface.json",
                          "map.nrrd", "surface.vtp"),
         "mesh": stage("FuchsTetrahedralizerCLI", "--scale", "scale.nrrd", "--ambient", "ambient.vtu", "surface.vtp",
                       "mesh.vtu")}
@@ -107,7 +107,7 @@ def record_of(case, program, threads, description, stages, quality):
     return record
 
 
-def run_case(case, modules, threads):
+def run_case(case, modules, threads, surface_options):
     """Records of ours for each number of threads, then of the other meshers."""
     labels, affine = case.make()
     write_nrrd("map.nrrd", labels, affine)
@@ -115,7 +115,7 @@ def run_case(case, modules, threads):
     del labels
     wanted = None
     for number in threads:
-        stages = run_ours(modules, number)
+        stages = run_ours(case, modules, number, surface_options)
         if wanted is None:
             with open("surface.json", encoding="utf-8") as file:
                 topology = json.load(file)["topology"]
@@ -154,15 +154,29 @@ def main():
     parser.add_argument("--case", default="")
     parser.add_argument("--threads", default="1,2")
     parser.add_argument("--page", action="store_true")
+    parser.add_argument("--map")
+    parser.add_argument("--targets")
+    parser.add_argument("--spacing", type=float, default=1)
+    parser.add_argument("--featureScale")
     arguments = parser.parse_args()
     modules = os.path.abspath(arguments.modules)
+    cases = [case for case in inputs.CASES if re.search(arguments.case, case.name)]
+    if arguments.map:
+        if not arguments.targets:
+            parser.error("--map needs --targets")
+        file, focus = os.path.abspath(arguments.map), ("--targets", os.path.abspath(arguments.targets))
+        series = os.path.basename(file).split(".")[0]
+        if arguments.featureScale:
+            series += f", featureScale {arguments.featureScale}"
+        cases = [inputs.Case(series, lambda spacing: inputs.from_file(file, spacing), arguments.spacing, focus)]
+    surface_options = ["--minimumIslandVolume", ISLAND_VOLUME]
+    if arguments.featureScale:
+        surface_options += ["--featureScale", arguments.featureScale]
     os.makedirs(arguments.folder, exist_ok=True)
     os.chdir(arguments.folder)
     records = read_records("benchmark.json")
-    for case in inputs.CASES:
-        if not re.search(arguments.case, case.name):
-            continue
-        new = list(run_case(case, modules, [int(n) for n in arguments.threads.split(",")]))
+    for case in cases:
+        new = list(run_case(case, modules, [int(n) for n in arguments.threads.split(",")], surface_options))
         records = merged(records, new)
         with open("benchmark.json", "w", encoding="utf-8") as file:
             json.dump({"machine": machine(), "runs": records}, file, indent=1)

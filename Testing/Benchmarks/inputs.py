@@ -2,10 +2,11 @@
 import os
 import sys
 
+import nibabel
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Python"))
-from maps import cut_out  # noqa: E402
+from maps import LPS_FROM_RAS, cut_out  # noqa: E402
 
 
 def resampled(labels, affine, spacing):
@@ -42,9 +43,18 @@ def nested_shapes(spacing):
     return labels, affine
 
 
+def from_file(file, spacing):
+    """A label map in NIfTI, resampled."""
+    image = nibabel.load(file)
+    labels = np.rint(np.asanyarray(image.dataobj)).astype(np.uint16)
+    return resampled(labels, LPS_FROM_RAS @ image.affine, spacing)
+
+
 class Case:
-    def __init__(self, series, make, spacing):
-        self.series, self.spacing = series, spacing
+    """`focus` are the options that say where the mesh is fine."""
+
+    def __init__(self, series, make, spacing, focus=("--targetPoint", "0,0,0")):
+        self.series, self.spacing, self.focus = series, spacing, focus
         self.name = f"{series} {spacing:g} mm"
         self.make = lambda: make(spacing)
 

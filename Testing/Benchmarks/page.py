@@ -35,7 +35,7 @@ def draw_panel(axes, records, quantity, unit, title):
         label = f"{program}, {series}" + ("" if exponent is None else f": slope {exponent:.2f}")
         color = next(color for name, color in COLORS.items() if program.startswith(name))
         if threads == 1:
-            axes.plot(x, y / unit, color=color, marker=MARKERS[series], label=label, markersize=6,
+            axes.plot(x, y / unit, color=color, marker=MARKERS.get(series, "^"), label=label, markersize=6,
                       linestyle="-" if series == "jhu189" else "--")
     axes.set(xscale="log", yscale="log", xlabel="voxel faces between tissues")
     axes.set_title(title, fontsize=13)
