@@ -6,8 +6,9 @@ usage: benchmark.py BIN OUTDIR [--case PATTERN] [--threads N,N] [--page]
 
 BIN holds the three modules, Mesh3Driver and TetGenDriver; a driver that is missing is left out. Runs the cases whose
 names match the regular expression, prints a line for each run, and puts the records into OUTDIR/benchmark.json, beside
-those of other cases from earlier runs: every record has its commit. --page draws the curves of all records and writes
-the tables into Docs/Benchmarks.md. With --map, the one case is that map, resampled to voxels of --spacing (1 mm).
+those of other cases from earlier runs: every record has its commit and its machine. --page draws the curves of all
+records and writes the tables into Docs/Benchmarks.md. With --map, the one case is that map, resampled to voxels of
+--spacing (1 mm).
 """
 import argparse
 import json
@@ -97,11 +98,11 @@ def run_driver(modules, driver, *arguments):
 
 def record_of(case, program, threads, description, stages, quality):
     record = {"case": case.name, "series": case.series, "program": program, "threads": threads, "commit": commit(),
-              "input": description, "stages": stages,
+              "machine": machine(), "input": description, "stages": stages,
               "seconds": round(sum(stage["seconds"] for stage in stages.values()), 3),
               "processorSeconds": round(sum(stage["processorSeconds"] for stage in stages.values()), 3),
               "peakMemory": max(stage["peakMemory"] for stage in stages.values()), "quality": quality}
-    print(f"{case.name:16}{program:22}{threads} thread(s) {record['seconds']:9.1f} s"
+    print(f"{case.name:32}{program:22}{threads} thread(s) {record['seconds']:9.1f} s"
           f" (processor {record['processorSeconds']:.1f} s)"
           f" {record['peakMemory'] / 1e6:9.0f} MB  {json.dumps(quality)}", flush=True)
     return record
@@ -179,10 +180,10 @@ def main():
         new = list(run_case(case, modules, [int(n) for n in arguments.threads.split(",")], surface_options))
         records = merged(records, new)
         with open("benchmark.json", "w", encoding="utf-8") as file:
-            json.dump({"machine": machine(), "runs": records}, file, indent=1)
+            json.dump({"runs": records}, file, indent=1)
     if arguments.page:
         import page  # pylint: disable=import-outside-toplevel  # matplotlib, for those who want it
-        page.write(records, machine())
+        page.write(records)
 
 
 if __name__ == "__main__":

@@ -88,12 +88,17 @@ def slope_rows(records):
             yield [f"{program}, {series}", threads] + [f"{value:.2f}" for value in values]
 
 
-def write(records, machine):
+def machine_text(machine):
+    return (f"{machine['processors']} processors ({machine['processor']}), {machine['memory'] / 2 ** 30:.0f} GB, "
+            f"{machine['system']}")
+
+
+def write(records):
     """The tables go between the marks that the page has."""
     draw(records)
     commits = sorted({record["commit"] for record in records})
-    text = (f"On {machine['processors']} processors ({machine['processor']}), {machine['memory'] / 2 ** 30:.0f} GB, "
-            f"{machine['system']}; commit {', '.join(commits)}.\n\n"
+    machines = sorted({machine_text(record["machine"]) for record in records})
+    text = (f"On {' and '.join(machines)}; commit {', '.join(commits)}.\n\n"
             "![Processor time and memory over the size of the interface](images/benchmarks.png)\n\n"
             "Exponents of the power laws through the points, over the number of voxel faces between tissues:\n\n"
             + table(["program and input", "threads", "processor time", "memory"], slope_rows(records))
