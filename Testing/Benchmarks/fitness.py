@@ -249,15 +249,15 @@ def reference_of(prepared):
 COLUMNS = (
     ("L (mm)", lambda row: f"{row['minimumEdgeLength']:g}..{8 * row['minimumEdgeLength']:g}"),
     ("tetrahedra", lambda row: f"{row['tetrahedra']:,}"),
-    ("meshing (s)", lambda row: f"{row['meshingSeconds']:.0f}"),
+    ("meshing (s)", lambda row: f"{row['meshingSeconds']:.2g}"),
     ("D_H outside / 95 % of it (mm)", lambda row: f"{row['hausdorff']:.1f} / {row['hausdorff95']:.2f}"),
     ("D_H tissues mean / worst (mm)",
      lambda row: f"{row['hausdorffTissuesMean']:.1f} / {row['hausdorffTissuesWorst']:.1f}"),
     ("tissues missing / wrong", lambda row: f"{row['tissuesMissing']} / {row['tissuesOfWrongTopology']}"),
     ("dihedral min / mean min (°)", lambda row: f"{row['smallestDihedral']:.1f} / {row['meanSmallestDihedral']:.1f}"),
     ("condition / scaled", lambda row: f"{row['condition']:.1e} / {row['scaledCondition']:.1e}"),
-    ("assembly (s)", lambda row: f"{row['assemblySeconds']:.1f}"),
-    ("solve (s) / iterations", lambda row: f"{row['solveSeconds']:.1f} / {row['iterations']}"),
+    ("assembly (s)", lambda row: f"{row['assemblySeconds']:.2g}"),
+    ("solve (s) / iterations", lambda row: f"{row['solveSeconds']:.2g} / {row['iterations']}"),
     ("error given / elsewhere (mm)", lambda row: f"{row['error']:.3f} / {row['checkError']:.3f}"),
 )
 
@@ -286,13 +286,13 @@ PANELS = (
 
 
 def draw(rows, file):
-    figure, axes = plt.subplots(2, 4, figsize=(13, 6.2), dpi=80)
+    figure, axes = plt.subplots(2, 4, figsize=(13, 6.4), dpi=80)
     for axis, (key, title, scale) in zip(axes.flat, PANELS):
         for mesher, (color, marker) in MESHERS.items():
             done = sorted((row["hausdorffTissuesMean"], row[key]) for row in rows
                           if row["mesher"] == mesher and key in row)
-            axis.plot(*np.transpose(done), color=color, marker=marker, label=mesher, linewidth=1.5)
-        axis.set_title(title, fontsize=11)
+            axis.plot(*np.transpose(done), color=color, marker=marker, label=mesher, linewidth=1.5, clip_on=False)
+        axis.set_title(title, fontsize=11, pad=10)
         axis.set_yscale(scale)
         axis.minorticks_off()
         if scale == "linear":
