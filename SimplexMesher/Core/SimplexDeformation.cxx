@@ -51,12 +51,14 @@ std::int32_t fuseBest(SimplexOperators& mesh, std::int32_t a, std::int32_t b)
 }
 
 /// T1, the worst edge first.
-int fuseShortEdges(SimplexOperators& mesh, double threshold)
+int fuseShortEdges(SimplexOperators& mesh, const AdaptationOptions& options)
 {
+  const double threshold = options.shortEdge;
+  const int most = int(std::ceil(options.mostFusions * double(mesh.faceCount())));
   ShortEdges heap;
   for (std::size_t a = 0; a < mesh.points().size(); ++a) addShortEdges(mesh, std::int32_t(a), threshold, heap);
   int count = 0;
-  while (!heap.empty())
+  while (!heap.empty() && count < most)
   {
     const ShortEdge edge = heap.top();
     heap.pop();
@@ -219,18 +221,22 @@ std::vector<SimplexStep> adaptSimplexMesh(SimplexOperators& mesh, const TissueBo
 {
   std::vector<SimplexStep> steps(1);
   measure(mesh, steps[0]);
-  int atRest = 0;
-  for (int n = 0; n < options.mostIterations && atRest < 3; ++n)
+  const auto atRest = [&] {
+    constexpr std::size_t span = 5; // steps to look back: single ones may balance by chance
+    if (steps.size() <= span + 1) return false;
+    const double now = double(steps.back().faces), then = double(steps[steps.size() - 1 - span].faces);
+    return std::abs(now - then) <= options.rest * now;
+  };
+  for (int n = 0; n < options.mostIterations && !atRest(); ++n)
   {
     report(progress, double(n) / options.mostIterations, "adaptation");
     SimplexStep step;
-    step.t1 = fuseShortEdges(mesh, options.shortEdge);
+    step.t1 = fuseShortEdges(mesh, options);
     step.t2 = cutFaces(mesh, options);
     step.t7 = swapEdges(mesh);
     SimplexMotion motion(options.motion);
     for (int m = 0; m < options.motionsPerIteration; ++m) step.largestMove = motion.step(mesh, boundary);
     measure(mesh, step);
-    atRest = std::abs(step.t1 - step.t2) < options.rest * double(step.faces) ? atRest + 1 : 0;
     steps.push_back(step);
   }
   relaxSimplexMesh(mesh, boundary, options.motion, options.lastMotions, 0);

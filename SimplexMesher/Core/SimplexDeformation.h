@@ -24,9 +24,10 @@ struct AdaptationOptions
   int mostIterations = 60;
   int lastMotions = 10; ///< steps of the law of motion after the last operators
   double shortEdge = 0.72;     ///< T1 where a simplex edge is shorter than this share of its target
+  double mostFusions = 0.25;   ///< T1 per iteration, share of the faces: motion makes room for the next ones
   double longEdge = 1.7;       ///< T2 where it is longer than that
   std::size_t mostVertices = 7; ///< of a face
-  double rest = 0.005;         ///< operators have come to rest when they change less than this share of the faces
+  double rest = 0.01; ///< operators end when five iterations change the number of faces by no more than this share
 };
 
 /// One iteration, for a graph such as figure 6d of Audette et al. 2007.

@@ -143,7 +143,7 @@ TEST(SimplexAdaptation, EdgesComeToScaleAndFacesToRest)
   EXPECT_EQ(checkSurface(after).at(1).euler, 2);
   EXPECT_LT(int(steps.size()), options.mostIterations) << "T1 and T2 offset each other before the end";
   const SimplexStep& rest = steps[steps.size() - 2];
-  EXPECT_LT(std::abs(rest.t1 - rest.t2), 0.02 * double(after.points.size()));
+  EXPECT_LT(std::abs(rest.t1 - rest.t2), 0.05 * double(after.points.size()));
   EXPECT_EQ(steps.back().faces, after.points.size());
   EXPECT_EQ(steps.back().vertices, after.triangles.size());
   int good = 0;
@@ -165,7 +165,7 @@ TEST(SimplexAdaptation, ATightProximityBoundCostsFacesWhereTheBoundaryIsCurved)
   const auto adapted = [&](double proximity) {
     SimplexOperators mesh(dense, boundary, limitsOf(5, proximity));
     AdaptationOptions options;
-    options.mostIterations = 8;
+    options.mostIterations = 20;
     return adaptSimplexMesh(mesh, boundary, options);
   };
   const std::vector<SimplexStep> tight = adapted(0.3), loose = adapted(1.5);
