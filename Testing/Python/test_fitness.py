@@ -1,13 +1,20 @@
 """The measures of fidelity and registration, on meshes and deformations where they are known."""
+import os
+import sys
 import unittest
 from types import SimpleNamespace
 
 import numpy as np
 from scipy import sparse
 
-from elasticity import Cholesky
-from fidelity import around, boundary_of_map, boundary_of_mesh, hausdorff, hausdorff_by_tissue
-from registration import condition_numbers, conjugate_gradients, interpolation, nearest_tetrahedra, registered, system
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.append(os.path.join(ROOT, "Testing", "Benchmarks"))
+import fitness  # noqa: E402
+from elasticity import Cholesky  # noqa: E402
+from fidelity import around, boundary_of_map, boundary_of_mesh, hausdorff, hausdorff_by_tissue  # noqa: E402
+from measures import signed_volumes  # noqa: E402
+from registration import (condition_numbers, conjugate_gradients, interpolation, nearest_tetrahedra,  # noqa: E402
+                          registered, system)
 
 KUHN = ((0, 1, 2), (1, 2, 0), (2, 0, 1), (0, 2, 1), (2, 1, 0), (1, 0, 2))
 
@@ -126,6 +133,36 @@ class RegistrationTest(unittest.TestCase):
         solution, iterations = conjugate_gradients(matrix, right_side)
         np.testing.assert_allclose(matrix @ solution, right_side, atol=1e-5)
         self.assertLessEqual(iterations, 50)
+
+
+class FitnessTest(unittest.TestCase):
+    def test_only_what_hangs_on_by_faces_is_kept(self):
+        labels = np.zeros((4, 3, 2), int)
+        labels[:2, :2, :2] = 1
+        labels[2, 2, 1] = 2  # touches along an edge of a voxel
+        labels[3, 0, 0] = 3
+        body = fitness.largest_body(mesh_of(labels))
+        self.assertEqual(set(body.tissue), {1})
+        np.testing.assert_array_equal(np.unique(body.tetrahedra), np.arange(len(body.points)))
+        self.assertAlmostEqual(signed_volumes(body).sum(), 8)
+
+    def test_known_deformation_is_held_below_and_as_large_as_asked_for(self):
+        labels = np.zeros((30, 30, 40), int)
+        labels[3:27, 3:27, 3:37] = 5
+        affine = np.diag([-1.0, 1, 2, 1])
+        displacement, lattice, filled = fitness.synthetic_deformation(labels, affine)
+        length = np.linalg.norm(displacement, axis=-1)
+        self.assertAlmostEqual(length.max(), fitness.LARGEST_DISPLACEMENT)
+        self.assertEqual(length[:, :, np.flatnonzero(filled.any(axis=(0, 1)))[0]].max(), 0)
+        highest = np.unravel_index(length.argmax(), length.shape)
+        self.assertGreater(displacement[highest][1], 0.9 * fitness.LARGEST_DISPLACEMENT)
+        data = fitness.registration_data(np.repeat(labels, 2, axis=0), affine)
+        self.assertEqual(len(data.points) + len(data.check_points),
+                         fitness.REGISTRATION_POINTS + fitness.CHECK_POINTS)
+
+    def test_table_has_a_row_for_meshes_and_for_failures(self):
+        rows = [{"mesher": "CGAL Mesh_3", "minimumEdgeLength": 2.0, "failed": "Mesh3Driver ended with 3"}]
+        self.assertIn("| CGAL Mesh_3 | 2..16 | Mesh3Driver ended with 3 |", fitness.table_of(rows))
 
 
 if __name__ == "__main__":
