@@ -1,10 +1,10 @@
 #pragma once
 /// Numbers for sets: how formats that know no names tell elements apart.
 ///
-/// Tags are positive and differ among all sets. A tissue's tag is its label; other sets are numbered on from the highest
-/// label. Some formats give an element one number only, although sets overlap: they number disjoint pieces instead, of
-/// which every set is a union. A piece of one interface has the tag of this interface, so that only faces on a tissue
-/// interface and a sub-mesh interface or a shell at once have a number of their own.
+/// Tags are positive and differ among all sets. A tissue's tag is its label; other sets are numbered on from the
+/// highest label. Some formats give an element one number only, although sets overlap: they number disjoint pieces
+/// instead, of which every set is a union. A piece of one interface has the tag of this interface, so that only faces
+/// on a tissue interface and a sub-mesh interface or a shell at once have a number of their own.
 
 #include "FiniteElementModel.h"
 

@@ -1,5 +1,6 @@
-"""Exports the example's mesh in every format, tissues of even label twice as stiff. usage: export_example.py BIN EXAMPLE OUTDIR
+"""Exports the example's mesh in every format, tissues of even label twice as stiff.
 
+usage: export_example.py BIN EXAMPLE OUTDIR
 EXAMPLE is the folder that example.sh left.
 """
 import os

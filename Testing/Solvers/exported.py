@@ -80,7 +80,8 @@ def read_feb(file):
     order = np.concatenate([[int(element.get("id")) - 1 for element in part] for part in parts])
     tetrahedra = np.empty((len(order), 4), int)
     tetrahedra[order] = np.concatenate([[ids(element.text) for element in part] for part in parts])
-    assert {domain.get("name") for domain in root.iterfind("MeshDomains/SolidDomain")} == {p.get("name") for p in parts}
+    domains = {domain.get("name") for domain in root.iterfind("MeshDomains/SolidDomain")}
+    assert domains == {part.get("name") for part in parts}
     cells = {part.get("name"): np.array([int(element.get("id")) - 1 for element in part]) for part in parts}
     cells.update({group.get("name"): ids(group.text) for group in mesh.iterfind("ElementSet")})
     return SimpleNamespace(
@@ -111,7 +112,7 @@ def read_msh(file):
 
 
 def read_msh2(file):
-    """Version 2.2, in which a face has the name of its piece: sets come from the sidecar, names are compared with it."""
+    """Version 2.2, in which a face has the name of its piece: sets come from the sidecar, which knows the names too."""
     sidecar = Sidecar(file)
     mesh = meshio_read(file, file_format="gmsh")
     tetrahedra, labels = blocks(mesh, "tetra", mesh.cell_data["gmsh:physical"])

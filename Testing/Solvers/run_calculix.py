@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """CalculiX: a head sags under its weight in its fluid. usage: run_calculix.py mesh.inp CLAMPED_SURFACE...
 
-The materials are those of mesh.inp; the analysis is nonlinear where they are. Leaves gravity.inp, the deck, and CalculiX's results beside the mesh.
+The materials are those of mesh.inp; the analysis is nonlinear where they are. Leaves gravity.inp, the deck, and
+CalculiX's results beside the mesh.
 """
 import os
 import subprocess

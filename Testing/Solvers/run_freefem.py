@@ -16,7 +16,8 @@ Ph first = firstOf[region], shear = shearOf[region], density = densityOf[region]
 
 fespace Vh(Th, [P1, P1, P1]);
 Vh [ux, uy, uz], [vx, vy, vz];
-macro strain(x, y, z) [dx(x), dy(y), dz(z), (dy(x) + dx(y)) / sqrt(2.), (dz(x) + dx(z)) / sqrt(2.), (dz(y) + dy(z)) / sqrt(2.)] // EOM
+macro strain(x, y, z) [dx(x), dy(y), dz(z),
+  (dy(x) + dx(y)) / sqrt(2.), (dz(x) + dx(z)) / sqrt(2.), (dz(y) + dy(z)) / sqrt(2.)] // EOM
 macro div(x, y, z) (dx(x) + dy(y) + dz(z)) // EOM
 solve gravity([ux, uy, uz], [vx, vy, vz], solver=CG, eps=1e-9)
   = int3d(Th)(first * div(ux, uy, uz) * div(vx, vy, vz) + 2 * shear * strain(ux, uy, uz)' * strain(vx, vy, vz))

@@ -1,4 +1,4 @@
-"""Tissue names of all sorts, from the segmentation to every export and through CalculiX and Gmsh. usage: test_names.py BIN OUTDIR"""
+"""Tissue names of all sorts, from segmentation to every export, CalculiX and Gmsh. usage: test_names.py BIN OUTDIR"""
 import json
 import os
 import re

@@ -6,8 +6,8 @@
 namespace surgicalmesher
 {
 
-/// References: of Vertices, the tag of null-displacement nodes (see SetTags.h) or 0; of Triangles, the tag of their piece;
-/// of Tetrahedra, the label of their tissue.
+/// References: of Vertices, the tag of null-displacement nodes (see SetTags.h) or 0; of Triangles, the tag of their
+/// piece; of Tetrahedra, the label of their tissue.
 void writeMedit(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 
 } // namespace surgicalmesher

@@ -97,8 +97,8 @@ public:
   XdmfFile(const std::string& file, const std::string& grid) : m_Xdmf(file), m_Heavy(file)
   {
     m_Heavy.replace_extension(".h5");
-    m_Text = "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"" + grid +
-             "\" GridType=\"Uniform\">\n";
+    m_Text =
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"" + grid + "\" GridType=\"Uniform\">\n";
   }
 
   template <std::size_t N>
@@ -111,8 +111,8 @@ public:
 
   void geometry(const std::vector<Vec3>& points)
   {
-    m_Text += "<Geometry GeometryType=\"XYZ\">" + item("geometry", &points.data()->x, points.size(), 3) +
-              "</Geometry>\n";
+    m_Text +=
+      "<Geometry GeometryType=\"XYZ\">" + item("geometry", &points.data()->x, points.size(), 3) + "</Geometry>\n";
   }
 
   template <class Value>
