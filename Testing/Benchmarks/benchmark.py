@@ -25,7 +25,7 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
 import inputs  # noqa: E402
 from maps import write_nrrd  # noqa: E402
-from measures import dihedral_angles, edge_ratios, euler_numbers_of_mesh  # noqa: E402
+from measures import components_of_mesh, dihedral_angles, edge_ratios, euler_numbers_of_mesh  # noqa: E402
 from meshfiles import interpolated, read_mesh, read_nrrd  # noqa: E402
 
 SCALE = ["--minimumEdgeLength", "1", "--maximumEdgeLength", "8", "--childRadius", "10", "--decayLength", "25"]
@@ -59,19 +59,21 @@ def machine():
             "memory": memory, "system": platform.platform()}
 
 
-def quality_of(mesh_file, wanted_euler):
-    """Measures of a mesh that do not come from the program that made it; OUTDIR/scale.nrrd is its scale."""
+def quality_of(mesh_file, wanted):
+    """Measures of a mesh that do not come from the program that made it; OUTDIR/scale.nrrd is its scale. `wanted` is,
+    by label, the number of pieces and the Euler number."""
     mesh = read_mesh(mesh_file)
     scale, affine = read_nrrd("scale.nrrd")
     angles = dihedral_angles(mesh)
     ratios = edge_ratios(mesh, lambda positions: interpolated(scale, affine, positions))
-    euler = euler_numbers_of_mesh(mesh)
-    wrong = [label for label, number in wanted_euler.items() if label >= len(euler) or euler[label] != number]
+    pieces, euler = components_of_mesh(mesh), euler_numbers_of_mesh(mesh)
+    wrong = [label for label, numbers in wanted.items()
+             if label >= len(euler) or (pieces[label], euler[label]) != numbers]
     return {"tetrahedra": len(mesh.tetrahedra), "minimumDihedral": round(float(angles.min()), 2),
             "maximumDihedral": round(float(angles.max()), 2),
             "below20Degrees": int((angles.min(axis=1) < 20).sum()),
             "edgesNearTarget": round(float(np.mean((ratios >= 0.7) & (ratios <= 1.4))), 4),
-            "tissuesOfWrongEulerNumber": len(wrong)}
+            "wrongTissues": len(wrong)}
 
 
 def run_ours(case, modules, threads, surface_options):
@@ -120,7 +122,7 @@ def run_case(case, modules, threads, surface_options):
         if wanted is None:
             with open("surface.json", encoding="utf-8") as file:
                 topology = json.load(file)["topology"]
-            wanted = {t["label"]: t["components"] - t["tunnels"] + t["cavities"] for t in topology}
+            wanted = {t["label"]: (t["components"], t["components"] - t["tunnels"] + t["cavities"]) for t in topology}
             description["interfaceFaces"] = inputs.interface_faces(read_nrrd("prepared.nrrd")[0])
             quality = quality_of("mesh.vtu", wanted)
         yield record_of(case, "SurgicalMesher", number, description, stages, quality)

@@ -67,7 +67,7 @@ def run_rows(records):
                f"{r['processorSeconds']:.1f}", f"{r['peakMemory'] / 2 ** 20:,.0f}", f"{quality['tetrahedra']:,}",
                f"{quality['minimumDihedral']:.1f} .. {quality['maximumDihedral']:.1f}",
                f"{quality['below20Degrees']:,}", f"{quality['edgesNearTarget']:.3f}",
-               f"{quality['tissuesOfWrongEulerNumber']} of {r['input']['tissues']}"]
+               f"{quality['wrongTissues']} of {r['input']['tissues']}"]
 
 
 def stage_rows(records):

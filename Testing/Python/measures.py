@@ -45,6 +45,23 @@ def valences(mesh):
     return np.bincount(mesh.tetrahedra.ravel(), minlength=len(mesh.points))[inner]
 
 
+def components_of_mesh(mesh):
+    """By label: the pieces of that tissue whose tetrahedra are connected across faces."""
+    faces = np.sort(mesh.tetrahedra[:, TETRAHEDRON_FACES].reshape(-1, 3), axis=1)
+    order = np.lexsort(faces.T)
+    shared = np.flatnonzero(np.all(faces[order[1:]] == faces[order[:-1]], axis=1))
+    a, b = order[shared] // 4, order[shared + 1] // 4
+    inside = mesh.tissue[a] == mesh.tissue[b]
+    a, b = a[inside], b[inside]
+    piece = np.arange(len(mesh.tetrahedra))  # ends as the smallest number of a tetrahedron in the piece
+    while np.any(piece[a] != piece[b]):
+        low = np.minimum(piece[a], piece[b])
+        for other in (piece[a], piece[b]):
+            np.minimum.at(piece, other, low)
+        piece = piece[piece]
+    return np.bincount(mesh.tissue[np.unique(piece)], minlength=mesh.tissue.max() + 1)
+
+
 def euler_numbers_of_mesh(mesh):
     """By label: vertices - edges + triangles - tetrahedra of the closed tetrahedra of that tissue."""
     euler = np.zeros(mesh.tissue.max() + 1, int)

@@ -83,7 +83,7 @@ class RunTest(unittest.TestCase):
         self.assertEqual(record["input"]["size"], [32, 32, 32])
         mesh = read_mesh("records/mesh.vtu")
         self.assertEqual(record["quality"]["tetrahedra"], len(mesh.tetrahedra))
-        self.assertEqual(record["quality"]["tissuesOfWrongEulerNumber"], 0)
+        self.assertEqual(record["quality"]["wrongTissues"], 0)
 
     def test_other_meshers_fill_the_same_tissues(self):
         labels, affine = cut_out(np.s_[58:90, 84:116, 30:56])

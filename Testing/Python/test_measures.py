@@ -95,6 +95,17 @@ class EulerNumberTest(unittest.TestCase):
         center = np.argmin(np.linalg.norm(mesh.points - 2, axis=1))
         mesh.tissue[np.any(mesh.tetrahedra == center, axis=1)] = 2  # a ball, and what is left of the block around it
         np.testing.assert_array_equal(measures.euler_numbers_of_mesh(mesh), [0, 2, 1])
+        np.testing.assert_array_equal(measures.components_of_mesh(mesh), [0, 1, 1])
+
+    def test_pieces_touch_across_faces_only(self):
+        mesh = bcc_mesh(4)
+        np.testing.assert_array_equal(measures.components_of_mesh(mesh), [0, 1])
+        shared = [len(np.intersect1d(mesh.tetrahedra[0], other)) for other in mesh.tetrahedra]
+        mesh.tissue[[0, shared.index(2)]] = 2  # two tetrahedra with an edge in common
+        self.assertEqual(measures.components_of_mesh(mesh)[2], 2)
+        mesh.tissue[:] = 1
+        mesh.tissue[[0, shared.index(3)]] = 2  # two with a face in common
+        self.assertEqual(measures.components_of_mesh(mesh)[2], 1)
 
 
 class VolumeTest(unittest.TestCase):
