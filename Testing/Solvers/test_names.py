@@ -14,7 +14,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
 from exported import READERS, meshio_read  # noqa: E402
 from maps import cut_out, write_nrrd  # noqa: E402
-from meshfiles import read_mesh  # noqa: E402
+from meshfiles import cell_array, read_dataset, read_mesh  # noqa: E402
 from sidecar import Sidecar  # noqa: E402
 
 BIN, OUTDIR = sys.argv[1:3]
@@ -69,6 +69,7 @@ class NamesTest(unittest.TestCase):
         run("SimplexMesherCLI", "--scale", "scale.nrrd", "--ambient", "ambient.vtu", "map.seg.nrrd", "surface.vtp")
         shell = str(min(cls.names))
         run("FuchsTetrahedralizerCLI", "--scale", "scale.nrrd", "--ambient", "ambient.vtu", "--shell", shell,
+            "--targets", "target.mrk.json", "--nonlinearDistance", "5", "--nullDisplacementRadius", "11",
             *(word for extension in (*READERS, "ply", "stl") for word in ("--export", "mesh." + extension)),
             "surface.vtp", "reference.vtu")
         cls.mesh = read_mesh("reference.vtu")
@@ -105,6 +106,18 @@ class NamesTest(unittest.TestCase):
                     self.assertLess(set(file.faces) - shells, surfaces)
                     (shell,) = shells
                     self.assertEqual(len(file.faces[shell]), self.sets[shell]["size"])
+
+    def test_null_displacement_reaches_the_nodes(self):
+        constitutive = cell_array(read_dataset("reference.vtu"), "Constitutive")
+        self.assertEqual(set(constitutive), {0, 1, 2})
+        still = self.mesh.points[np.unique(self.mesh.tetrahedra[constitutive == 2])]
+        for extension in ("inp", "feb", "msh"):
+            file = READERS[extension]("mesh." + extension)
+            found = file.points[file.nodes["null_displacement_nodes"]]
+            np.testing.assert_allclose(found[np.lexsort(found.T)], still[np.lexsort(still.T)], rtol=1e-12)
+        medit = meshio_read("mesh.mesh")
+        tag = self.sets["null_displacement_nodes"]["tag"]
+        np.testing.assert_array_equal(medit.points[medit.point_data["medit:ref"] == tag], still)
 
     def test_shells_are_elements_under_their_name(self):
         (shell,) = (name for name, entry in self.sets.items() if entry["type"] == "shell")
