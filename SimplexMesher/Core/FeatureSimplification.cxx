@@ -17,8 +17,9 @@ namespace
 {
 
 /// A voxel whose label fills less than this share of the ball around it may change. A flat boundary leaves a voxel 1/2,
-/// the surface of a ball of the same diameter 5/16; in between, thin walls go sooner and detail as large as s suffers.
-constexpr double requiredShare = 0.35;
+/// the surface of a strand of the ball's diameter 0.4, that of such a ball 5/16. Higher, small tissues suffer; lower,
+/// strands as thick as s stay.
+constexpr double requiredShare = 0.38;
 
 constexpr double largestSize = 16; ///< in smallest voxel spacings
 

@@ -5,8 +5,9 @@
 /// tunnels, handles and necks smaller than s(x) = F L(x) go, where L is the target edge length. Two local rules do it:
 /// - a region (an island of a tissue, a pocket of background) of less than s^3 goes to the labels around it;
 /// - a voxel of which the own label fills too small a share of the ball of diameter s around it goes to the label
-///   beside it that fills the most. A flat boundary leaves a voxel half the ball, and the surface of a ball as large as
-///   s still 5/16: what is larger than s stays where it is, while a strand, a thin wall or a narrow passage gives way.
+///   beside it that fills the most. A flat boundary leaves a voxel half the ball, and the surface of a long strand as
+///   thick as s two fifths: strands, thin walls and narrow passages give way, and what is flat or gently rounded stays
+///   where it is. A compact piece keeps its surface from about one and a half s on.
 /// The second is threshold dynamics (Merriman, Bence and Osher 1992) with a margin: without one, every round would move
 /// every boundary that is not flat. It takes as many rounds as s has voxels, and a last search for small regions
 /// follows. A narrow passage through a wall that is itself thin can remain.
