@@ -54,8 +54,9 @@ struct TissueSelection
   TissueTable tableOfInput;                ///< names and colours before
 };
 
-/// Joins groups, and makes background of the tissues left out; map.table and `settings` follow: a group has the smallest
-/// edge lengths and volumes that its members ask for, and is protected if one of them is. Shells are marked in map.table.
+/// Joins groups, and makes background of the tissues left out; map.table and `settings` follow: a group has the
+/// smallest edge lengths and volumes that its members ask for, and is protected if one of them is. Shells are marked in
+/// map.table.
 TissueSelection selectTissues(TissueMap& map, TissueSettings& settings);
 
 } // namespace surgicalmesher

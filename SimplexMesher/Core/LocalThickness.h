@@ -32,10 +32,10 @@ struct LocalThickness
 };
 
 /// Thickness at a voxel is the length of the chord of its tissue along the normal, which the labels of the 5x5x5 voxels
-/// around it tell: of a sheet the thickness, of a tube or ball the diameter. Where they tell no direction, and at the rim
-/// of a flat piece (at most three voxels along one axis, a fourth of what it is along the others), it is the shortest
-/// chord along an axis. Chords are followed up to L. `scale` is in world coordinates. Time grows with the number of voxels
-/// at surfaces, whatever the number of tissues.
+/// around it tell: of a sheet the thickness, of a tube or ball the diameter. Where they tell no direction, and at the
+/// rim of a flat piece (at most three voxels along one axis, a fourth of what it is along the others), it is the
+/// shortest chord along an axis. Chords are followed up to L. `scale` is in world coordinates. Time grows with the
+/// number of voxels at surfaces, whatever the number of tissues.
 LocalThickness measureThickness(const TissueMap& map, const ScaleField& scale);
 
 } // namespace surgicalmesher

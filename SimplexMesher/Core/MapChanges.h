@@ -36,9 +36,9 @@ struct MapChange
 };
 
 /// Every piece, by tissue, then kind. Each voxel that differs is in one piece that its label `before` lost, and in one
-/// that its label `after` gained. Pieces lost are joined through faces, pieces gained through corners as well; whether a
-/// piece joined others is seen from the voxels around it. Both maps have the same grid; voxels beyond it are background.
-/// Time grows with the number of voxels that differ.
+/// that its label `after` gained. Pieces lost are joined through faces, pieces gained through corners as well; whether
+/// a piece joined others is seen from the voxels around it. Both maps have the same grid; voxels beyond it are
+/// background. Time grows with the number of voxels that differ.
 std::vector<MapChange> mapChanges(const TissueMap& before, const TissueMap& after);
 
 } // namespace surgicalmesher

@@ -168,7 +168,8 @@ double volumeFor(Label label, const std::map<Label, double>& exceptions, double 
 /// Of each region of background, the volume under which it is to go.
 std::vector<double> cavityVolumes(const TissueMap& map, const Regions& regions, const PreparationOptions& options)
 {
-  std::vector<double> volumes(regions.list.size(), options.cavityVolumes.empty() ? options.minimumCavityVolume : HUGE_VAL);
+  const double general = options.minimumCavityVolume;
+  std::vector<double> volumes(regions.list.size(), options.cavityVolumes.empty() ? general : HUGE_VAL);
   if (options.cavityVolumes.empty()) return volumes;
   const auto steps = neighbourSteps(map.grid);
   const std::size_t size = map.grid.size[0];
@@ -185,7 +186,7 @@ std::vector<double> cavityVolumes(const TissueMap& map, const Regions& regions, 
         {
           const Label label = map.labels[v + steps[face]];
           if (label == 0) continue;
-          volumes[region] = std::min(volumes[region], volumeFor(label, options.cavityVolumes, options.minimumCavityVolume));
+          volumes[region] = std::min(volumes[region], volumeFor(label, options.cavityVolumes, general));
         }
       }
     }
@@ -212,7 +213,8 @@ std::vector<bool> findIslands(const TissueMap& map, const Regions& regions, cons
 }
 
 /// Leaves out the regions that hold a fixed voxel.
-void spareFixed(std::vector<bool>& chosen, const Regions& regions, const Grid& grid, const std::vector<bool>& fixedVoxels)
+void spareFixed(std::vector<bool>& chosen, const Regions& regions, const Grid& grid,
+                const std::vector<bool>& fixedVoxels)
 {
   const std::size_t size = grid.size[0];
   for (std::size_t row = 0; row + 1 < regions.rowBegins.size(); ++row)
@@ -354,8 +356,8 @@ private:
 
   bool isFixed(std::size_t voxel) const { return inMargin(voxel) || (m_Original && m_Fixed[voxel]); }
 
-  /// The cheapest change of one voxel of the block to another label of the block. Neither fixed voxels nor the last voxel
-  /// of a label are touched; cost stays at its maximum if nothing else is left.
+  /// The cheapest change of one voxel of the block to another label of the block. Neither fixed voxels nor the last
+  /// voxel of a label are touched; cost stays at its maximum if nothing else is left.
   Change bestChange(std::size_t block) const
   {
     Change best;

@@ -46,8 +46,8 @@ struct PreparationReport
 /// Number of critical 2x2x2 blocks of the map, padded by one layer of background.
 std::size_t countCriticalBlocks(const TissueMap& map);
 
-/// Removes islands and cavities, then resolves every contact; afterwards countCriticalBlocks() is 0, and every tissue that was
-/// present still is. Without islands to remove only voxels near critical blocks change. Deterministic. Throws
+/// Removes islands and cavities, then resolves every contact; afterwards countCriticalBlocks() is 0, and every tissue
+/// that was present still is. Without islands to remove only voxels near critical blocks change. Deterministic. Throws
 /// EngineError if a contact cannot be resolved, with its place in mm; the map is then as it was.
 PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, const Progress& progress = {});
 

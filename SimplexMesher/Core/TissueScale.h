@@ -8,7 +8,8 @@
 namespace surgicalmesher
 {
 
-/// `scale` if it covers the map; a scale of one value everywhere (uniformScale) becomes a volume of two voxels' spacing.
+/// `scale` if it covers the map; a scale of one value everywhere (uniformScale) becomes a volume of two voxels'
+/// spacing.
 ScaleField scaleVolume(const ScaleField& scale, const Grid& map);
 
 /// Gives every shell without an edge length the smallest that `scale` has on it.
@@ -18,9 +19,9 @@ void completeShells(TissueSettings& settings, const TissueMap& map, const ScaleF
 ///
 ///     L' = min(max(L, minimum), maximum)
 ///
-/// on all voxels of `scale` that linear interpolation there refers to. Where several tissues meet, the largest minimum and
-/// the smallest maximum count, the maximum first; on a shell, the smallest length of shells counts alone. Around places
-/// where L was lowered it rises by at most `gradation` per mm; 0 sets no limit.
+/// on all voxels of `scale` that linear interpolation there refers to. Where several tissues meet, the largest minimum
+/// and the smallest maximum count, the maximum first; on a shell, the smallest length of shells counts alone. Around
+/// places where L was lowered it rises by at most `gradation` per mm; 0 sets no limit.
 ///
 /// Without a tissue that has lengths, `scale` itself; otherwise a volume (scaleVolume).
 ScaleField followTissues(const ScaleField& scale, const TissueMap& map, const TissueSettings& settings,

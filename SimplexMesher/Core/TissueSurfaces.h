@@ -12,8 +12,8 @@ namespace surgicalmesher
 /// Faces between two tissues are in the surfaces of both. BoundaryDistance, whose sign is the complex's, is left out.
 std::map<Label, SurfaceFile> tissueSurfaces(const SurfaceFile& content);
 
-/// The text of a multi-block file (.vtm) that refers to one file per tissue, by their names as `files` has them, and names
-/// each block after its tissue.
+/// The text of a multi-block file (.vtm) that refers to one file per tissue, by their names as `files` has them, and
+/// names each block after its tissue.
 std::string multiBlockIndex(const std::map<Label, std::string>& files, const TissueTable& tissues);
 
 } // namespace surgicalmesher
