@@ -1,4 +1,7 @@
-"""Tissue names of all sorts, from segmentation to every export, CalculiX and Gmsh. usage: test_names.py BIN OUTDIR"""
+"""Tissue names of all sorts, shells and null displacement, from segmentation to every export and through solvers.
+
+usage: test_names.py BIN OUTDIR
+"""
 import json
 import os
 import re
@@ -133,12 +136,25 @@ class NamesTest(unittest.TestCase):
             found = {name.split(".")[1] for name in os.listdir() if re.fullmatch(rf"mesh\.\w+\.{extension}", name)}
             self.assertEqual(found, set(self.tissues.values()))
 
-    def test_calculix_and_gmsh_read_the_names(self):
-        if not shutil.which("ccx"):
-            self.skipTest("ccx is not installed")
-        ends = [name for name, entry in self.sets.items()
+    def ends(self):
+        """Three surfaces to clamp."""
+        return [name for name, entry in self.sets.items()
                 if entry["kind"] == "tissueInterface" and entry["ids"][1] == 0][:3]
-        figures = dict(script("calculix", "mesh.inp", *ends))
+
+    @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
+    def test_neo_hookean_tissue_is_linear_elastic_under_small_strain(self):
+        run("FuchsTetrahedralizerCLI", "--scale", "scale.nrrd", "--ambient", "ambient.vtu", "--targets",
+            "target.mrk.json", "--nonlinearDistance", "6", "--export", "soft.inp", "--export", "soft.msh2",
+            "surface.vtp", "soft.vtu")
+        self.assertEqual({material["law"] for material in Sidecar("soft.inp").materials.values()},
+                         {"linear elastic", "neo-Hookean"})
+        found = float(dict(script("calculix", "soft.inp", *self.ends()))["displacement"])
+        linear = [line[1] for line in script("getfem", "soft.msh2", *self.ends()) if line[:1] == ["displacement"]]
+        self.assertAlmostEqual(found / float(linear[0]), 1, delta=0.02)
+
+    @unittest.skipUnless(shutil.which("ccx"), "ccx is not installed")
+    def test_calculix_and_gmsh_read_the_names(self):
+        figures = dict(script("calculix", "mesh.inp", *self.ends()))
         self.assertTrue(0 < float(figures["displacement"]) < 10, figures)
         for extension in ("msh", "msh2"):
             groups = [line for line in script("gmsh", "mesh." + extension) if line[0] == "group"]
