@@ -191,7 +191,8 @@ bool SimplexOperators::staysCovered(const Patch& before, const Patch& after, con
     if (labels[0] < labels[1]) std::swap(labels[0], labels[1]);
     const auto covers = [&](const Facet& f) {
       const auto& [a, b, c] = f.shape.corners;
-      return f.labels == labels && squaredNorm(nearestOnTriangle(p, a, b, c) - p) <= bound * bound;
+      const double near = f.radius + bound;
+      return f.labels == labels && squaredNorm(p - f.centroid) <= near * near && squaredNorm(nearestOnTriangle(p, a, b, c) - p) <= bound * bound;
     };
     const auto covered = [&](const Patch& patch) { return std::any_of(patch.facets.begin(), patch.facets.end(), covers); };
     if (covered(before) && !covered(after)) holds = coveredElsewhere(p, bound, labels, old);
@@ -218,7 +219,10 @@ SimplexOperators::Patch SimplexOperators::patchOf(const std::vector<Triangle>& t
   Patch patch;
   for (const Triangle& t : triangles)
   {
-    patch.facets.push_back({ cornersOf(t), t.labels });
+    const CornerTriangle shape = cornersOf(t);
+    const auto& [a, b, c] = shape.corners;
+    const Vec3 centroid = (a + b + c) / 3;
+    patch.facets.push_back({ shape, t.labels, centroid, std::max({ norm(a - centroid), norm(b - centroid), norm(c - centroid) }) });
     patch.quality = std::min(patch.quality, qualityOf(patch.facets.back().shape));
   }
   return patch;

@@ -95,6 +95,8 @@ private:
   {
     CornerTriangle shape;
     std::array<Label, 2> labels;
+    Vec3 centroid;
+    double radius; ///< around the centroid
   };
   struct Patch
   {

@@ -1,9 +1,10 @@
 // The surface experiments of Audette et al. 2007 (figures 5 to 8), on the surface alone: dense boundary, decimation by
 // vtkDecimatePro, simplex mesh adapted to a scale; and vtkDecimatePro down to as many faces, for comparison.
 //
-//   SimplexExperiments FOLDER TEMPLATES
+//   SimplexExperiments FOLDER TEMPLATES [NAME]...
 //
-// FOLDER receives surfaces, simplex meshes, the evolution of each and table.csv; TEMPLATES holds mricron's atlases.
+// FOLDER receives surfaces, simplex meshes, the evolution of each and table.csv; TEMPLATES holds mricron's atlases. NAMEs
+// choose among cube, brain, tubes and path.
 
 #include "ComplexChecks.h"
 #include "ComplexIO.h"
@@ -101,6 +102,7 @@ SurfaceComplex startOf(const SurfaceComplex& dense, const TissueBoundary& bounda
   limits.proximity = [=](const Vec3&) { return 0.5 * length; };
   AdaptationOptions options;
   options.mostIterations = 4;
+  options.mostFusions = 1;
   SimplexOperators mesh(dense, boundary, limits);
   adaptSimplexMesh(mesh, boundary, options);
   return mesh.surface();
@@ -227,6 +229,7 @@ void perform(const Experiment& experiment, const std::string& folder, std::strin
   OperatorLimits limits;
   limits.edgeLength = [&](const Vec3& p) { return experiment.edgeLength(experiment.distance(p)); };
   limits.proximity = [&](const Vec3& p) { return experiment.proximity(experiment.distance(p)); };
+  std::cout << experiment.name << ": " << dense.points.size() << " faces, " << std::flush;
   const auto start = Clock::now();
   SimplexOperators mesh(before, boundary, limits);
   const std::vector<SimplexStep> steps = adaptSimplexMesh(mesh, boundary, {});
@@ -248,14 +251,14 @@ void perform(const Experiment& experiment, const std::string& folder, std::strin
     add("vtkDecimatePro", other, 0);
   }
   add("simplex", after, seconds);
-  std::cout << experiment.name << ": " << steps.front().faces << " to " << after.points.size() << " faces in " << seconds << " s" << std::endl;
+  std::cout << steps.front().faces << " to " << after.points.size() << " faces in " << seconds << " s" << std::endl;
 }
 
 /// Well-composed, without islands and pockets below `volume` mm^3, in the grid's own frame.
 TissueMap prepared(TissueMap map, double volume = 0)
 {
   PreparationOptions options;
-  options.minimumIslandVolume = options.minimumPocketVolume = volume;
+  options.minimumIslandVolume = options.minimumCavityVolume = volume;
   prepareMap(map, options);
   map.grid = inOwnFrame(map.grid);
   return map;
@@ -267,17 +270,17 @@ double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b)
   return norm(p - a - std::min(1., std::max(0., along)) * (b - a));
 }
 
-/// Every other voxel along each axis.
-TissueMap halved(const TissueMap& map)
+/// Every n-th voxel along each axis.
+TissueMap thinned(const TissueMap& map, int n)
 {
-  TissueMap half;
-  half.grid = map.grid;
-  half.grid.spacing = 2 * map.grid.spacing;
-  for (int& size : half.grid.size) size = (size + 1) / 2;
-  for (int k = 0; k < half.grid.size[2]; ++k)
-    for (int j = 0; j < half.grid.size[1]; ++j)
-      for (int i = 0; i < half.grid.size[0]; ++i) half.labels.push_back(map.labels[map.grid.index(2 * i, 2 * j, 2 * k)]);
-  return half;
+  TissueMap thin;
+  thin.grid = map.grid;
+  thin.grid.spacing = double(n) * map.grid.spacing;
+  for (int& size : thin.grid.size) size = (size + n - 1) / n;
+  for (int k = 0; k < thin.grid.size[2]; ++k)
+    for (int j = 0; j < thin.grid.size[1]; ++j)
+      for (int i = 0; i < thin.grid.size[0]; ++i) thin.labels.push_back(map.labels[map.grid.index(n * i, n * j, n * k)]);
+  return thin;
 }
 
 /// A hollow cube with two openings along x and two along y, and a hemispherical gland under its inner ceiling.
@@ -298,10 +301,10 @@ Experiment invaginatedCube()
 /// The outside of the brain: all tissues of the JHU atlas as one, dense around the pituitary gland.
 Experiment brain(const std::string& templates)
 {
-  TissueMap map = halved(readTissueMap(templates + "/jhu189.nii.gz"));
+  TissueMap map = thinned(readTissueMap(templates + "/jhu189.nii.gz"), 3);
   for (Label& label : map.labels) label = label != 0;
   const Vec3 target = map.grid.worldToGrid({ 0, 0, -10 });
-  return { "brain", prepared(map, 1e4), [=](const Vec3& p) { return norm(p - target); }, { 3, 16, 10, 35 }, { 1, 5, 10, 35 },
+  return { "brain", prepared(map, 1e4), [=](const Vec3& p) { return norm(p - target); }, { 4, 16, 10, 35 }, { 1.5, 5, 10, 35 },
            2618 };
 }
 
@@ -323,43 +326,45 @@ Experiment tubes()
            { 0.4, 0.4, 1, 1 } };
 }
 
-/// Head and brain, dense along a path through the nose to the pituitary gland. What of the head is both more than 10 mm from
-/// the path and more than 25 mm from its end is tissue of null displacement.
-Experiment path(const std::string& templates)
+/// A phantom of head and brain, dense along a path through the nose to the pituitary gland. What of the head is both more
+/// than 10 mm from the path and more than 25 mm from its end is tissue of null displacement (label 3).
+Experiment path()
 {
-  TissueMap head = halved(readTissueMap(templates + "/ch2.nii.gz"));
-  const TissueMap bet = halved(readTissueMap(templates + "/ch2bet.nii.gz"));
-  const Vec3 nose = head.grid.worldToGrid({ 0, -80, -45 }), gland = head.grid.worldToGrid({ 0, -4, -32 });
-  for (int k = 0; k < head.grid.size[2]; ++k)
-    for (int j = 0; j < head.grid.size[1]; ++j)
-      for (int i = 0; i < head.grid.size[0]; ++i)
-      {
-        const Vec3 p{ i * head.grid.spacing.x, j * head.grid.spacing.y, k * head.grid.spacing.z };
-        const std::size_t at = head.grid.index(i, j, k);
-        const bool far = distanceToSegment(p, nose, gland) > 10 && norm(p - gland) > 25;
-        head.labels[at] = bet.labels[at] > 0 ? 2 : head.labels[at] > 30 ? (far ? 3 : 1) : 0;
-      }
-  return { "path", prepared(head, 2e4), [=](const Vec3& p) { return distanceToSegment(p, nose, gland); }, { 3, 16, 10, 30 },
-           { 1, 4, 10, 30 } };
+  constexpr double voxel = 3;
+  const Vec3 nose{ 84, 6, 66 }, gland{ 84, 92, 84 };
+  const auto within = [](const Vec3& p, const Vec3& centre, const Vec3& axes) {
+    const Vec3 d = p - centre;
+    return d.x * d.x / (axes.x * axes.x) + d.y * d.y / (axes.y * axes.y) + d.z * d.z / (axes.z * axes.z) < 1;
+  };
+  const auto paint = [=](int i, int j, int k) {
+    const Vec3 p{ i * voxel, j * voxel, k * voxel };
+    if (within(p, { 84, 108, 114 }, { 60, 78, 54 })) return 2;
+    if (!within(p, { 84, 102, 90 }, { 78, 96, 84 })) return 0;
+    return distanceToSegment(p, nose, gland) > 10 && norm(p - gland) > 25 ? 3 : 1;
+  };
+  return { "path", prepared(test::paintedMap({ 56, 68, 60 }, paint, { voxel, voxel, voxel }), 1e3),
+           [=](const Vec3& p) { return distanceToSegment(p, nose, gland); }, { 4, 18, 10, 30 }, { 1.5, 5, 10, 30 } };
 }
 
 } // namespace
 
 int main(int argc, char** argv)
 {
-  if (argc != 3)
+  if (argc < 3)
   {
-    std::cerr << "usage: SimplexExperiments FOLDER TEMPLATES\n";
+    std::cerr << "usage: SimplexExperiments FOLDER TEMPLATES [NAME]...\n";
     return 2;
   }
   try
   {
     const std::string folder = argv[1], templates = argv[2];
     std::string table = std::string(columns) + "\n";
-    perform(invaginatedCube(), folder, table);
-    perform(brain(templates), folder, table);
-    perform(tubes(), folder, table);
-    perform(path(templates), folder, table);
+    const std::set<std::string> names(argv + 3, argv + argc);
+    const auto wanted = [&](const std::string& name) { return names.empty() || names.count(name) > 0; };
+    if (wanted("cube")) perform(invaginatedCube(), folder, table);
+    if (wanted("brain")) perform(brain(templates), folder, table);
+    if (wanted("tubes")) perform(tubes(), folder, table);
+    if (wanted("path")) perform(path(), folder, table);
     writeBytes(table, folder + "/table.csv");
   }
   catch (const Error& error)
