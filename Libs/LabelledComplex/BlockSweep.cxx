@@ -20,40 +20,79 @@ struct Range
   std::size_t begin, end; ///< into the permutation of tetrahedra
 };
 
+using Centroid = std::array<float, 3>;
+
 /// Recursive cuts along the axes in turn, beginning with the round's, unless the block is more than twice as long along
 /// another. What a cut locks stays fine, so that the next round's medians are drawn to the same plane: rounds cut at other
 /// shares as well.
-void cut(std::vector<std::int32_t>& order, const std::vector<std::array<float, 3>>& centroids, Range range, std::size_t most,
-         int round, int depth, std::vector<Range>& blocks)
+class Cuts
 {
-  const std::size_t n = range.end - range.begin;
-  if (n <= most)
+public:
+  /// `sample`: some of the centroids, each standing for `weight` of them.
+  Cuts(std::vector<Centroid> sample, double weight, std::size_t most, int round)
+    : m_Weight(weight), m_Most(most), m_Round(round)
   {
-    blocks.push_back(range);
-    std::sort(order.begin() + range.begin, order.begin() + range.end);
-    return;
+    cut(sample.data(), sample.data() + sample.size(), 0);
   }
-  std::array<float, 3> low = centroids[order[range.begin]], high = low;
-  for (std::size_t i = range.begin; i < range.end; ++i)
-    for (int k = 0; k < 3; ++k)
+
+  std::int32_t blockCount() const { return m_Blocks; }
+
+  std::int32_t blockOf(const Centroid& c) const
+  {
+    std::int32_t n = 0;
+    while (m_Nodes[n].axis >= 0) n = c[m_Nodes[n].axis] < m_Nodes[n].at ? n + 1 : m_Nodes[n].next;
+    return m_Nodes[n].next;
+  }
+
+private:
+  struct Node
+  {
+    std::int32_t axis; ///< -1: a block
+    float at;          ///< below it, the node that follows
+    std::int32_t next; ///< from it on, this node; or the block's number
+  };
+
+  void cut(Centroid* begin, Centroid* end, int depth)
+  {
+    const std::size_t n = std::size_t(end - begin);
+    const std::size_t node = m_Nodes.size();
+    const int axis = n < 2 || m_Weight * double(n) <= double(m_Most) ? -1 : axisOf(begin, end, depth);
+    m_Nodes.push_back({ axis, 0, axis < 0 ? m_Blocks : 0 });
+    if (axis < 0)
     {
-      low[k] = std::min(low[k], centroids[order[i]][k]);
-      high[k] = std::max(high[k], centroids[order[i]][k]);
+      ++m_Blocks;
+      return;
     }
-  int axis = (round + depth) % 3;
-  for (int k = 0; k < 3; ++k)
-    if (high[k] - low[k] > 2 * (high[axis] - low[axis])) axis = k;
-  constexpr double shares[] = { 0.5, 0.3, 0.7 };
-  const std::size_t middle = range.begin + std::max<std::size_t>(1, std::size_t(double(n) * shares[round % 3]));
-  std::nth_element(order.begin() + range.begin, order.begin() + middle, order.begin() + range.end,
-                   [&](std::int32_t a, std::int32_t b)
-                   {
-                     const float x = centroids[a][axis], y = centroids[b][axis];
-                     return x != y ? x < y : a < b;
-                   });
-  cut(order, centroids, { range.begin, middle }, most, round, depth + 1, blocks);
-  cut(order, centroids, { middle, range.end }, most, round, depth + 1, blocks);
-}
+    constexpr double shares[] = { 0.5, 0.3, 0.7 };
+    Centroid* middle = begin + std::max<std::size_t>(1, std::size_t(double(n) * shares[m_Round % 3]));
+    std::nth_element(begin, middle, end, [&](const Centroid& a, const Centroid& b) { return a[axis] < b[axis]; });
+    m_Nodes[node].at = (*middle)[axis];
+    cut(begin, middle, depth + 1);
+    m_Nodes[node].next = std::int32_t(m_Nodes.size());
+    cut(middle, end, depth + 1);
+  }
+
+  int axisOf(const Centroid* begin, const Centroid* end, int depth) const
+  {
+    Centroid low = *begin, high = low;
+    for (const Centroid* c = begin; c != end; ++c)
+      for (int k = 0; k < 3; ++k)
+      {
+        low[k] = std::min(low[k], (*c)[k]);
+        high[k] = std::max(high[k], (*c)[k]);
+      }
+    int axis = (m_Round + depth) % 3;
+    for (int k = 0; k < 3; ++k)
+      if (high[k] - low[k] > 2 * (high[axis] - low[axis])) axis = k;
+    return axis;
+  }
+
+  const double m_Weight;
+  const std::size_t m_Most;
+  const int m_Round;
+  std::vector<Node> m_Nodes;
+  std::int32_t m_Blocks = 0;
+};
 
 /// What a block gives back: ids below `known` are the mesh's own, the others its new vertices.
 struct BlockResult
@@ -78,7 +117,7 @@ public:
   Sweep(AmbientMesh& ambient, int round, std::size_t most) : m_Ambient(ambient)
   {
     const auto& mesh = ambient.mesh;
-    std::vector<std::array<float, 3>> centroids(mesh.tetrahedra.size());
+    std::vector<Centroid> centroids(mesh.tetrahedra.size());
     vtkSMPTools::For(0, vtkIdType(centroids.size()), [&](vtkIdType begin, vtkIdType end) {
       for (vtkIdType t = begin; t < end; ++t)
       {
@@ -87,9 +126,7 @@ public:
         centroids[t] = { float(c.x), float(c.y), float(c.z) };
       }
     });
-    m_Order.resize(centroids.size());
-    std::iota(m_Order.begin(), m_Order.end(), 0);
-    cut(m_Order, centroids, { 0, m_Order.size() }, most, round, 0, m_Blocks);
+    divide(centroids, round, most);
     sortEvidence();
     m_Results.resize(m_Blocks.size());
   }
@@ -139,21 +176,41 @@ public:
   }
 
 private:
+  void divide(const std::vector<Centroid>& centroids, int round, std::size_t most)
+  {
+    constexpr std::size_t sampleSize = 100000; // places each cut to within a percent of a block
+    const std::size_t stride = std::max<std::size_t>(1, centroids.size() / sampleSize);
+    std::vector<Centroid> sample;
+    for (std::size_t t = 0; t < centroids.size(); t += stride) sample.push_back(centroids[t]);
+    const Cuts cuts(std::move(sample), double(stride), most, round);
+    m_BlockOf.resize(centroids.size());
+    vtkSMPTools::For(0, vtkIdType(centroids.size()), [&](vtkIdType begin, vtkIdType end) {
+      for (vtkIdType t = begin; t < end; ++t) m_BlockOf[t] = cuts.blockOf(centroids[t]);
+    });
+    std::vector<std::size_t> start(cuts.blockCount() + 1, 0);
+    for (const std::int32_t b : m_BlockOf) ++start[b + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    for (std::int32_t b = 0; b < cuts.blockCount(); ++b) m_Blocks.push_back({ start[b], start[b + 1] });
+    m_Order.resize(centroids.size());
+    m_LocalTet.resize(centroids.size());
+    for (std::size_t t = 0; t < centroids.size(); ++t)
+    {
+      const std::size_t at = start[m_BlockOf[t]]++;
+      m_Order[at] = std::int32_t(t);
+      m_LocalTet[t] = std::int32_t(at - m_Blocks[m_BlockOf[t]].begin);
+    }
+  }
+
   void sortEvidence()
   {
     const std::size_t n = m_Ambient.evidence.size();
-    std::vector<std::int32_t> block(m_Order.size());
-    for (std::size_t b = 0; b < m_Blocks.size(); ++b)
-      for (std::size_t i = m_Blocks[b].begin; i < m_Blocks[b].end; ++i) block[m_Order[i]] = std::int32_t(b);
+    const std::vector<std::int32_t>& block = m_BlockOf;
     m_EvidenceStart.assign(m_Blocks.size() + 1, 0);
     for (const auto& e : m_Ambient.evidence) ++m_EvidenceStart[block[e.tetrahedron] + 1];
     std::partial_sum(m_EvidenceStart.begin(), m_EvidenceStart.end(), m_EvidenceStart.begin());
     m_EvidenceOrder.resize(n);
     std::vector<std::size_t> at(m_EvidenceStart.begin(), m_EvidenceStart.end() - 1);
     for (std::size_t e = 0; e < n; ++e) m_EvidenceOrder[at[block[m_Ambient.evidence[e].tetrahedron]]++] = std::int32_t(e);
-    m_LocalTet.resize(m_Order.size());
-    for (const Range& r : m_Blocks)
-      for (std::size_t i = r.begin; i < r.end; ++i) m_LocalTet[m_Order[i]] = std::int32_t(i - r.begin);
     m_Known = std::int32_t(m_Ambient.mesh.points.size());
   }
 
@@ -256,7 +313,7 @@ private:
 
   AmbientMesh& m_Ambient;
   std::int32_t m_Known = 0;
-  std::vector<std::int32_t> m_Order, m_LocalTet, m_EvidenceOrder;
+  std::vector<std::int32_t> m_BlockOf, m_Order, m_LocalTet, m_EvidenceOrder;
   std::vector<Range> m_Blocks;
   std::vector<std::size_t> m_EvidenceStart;
   std::vector<BlockResult> m_Results;

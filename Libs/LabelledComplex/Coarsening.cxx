@@ -1,5 +1,6 @@
 #include "Coarsening.h"
 
+#include "EvidenceFit.h"
 #include "TetQuality.h"
 
 #include <algorithm>
@@ -117,15 +118,18 @@ private:
   void visit(std::int32_t u)
   {
     ++m_Tries[u];
+    m_U = u;
     shortNeighbours(u);
     const Vec3 from = m_Complex.points[u];
     m_Candidates.clear();
+    const bool fits = m_Options.fit && quadricAt(u, m_QuadricOfU);
     for (double share : { 1.0, 0.5, 0.0 })
       for (const Neighbour& n : m_Near)
       {
         if (share < 1 && m_Complex.locked[n.vertex]) continue;
         const Vec3 to = m_Complex.points[n.vertex];
-        const Vec3 p = share == 1 ? to : from + share * (to - from);
+        Vec3 p = share == 1 ? to : from + share * (to - from);
+        if (share == 0.5 && fits) p = fitted(n.vertex, p);
         const double q = m_Operations.qualityAfterCollapse(u, n.vertex, p, m_Low);
         if (q < m_Low) continue;
         if (q >= m_Good && collapse(u, { q, n.vertex, p })) return;
@@ -135,6 +139,29 @@ private:
                      [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; });
     for (const Candidate& c : m_Candidates)
       if (collapse(u, c)) return;
+  }
+
+  /// What the evidence at v says of its position: m x = g. False if v has none.
+  bool quadricAt(std::int32_t v, Fit& quadric)
+  {
+    sheetFaces(m_Complex, v, v == m_U ? m_Operations.star(v) : m_Star, m_Faces);
+    quadric = fitOf(m_Complex, v, m_Faces);
+    quadric.g += quadric.times(m_Complex.points[v]);
+    return quadric.trace() > 0;
+  }
+
+  /// Where the evidence of u and v together would like the vertex they become; held by a spring to `middle`.
+  Vec3 fitted(std::int32_t v, const Vec3& middle)
+  {
+    Fit both;
+    m_Complex.star(v, m_Star);
+    if (!quadricAt(v, both)) return middle;
+    for (int k = 0; k < 6; ++k) both.m[k] += m_QuadricOfU.m[k];
+    both.g += m_QuadricOfU.g;
+    const double spring = 0.02 * both.trace();
+    both.addToDiagonal(spring);
+    const Vec3 p = both.solve(both.g + spring * middle);
+    return squaredNorm(p - middle) < squaredNorm(m_Complex.points[v] - middle) ? p : middle;
   }
 
   bool collapse(std::int32_t u, const Candidate& c)
@@ -162,6 +189,10 @@ private:
   LengthQueue m_Queue;
   std::vector<Neighbour> m_Near;
   std::vector<Candidate> m_Candidates;
+  std::int32_t m_U = -1;
+  Fit m_QuadricOfU;
+  std::vector<SheetFace> m_Faces;
+  std::vector<std::int32_t> m_Star;
   std::vector<std::uint32_t> m_Seen;
   std::uint32_t m_Stamp = 0;
 };

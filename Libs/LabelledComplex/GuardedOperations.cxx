@@ -45,8 +45,8 @@ double squaredDistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, co
   return h * h / squaredNorm(n);
 }
 
-GuardedOperations::GuardedOperations(TetComplex& complex, ScaleFunction scale, double rmsLimit)
-  : m_Complex(complex), m_Scale(std::move(scale)), m_MeanSquareLimit(rmsLimit * rmsLimit)
+GuardedOperations::GuardedOperations(TetComplex& complex, ScaleFunction scale, double rmsLimit, double slack)
+  : m_Complex(complex), m_Scale(std::move(scale)), m_MeanSquareLimit(rmsLimit * rmsLimit), m_SquaredSlack(slack * slack)
 {
 }
 
@@ -73,12 +73,6 @@ bool GuardedOperations::singleLabel(const std::vector<std::int32_t>& star) const
                      [&](std::int32_t t) { return m_Complex.labels[t] == m_Complex.labels[star[0]]; });
 }
 
-GuardedOperations::Pair GuardedOperations::pairOf(std::int32_t t, std::int32_t n) const
-{
-  const Label a = m_Complex.labels[t], b = m_Complex.labels[n];
-  return a < b ? Pair{ a, b } : Pair{ b, a };
-}
-
 // --- evidence -------------------------------------------------------------------------------------------------------
 
 void GuardedOperations::clearEvidence()
@@ -97,17 +91,80 @@ void GuardedOperations::gather(std::int32_t t, int face)
   const auto& v = m_Complex.tets[t];
   const std::array<std::int32_t, 3> ids{ v[(face + 1) & 3], v[(face + 2) & 3], v[(face + 3) & 3] };
   const auto& p = m_Complex.points;
-  const Pair pair = pairOf(t, m_Complex.neighbours[t][face]);
-  m_OldFaces.push_back({ { p[ids[0]], p[ids[1]], p[ids[2]] }, pair, ids });
+  const Pair pair = pairOf(m_Complex.labels[t], m_Complex.labels[m_Complex.neighbours[t][face]]);
+  m_OldFaces.push_back({ { p[ids[0]], p[ids[1]], p[ids[2]] }, pair, ids, {}, {}, {} });
   m_Holders.push_back(holder);
   for (std::int32_t e = m_Complex.evidenceHeads[holder.first][holder.second]; e >= 0; e = m_Complex.evidence[e].next)
-    m_Gathered.push_back({ e, pair, std::int32_t(m_OldFaces.size()) - 1, -1 });
+    m_Gathered.push_back({ e, pair, std::int32_t(m_OldFaces.size()) - 1, -1, 0 });
 }
 
 void GuardedOperations::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids,
                                    Label x, Label y)
 {
-  m_NewFaces.push_back({ { a, b, c }, x < y ? Pair{ x, y } : Pair{ y, x }, ids });
+  Face f{ { a, b, c }, pairOf(x, y), ids, {}, {}, {} };
+  const Vec3 n = cross(b - a, c - a);
+  const double area2 = squaredNorm(n); // positive, as the tetrahedra on both sides are
+  f.normal = n / std::sqrt(area2);
+  f.slopes = { cross(n, c - b) / area2, cross(n, a - c) / area2, cross(n, b - a) / area2 };
+  for (int k = 0; k < 3; ++k) f.heights[k] = 1 / squaredNorm(f.slopes[k]);
+  m_NewFaces.push_back(f);
+}
+
+double GuardedOperations::squaredDistanceNow(const Gathered& g)
+{
+  Evidence& e = m_Complex.evidence[g.id];
+  const auto& corners = m_OldFaces[g.from].corners;
+  if (e.distance2 < 0) e.distance2 = squaredDistanceToTriangle(e.position, corners[0], corners[1], corners[2]);
+  return e.distance2;
+}
+
+/// Finds g the nearest new face of its pair; false if there is none. Beyond the line of a side, the distance to that line
+/// bounds the distance to the face from below, which spares most faces the full test.
+bool GuardedOperations::nearestFace(Gathered& g) const
+{
+  g.distance2 = std::numeric_limits<double>::max();
+  const Vec3& p = m_Complex.evidence[g.id].position;
+  for (std::size_t k = 0; k < m_NewFaces.size(); ++k)
+  {
+    const Face& f = m_NewFaces[k];
+    if (f.pair != g.pair) continue;
+    const Vec3 d = p - f.corners[0];
+    const double height = dot(f.normal, d);
+    double d2 = height * height;
+    if (d2 >= g.distance2) continue;
+    const double second = dot(f.slopes[1], d), third = dot(f.slopes[2], d), first = 1 - second - third;
+    double beyond = 0;
+    if (first < 0) beyond = std::max(beyond, first * first * f.heights[0]);
+    if (second < 0) beyond = std::max(beyond, second * second * f.heights[1]);
+    if (third < 0) beyond = std::max(beyond, third * third * f.heights[2]);
+    if (d2 + beyond >= g.distance2) continue;
+    if (beyond > 0) d2 = squaredDistanceToTriangle(p, f.corners[0], f.corners[1], f.corners[2]);
+    if (d2 < g.distance2) g.distance2 = d2, g.to = std::int32_t(k);
+  }
+  return g.to >= 0;
+}
+
+double GuardedOperations::squaredTolerance(const Gathered& g) const
+{
+  const double tolerance = m_Complex.evidence[g.id].tolerance;
+  return m_SquaredSlack * tolerance * tolerance;
+}
+
+/// Where two tissues cease to touch, the boundary of each stays within the tolerance of their points.
+bool GuardedOperations::tissuesStayNear(const Gathered& g) const
+{
+  const Evidence& e = m_Complex.evidence[g.id];
+  const double tolerance2 = squaredTolerance(g);
+  const auto near = [&](Label label)
+  {
+    return std::any_of(m_NewFaces.begin(), m_NewFaces.end(),
+                       [&](const Face& f)
+                       {
+                         const auto& [a, b, c] = f.corners;
+                         return has(f.pair, label) && squaredDistanceToTriangle(e.position, a, b, c) <= tolerance2;
+                       });
+  };
+  return near(Label(g.pair)) && near(Label(g.pair >> 16));
 }
 
 /// Assigns every gathered point to the nearest new face of its pair; false if one would lie beyond its tolerance and
@@ -115,40 +172,18 @@ void GuardedOperations::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, 
 /// two tissues cease to touch, their points are let go if each tissue's boundary stays within tolerance.
 bool GuardedOperations::evidenceStays()
 {
-  constexpr double none = std::numeric_limits<double>::max();
-  const auto now = [&](const Gathered& g)
-  {
-    const Face& f = m_OldFaces[g.from];
-    return squaredDistanceToTriangle(m_Complex.evidence[g.id].position, f.corners[0], f.corners[1], f.corners[2]);
-  };
   double sum = 0;
   for (Gathered& g : m_Gathered)
   {
-    const Evidence& e = m_Complex.evidence[g.id];
-    double best = none, ofFirst = none, ofSecond = none;
-    for (std::size_t k = 0; k < m_NewFaces.size(); ++k)
-    {
-      const Face& f = m_NewFaces[k];
-      const bool first = f.pair[0] == g.pair[0] || f.pair[1] == g.pair[0];
-      const bool second = f.pair[0] == g.pair[1] || f.pair[1] == g.pair[1];
-      if (!first && !second) continue;
-      const double d = squaredDistanceToTriangle(e.position, f.corners[0], f.corners[1], f.corners[2]);
-      if (first && second && d < best) best = d, g.to = std::int32_t(k);
-      if (first) ofFirst = std::min(ofFirst, d);
-      if (second) ofSecond = std::min(ofSecond, d);
-    }
-    const double tolerance2 = double(e.tolerance) * e.tolerance;
-    sum += std::min(1.0, best / tolerance2);
-    if (best <= tolerance2) continue;
-    if (best == none ? std::max(ofFirst, ofSecond) > tolerance2 : best > now(g) * (1 + 1e-9)) return false;
+    const double tolerance2 = squaredTolerance(g);
+    const bool kept = nearestFace(g);
+    sum += std::min(1.0, g.distance2 / tolerance2);
+    if (g.distance2 <= tolerance2) continue;
+    if (kept ? g.distance2 > squaredDistanceNow(g) * (1 + 1e-9) : !tissuesStayNear(g)) return false;
   }
   if (sum <= m_MeanSquareLimit * double(m_Gathered.size())) return true;
   double before = 0;
-  for (const Gathered& g : m_Gathered)
-  {
-    const double tolerance = m_Complex.evidence[g.id].tolerance;
-    before += std::min(1.0, now(g) / (tolerance * tolerance));
-  }
+  for (const Gathered& g : m_Gathered) before += std::min(1.0, squaredDistanceNow(g) / squaredTolerance(g));
   return sum <= before * (1 + 1e-9);
 }
 
@@ -184,6 +219,7 @@ void GuardedOperations::attachEvidence(const std::vector<std::int32_t>& around)
   {
     if (g->to < 0) continue;
     const auto [t, i] = holders[g->to];
+    m_Complex.evidence[g->id].distance2 = g->distance2;
     m_Complex.evidence[g->id].next = m_Complex.evidenceHeads[t][i];
     m_Complex.evidenceHeads[t][i] = g->id;
   }

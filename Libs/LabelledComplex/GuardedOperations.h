@@ -27,8 +27,9 @@ class GuardedOperations
 {
 public:
   /// The evidence that an operation touches keeps its root mean square distance, in units of its tolerance, under
-  /// `rmsLimit`, or does not raise it: single points may use up their tolerance where the others lie close.
-  GuardedOperations(TetComplex& complex, ScaleFunction scale, double rmsLimit = 0.5);
+  /// `rmsLimit`, or does not raise it: single points may use up their tolerance where the others lie close. Tolerances
+  /// count `slack` times.
+  GuardedOperations(TetComplex& complex, ScaleFunction scale, double rmsLimit = 0.5, double slack = 1);
 
   double quality(std::int32_t t) const { return lenient(t, m_Complex.quality(t)); }
   double starQuality(const std::vector<std::int32_t>& tetrahedra) const;
@@ -62,12 +63,15 @@ public:
   std::int32_t lastSplitVertex = -1;
 
 private:
-  using Pair = std::array<Label, 2>; ///< ascending
+  using Pair = std::uint32_t; ///< two labels, the larger one in the upper half: compared far more often than taken apart
   struct Face                        ///< an interface face as it would be, and where its evidence would go
   {
     std::array<Vec3, 3> corners;
     Pair pair;
     std::array<std::int32_t, 3> vertices;
+    Vec3 normal;                   ///< unit
+    std::array<Vec3, 3> slopes;    ///< gradients of the barycentric coordinates
+    std::array<double, 3> heights; ///< squared, over the side opposite each corner
   };
   struct Gathered
   {
@@ -75,6 +79,7 @@ private:
     Pair pair;
     std::int32_t from; ///< index into m_OldFaces
     std::int32_t to;   ///< index into m_NewFaces
+    double distance2;  ///< to m_NewFaces[to]
   };
 
   const std::vector<std::int32_t>& cachedStar(std::int32_t v, std::vector<std::int32_t>& star, std::int32_t& of);
@@ -88,16 +93,21 @@ private:
   bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
   void gather(std::int32_t t, int face);
   void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x, Label y);
+  double squaredDistanceNow(const Gathered& g);
+  bool nearestFace(Gathered& g) const;
+  bool tissuesStayNear(const Gathered& g) const;
+  double squaredTolerance(const Gathered& g) const;
   bool evidenceStays();
   void detachEvidence();
   void attachEvidence(const std::vector<std::int32_t>& around);
   void clearEvidence();
-  Pair pairOf(std::int32_t t, std::int32_t n) const;
+  static Pair pairOf(Label a, Label b) { return a < b ? Pair(b) << 16 | a : Pair(a) << 16 | b; }
+  static bool has(Pair pair, Label label) { return (pair & 0xffff) == label || pair >> 16 == label; }
   Label localBit(Label label);
 
   TetComplex& m_Complex;
   ScaleFunction m_Scale;
-  double m_MeanSquareLimit;
+  double m_MeanSquareLimit, m_SquaredSlack;
   std::int32_t m_StarVertex = -1, m_StarOfVVertex = -1; ///< whose stars the next two are; -1: nobody's
   std::vector<std::int32_t> m_Star, m_StarOfV, m_Ring, m_RingVertices, m_EdgeRing, m_EdgeRingVertices;
   std::vector<Face> m_OldFaces, m_NewFaces;

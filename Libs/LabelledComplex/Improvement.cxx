@@ -1,5 +1,6 @@
 #include "Improvement.h"
 
+#include "EvidenceFit.h"
 #include "TetQuality.h"
 
 #include <algorithm>
@@ -10,16 +11,6 @@ namespace surgicalmesher
 
 namespace
 {
-
-/// Solves the symmetric 3x3 system m x = b.
-Vec3 solve(const double m[6], const Vec3& b) // xx xy xz yy yz zz
-{
-  const Vec3 r0{ m[0], m[1], m[2] }, r1{ m[1], m[3], m[4] }, r2{ m[2], m[4], m[5] };
-  const Vec3 c0 = cross(r1, r2), c1 = cross(r2, r0), c2 = cross(r0, r1);
-  const double det = dot(r0, c0);
-  if (!(std::abs(det) > 1e-300)) return {};
-  return (b.x * c0 + b.y * c1 + b.z * c2) / det;
-}
 
 class Relaxation
 {
@@ -36,27 +27,9 @@ public:
   }
 
 private:
-  struct SheetFace
-  {
-    std::int32_t tet;
-    int face;
-    std::int32_t x, y; ///< the two vertices beside v
-  };
-
   void relax(std::int32_t v)
   {
-    m_Faces.clear();
-    for (std::int32_t t : m_Operations.star(v))
-      for (int i = 0; i < 4; ++i)
-      {
-        const std::int32_t n = m_Complex.neighbours[t][i];
-        if (m_Complex.tets[t][i] == v || n < t || m_Complex.labels[n] == m_Complex.labels[t]) continue;
-        std::int32_t others[2];
-        int k = 0;
-        for (int j = 0; j < 4; ++j)
-          if (j != i && m_Complex.tets[t][j] != v) others[k++] = m_Complex.tets[t][j];
-        m_Faces.push_back({ t, i, others[0], others[1] });
-      }
+    sheetFaces(m_Complex, v, m_Operations.star(v), m_Faces);
     const Vec3 step = m_Faces.empty() ? towardsMiddle(v) : onInterface(v);
     const double before = m_Operations.starQuality(m_Operations.star(v));
     const double floor = std::min(m_Good, before);
@@ -90,33 +63,11 @@ private:
   /// Least squares over the evidence of the faces at v, held by a spring to the middle of the neighbours on the interface.
   Vec3 onInterface(std::int32_t v)
   {
-    const Vec3 p = m_Complex.points[v];
-    double m[6] = { 0, 0, 0, 0, 0, 0 };
-    Vec3 g;
-    for (const SheetFace& f : m_Faces)
-    {
-      const auto [h, i] = m_Complex.holder(f.tet, f.face);
-      const Vec3 x = m_Complex.points[f.x], y = m_Complex.points[f.y];
-      const Vec3 n = cross(x - p, y - p);
-      const double area2 = squaredNorm(n);
-      if (!(area2 > 0)) continue;
-      const Vec3 unit = n / std::sqrt(area2);
-      const Vec3 slope = cross(unit, y - x) / std::sqrt(area2); // gradient of v's barycentric coordinate
-      for (std::int32_t e = m_Complex.evidenceHeads[h][i]; e >= 0; e = m_Complex.evidence[e].next)
-      {
-        const Vec3 d = m_Complex.evidence[e].position - p;
-        const double b = std::clamp(1 + dot(slope, d), 0.0, 1.0), r = dot(unit, d);
-        const double w = b * b;
-        m[0] += w * unit.x * unit.x, m[1] += w * unit.x * unit.y, m[2] += w * unit.x * unit.z;
-        m[3] += w * unit.y * unit.y, m[4] += w * unit.y * unit.z, m[5] += w * unit.z * unit.z;
-        g += (b * r) * unit;
-      }
-    }
-    const double trace = m[0] + m[3] + m[5];
-    if (!(trace > 0)) return {};
-    const double spring = 0.05 * trace / m_Options.fit;
-    m[0] += spring, m[3] += spring, m[5] += spring;
-    return solve(m, g + spring * alongInterface(v));
+    Fit fit = fitOf(m_Complex, v, m_Faces);
+    if (!(fit.trace() > 0)) return {};
+    const double spring = 0.05 * fit.trace() / m_Options.fit;
+    fit.addToDiagonal(spring);
+    return fit.solve(fit.g + spring * alongInterface(v));
   }
 
   /// Towards the middle of the neighbours on the same curve, or on the sheet; nothing where curves meet.
@@ -151,6 +102,88 @@ private:
   const double m_Good;
   std::vector<SheetFace> m_Faces;
   std::vector<std::pair<std::int32_t, int>> m_Degree;
+};
+
+/// Turns `direction` at a vertex on the interface into one that its evidence resists less.
+Vec3 easiest(const Fit& held, const Vec3& direction)
+{
+  const Vec3 d = held.solve(direction);
+  const double n = norm(d);
+  return n > 0 ? d / n : Vec3{};
+}
+
+class Polishing
+{
+public:
+  Polishing(GuardedOperations& operations, const PolishOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options), m_Good(sine2OfDegrees(options.goodAngle))
+  {
+  }
+
+  void run()
+  {
+    for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
+    {
+      if (m_Complex.vertexTet[v] < 0 || m_Complex.locked[v]) continue;
+      sheetFaces(m_Complex, v, m_Operations.star(v), m_Faces);
+      if (!m_Faces.empty()) moveToEvidence(v);
+      climb(v);
+    }
+  }
+
+private:
+  void moveToEvidence(std::int32_t v)
+  {
+    Fit fit = fitOf(m_Complex, v, m_Faces);
+    fit.addToDiagonal(0.05 * fit.trace() / m_Options.fit);
+    const Vec3 step = fit.solve(fit.g);
+    const double before = m_Operations.starQuality(m_Operations.star(v));
+    for (double share : { 1.0, 0.5, 0.25 })
+      if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : std::min(m_Good, before))) return;
+  }
+
+  /// Sum of the sines of the worst angles at v, if it were at p; -1 if one is under `floor`.
+  double sumOfSines(std::int32_t v, const Vec3& p, double floor)
+  {
+    double sum = 0;
+    for (std::int32_t t : m_Operations.star(v))
+    {
+      const double q = m_Complex.qualityWith(t, v, p);
+      const bool outside = m_Complex.labels[t] == 0;
+      if ((outside ? backgroundLeniency * q : q) < floor) return -1;
+      if (!outside) sum += std::sqrt(std::max(0.0, q));
+    }
+    return sum;
+  }
+
+  void climb(std::int32_t v)
+  {
+    const Vec3 p = m_Complex.points[v];
+    const double size = m_Complex.lengths[v], h = 1e-4 * size;
+    const double floor = std::min(m_Good, m_Operations.starQuality(m_Operations.star(v)));
+    const double now = sumOfSines(v, p, -1);
+    Vec3 direction;
+    for (int a = 0; a < 3; ++a)
+    {
+      Vec3 q = p;
+      q[a] += h;
+      direction[a] = sumOfSines(v, q, -1) - now;
+    }
+    Fit held = fitOf(m_Complex, v, m_Faces);
+    held.addToDiagonal(m_Faces.empty() ? 1 : m_Options.ease * held.trace());
+    direction = easiest(held, direction);
+    for (double step : { 0.12, 0.06, 0.03 })
+    {
+      const Vec3 q = p + step * size * direction;
+      if (sumOfSines(v, q, floor) > now && m_Operations.move(v, q, floor)) return;
+    }
+  }
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const PolishOptions& m_Options;
+  const double m_Good;
+  std::vector<SheetFace> m_Faces;
 };
 
 /// A fixed sequence of directions, for reproducible trials.
@@ -280,10 +313,13 @@ private:
     const double start = best;
     const double size = m_Complex.lengths[v];
     double step = 0.12 * size;
+    sheetFaces(m_Complex, v, m_Operations.star(v), m_Faces);
+    Fit held = fitOf(m_Complex, v, m_Faces);
+    held.addToDiagonal(m_Faces.empty() ? 1 : m_Options.ease * held.trace());
     for (int trial = 0; trial < m_Options.trials && best < m_Target && step > 0.004 * size; ++trial)
     {
       const Vec3 p = m_Complex.points[v];
-      const Vec3 direction = trial % 3 != 2 ? gradient(v, p, best, 1e-4 * size) : m_Directions.next();
+      const Vec3 direction = easiest(held, trial % 3 != 2 ? gradient(v, p, best, 1e-4 * size) : m_Directions.next());
       const Vec3 q = p + step * direction;
       if (starWith(v, q, best) > best && m_Operations.move(v, q, best))
       {
@@ -329,12 +365,14 @@ private:
       for (const auto& [u, v] : { std::pair(a, b), std::pair(b, a) })
       {
         if (m_Complex.locked[u]) continue;
-        const double before = m_Operations.starQuality(m_Operations.star(u));
-        if (m_Operations.collapse(u, v, m_Complex.points[v], before * 1.0001 + 1e-9, m_Options.longEdge))
-        {
-          touchStar(v);
-          return true;
-        }
+        const double before = m_Operations.starQuality(m_Operations.star(u)) * 1.0001 + 1e-9;
+        const Vec3 from = m_Complex.points[u], to = m_Complex.points[v];
+        for (double share : { 1.0, 0.5 })
+          if (m_Operations.collapse(u, v, from + share * (to - from), before, m_Options.longEdge))
+          {
+            touchStar(v);
+            return true;
+          }
       }
       return false;
     });
@@ -388,6 +426,7 @@ private:
   Directions m_Directions;
   std::vector<std::uint8_t> m_Touched; ///< per vertex
   std::vector<std::int32_t> m_Ring, m_RingVertices;
+  std::vector<SheetFace> m_Faces;
 };
 
 } // namespace
@@ -395,6 +434,11 @@ private:
 void relaxBlock(GuardedOperations& operations, const RelaxationOptions& options)
 {
   Relaxation(operations, options).run();
+}
+
+void polishBlock(GuardedOperations& operations, const PolishOptions& options)
+{
+  Polishing(operations, options).run();
 }
 
 void improveBlock(GuardedOperations& operations, const ImprovementOptions& options)

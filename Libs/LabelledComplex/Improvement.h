@@ -18,6 +18,17 @@ struct RelaxationOptions
 /// towards the middle of its neighbours there and, along the normals, to the least-squares fit of its faces to their evidence.
 void relaxBlock(GuardedOperations& operations, const RelaxationOptions& options = {});
 
+struct PolishOptions
+{
+  double goodAngle = 29.5; ///< degrees; as in RelaxationOptions
+  double fit = 1;          ///< weight of the evidence against staying
+  double ease = 0.02;      ///< how easily a vertex leaves its evidence for better angles: 0 not at all, 1 freely
+};
+
+/// Moves every free vertex once to the least-squares fit of its faces to their evidence, and once up the sum of the sines of
+/// the worst angles at it, on the interface along sheets and curves rather than across.
+void polishBlock(GuardedOperations& operations, const PolishOptions& options = {});
+
 struct ImprovementOptions
 {
   double targetAngle = 34;   ///< degrees; tetrahedra with a dihedral angle below this, or above 180 minus it, are worked on
@@ -25,6 +36,7 @@ struct ImprovementOptions
   double longEdge = 1.6;
   bool split = true;
   double splitEdge = 1.0;    ///< splits are tried on edges from this share of the target on
+  double ease = 0.02;        ///< as in PolishOptions
   int trials = 12;           ///< positions tried for each vertex
   int passes = 3;            ///< later passes work only where something has changed
 };

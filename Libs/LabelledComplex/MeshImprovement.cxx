@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace surgicalmesher
 {
@@ -13,6 +14,32 @@ namespace
 {
 
 constexpr std::size_t blockSize = 40000; // tetrahedra
+
+/// Splits cost regular sizes and drift costs fidelity: both only in the end, where an angle is still bad. Then in one block:
+/// borders are locked, and what is still bad lies at them.
+struct Step
+{
+  double rmsLimit, slack; ///< see GuardedOperations
+  int relaxations, polishes;
+  int trials, passes;
+  double splitEdge; ///< 0: no splits
+  bool whole;
+};
+constexpr Step steps[] = {
+  { 0.3, 1, 1, 3, 8, 2, 0, false }, { 0.5, 1, 1, 3, 12, 2, 0, false }, { 0.8, 1, 0, 3, 16, 2, 0, false },
+  { 1, 1, 0, 0, 20, 3, 0, true },   { 1, 2, 0, 0, 20, 3, 0.6, true },  { 1, 2, 0, 0, 20, 3, 0.4, true },
+};
+
+ImprovementOptions improvementOf(const Step& step, double targetAngle)
+{
+  ImprovementOptions o;
+  o.targetAngle = targetAngle;
+  o.trials = step.trials;
+  o.passes = step.passes;
+  o.split = step.splitEdge > 0;
+  o.splitEdge = step.splitEdge;
+  return o;
+}
 
 /// Points on every interface triangle, about half a target length apart: where the surface is now.
 void placeEvidence(AmbientMesh& ambient, double tolerance)
@@ -45,24 +72,20 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
   ambient.mesh = mesh;
   for (const Vec3& p : mesh.points) ambient.lengths.push_back(scale(p));
   placeEvidence(ambient, options.surfaceTolerance);
-  for (int i = 0; i < options.sweeps; ++i)
+  const std::size_t sweeps = std::size(steps);
+  for (std::size_t i = 0; i < sweeps; ++i)
   {
-    const bool last = i + 1 == options.sweeps;
-    ImprovementOptions improvement;
-    // Splits cost regular sizes and drift costs fidelity: both only in the end, where an angle is still bad.
-    improvement.targetAngle = last ? 0.9 * options.targetAngle : options.targetAngle;
-    improvement.split = last;
-    improvement.splitEdge = 0.8;
-    improvement.trials = last ? 20 : 12;
+    const Step& step = steps[i];
     sweepBlocks(
-      ambient, i, blockSize,
+      ambient, int(i), step.whole ? ambient.mesh.tetrahedra.size() : blockSize,
       [&](TetComplex& block)
       {
-        GuardedOperations operations(block, scale, last ? 0.8 : 0.3);
-        if (!last) relaxBlock(operations);
-        improveBlock(operations, improvement);
+        GuardedOperations operations(block, scale, step.rmsLimit, step.slack);
+        for (int k = 0; k < step.relaxations; ++k) relaxBlock(operations);
+        for (int k = 0; k < step.polishes; ++k) polishBlock(operations);
+        improveBlock(operations, improvementOf(step, options.targetAngle));
       },
-      [&](double fraction, const std::string&) { report(progress, (i + fraction) / options.sweeps, "improvement"); });
+      [&](double fraction, const std::string&) { report(progress, (double(i) + fraction) / double(sweeps), "improvement"); });
   }
   mesh = std::move(ambient.mesh);
 }

@@ -10,9 +10,9 @@ namespace surgicalmesher
 
 struct MeshImprovementOptions
 {
-  double surfaceTolerance = 0.02; ///< how far the surface may move from where it was, as a share of the target length
-  double targetAngle = 34;        ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
-  int sweeps = 3;
+  double surfaceTolerance = 0.02; ///< how far the surface may move from where it was, as a share of the target
+                                  ///< length; twice as far where nothing else mends an angle
+  double targetAngle = 28.5;      ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
 };
 
 /// Improves `mesh` (positively wound, face-to-face, label 0 outside; vertices on its hull stay) towards `scale` and towards

@@ -43,29 +43,39 @@ TetComplex::TetComplex(std::vector<Vec3> points_, std::vector<float> lengths_, s
 
 void TetComplex::matchFaces()
 {
+  struct Face
+  {
+    std::int32_t second, third, tet, index;
+  };
   // Faces bucketed by their smallest vertex: a bucket holds some twenty, so matching inside it is a short linear search.
   std::vector<std::int32_t> start(points.size() + 1, 0);
-  std::vector<std::array<std::int32_t, 4>> faces(tets.size() * 4); // second, third vertex; tetrahedron; index
-  for (std::size_t t = 0; t < tets.size(); ++t)
-    for (int i = 0; i < 4; ++i) ++start[sortedFace(tets[t], i)[0] + 1];
+  for (const Tet& t : tets)
+  {
+    const std::int32_t low = std::min(t[0], t[1]), high = std::max(t[0], t[1]);
+    const std::int32_t low2 = std::min(t[2], t[3]), high2 = std::max(t[2], t[3]);
+    start[std::min(low, low2) + 1] += 3;
+    start[std::min({ std::max(low, low2), high, high2 }) + 1] += 1;
+  }
   for (std::size_t v = 0; v < points.size(); ++v) start[v + 1] += start[v];
   std::vector<std::int32_t> end(start.begin(), start.end() - 1);
+  std::vector<Face> faces(tets.size() * 4);
   for (std::int32_t t = 0; t < std::int32_t(tets.size()); ++t)
     for (std::int32_t i = 0; i < 4; ++i)
     {
       const auto f = sortedFace(tets[t], i);
-      std::int32_t at = start[f[0]];
-      for (; at < end[f[0]]; ++at)
-        if (faces[at][0] == f[1] && faces[at][1] == f[2]) break;
-      if (at == end[f[0]])
+      Face* const last = faces.data() + end[f[0]];
+      Face* at = faces.data() + start[f[0]];
+      while (at != last && (at->second != f[1] || at->third != f[2])) ++at;
+      if (at == last)
       {
-        faces[end[f[0]]++] = { f[1], f[2], t, i };
+        *last = { f[1], f[2], t, i };
+        ++end[f[0]];
         continue;
       }
-      const auto [b, c, other, j] = faces[at];
-      neighbours[t][i] = other;
-      neighbours[other][j] = t;
-      faces[at] = faces[--end[f[0]]];
+      neighbours[t][i] = at->tet;
+      neighbours[at->tet][at->index] = t;
+      *at = *(last - 1);
+      --end[f[0]];
     }
 }
 
@@ -143,7 +153,7 @@ std::pair<std::int32_t, int> TetComplex::holder(std::int32_t t, int i) const
 void TetComplex::addEvidence(std::int32_t t, int i, const Vec3& position, float tolerance)
 {
   const auto [h, j] = holder(t, i);
-  evidence.push_back({ position, tolerance, evidenceHeads[h][j] });
+  evidence.push_back({ position, tolerance, evidenceHeads[h][j], -1 });
   evidenceHeads[h][j] = std::int32_t(evidence.size()) - 1;
 }
 

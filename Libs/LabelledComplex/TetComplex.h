@@ -27,6 +27,7 @@ struct Evidence
   Vec3 position;
   float tolerance = 0; ///< mm to the nearest face of its label pair
   std::int32_t next = -1;
+  double distance2 = -1; ///< mm^2, to its face; -1 until somebody has asked
 };
 
 class TetComplex

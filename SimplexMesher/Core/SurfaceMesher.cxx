@@ -2,11 +2,13 @@
 
 #include "AmbientLattice.h"
 #include "Coarsening.h"
+#include "FaceNeighbours.h"
 #include "Improvement.h"
 #include "ReferenceSurface.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 
 namespace surgicalmesher
@@ -15,6 +17,8 @@ namespace surgicalmesher
 namespace
 {
 
+constexpr double mostSlack = 1.6;      // times the tolerance, where an angle can't be mended otherwise
+constexpr double mostBalance = 0.25;   // voxels
 constexpr std::size_t blockSize = 40000; // tetrahedra: a few megabytes, and enough blocks for the threads
 
 class Evolution
@@ -59,73 +63,186 @@ private:
   OperationCounts m_Counts;
 };
 
-void setTolerances(AmbientMesh& ambient, const Vec3& spacing, const ScaleFunction& scale, double bound)
+/// Mean thickness of each tissue, 2 V / A, mm. The staircase of voxel faces is half as large again as a smooth boundary.
+std::map<Label, double> thicknesses(const TissueMap& map)
 {
-  const double voxel = std::max({ spacing.x, spacing.y, spacing.z });
+  constexpr double staircase = 1.5;
+  const Grid& grid = map.grid;
+  const Vec3 h = grid.spacing;
+  const double area[3] = { h.y * h.z / staircase, h.z * h.x / staircase, h.x * h.y / staircase };
+  std::map<Label, double> volume, surface;
+  for (int k = 0; k < grid.size[2]; ++k)
+    for (int j = 0; j < grid.size[1]; ++j)
+      for (int i = 0; i < grid.size[0]; ++i)
+      {
+        const Label here = map.labels[grid.index(i, j, k)];
+        if (here == 0) continue;
+        volume[here] += h.x * h.y * h.z;
+        for (int a = 0; a < 3; ++a)
+          for (const int step : { -1, 1 })
+          {
+            const int n[3] = { i + (a == 0) * step, j + (a == 1) * step, k + (a == 2) * step };
+            if (!grid.contains(n[0], n[1], n[2]) || map.labels[grid.index(n[0], n[1], n[2])] != here) surface[here] += area[a];
+          }
+      }
+  std::map<Label, double> result;
+  for (const auto& [label, v] : volume) result[label] = 2 * v / surface[label];
+  return result;
+}
+
+/// The two voxels whose common face has its centre at p.
+std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
+{
+  std::array<std::array<int, 3>, 2> voxels;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double at = p[a] / map.grid.spacing[a];
+    voxels[0][a] = int(std::lround(at - 0.01));
+    voxels[1][a] = int(std::lround(at + 0.01));
+  }
+  const auto labelOf = [&](const std::array<int, 3>& v)
+  { return map.grid.contains(v[0], v[1], v[2]) ? map.labels[map.grid.index(v[0], v[1], v[2])] : Label(0); };
+  return { labelOf(voxels[0]), labelOf(voxels[1]) };
+}
+
+/// `ambient` as the lattice made it: with its evidence at the centres of voxel faces. The same drift that nobody sees on a
+/// thick tissue takes a third of a thin one's volume.
+void setTolerances(AmbientMesh& ambient, const TissueMap& map, const ScaleFunction& scale, double bound)
+{
+  const double voxel = std::max({ map.grid.spacing.x, map.grid.spacing.y, map.grid.spacing.z });
+  const std::map<Label, double> thickness = thicknesses(map);
   for (auto& e : ambient.evidence)
   {
-    e.tolerance = float(0.45 * voxel + 0.11 * scale(e.position));
-    if (bound > 0) e.tolerance = std::min(e.tolerance, float(bound));
+    double tolerance = 0.45 * voxel + 0.08 * scale(e.position);
+    for (const Label label : labelsBeside(map, e.position))
+      if (label != 0) tolerance = std::min(tolerance, std::max(0.65 * voxel, 0.3 * thickness.at(label)));
+    e.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
   }
 }
 
-/// What one sweep over the blocks does.
+/// Moves the evidence of every tissue that has gained or lost volume along its boundary's normals, by what would make up for
+/// it, a quarter of a voxel at most: smoothing and least squares cut corners, which takes from whatever is convex.
+void balanceVolumes(AmbientMesh& ambient, const TissueMap& map)
+{
+  const TetraMesh& mesh = ambient.mesh;
+  const auto neighbours = faceNeighbours(mesh);
+  const Vec3 h = map.grid.spacing;
+  std::map<Label, double> missing, area;
+  for (const Label label : map.labels) missing[label] += h.x * h.y * h.z;
+  const auto corner = [&](std::int32_t t, int i, int k) { return mesh.points[mesh.tetrahedra[t][(i + k) & 3]]; };
+  const auto normal = [&](std::int32_t t, int i)
+  { return cross(corner(t, i, 2) - corner(t, i, 1), corner(t, i, 3) - corner(t, i, 1)); };
+  for (std::int32_t t = 0; t < std::int32_t(mesh.tetrahedra.size()); ++t)
+  {
+    const Label label = mesh.labels[t];
+    missing[label] -= orient(corner(t, 0, 0), corner(t, 0, 1), corner(t, 0, 2), corner(t, 0, 3)) / 6;
+    for (int i = 0; i < 4; ++i)
+      if (const std::int32_t n = neighbours.across[t][i]; n >= 0 && mesh.labels[n] != label)
+        area[label] += 0.5 * norm(normal(t, i));
+  }
+  const double most = mostBalance * std::min({ h.x, h.y, h.z });
+  const auto offset = [&](Label label) { return label == 0 ? 0.0 : missing[label] / area[label]; };
+  for (auto& e : ambient.evidence)
+  {
+    Vec3 outward = normal(e.tetrahedron, e.face);
+    if (dot(outward, corner(e.tetrahedron, e.face, 0) - corner(e.tetrahedron, e.face, 1)) > 0) outward = -1.0 * outward;
+    const Label inside = mesh.labels[e.tetrahedron], beyond = mesh.labels[neighbours.across[e.tetrahedron][e.face]];
+    e.position += std::clamp(offset(inside) - offset(beyond), -most, most) / norm(outward) * outward;
+  }
+}
+
+/// What one sweep over the blocks does, in this order.
 struct Step
 {
   std::string name;
   double rmsLimit = 0.45; ///< see GuardedOperations
+  double slack = 1;       ///< see GuardedOperations
   double level = 0;       ///< mm, size that short edges are collapsed to; 0: none
-  bool again = false;     ///< collapses once more after relaxation and repair have made room
-  bool relax = true;
-  ImprovementOptions improvement;
+  bool fitCollapses = true;
+  int relaxations = 0;
+  RelaxationOptions relaxation;
+  int polishes = 0;
+  PolishOptions polishing;
+  ImprovementOptions improvement = improvementTo(0, 0, 0);
+  bool balance = false; ///< tissues' volumes first; not under a bound on the distance to the boundary as it is
+  bool again = false; ///< collapses once more after the rest has made room
+  bool whole = false; ///< in one block: borders are locked, and what is still bad lies at them
+
+  static ImprovementOptions improvementTo(double angle, int trials, int passes, double splitEdge = 0)
+  {
+    ImprovementOptions o;
+    o.targetAngle = angle;
+    o.trials = trials;
+    o.passes = passes;
+    o.split = splitEdge > 0;
+    o.splitEdge = splitEdge;
+    return o;
+  }
 };
 
-ImprovementOptions improvementTo(double angle, double splitEdge, int trials, int passes)
-{
-  ImprovementOptions o;
-  o.targetAngle = angle;
-  o.split = splitEdge > 0;
-  o.splitEdge = splitEdge;
-  o.trials = trials;
-  o.passes = passes;
-  return o;
-}
-
-/// Levels of size, each about 1.5 times the one before: a single pass to the final lengths would leave a ragged mesh.
+/// Levels of size, each about 1.5 times the one before: a single pass to the final lengths would leave a ragged mesh. The
+/// first levels hold most of the tetrahedra, in a lattice that is still regular: fitting and repair pay later.
 std::vector<Step> coarseningSteps(const Grid& grid, double longest)
 {
   const double least = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
   Step step;
   step.name = "coarsening";
+  step.level = 1.6 * least;
+  step.fitCollapses = false;
+  std::vector<Step> steps{ step };
+  step.fitCollapses = true;
+  step.relaxations = 1;
   step.again = true;
-  std::vector<Step> steps;
-  for (double level = 1.6 * least; level < longest; level *= 1.48)
+  for (step.level *= 1.48; step.level < longest; step.level *= 1.48)
   {
-    step.level = level;
-    // The first levels hold most of the tetrahedra, in a lattice that is still regular: repair pays later.
-    step.improvement = improvementTo(level < 3 * least ? 0 : 15, 0, 8, 1);
+    if (step.level > 3 * least) step.improvement = Step::improvementTo(15, 8, 1);
     steps.push_back(step);
   }
   step.level = longest;
-  step.improvement = improvementTo(15, 0, 8, 1);
+  step.improvement = Step::improvementTo(15, 8, 1);
   steps.insert(steps.end(), 3, step);
   return steps;
 }
 
 /// The angle aimed at rises from step to step: sizes suffer less than from one step straight to the end. Only what is still
-/// bad afterwards may stray farther from the evidence, or be split.
+/// bad afterwards may stray farther from the evidence, or be split; and in the end all go back towards it as far as the
+/// angles allow.
 std::vector<Step> improvementSteps(double longest)
 {
+  constexpr double aim = 28.7, kept = 28.3; // degrees
   std::vector<Step> steps;
-  const auto add = [&](double rmsLimit, double level, bool relax, const ImprovementOptions& improvement)
-  { steps.push_back({ "improvement", rmsLimit, level, false, relax, improvement }); };
-  add(0.3, longest, true, improvementTo(20, 0, 8, 2));
-  add(0.25, longest, true, improvementTo(28, 0, 8, 2));
-  add(0.25, longest, true, improvementTo(34, 0, 8, 1));
-  add(0.25, longest, true, improvementTo(34, 0, 8, 1));
-  add(0.5, 0, false, improvementTo(29, 1, 16, 3));
-  add(0.25, 0, true, improvementTo(34, 0, 12, 2));
-  add(0.6, 0, false, improvementTo(30, 0.8, 20, 3));
+  const auto add = [&](double rmsLimit, double level, int polishes, const ImprovementOptions& improvement)
+  {
+    Step step;
+    step.name = "improvement";
+    step.rmsLimit = rmsLimit;
+    step.level = level;
+    step.polishes = polishes;
+    step.improvement = improvement;
+    steps.push_back(step);
+  };
+  add(0.4, longest, 2, Step::improvementTo(25, 8, 2));
+  add(0.35, longest, 2, Step::improvementTo(aim, 8, 2));
+  add(0.35, longest, 2, Step::improvementTo(aim, 8, 1));
+  add(0.5, 0, 1, Step::improvementTo(aim, 16, 2));
+  add(0.8, 0, 0, Step::improvementTo(aim, 16, 2));
+  steps.back().slack = 1.3;
+  for (const double splitEdge : { 0.0, 0.6, 0.4 })
+  {
+    add(1, 0, 0, Step::improvementTo(aim, 20, 3, splitEdge));
+    steps.back().slack = mostSlack;
+    steps.back().whole = true;
+  }
+  for (const double rmsLimit : { 0.3, 0.25 })
+  {
+    add(rmsLimit, 0, 1, Step::improvementTo(0, 0, 0));
+    Step& step = steps.back();
+    step.balance = true;
+    step.relaxations = 3;
+    step.relaxation.goodAngle = step.polishing.goodAngle = kept;
+    step.relaxation.fit = 5;
+    step.polishing.fit = 20;
+  }
   return steps;
 }
 
@@ -133,8 +250,10 @@ void work(GuardedOperations& operations, const Step& step)
 {
   CoarseningOptions coarsening;
   coarsening.minimumAngle = 5;
+  coarsening.fit = step.fitCollapses;
   if (step.level > 0) coarsenBlock(operations, step.level, coarsening);
-  if (step.relax) relaxBlock(operations);
+  for (int i = 0; i < step.relaxations; ++i) relaxBlock(operations, step.relaxation);
+  for (int i = 0; i < step.polishes; ++i) polishBlock(operations, step.polishing);
   if (step.improvement.targetAngle > 0) improveBlock(operations, step.improvement);
   if (step.again) coarsenBlock(operations, step.level, coarsening);
 }
@@ -147,9 +266,9 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& scale, const Sur
   SurfaceMesh result;
   const ScaleFunction lengthAt = [&](const Vec3& p) { return float(scale(map.grid.gridToWorld(p))); };
   AmbientLattice lattice = ambientLattice(map, scale, {}, subProgress(progress, 0, 0.06));
+  setTolerances(lattice.ambient, map, lengthAt, options.maximumDistance);
   smoothInterface(lattice, map.grid.spacing);
   result.ambient = std::move(lattice.ambient);
-  setTolerances(result.ambient, map.grid.spacing, lengthAt, options.maximumDistance);
 
   Evolution evolution(result.ambient, result.evolution);
   evolution.record("lattice");
@@ -159,13 +278,15 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& scale, const Sur
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
     const Step& step = steps[i];
+    const bool bounded = options.maximumDistance > 0;
+    if (step.balance && !bounded) balanceVolumes(result.ambient, map);
     const Progress part = subProgress(progress, 0.1 + 0.9 * double(i) / double(steps.size()),
                                       0.1 + 0.9 * double(i + 1) / double(steps.size()));
     sweepBlocks(
-      result.ambient, int(i), blockSize,
+      result.ambient, int(i), step.whole ? result.ambient.mesh.tetrahedra.size() : blockSize,
       [&](TetComplex& block)
       {
-        GuardedOperations operations(block, lengthAt, step.rmsLimit);
+        GuardedOperations operations(block, lengthAt, step.rmsLimit, bounded ? 1 : step.slack);
         work(operations, step);
         evolution.count(operations.counts);
       },

@@ -44,6 +44,8 @@ inline std::string faultOf(const SurfaceMesh& result, const TissueMap& map)
   if (got.size() != wanted.size()) return "there are tissues that the map does not have";
   if (result.ambient.lengths.size() != mesh.points.size()) return "there is not one target length per point";
   const auto neighbours = faceNeighbours(mesh);
+  const Vec3 h = map.grid.spacing;
+  const auto allowed = [&](double tolerance) { return 1.6 * tolerance + 0.5 * std::min({ h.x, h.y, h.z }); };
   for (const auto& e : result.ambient.evidence)
   {
     const std::int32_t n = neighbours.across[e.tetrahedron][e.face];
@@ -51,8 +53,8 @@ inline std::string faultOf(const SurfaceMesh& result, const TissueMap& map)
       return "evidence at " + place(e.position) + " is off the interface";
     const auto corner = [&](int k) { return mesh.points[mesh.tetrahedra[e.tetrahedron][(e.face + k) & 3]]; };
     const double distance = std::sqrt(squaredDistanceToTriangle(e.position, corner(1), corner(2), corner(3)));
-    if (distance <= e.tolerance * (1 + 1e-5)) continue;
-    fault << "evidence at " << place(e.position) << " is " << distance << " mm away, allowed " << e.tolerance;
+    if (distance <= allowed(e.tolerance) * (1 + 1e-5)) continue;
+    fault << "evidence at " << place(e.position) << " is " << distance << " mm away, allowed " << allowed(e.tolerance);
     return fault.str();
   }
   return "";
