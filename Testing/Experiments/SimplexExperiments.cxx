@@ -21,7 +21,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
-#include <chrono>
+#include <ctime>
 #include <iostream>
 #include <set>
 #include <sstream>
@@ -89,7 +89,7 @@ bool sound(const SurfaceComplex& surface)
 
 /// By vtkDecimatePro, or, where that stops early or leaves edges of four triangles, by the operators at one length
 /// everywhere.
-SurfaceComplex startOf(const SurfaceComplex& dense, const TissueBoundary& boundary, std::size_t faces)
+SurfaceComplex startOf(const SurfaceComplex& dense, const TissueBoundary& boundary, OperatorLimits limits, std::size_t faces)
 {
   SurfaceComplex start = decimated(dense, faces);
   if (double(start.points.size()) < 1.05 * double(faces) && sound(start)) return start;
@@ -97,9 +97,7 @@ SurfaceComplex startOf(const SurfaceComplex& dense, const TissueBoundary& bounda
   for (const auto& [a, b, c] : dense.triangles)
     area += 0.5 * norm(cross(dense.points[b] - dense.points[a], dense.points[c] - dense.points[a]));
   const double length = std::sqrt(area / (0.5 * std::sqrt(3.) * double(faces)));
-  OperatorLimits limits;
   limits.edgeLength = [=](const Vec3&) { return length; };
-  limits.proximity = [=](const Vec3&) { return 0.5 * length; };
   AdaptationOptions options;
   options.mostIterations = 4;
   options.mostFusions = 1;
@@ -222,18 +220,17 @@ void writeResult(const SurfaceComplex& surface, const Experiment& experiment, co
 
 void perform(const Experiment& experiment, const std::string& folder, std::string& table)
 {
-  using Clock = std::chrono::steady_clock;
   const SurfaceComplex dense = smoothedBoundary(experiment.map);
   const TissueBoundary boundary(dense, 10);
-  const SurfaceComplex before = experiment.facesBefore > 0 ? startOf(dense, boundary, experiment.facesBefore) : dense;
   OperatorLimits limits;
   limits.edgeLength = [&](const Vec3& p) { return experiment.edgeLength(experiment.distance(p)); };
   limits.proximity = [&](const Vec3& p) { return experiment.proximity(experiment.distance(p)); };
+  const SurfaceComplex before = experiment.facesBefore > 0 ? startOf(dense, boundary, limits, experiment.facesBefore) : dense;
   std::cout << experiment.name << ": " << dense.points.size() << " faces, " << std::flush;
-  const auto start = Clock::now();
+  const std::clock_t start = std::clock();
   SimplexOperators mesh(before, boundary, limits);
   const std::vector<SimplexStep> steps = adaptSimplexMesh(mesh, boundary, {});
-  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
   const SurfaceComplex after = mesh.surface();
   const std::string path = folder + "/" + experiment.name;
   writeBytes(evolutionCSV(steps), path + "-evolution.csv");
@@ -251,7 +248,7 @@ void perform(const Experiment& experiment, const std::string& folder, std::strin
     add("vtkDecimatePro", other, 0);
   }
   add("simplex", after, seconds);
-  std::cout << steps.front().faces << " to " << after.points.size() << " faces in " << seconds << " s" << std::endl;
+  std::cout << steps.front().faces << " to " << after.points.size() << " faces in " << seconds << " s of processor time" << std::endl;
 }
 
 /// Well-composed, without islands and pockets below `volume` mm^3, in the grid's own frame.
@@ -295,7 +292,7 @@ Experiment invaginatedCube()
   };
   const Vec3 target{ 31.5, 31.5, 47.5 - 4 };
   return { "cube", prepared(test::paintedMap({ 64, 64, 64 }, paint)),
-           [=](const Vec3& p) { return norm(p - target); }, { 2, 10, 10, 20 }, { 0.4, 2.5, 10, 20 }, 1224 };
+           [=](const Vec3& p) { return norm(p - target); }, { 2, 11.5, 10, 20 }, { 0.4, 2.5, 10, 20 }, 1224 };
 }
 
 /// The outside of the brain: all tissues of the JHU atlas as one, dense around the pituitary gland.
@@ -304,7 +301,7 @@ Experiment brain(const std::string& templates)
   TissueMap map = thinned(readTissueMap(templates + "/jhu189.nii.gz"), 3);
   for (Label& label : map.labels) label = label != 0;
   const Vec3 target = map.grid.worldToGrid({ 0, 0, -10 });
-  return { "brain", prepared(map, 1e4), [=](const Vec3& p) { return norm(p - target); }, { 4, 16, 10, 35 }, { 1.5, 5, 10, 35 },
+  return { "brain", prepared(map, 1e4), [=](const Vec3& p) { return norm(p - target); }, { 4, 12.5, 10, 35 }, { 1.5, 4, 10, 35 },
            2618 };
 }
 

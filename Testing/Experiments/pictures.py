@@ -31,11 +31,10 @@ def triangles_of(surface):
     return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
 
 
-def half(surface, centres, origin, normal):
-    """The cells whose centres lie on the far side of a plane, whole."""
-    if origin is None:
-        return surface
-    keep = (centres - origin) @ np.asarray(normal, float) > 0
+def half(surface, keep, centres, origin, normal):
+    """Those cells to keep whose centres lie on the far side of a plane, if there is one, whole."""
+    if origin is not None:
+        keep = keep & ((centres - origin) @ np.asarray(normal, float) > 0)
     ids = numpy_to_vtk(np.flatnonzero(keep).astype(np.int64), deep=True, array_type=vtk.VTK_ID_TYPE)
     node, selection, extract = vtk.vtkSelectionNode(), vtk.vtkSelection(), vtk.vtkExtractSelection()
     node.SetFieldType(vtk.vtkSelectionNode.CELL)
@@ -66,6 +65,21 @@ def with_distance(simplex, surface):
     return simplex
 
 
+def lower_label(pairs):
+    """Of the two labels of each triangle, the lower one that is tissue."""
+    return np.where(pairs.min(axis=1) > 0, pairs.min(axis=1), pairs.max(axis=1))
+
+
+def each_once(simplex, surface):
+    """Whether each polygon is that of the lower label: on a sheet between two tissues there are two at the same place."""
+    label = vtk_to_numpy(simplex.GetCellData().GetArray("TissueLabel"))
+    lower = lower_label(vtk_to_numpy(surface.GetCellData().GetArray("BoundaryLabels")))
+    cells = simplex.GetPolys()
+    vertices, offsets = (vtk_to_numpy(a()) for a in (cells.GetConnectivityArray, cells.GetOffsetsArray))
+    return np.array([np.any(lower[vertices[begin:end]] == own)
+                     for begin, end, own in zip(offsets[:-1], offsets[1:], label)])
+
+
 def white_to_red():
     table = vtk.vtkLookupTable()
     table.SetNumberOfTableValues(64)
@@ -86,7 +100,7 @@ def actors_for(surface, by_distance, colors):
     if colors is not None:
         label = surface.GetCellData().GetArray("BoundaryLabels") or surface.GetCellData().GetArray("TissueLabel")
         values = vtk_to_numpy(label)
-        values = values.max(axis=1) if values.ndim > 1 else values
+        values = lower_label(values) if values.ndim > 1 else values
         rgb = np.array([colors[int(v)] for v in values], np.uint8)
         surface.GetCellData().SetScalars(numpy_to_vtk(rgb, deep=True))
         mapper.SetScalarModeToUseCellData()
@@ -194,7 +208,8 @@ def panels_of(folder, name, wanted, view, plane=(None, None), colors=None, zoom=
         shown, by_distance = surface, file.endswith("-simplex")
         if by_distance:
             shown = with_distance(read(os.path.join(folder, f"{name}-{file}.vtp")), surface)
-        shown = half(shown, centres_of(shown), *plane)
+        keep = each_once(shown, surface) if by_distance else np.ones(surface.GetNumberOfCells(), bool)
+        shown = half(shown, keep, centres_of(shown), *plane)
         faces = rows[name, key]["faces"]
         panels.append((f"{title}\n{faces} faces",
                        picture(shown, *view, zoom=zoom, focus=focus, by_distance=by_distance, colors=colors)))
