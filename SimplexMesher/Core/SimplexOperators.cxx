@@ -189,13 +189,20 @@ bool SimplexOperators::staysCovered(const Patch& before, const Patch& after, con
   bool holds = true;
   m_Boundary.samples(box, [&](const Vec3& p, std::array<Label, 2> labels) {
     if (labels[0] < labels[1]) std::swap(labels[0], labels[1]);
-    const auto covers = [&](const Facet& f) {
-      const auto& [a, b, c] = f.shape.corners;
-      const double near = f.radius + bound;
-      return f.labels == labels && squaredNorm(p - f.centroid) <= near * near && squaredNorm(nearestOnTriangle(p, a, b, c) - p) <= bound * bound;
+    const auto distanceTo = [&](const Patch& patch) {
+      double best = 2 * bound; // farther samples belong to other parts of the surface
+      for (const Facet& f : patch.facets)
+      {
+        if (f.labels != labels || norm(p - f.centroid) >= best + f.radius) continue;
+        const auto& [a, b, c] = f.shape.corners;
+        best = std::min(best, norm(nearestOnTriangle(p, a, b, c) - p));
+      }
+      return best;
     };
-    const auto covered = [&](const Patch& patch) { return std::any_of(patch.facets.begin(), patch.facets.end(), covers); };
-    if (covered(before) && !covered(after)) holds = coveredElsewhere(p, bound, labels, old);
+    const double now = distanceTo(after);
+    if (now <= bound) return true;
+    const double limit = std::max(bound, distanceTo(before));
+    holds = now <= limit || coveredElsewhere(p, limit, labels, old);
     return holds;
   });
   return holds;
