@@ -15,7 +15,10 @@ struct Box
 {
   Vec3 low, high;
 
-  static Box around(const Vec3& p, double reach = 0) { return { p - Vec3{ reach, reach, reach }, p + Vec3{ reach, reach, reach } }; }
+  static Box around(const Vec3& p, double reach = 0)
+  {
+    return { p - Vec3{ reach, reach, reach }, p + Vec3{ reach, reach, reach } };
+  }
   void add(const Vec3& p)
   {
     for (int a = 0; a < 3; ++a)
@@ -39,26 +42,32 @@ public:
   /// `box` as it was inserted with.
   void remove(std::int32_t item, const Box& box)
   {
-    forCells(box, [&](std::uint64_t key) {
-      auto& items = m_Cells[key];
-      items.erase(std::find(items.begin(), items.end(), item));
-    });
+    forCells(box,
+             [&](std::uint64_t key)
+             {
+               auto& items = m_Cells[key];
+               items.erase(std::find(items.begin(), items.end(), item));
+             });
   }
 
-  /// Hands over the items of all cells that the box touches, one after the other, until `visit` returns false. An item may
-  /// come several times. The order depends on nothing but the insertions and removals before.
-  template <class Visit> void visit(const Box& box, const Visit& visit) const
+  /// Hands over the items of all cells that the box touches, one after the other, until `visit` returns false. An item
+  /// may come several times. The order depends on nothing but the insertions and removals before.
+  template <class Visit>
+  void visit(const Box& box, const Visit& visit) const
   {
     bool goesOn = true;
-    forCells(box, [&](std::uint64_t key) {
-      const auto at = goesOn ? m_Cells.find(key) : m_Cells.end();
-      if (at == m_Cells.end()) return;
-      for (std::size_t i = 0; i < at->second.size() && goesOn; ++i) goesOn = visit(at->second[i]);
-    });
+    forCells(box,
+             [&](std::uint64_t key)
+             {
+               const auto at = goesOn ? m_Cells.find(key) : m_Cells.end();
+               if (at == m_Cells.end()) return;
+               for (std::size_t i = 0; i < at->second.size() && goesOn; ++i) goesOn = visit(at->second[i]);
+             });
   }
 
 private:
-  template <class Action> void forCells(const Box& box, const Action& action) const
+  template <class Action>
+  void forCells(const Box& box, const Action& action) const
   {
     std::int64_t from[3], to[3];
     for (int a = 0; a < 3; ++a)

@@ -31,8 +31,8 @@ void addShortEdges(const SimplexOperators& mesh, std::int32_t a, double threshol
   }
 }
 
-/// Fuses the faces beside the edge, or beside one of the four edges at its ends: the pair that goes together best. Returns
-/// the face that there is now, or -1.
+/// Fuses the faces beside the edge, or beside one of the four edges at its ends: the pair that goes together best.
+/// Returns the face that there is now, or -1.
 std::int32_t fuseBest(SimplexOperators& mesh, std::int32_t a, std::int32_t b)
 {
   struct Choice
@@ -86,7 +86,8 @@ int cutFaces(SimplexOperators& mesh, const AdaptationOptions& options)
     if (!mesh.alive(a)) continue;
     double urgency = mesh.centreDistance(a) / mesh.proximity(mesh.points()[a]);
     for (std::int32_t b : mesh.faceNeighbours(a))
-      if (const double ratio = mesh.edgeRatio(a, b); std::isfinite(ratio)) urgency = std::max(urgency, ratio / options.longEdge);
+      if (const double ratio = mesh.edgeRatio(a, b); std::isfinite(ratio))
+        urgency = std::max(urgency, ratio / options.longEdge);
     if (mesh.mostVertices(a) > options.mostVertices) urgency = std::max(urgency, 1.01);
     if (urgency > 1) needs.push_back({ urgency, a });
   }
@@ -97,7 +98,8 @@ int cutFaces(SimplexOperators& mesh, const AdaptationOptions& options)
 /// T7 where it leaves better triangles, or faces with more nearly six vertices and triangles hardly worse.
 int swapEdges(SimplexOperators& mesh)
 {
-  const auto excess = [&](std::int32_t face, int change) {
+  const auto excess = [&](std::int32_t face, int change)
+  {
     const double n = double(mesh.mostVertices(face)) + change - 6;
     return n * n;
   };
@@ -144,12 +146,13 @@ std::vector<Vec3> meansAround(const SurfaceComplex& dual, const std::vector<Vec3
   return sum;
 }
 
-/// Dual points can be rough and their triangles' centroids smooth, such as where points go up, down and nowhere in turn. No
-/// force on vertices sees that. This is the way to the mean of the vertices, less what of it the neighbourhood has in
-/// common, which is curvature. Points where tissues meet have none.
+/// Dual points can be rough and their triangles' centroids smooth, such as where points go up, down and nowhere in
+/// turn. No force on vertices sees that. This is the way to the mean of the vertices, less what of it the neighbourhood
+/// has in common, which is curvature. Points where tissues meet have none.
 std::vector<Vec3> hiddenRoughness(const SurfaceComplex& dual)
 {
-  const auto centroids = [&](const std::vector<Vec3>& x) {
+  const auto centroids = [&](const std::vector<Vec3>& x)
+  {
     std::vector<Vec3> c;
     for (const auto& [p, q, r] : dual.triangles) c.push_back((x[p] + x[q] + x[r]) / 3);
     return c;
@@ -207,12 +210,13 @@ double SimplexMotion::step(SimplexOperators& mesh, const TissueBoundary& boundar
   return largest;
 }
 
-std::vector<double> relaxSimplexMesh(SimplexOperators& mesh, const TissueBoundary& boundary, const MotionOptions& options,
-                                     int mostSteps, double tolerance)
+std::vector<double> relaxSimplexMesh(SimplexOperators& mesh, const TissueBoundary& boundary,
+                                     const MotionOptions& options, int mostSteps, double tolerance)
 {
   SimplexMotion motion(options);
   std::vector<double> ways;
-  for (int n = 0; n < mostSteps && (ways.empty() || ways.back() > tolerance); ++n) ways.push_back(motion.step(mesh, boundary));
+  for (int n = 0; n < mostSteps && (ways.empty() || ways.back() > tolerance); ++n)
+    ways.push_back(motion.step(mesh, boundary));
   return ways;
 }
 
@@ -221,7 +225,8 @@ std::vector<SimplexStep> adaptSimplexMesh(SimplexOperators& mesh, const TissueBo
 {
   std::vector<SimplexStep> steps(1);
   measure(mesh, steps[0]);
-  const auto atRest = [&] {
+  const auto atRest = [&]
+  {
     constexpr std::size_t span = 5; // steps to look back: single ones may balance by chance
     if (steps.size() <= span + 1) return false;
     const double now = double(steps.back().faces), then = double(steps[steps.size() - 1 - span].faces);
@@ -256,8 +261,8 @@ std::string evolutionCSV(const std::vector<SimplexStep>& steps)
   for (std::size_t n = 0; n < steps.size(); ++n)
   {
     const SimplexStep& s = steps[n];
-    out << n << ',' << s.faces << ',' << s.vertices << ',' << s.meanDistance << ',' << s.maximumDistance << ',' << s.t1 << ','
-        << s.t2 << ',' << s.t7 << ',' << s.largestMove << '\n';
+    out << n << ',' << s.faces << ',' << s.vertices << ',' << s.meanDistance << ',' << s.maximumDistance << ',' << s.t1
+        << ',' << s.t2 << ',' << s.t7 << ',' << s.largestMove << '\n';
   }
   return out.str();
 }

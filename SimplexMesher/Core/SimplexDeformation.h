@@ -22,10 +22,10 @@ struct AdaptationOptions
   MotionOptions motion;
   int motionsPerIteration = 3; ///< steps of the law of motion between operators
   int mostIterations = 60;
-  int lastMotions = 10; ///< steps of the law of motion after the last operators
-  double shortEdge = 0.72;     ///< T1 where a simplex edge is shorter than this share of its target
-  double mostFusions = 0.25;   ///< T1 per iteration, share of the faces: motion makes room for the next ones
-  double longEdge = 1.7;       ///< T2 where it is longer than that
+  int lastMotions = 10;         ///< steps of the law of motion after the last operators
+  double shortEdge = 0.72;      ///< T1 where a simplex edge is shorter than this share of its target
+  double mostFusions = 0.25;    ///< T1 per iteration, share of the faces: motion makes room for the next ones
+  double longEdge = 1.7;        ///< T2 where it is longer than that
   std::size_t mostVertices = 7; ///< of a face
   double rest = 0.01; ///< operators end when five iterations change the number of faces by no more than this share
 };
@@ -33,23 +33,23 @@ struct AdaptationOptions
 /// One iteration, for a graph such as figure 6d of Audette et al. 2007.
 struct SimplexStep
 {
-  std::size_t faces = 0;       ///< dual points
-  std::size_t vertices = 0;    ///< dual triangles
-  double meanDistance = 0;     ///< mm, of the faces' centres to the tissue boundary
-  double maximumDistance = 0;  ///< mm
-  int t1 = 0, t2 = 0, t7 = 0;  ///< operations since the step before
-  double largestMove = 0;      ///< mm, of a dual point in the last step of motion
+  std::size_t faces = 0;      ///< dual points
+  std::size_t vertices = 0;   ///< dual triangles
+  double meanDistance = 0;    ///< mm, of the faces' centres to the tissue boundary
+  double maximumDistance = 0; ///< mm
+  int t1 = 0, t2 = 0, t7 = 0; ///< operations since the step before
+  double largestMove = 0;     ///< mm, of a dual point in the last step of motion
 };
 
-/// Motion of the whole mesh. Dual points follow the mean of their vertices, so that each vertex stays the centroid of its
-/// triangle.
+/// Motion of the whole mesh. Dual points follow the mean of their vertices, so that each vertex stays the centroid of
+/// its triangle.
 class SimplexMotion
 {
 public:
   explicit SimplexMotion(const MotionOptions& options) : m_Options(options) {}
 
-  /// One step. No point goes farther than a third of its shortest edge; a way that a guard refuses is halved, up to three
-  /// times, and the point then rests. Returns the largest way, mm.
+  /// One step. No point goes farther than a third of its shortest edge; a way that a guard refuses is halved, up to
+  /// three times, and the point then rests. Returns the largest way, mm.
   double step(SimplexOperators& mesh, const TissueBoundary& boundary);
 
 private:
@@ -57,14 +57,13 @@ private:
   std::vector<Vec3> m_Last; ///< way of each dual point in the step before
 };
 
-/// Moves until no point moves by more than `tolerance` mm in a step, or for `mostSteps`. Returns the largest way of each
-/// step.
-std::vector<double> relaxSimplexMesh(SimplexOperators& mesh, const TissueBoundary& boundary, const MotionOptions& options,
-                                     int mostSteps, double tolerance);
+/// Moves until no point moves by more than `tolerance` mm in a step, or for `mostSteps`. Returns the largest way of
+/// each step.
+std::vector<double> relaxSimplexMesh(SimplexOperators& mesh, const TissueBoundary& boundary,
+                                     const MotionOptions& options, int mostSteps, double tolerance);
 
-/// Iterates operators and motion until T1, driven by scale, and T2, driven by proximity, offset each other: the number of
-/// faces rests. Step 0 is the mesh as given, the last one what the
-/// last motions leave.
+/// Iterates operators and motion until T1, driven by scale, and T2, driven by proximity, offset each other: the number
+/// of faces rests. Step 0 is the mesh as given, the last one what the last motions leave.
 std::vector<SimplexStep> adaptSimplexMesh(SimplexOperators& mesh, const TissueBoundary& boundary,
                                           const AdaptationOptions& options, const Progress& progress = {});
 

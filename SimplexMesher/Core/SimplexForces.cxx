@@ -28,22 +28,27 @@ SimplexNeighbours neighboursOf(const SimplexMesh& mesh, std::size_t v, int side)
   return { mesh.points[n[0]], mesh.points[n[side == 0 ? 1 : 2]], mesh.points[n[side == 0 ? 2 : 1]] };
 }
 
-template <class Action> void forVertices(const SimplexMesh& mesh, const Action& action)
+template <class Action>
+void forVertices(const SimplexMesh& mesh, const Action& action)
 {
-  vtkSMPTools::For(0, vtkIdType(mesh.points.size()), [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType v = begin; v < end; ++v)
-      for (int side = 0; side < 2; ++side)
-        if (hasNeighbours(mesh, v, side)) action(std::size_t(v), side);
-  });
+  vtkSMPTools::For(0, vtkIdType(mesh.points.size()),
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (vtkIdType v = begin; v < end; ++v)
+                       for (int side = 0; side < 2; ++side)
+                         if (hasNeighbours(mesh, v, side)) action(std::size_t(v), side);
+                   });
 }
 
 Bends bendsOf(const SimplexMesh& mesh)
 {
   Bends bends(mesh.points.size());
-  forVertices(mesh, [&](std::size_t v, int side) {
-    const SimplexShape shape = simplexShape(mesh.points[v], neighboursOf(mesh, v, side));
-    bends[v][side] = { shape.meanCurvature(), std::cos(shape.angle) };
-  });
+  forVertices(mesh,
+              [&](std::size_t v, int side)
+              {
+                const SimplexShape shape = simplexShape(mesh.points[v], neighboursOf(mesh, v, side));
+                bends[v][side] = { shape.meanCurvature(), std::cos(shape.angle) };
+              });
   return bends;
 }
 
@@ -51,17 +56,19 @@ Bends bendsOf(const SimplexMesh& mesh)
 Bends averaged(const SimplexMesh& mesh, const Bends& bends)
 {
   Bends means = bends;
-  forVertices(mesh, [&](std::size_t v, int side) {
-    Bend& mean = means[v][side];
-    for (std::int32_t n : mesh.neighbours[v][side])
-    {
-      const Bend& other = bends[n][mesh.labels[n][0] == mesh.labels[v][side] ? 0 : 1];
-      mean.curvature += other.curvature;
-      mean.cosine += other.cosine;
-    }
-    mean.curvature /= 4;
-    mean.cosine /= 4;
-  });
+  forVertices(mesh,
+              [&](std::size_t v, int side)
+              {
+                Bend& mean = means[v][side];
+                for (std::int32_t n : mesh.neighbours[v][side])
+                {
+                  const Bend& other = bends[n][mesh.labels[n][0] == mesh.labels[v][side] ? 0 : 1];
+                  mean.curvature += other.curvature;
+                  mean.cosine += other.cosine;
+                }
+                mean.curvature /= 4;
+                mean.cosine /= 4;
+              });
   return means;
 }
 
@@ -75,7 +82,8 @@ Vec3 referencePosition(const SimplexMesh& mesh, std::size_t v, int side, const B
   const SimplexShape shape = simplexShape(p, neighbours);
   double angle = 0;
   if (options.continuity == Continuity::C0) angle = shape.angle;
-  if (options.continuity == Continuity::C2) angle = angleOfCurvature(mean.curvature, shape.circle.radius, mean.cosine < 0);
+  if (options.continuity == Continuity::C2)
+    angle = angleOfCurvature(mean.curvature, shape.circle.radius, mean.cosine < 0);
   return simplexPosition(neighbours, metric, angle);
 }
 
@@ -98,9 +106,8 @@ std::vector<Vec3> internalForces(const SimplexMesh& mesh, const InternalForceOpt
     for (int ring = 0; ring < options.rigidity; ++ring) means = averaged(mesh, means);
   }
   std::vector<std::array<Vec3, 2>> forces(mesh.points.size());
-  forVertices(mesh, [&](std::size_t v, int side) {
-    forces[v][side] = referencePosition(mesh, v, side, means[v][side], options) - mesh.points[v];
-  });
+  forVertices(mesh, [&](std::size_t v, int side)
+              { forces[v][side] = referencePosition(mesh, v, side, means[v][side], options) - mesh.points[v]; });
   std::vector<Vec3> result;
   for (std::size_t v = 0; v < forces.size(); ++v)
   {
@@ -110,27 +117,31 @@ std::vector<Vec3> internalForces(const SimplexMesh& mesh, const InternalForceOpt
   return result;
 }
 
-std::vector<Vec3> imageForces(const SurfaceComplex& dual, const TissueBoundary& boundary, std::vector<double>* distances)
+std::vector<Vec3> imageForces(const SurfaceComplex& dual, const TissueBoundary& boundary,
+                              std::vector<double>* distances)
 {
   std::vector<Vec3> forces(dual.triangles.size());
   std::vector<double> farthest(dual.triangles.size(), 0);
-  vtkSMPTools::For(0, vtkIdType(forces.size()), [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType t = begin; t < end; ++t)
-    {
-      const auto& [a, b, c] = dual.triangles[t];
-      const std::array<Vec3, 3> corners{ dual.points[a], dual.points[b], dual.points[c] };
-      const Vec3 sum = corners[0] + corners[1] + corners[2], n = cross(corners[1] - corners[0], corners[2] - corners[0]);
-      double way = 0;
-      for (const Vec3& corner : corners)
-      {
-        const Vec3 sample = sum / 6 + corner / 2;
-        const auto nearest = boundary.nearest(sample, dual.labels[t]);
-        farthest[t] = std::max(farthest[t], nearest ? nearest->distance : boundary.reach());
-        if (nearest) way += dot(nearest->position - sample, n) / 3;
-      }
-      if (squaredNorm(n) > 0) forces[t] = way / squaredNorm(n) * n;
-    }
-  });
+  vtkSMPTools::For(0, vtkIdType(forces.size()),
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (vtkIdType t = begin; t < end; ++t)
+                     {
+                       const auto& [a, b, c] = dual.triangles[t];
+                       const std::array<Vec3, 3> corners{ dual.points[a], dual.points[b], dual.points[c] };
+                       const Vec3 sum = corners[0] + corners[1] + corners[2],
+                                  n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+                       double way = 0;
+                       for (const Vec3& corner : corners)
+                       {
+                         const Vec3 sample = sum / 6 + corner / 2;
+                         const auto nearest = boundary.nearest(sample, dual.labels[t]);
+                         farthest[t] = std::max(farthest[t], nearest ? nearest->distance : boundary.reach());
+                         if (nearest) way += dot(nearest->position - sample, n) / 3;
+                       }
+                       if (squaredNorm(n) > 0) forces[t] = way / squaredNorm(n) * n;
+                     }
+                   });
   if (distances) *distances = std::move(farthest);
   return forces;
 }

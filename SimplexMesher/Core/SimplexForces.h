@@ -19,24 +19,24 @@ enum class Continuity
 struct InternalForceOptions
 {
   Continuity continuity = Continuity::C2;
-  int rigidity = 2; ///< edges that the neighbourhood of C2 reaches
+  int rigidity = 2;                                       ///< edges that the neighbourhood of C2 reaches
   std::array<double, 3> metric{ 1. / 3, 1. / 3, 1. / 3 }; ///< reference metric parameters, of the
                                                           ///< neighbours on side 0 in their order
 };
 
 /// The tangential and the normal force as one: the position that has the reference metric parameters and the reference
-/// angle, less the vertex. Where a vertex is on the surfaces of two tissues, the mean of what it is on each; none where it
-/// has neighbours on neither.
+/// angle, less the vertex. Where a vertex is on the surfaces of two tissues, the mean of what it is on each; none where
+/// it has neighbours on neither.
 std::vector<Vec3> internalForces(const SimplexMesh& mesh, const InternalForceOptions& options = {});
 
-/// Mean curvature sin(phi) / r at each vertex, 1/mm, on the surface of the tissue on each side: positive where that tissue
-/// is convex. 0 without neighbours.
+/// Mean curvature sin(phi) / r at each vertex, 1/mm, on the surface of the tissue on each side: positive where that
+/// tissue is convex. 0 without neighbours.
 std::vector<std::array<double, 2>> meanCurvatures(const SimplexMesh& mesh);
 
-/// Towards the boundary between the two tissues of each triangle of the dual, along the triangle's normal. The way is the
-/// mean over three points that integrate a triangle to second order: on a curved boundary the triangle then lies on both
-/// sides, and the volume stays. Nothing within reach, no force. `distances`, if given, receives for each triangle its
-/// largest distance over these points (the reach, if there is nothing nearer).
+/// Towards the boundary between the two tissues of each triangle of the dual, along the triangle's normal. The way is
+/// the mean over three points that integrate a triangle to second order: on a curved boundary the triangle then lies on
+/// both sides, and the volume stays. Nothing within reach, no force. `distances`, if given, receives for each triangle
+/// its largest distance over these points (the reach, if there is nothing nearer).
 std::vector<Vec3> imageForces(const SurfaceComplex& dual, const TissueBoundary& boundary,
                               std::vector<double>* distances = nullptr);
 

@@ -42,15 +42,15 @@ SimplexShape simplexShape(const Vec3& p, const SimplexNeighbours& neighbours)
   return shape;
 }
 
-// The sphere's centre lies o = (h^2 + d^2 - r^2) / 2h above C; sin(phi) = s r / R and cos(phi) = -s o / R with the sign s
-// of h, so that R and the division by h cancel.
+// The sphere's centre lies o = (h^2 + d^2 - r^2) / 2h above C; sin(phi) = s r / R and cos(phi) = -s o / R with the sign
+// s of h, so that R and the division by h cancel.
 double simplexAngle(double radius, double offset, double height)
 {
   return std::atan2(2 * height * radius, radius * radius - offset * offset - height * height);
 }
 
-// Delingette's L(r, d, phi) without its tangent, which has no value at 90 degrees; the second form avoids a difference of
-// nearly equal numbers beyond.
+// Delingette's L(r, d, phi) without its tangent, which has no value at 90 degrees; the second form avoids a difference
+// of nearly equal numbers beyond.
 double simplexHeight(double radius, double offset, double angle)
 {
   const double r2 = radius * radius, d2 = offset * offset, s = std::sin(angle), c = std::cos(angle);

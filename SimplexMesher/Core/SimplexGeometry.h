@@ -3,8 +3,8 @@
 /// based on simplex meshes", Int. J. Computer Vision 32, 1999).
 ///
 /// Vertex P with neighbours P1, P2, P3, named counter-clockwise as seen from outside. (C, r) is the circumcircle of the
-/// neighbours, N their unit normal, F the foot of P on their plane, d = |F - C|. The *simplex angle* phi in (-pi, pi] is
-/// the angle that the sphere through all four turns by: positive where the surface is convex, 0 where it is flat,
+/// neighbours, N their unit normal, F the foot of P on their plane, d = |F - C|. The *simplex angle* phi in (-pi, pi]
+/// is the angle that the sphere through all four turns by: positive where the surface is convex, 0 where it is flat,
 /// sin(phi) = r / R up to sign on a sphere of radius R. Metric parameters (barycentric coordinates of F), phi and the
 /// three neighbours determine P.
 

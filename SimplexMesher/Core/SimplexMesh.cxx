@@ -29,7 +29,8 @@ std::vector<TriangleEdge> edgesOf(const SurfaceComplex& surface)
       const auto [low, high] = std::minmax(surface.triangles[t][(k + 1) % 3], surface.triangles[t][(k + 2) % 3]);
       edges.push_back({ low, high, std::int32_t(t), k });
     }
-  std::sort(edges.begin(), edges.end(), [](const TriangleEdge& a, const TriangleEdge& b)
+  std::sort(edges.begin(), edges.end(),
+            [](const TriangleEdge& a, const TriangleEdge& b)
             { return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle); });
   return edges;
 }
@@ -52,8 +53,8 @@ void joinAtEdge(const SurfaceComplex& surface, const TriangleEdge* begin, const 
       if (others == 1) mesh.neighbours[e->triangle][side][e->corner] = other->triangle;
       else if (tissue != 0)
         throw InputError("simplex mesh: tissue " + std::to_string(tissue) + " has " + std::to_string(others + 1) +
-                         " triangles at the edge at " + place(0.5 * (surface.points[e->low] + surface.points[e->high])) +
-                         ", expected 2");
+                         " triangles at the edge at " +
+                         place(0.5 * (surface.points[e->low] + surface.points[e->high])) + ", expected 2");
     }
 }
 
@@ -193,11 +194,13 @@ std::vector<SimplexFace> simplexFaces(const SimplexMesh& mesh)
         for (std::int32_t w : face.vertices)
         {
           const auto& around = mesh.faces[w];
-          seen[w][sideOf(mesh.labels[w], tissue)][std::find(around.begin(), around.end(), face.id) - around.begin()] = true;
+          seen[w][sideOf(mesh.labels[w], tissue)][std::find(around.begin(), around.end(), face.id) - around.begin()] =
+            true;
         }
         faces.push_back(std::move(face));
       }
-  std::stable_sort(faces.begin(), faces.end(), [](const SimplexFace& a, const SimplexFace& b)
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const SimplexFace& a, const SimplexFace& b)
                    { return std::tie(a.id, a.tissue) < std::tie(b.id, b.tissue); });
   return faces;
 }

@@ -1,5 +1,6 @@
 #pragma once
-/// The 2-simplex mesh that is dual to the surface complex of all tissues (Delingette 1999; Audette et al. 2007, figure 3a).
+/// The 2-simplex mesh that is dual to the surface complex of all tissues (Delingette 1999; Audette et al. 2007, figure
+/// 3a).
 ///
 /// | triangle complex          | simplex mesh                                            |
 /// |---------------------------|---------------------------------------------------------|
@@ -18,13 +19,14 @@ namespace surgicalmesher
 
 struct SimplexMesh
 {
-  std::vector<Vec3> points;                ///< the vertices, mm
+  std::vector<Vec3> points;                 ///< the vertices, mm
   std::vector<std::array<Label, 2>> labels; ///< per vertex: the tissues [behind, in front of] the surface; 0 outside
-  std::vector<std::array<std::int32_t, 3>> faces; ///< per vertex: ids of the three faces around it, counter-clockwise as
-                                                  ///< seen from the front; faces of one dual point share its id
-  /// [vertex][side][k]: the neighbour, on the surface of labels[vertex][side], across the edge between the other two faces
-  /// than k. Side 1 lists them clockwise as seen from its tissue's outside. The outside itself may be pinched along an
-  /// edge: its neighbours there are -1, all three.
+  std::vector<std::array<std::int32_t, 3>>
+    faces; ///< per vertex: ids of the three faces around it, counter-clockwise as
+           ///< seen from the front; faces of one dual point share its id
+  /// [vertex][side][k]: the neighbour, on the surface of labels[vertex][side], across the edge between the other two
+  /// faces than k. Side 1 lists them clockwise as seen from its tissue's outside. The outside itself may be pinched
+  /// along an edge: its neighbours there are -1, all three.
   std::vector<std::array<std::array<std::int32_t, 3>, 2>> neighbours;
   std::int32_t faceCount = 0;
 };
@@ -33,7 +35,7 @@ struct SimplexMesh
 struct SimplexFace
 {
   Label tissue = 0;
-  std::int32_t id = 0;               ///< as in SimplexMesh::faces
+  std::int32_t id = 0;                ///< as in SimplexMesh::faces
   std::vector<std::int32_t> vertices; ///< counter-clockwise as seen from outside the tissue
 };
 
@@ -41,9 +43,9 @@ struct SimplexFace
 /// InputError unless every tissue's surface has two triangles at each of its edges.
 SimplexMesh simplexMeshOf(const SurfaceComplex& surface);
 
-/// The dual triangles, connected as those that simplexMeshOf() was given. Each is to have its vertex as its centroid: the
-/// points are the least-squares solution, found from the mean of the vertices around each by conjugate gradients. Vertices
-/// on a curved boundary thus give triangles that touch it, where the means alone would lie within.
+/// The dual triangles, connected as those that simplexMeshOf() was given. Each is to have its vertex as its centroid:
+/// the points are the least-squares solution, found from the mean of the vertices around each by conjugate gradients.
+/// Vertices on a curved boundary thus give triangles that touch it, where the means alone would lie within.
 SurfaceComplex dualTriangles(const SimplexMesh& mesh);
 
 /// All faces of all tissues, the outside left out, by face id, then tissue.

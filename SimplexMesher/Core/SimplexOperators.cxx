@@ -100,7 +100,8 @@ CornerTriangle SimplexOperators::cornersOf(const Triangle& t) const
 SimplexOperators::Fit SimplexOperators::fitOf(const Triangle& t) const
 {
   const auto corners = cornersOf(t).corners;
-  const Vec3 centroid = (corners[0] + corners[1] + corners[2]) / 3, n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const Vec3 centroid = (corners[0] + corners[1] + corners[2]) / 3,
+             n = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double bound = m_Limits.proximity(centroid);
   Fit fit;
   for (const Vec3& p : { corners[0], corners[1], corners[2], centroid })
@@ -157,11 +158,13 @@ bool SimplexOperators::crosses(const std::vector<std::int32_t>& old, const std::
       if (trianglesCross(shape, cornersOf(fresh[j]))) return true;
     const Box box = boxOf(shape);
     bool apart = true;
-    m_Grid.visit(box, [&](std::int32_t t) {
-      const CornerTriangle other = cornersOf(m_Triangles[t]);
-      const bool stays = !disjoint(box, boxOf(other)) && std::find(old.begin(), old.end(), t) == old.end();
-      return apart = !stays || !trianglesCross(shape, other);
-    });
+    m_Grid.visit(box,
+                 [&](std::int32_t t)
+                 {
+                   const CornerTriangle other = cornersOf(m_Triangles[t]);
+                   const bool stays = !disjoint(box, boxOf(other)) && std::find(old.begin(), old.end(), t) == old.end();
+                   return apart = !stays || !trianglesCross(shape, other);
+                 });
     if (!apart) return true;
   }
   return false;
@@ -171,12 +174,14 @@ bool SimplexOperators::coveredElsewhere(const Vec3& p, double within, const std:
                                         const std::vector<std::int32_t>& old) const
 {
   bool covered = false;
-  m_Grid.visit(Box::around(p, within), [&](std::int32_t t) {
-    if (m_Triangles[t].labels != labels || std::find(old.begin(), old.end(), t) != old.end()) return true;
-    const auto& [a, b, c] = cornersOf(m_Triangles[t]).corners;
-    covered = squaredNorm(nearestOnTriangle(p, a, b, c) - p) <= within * within;
-    return !covered;
-  });
+  m_Grid.visit(Box::around(p, within),
+               [&](std::int32_t t)
+               {
+                 if (m_Triangles[t].labels != labels || std::find(old.begin(), old.end(), t) != old.end()) return true;
+                 const auto& [a, b, c] = cornersOf(m_Triangles[t]).corners;
+                 covered = squaredNorm(nearestOnTriangle(p, a, b, c) - p) <= within * within;
+                 return !covered;
+               });
   return covered;
 }
 
@@ -187,24 +192,27 @@ bool SimplexOperators::staysCovered(const Patch& before, const Patch& after, con
     for (const Vec3& p : f.shape.corners) box.add(p);
   const double bound = m_Limits.proximity(0.5 * (box.low + box.high));
   bool holds = true;
-  m_Boundary.samples(box, [&](const Vec3& p, std::array<Label, 2> labels) {
-    if (labels[0] < labels[1]) std::swap(labels[0], labels[1]);
-    const auto distanceTo = [&](const Patch& patch) {
-      double best = 2 * bound; // farther samples belong to other parts of the surface
-      for (const Facet& f : patch.facets)
-      {
-        if (f.labels != labels || norm(p - f.centroid) >= best + f.radius) continue;
-        const auto& [a, b, c] = f.shape.corners;
-        best = std::min(best, norm(nearestOnTriangle(p, a, b, c) - p));
-      }
-      return best;
-    };
-    const double now = distanceTo(after);
-    if (now <= bound) return true;
-    const double limit = std::max(bound, distanceTo(before));
-    holds = now <= limit || coveredElsewhere(p, limit, labels, old);
-    return holds;
-  });
+  m_Boundary.samples(box,
+                     [&](const Vec3& p, std::array<Label, 2> labels)
+                     {
+                       if (labels[0] < labels[1]) std::swap(labels[0], labels[1]);
+                       const auto distanceTo = [&](const Patch& patch)
+                       {
+                         double best = 2 * bound; // farther samples belong to other parts of the surface
+                         for (const Facet& f : patch.facets)
+                         {
+                           if (f.labels != labels || norm(p - f.centroid) >= best + f.radius) continue;
+                           const auto& [a, b, c] = f.shape.corners;
+                           best = std::min(best, norm(nearestOnTriangle(p, a, b, c) - p));
+                         }
+                         return best;
+                       };
+                       const double now = distanceTo(after);
+                       if (now <= bound) return true;
+                       const double limit = std::max(bound, distanceTo(before));
+                       holds = now <= limit || coveredElsewhere(p, limit, labels, old);
+                       return holds;
+                     });
   return holds;
 }
 
@@ -229,7 +237,8 @@ SimplexOperators::Patch SimplexOperators::patchOf(const std::vector<Triangle>& t
     const CornerTriangle shape = cornersOf(t);
     const auto& [a, b, c] = shape.corners;
     const Vec3 centroid = (a + b + c) / 3;
-    patch.facets.push_back({ shape, t.labels, centroid, std::max({ norm(a - centroid), norm(b - centroid), norm(c - centroid) }) });
+    patch.facets.push_back(
+      { shape, t.labels, centroid, std::max({ norm(a - centroid), norm(b - centroid), norm(c - centroid) }) });
     patch.quality = std::min(patch.quality, qualityOf(patch.facets.back().shape));
   }
   return patch;
@@ -247,10 +256,13 @@ void SimplexOperators::addFits(Patch& patch, const std::vector<std::int32_t>& ol
 
 bool SimplexOperators::fits(const std::vector<Triangle>& fresh, const Fit& before) const
 {
-  return std::all_of(fresh.begin(), fresh.end(), [&](const Triangle& t) {
-    const Fit fit = fitOf(t);
-    return fit.distance <= std::max(1., before.distance) && fit.cosine >= std::min(m_Limits.minimumCosine, before.cosine);
-  });
+  return std::all_of(fresh.begin(), fresh.end(),
+                     [&](const Triangle& t)
+                     {
+                       const Fit fit = fitOf(t);
+                       return fit.distance <= std::max(1., before.distance) &&
+                              fit.cosine >= std::min(m_Limits.minimumCosine, before.cosine);
+                     });
 }
 
 bool SimplexOperators::replace(const std::vector<std::int32_t>& old, const std::vector<Triangle>& fresh,
@@ -295,7 +307,8 @@ bool SimplexOperators::keepsTissues(std::int32_t a, std::int32_t b) const
       if (!contains(m_Triangles[t].corners, p == a ? b : a)) left.insert(m_Triangles[t].labels);
     }
   if (left != pairs) return false;
-  const auto common = [](const std::vector<std::int32_t>& x, const std::vector<std::int32_t>& y) {
+  const auto common = [](const std::vector<std::int32_t>& x, const std::vector<std::int32_t>& y)
+  {
     std::vector<std::int32_t> both;
     std::set_intersection(x.begin(), x.end(), y.begin(), y.end(), std::back_inserter(both));
     return both;
@@ -305,9 +318,9 @@ bool SimplexOperators::keepsTissues(std::int32_t a, std::int32_t b) const
   {
     const std::vector<std::int32_t> atA = neighboursOn(tissue, a), atB = neighboursOn(tissue, b);
     if (atA.empty() || atB.empty()) continue;
-    const auto edges = std::count_if(between.begin(), between.end(), [&](std::int32_t t) {
-      return m_Triangles[t].labels[0] == tissue || m_Triangles[t].labels[1] == tissue;
-    });
+    const auto edges = std::count_if(
+      between.begin(), between.end(),
+      [&](std::int32_t t) { return m_Triangles[t].labels[0] == tissue || m_Triangles[t].labels[1] == tissue; });
     if (edges != 2 || common(atA, atB).size() != 2) return false;
   }
   for (std::int32_t t : m_At[a])
@@ -316,7 +329,8 @@ bool SimplexOperators::keepsTissues(std::int32_t a, std::int32_t b) const
       const auto& x = m_Triangles[t].corners;
       const auto& y = m_Triangles[s].corners;
       if (contains(x, b) || contains(y, a)) continue;
-      if (std::count_if(x.begin(), x.end(), [&](std::int32_t c) { return c != a && contains(y, c); }) == 2) return false;
+      if (std::count_if(x.begin(), x.end(), [&](std::int32_t c) { return c != a && contains(y, c); }) == 2)
+        return false;
     }
   return true;
 }
@@ -348,7 +362,9 @@ bool SimplexOperators::fuse(std::int32_t a, std::int32_t b)
   if (orderA >= orderB) places.push_back(m_Points[a]);
   if (orderB >= orderA) places.push_back(m_Points[b]);
   return std::any_of(places.begin(), places.end(),
-                     [&](const Vec3& p) { return replace(old, fresh, { { a, p } }, false); });
+                     [&](const Vec3& p) {
+                       return replace(old, fresh, { { a, p } }, false);
+                     });
 }
 
 bool SimplexOperators::cut(std::int32_t a)
@@ -361,7 +377,8 @@ bool SimplexOperators::cut(std::int32_t a)
   return other >= 0 && cutEdge(a, other);
 }
 
-/// Cuts a face inside a sheet into two of nearly as many vertices, across the way along which its neighbours lie closest.
+/// Cuts a face inside a sheet into two of nearly as many vertices, across the way along which its neighbours lie
+/// closest.
 bool SimplexOperators::cutSheet(std::int32_t a)
 {
   const std::vector<std::int32_t> ring = sheetRing(a);
@@ -493,7 +510,8 @@ std::array<std::int32_t, 2> SimplexOperators::endsOf(std::int32_t a, std::int32_
 {
   const std::vector<std::int32_t> between = trianglesAt(a, b);
   if (between.size() != 2) return { -1, -1 };
-  const auto forward = [&](const Corners& c) { return (c[0] == a && c[1] == b) || (c[1] == a && c[2] == b) || (c[2] == a && c[0] == b); };
+  const auto forward = [&](const Corners& c)
+  { return (c[0] == a && c[1] == b) || (c[1] == a && c[2] == b) || (c[2] == a && c[0] == b); };
   const Corners &x = m_Triangles[between[0]].corners, &y = m_Triangles[between[1]].corners;
   if (forward(x) == forward(y)) return { -1, -1 };
   const std::int32_t left = thirdCorner(x, a, b), right = thirdCorner(y, a, b);

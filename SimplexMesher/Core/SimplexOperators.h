@@ -1,7 +1,7 @@
 #pragma once
 /// The Eulerian operators of a simplex mesh (Delingette 1999; Audette et al. 2007, figure 3b), on the surface of all
-/// tissues at once and each with every guard. The mesh is held by its dual triangles: a simplex vertex is the centroid of
-/// its triangle, so both stay consistent whatever happens.
+/// tissues at once and each with every guard. The mesh is held by its dual triangles: a simplex vertex is the centroid
+/// of its triangle, so both stay consistent whatever happens.
 ///
 /// | operator | simplex mesh                                         | dual                     |
 /// |----------|------------------------------------------------------|--------------------------|
@@ -11,7 +11,7 @@
 ///
 /// An operation that returns false has changed nothing. It is refused if it would
 ///   - change any tissue's topology: on the surface of each tissue, the outside included, the link condition holds (two
-///     faces fuse only if they share exactly one edge there), and no two tissues stop touching there. Faces on the curve
+///     faces fuse only if they share exactly one edge there), and no two tissues stop touching there. Faces on a
 ///     where three tissues meet may so fuse with others as long as each tissue stays what it is;
 ///   - leave a triangle that is flatter than `minimumQuality`, or turned from the boundary beside it by more than
 ///     `minimumCosine` says, or farther from it than the proximity bound, or leave a part of the boundary uncovered by
@@ -32,8 +32,9 @@ struct OperatorLimits
 {
   std::function<double(const Vec3&)> edgeLength; ///< target L of the dual triangles, mm; simplex edges are L / sqrt(3)
   std::function<double(const Vec3&)> proximity;  ///< bound on the distance to the tissue boundary, mm
-  double minimumQuality = 0.3; ///< 4 sqrt(3) area / sum of squared edges: 1 equilateral, 0.3 with an angle of 8 to 9 degrees
-  double minimumCosine = 0.3;  ///< between the normals of a triangle and of the boundary
+  double minimumQuality =
+    0.3; ///< 4 sqrt(3) area / sum of squared edges: 1 equilateral, 0.3 with an angle of 8 to 9 degrees
+  double minimumCosine = 0.3; ///< between the normals of a triangle and of the boundary
 };
 
 class SimplexOperators
@@ -45,7 +46,8 @@ public:
   // --- operators; faces are ids of dual points
   /// T1: fuses faces a and b across the simplex edge between them.
   bool fuse(std::int32_t a, std::int32_t b);
-  /// T2: cuts face a across its longer side. On a curve between tissues, the new face is made of four vertices per tissue.
+  /// T2: cuts face a across its longer side. On a curve between tissues, the new face is made of four vertices per
+  /// tissue.
   bool cut(std::int32_t a);
   /// T7: the edge between faces a and b becomes one between the faces at its two ends.
   bool swap(std::int32_t a, std::int32_t b);
@@ -58,17 +60,17 @@ public:
   std::size_t faceCount() const;
   std::vector<std::int32_t> faceNeighbours(std::int32_t a) const; ///< ascending
   const std::vector<std::int32_t>& verticesOf(std::int32_t face) const { return m_At[face]; }
-  Vec3 vertex(std::int32_t v) const; ///< simplex vertex
+  Vec3 vertex(std::int32_t v) const;              ///< simplex vertex
   std::size_t mostVertices(std::int32_t a) const; ///< largest number of vertices of face a on the surface of one tissue
   /// Of the shortest simplex edge between faces a and b to its target; infinite if there is none.
   double edgeRatio(std::int32_t a, std::int32_t b) const;
-  /// Faces at the two ends of the edge between faces a and b (to the left and to the right of the dual edge ab), if only
-  /// one sheet passes there; else -1.
+  /// Faces at the two ends of the edge between faces a and b (to the left and to the right of the dual edge ab), if
+  /// only one sheet passes there; else -1.
   std::array<std::int32_t, 2> endsOf(std::int32_t a, std::int32_t b) const;
-  /// Of the centre of face a's vertices to the boundary of its tissues, mm: the largest over the sheets that meet there;
-  /// the reach, if there is nothing nearer.
+  /// Of the centre of face a's vertices to the boundary of its tissues, mm: the largest over the sheets that meet
+  /// there; the reach, if there is nothing nearer.
   double centreDistance(std::int32_t a) const;
-  double edgeQuality(std::int32_t a, std::int32_t b) const; ///< of the worst dual triangle at the edge
+  double edgeQuality(std::int32_t a, std::int32_t b) const;      ///< of the worst dual triangle at the edge
   double qualityAfterSwap(std::int32_t a, std::int32_t b) const; ///< of the worse of the two that T7 would make
   /// How well faces a and b go together: the flatter, the rounder and the smaller they are as one, the more.
   double fusion(std::int32_t a, std::int32_t b) const;

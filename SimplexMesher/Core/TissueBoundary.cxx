@@ -71,20 +71,22 @@ std::optional<BoundaryPoint> TissueBoundary::nearest(const Vec3& p, const std::a
   const auto& points = m_Surface.points;
   for (double radius = std::min(0.5 * m_Cell, m_Reach);; radius = std::min(2 * radius, m_Reach))
   {
-    m_Grid.visit(Box::around(p, radius), [&](std::int32_t t) {
-      const auto& labels = m_Surface.labels[t];
-      const bool same = labels == tissues;
-      const double farthest = found.distance + m_Radii[t];
-      if (!same && !(labels[0] == tissues[1] && labels[1] == tissues[0])) return true;
-      if (squaredNorm(p - m_Centroids[t]) >= farthest * farthest) return true;
-      const auto& [a, b, c] = m_Surface.triangles[t];
-      const Vec3 q = nearestOnTriangle(p, points[a], points[b], points[c]);
-      const double distance = norm(q - p);
-      if (distance >= found.distance) return true;
-      const Vec3 n = cross(points[b] - points[a], points[c] - points[a]);
-      found = { q, (same ? 1 : -1) / std::max(norm(n), 1e-300) * n, distance };
-      return true;
-    });
+    m_Grid.visit(Box::around(p, radius),
+                 [&](std::int32_t t)
+                 {
+                   const auto& labels = m_Surface.labels[t];
+                   const bool same = labels == tissues;
+                   const double farthest = found.distance + m_Radii[t];
+                   if (!same && !(labels[0] == tissues[1] && labels[1] == tissues[0])) return true;
+                   if (squaredNorm(p - m_Centroids[t]) >= farthest * farthest) return true;
+                   const auto& [a, b, c] = m_Surface.triangles[t];
+                   const Vec3 q = nearestOnTriangle(p, points[a], points[b], points[c]);
+                   const double distance = norm(q - p);
+                   if (distance >= found.distance) return true;
+                   const Vec3 n = cross(points[b] - points[a], points[c] - points[a]);
+                   found = { q, (same ? 1 : -1) / std::max(norm(n), 1e-300) * n, distance };
+                   return true;
+                 });
     if (found.distance <= radius) return found;
     if (radius >= m_Reach) return std::nullopt;
   }

@@ -34,9 +34,10 @@ public:
 
   double reach() const { return m_Reach; }
 
-  /// Hands over the centroids, and the labels, of the surface's triangles near the box, some of them several times, until
-  /// `visit` returns false.
-  template <class Visit> void samples(const Box& box, const Visit& visit) const
+  /// Hands over the centroids, and the labels, of the surface's triangles near the box, some of them several times,
+  /// until `visit` returns false.
+  template <class Visit>
+  void samples(const Box& box, const Visit& visit) const
   {
     m_Grid.visit(box, [&](std::int32_t t) { return visit(m_Centroids[t], m_Surface.labels[t]); });
   }

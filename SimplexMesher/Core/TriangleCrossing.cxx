@@ -71,7 +71,8 @@ bool trianglesCross(const CornerTriangle& a, const CornerTriangle& b)
     const int k = firstOf(sharedA, false);
     return folded(a.corners[(k + 1) % 3], a.corners[(k + 2) % 3], a.corners[k], b.corners[firstOf(sharedB, false)]);
   }
-  const auto edgesMeet = [](const CornerTriangle& of, const std::array<bool, 3>& isShared, const CornerTriangle& with) {
+  const auto edgesMeet = [](const CornerTriangle& of, const std::array<bool, 3>& isShared, const CornerTriangle& with)
+  {
     for (int k = 0; k < 3; ++k)
     {
       const int i = (k + 1) % 3, j = (k + 2) % 3;

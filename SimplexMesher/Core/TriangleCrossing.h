@@ -1,6 +1,6 @@
 #pragma once
-/// Whether two triangles of a surface cross: the test that keeps it free of self-intersections. It errs on the safe side:
-/// what comes within rounding of a crossing counts as one.
+/// Whether two triangles of a surface cross: the test that keeps it free of self-intersections. It errs on the safe
+/// side: what comes within rounding of a crossing counts as one.
 
 #include "Vec3.h"
 

@@ -24,19 +24,22 @@ OperatorLimits limitsOf(double length, double proximity)
 TissueMap ball(double radius, const Vec3& spacing = { 1, 1, 1 })
 {
   const int n = int(2 * radius) + 7;
-  return paintedMap({ n, n, n },
-                    [=](int i, int j, int k) {
-                      const double c = 0.5 * (n - 1);
-                      return (i - c) * (i - c) + (j - c) * (j - c) + (k - c) * (k - c) < radius * radius ? 1 : 0;
-                    },
-                    spacing);
+  return paintedMap(
+    { n, n, n },
+    [=](int i, int j, int k)
+    {
+      const double c = 0.5 * (n - 1);
+      return (i - c) * (i - c) + (j - c) * (j - c) + (k - c) * (k - c) < radius * radius ? 1 : 0;
+    },
+    spacing);
 }
 
 /// Root mean square of the angles between the normals of neighbouring triangles, degrees.
 double roughness(const SurfaceComplex& surface)
 {
   const SimplexMesh mesh = simplexMeshOf(surface);
-  const auto normal = [&](std::int32_t t) {
+  const auto normal = [&](std::int32_t t)
+  {
     const auto& [a, b, c] = surface.triangles[t];
     return cross(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a]);
   };
@@ -90,7 +93,8 @@ TEST(SimplexMotion, C1ShrinksWhatC2Keeps)
   // Without an image: what the internal forces alone do to a sphere.
   const SurfaceComplex start = sphere({}, 6, 3);
   const TissueBoundary nowhere(sphere({ 100, 0, 0 }, 1, 1), 1);
-  const auto volumeAfter = [&](Continuity continuity) {
+  const auto volumeAfter = [&](Continuity continuity)
+  {
     OperatorLimits limits = limitsOf(1, 1);
     SimplexOperators mesh(start, nowhere, limits);
     MotionOptions options;
@@ -105,9 +109,9 @@ TEST(SimplexMotion, C1ShrinksWhatC2Keeps)
 TEST(SimplexMotion, SharedBoundariesStayShared)
 {
   // A ball of two halves: the disc between them stays flat, and ends on the curve between all three.
-  const TissueMap map = paintedMap({ 21, 21, 21 }, [](int i, int j, int k) {
-    return (i - 10) * (i - 10) + (j - 10) * (j - 10) + (k - 10) * (k - 10) < 64 ? (k < 10 ? 1 : 2) : 0;
-  });
+  const TissueMap map =
+    paintedMap({ 21, 21, 21 }, [](int i, int j, int k)
+               { return (i - 10) * (i - 10) + (j - 10) * (j - 10) + (k - 10) * (k - 10) < 64 ? (k < 10 ? 1 : 2) : 0; });
   const SurfaceComplex dense = smoothedBoundary(map);
   const TissueBoundary boundary(dense, 5);
   SimplexOperators mesh(dense, boundary, limitsOf(2.5, 0.7));
@@ -150,8 +154,8 @@ TEST(SimplexAdaptation, EdgesComeToScaleAndFacesToRest)
   for (const auto& [a, b, c] : after.triangles)
     for (const auto& [from, to] : { std::pair{ a, b }, { b, c }, { c, a } })
     {
-      const double ratio = norm(after.points[from] - after.points[to]) /
-                           limits.edgeLength(0.5 * (after.points[from] + after.points[to]));
+      const double ratio =
+        norm(after.points[from] - after.points[to]) / limits.edgeLength(0.5 * (after.points[from] + after.points[to]));
       good += ratio > 0.7 && ratio < 1.4;
     }
   EXPECT_GT(good, 0.85 * 3 * double(after.triangles.size()));
@@ -162,7 +166,8 @@ TEST(SimplexAdaptation, ATightProximityBoundCostsFacesWhereTheBoundaryIsCurved)
 {
   const SurfaceComplex dense = smoothedBoundary(ball(7));
   const TissueBoundary boundary(dense, 5);
-  const auto adapted = [&](double proximity) {
+  const auto adapted = [&](double proximity)
+  {
     SimplexOperators mesh(dense, boundary, limitsOf(5, proximity));
     AdaptationOptions options;
     options.mostIterations = 20;
@@ -180,7 +185,8 @@ TEST(SimplexAdaptation, BytesDoNotDependOnThreads)
 {
   const SurfaceComplex dense = smoothedBoundary(ball(5));
   const TissueBoundary boundary(dense, 5);
-  const auto adapted = [&](int threads) {
+  const auto adapted = [&](int threads)
+  {
     vtkSMPTools::Initialize(threads);
     SimplexOperators mesh(dense, boundary, limitsOf(2, 1));
     AdaptationOptions options;

@@ -116,8 +116,11 @@ TEST(SimplexForces, C2FlattensADentOnlyAsFarAsItsNeighbourhoodIsCurved)
 TEST(SimplexForces, ASharedVertexHearsBothTissues)
 {
   // Beside a junction the neighbours on the two surfaces differ, and the force is the mean of both.
-  const TissueMap map = paintedMap({ 6, 6, 6 }, [](int i, int j, int k)
-                                   { return i < 1 || j < 1 || k < 1 || i > 4 || j > 4 || k > 4 ? 0 : k > 2 ? 3 : i > 2 ? 2 : 1; });
+  const TissueMap map =
+    paintedMap({ 6, 6, 6 },
+               [](int i, int j, int k) {
+                 return i < 1 || j < 1 || k < 1 || i > 4 || j > 4 || k > 4 ? 0 : k > 2 ? 3 : i > 2 ? 2 : 1;
+               });
   const SimplexMesh mesh = simplexMeshOf(smoothedBoundary(map));
   InternalForceOptions options;
   options.continuity = Continuity::C1;
@@ -158,7 +161,8 @@ TEST(SimplexForces, TrianglesAtRestInTheImageEncloseItsVolume)
   const double radius = 5;
   const TissueBoundary boundary(sphere({}, radius, 6), 3);
   double low = 0.95, high = 1.05;
-  const auto push = [&](double share) {
+  const auto push = [&](double share)
+  {
     double sum = 0;
     const SurfaceComplex mesh = sphere({}, share * radius, 2);
     const std::vector<Vec3> forces = imageForces(mesh, boundary);

@@ -48,22 +48,25 @@ TEST(SimplexGeometry, CircumCircleIsEquallyFarFromAllThree)
       EXPECT_NEAR(dot(p - circle.centre, circle.normal), 0, tolerance);
     }
     EXPECT_NEAR(norm(circle.normal), 1, 1e-14);
-    EXPECT_NEAR(norm(cross(circle.centre, circle.normal)), 0, tolerance) << "the axis passes through the sphere's centre";
+    EXPECT_NEAR(norm(cross(circle.centre, circle.normal)), 0, tolerance)
+      << "the axis passes through the sphere's centre";
   }
 }
 
 TEST(SimplexGeometry, AngleOnASphereIsThatOfTheCap)
 {
-  // The neighbours lie on the circle at polar angle theta, and P anywhere within: sin(phi) = r / R, whatever P. Past the
-  // equator the angle passes 90 degrees.
+  // The neighbours lie on the circle at polar angle theta, and P anywhere within: sin(phi) = r / R, whatever P. Past
+  // the equator the angle passes 90 degrees.
   std::mt19937 random(2);
   std::uniform_real_distribution<double> unit(0, 1);
   for (const double radius : { 0.3, 1., 25. })
     for (const double theta : { 0.01, 0.3, 1.2, pi / 2, 1.9, 2.8 })
       for (int n = 0; n < 20; ++n)
       {
-        const auto at = [&](double polar, double azimuth)
-        { return radius * Vec3{ std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar) }; };
+        const auto at = [&](double polar, double azimuth) {
+          return radius *
+                 Vec3{ std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth), std::cos(polar) };
+        };
         SimplexNeighbours three;
         for (int k = 0; k < 3; ++k) three[k] = at(theta, 2 * pi / 3 * (k + 0.6 * unit(random)));
         const Vec3 p = at(theta * 0.9 * unit(random), 2 * pi * unit(random));

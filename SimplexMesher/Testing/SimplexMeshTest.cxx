@@ -21,8 +21,10 @@ SurfaceComplex surfaceOf(const TissueMap& map) { return interfaceOf(tetrahedraOf
 /// Two boxes side by side, a third on both: junction curves and points, and triangles between every two labels.
 TissueMap threeBoxes()
 {
-  return paintedMap({ 6, 6, 6 }, [](int i, int j, int k)
-                    { return i < 1 || j < 1 || k < 1 || i > 4 || j > 4 || k > 4 ? 0 : k > 2 ? 3 : i > 2 ? 2 : 1; });
+  return paintedMap({ 6, 6, 6 },
+                    [](int i, int j, int k) {
+                      return i < 1 || j < 1 || k < 1 || i > 4 || j > 4 || k > 4 ? 0 : k > 2 ? 3 : i > 2 ? 2 : 1;
+                    });
 }
 
 void expectThreeNeighboursOnEachSurface(const SimplexMesh& mesh)
@@ -86,7 +88,8 @@ TEST(SimplexMesh, DualTrianglesHaveTheirVerticesAsCentroids)
     const SimplexMesh mesh = simplexMeshOf(surface);
     const SimplexMesh again = simplexMeshOf(dualTriangles(mesh));
     double worst = 0;
-    for (std::size_t v = 0; v < mesh.points.size(); ++v) worst = std::max(worst, norm(again.points[v] - mesh.points[v]));
+    for (std::size_t v = 0; v < mesh.points.size(); ++v)
+      worst = std::max(worst, norm(again.points[v] - mesh.points[v]));
     EXPECT_LT(worst, 0.05);
   }
 }

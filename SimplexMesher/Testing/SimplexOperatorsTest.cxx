@@ -26,7 +26,8 @@ OperatorLimits limitsOf(double length, double proximity)
 int crossings(const SurfaceComplex& surface)
 {
   int count = 0;
-  const auto shape = [&](std::size_t t) {
+  const auto shape = [&](std::size_t t)
+  {
     const auto& c = surface.triangles[t];
     return CornerTriangle{ { surface.points[c[0]], surface.points[c[1]], surface.points[c[2]] }, c };
   };

@@ -3,8 +3,8 @@
 //
 //   SimplexExperiments FOLDER TEMPLATES [NAME]...
 //
-// FOLDER receives surfaces, simplex meshes, the evolution of each and table.csv; TEMPLATES holds mricron's atlases. NAMEs
-// choose among cube, brain, tubes and path.
+// FOLDER receives surfaces, simplex meshes, the evolution of each and table.csv; TEMPLATES holds mricron's atlases.
+// NAMEs choose among cube, brain, tubes and path.
 
 #include "ComplexChecks.h"
 #include "ComplexIO.h"
@@ -35,7 +35,10 @@ namespace
 struct Rise
 {
   double low, high, inner, decay;
-  double operator()(double d) const { return d <= inner ? low : low + (high - low) * (1 - std::exp(-(d - inner) / decay)); }
+  double operator()(double d) const
+  {
+    return d <= inner ? low : low + (high - low) * (1 - std::exp(-(d - inner) / decay));
+  }
 };
 
 struct Experiment
@@ -89,7 +92,8 @@ bool sound(const SurfaceComplex& surface)
 
 /// By vtkDecimatePro, or, where that stops early or leaves edges of four triangles, by the operators at one length
 /// everywhere.
-SurfaceComplex startOf(const SurfaceComplex& dense, const TissueBoundary& boundary, OperatorLimits limits, std::size_t faces)
+SurfaceComplex startOf(const SurfaceComplex& dense, const TissueBoundary& boundary, OperatorLimits limits,
+                       std::size_t faces)
 {
   SurfaceComplex start = decimated(dense, faces);
   if (double(start.points.size()) < 1.05 * double(faces) && sound(start)) return start;
@@ -131,7 +135,8 @@ std::size_t crossings(const SurfaceComplex& surface)
   {
     std::set<std::int32_t> near;
     grid.visit(boxes[t], [&](std::int32_t s) { return near.insert(s), true; });
-    count += std::count_if(near.begin(), near.end(), [&](std::int32_t s) { return trianglesCross(shapes[t], shapes[s]); });
+    count +=
+      std::count_if(near.begin(), near.end(), [&](std::int32_t s) { return trianglesCross(shapes[t], shapes[s]); });
     grid.insert(std::int32_t(t), boxes[t]);
   }
   return count;
@@ -176,14 +181,17 @@ std::string rowOf(const Experiment& experiment, const std::string& what, const S
   const auto tissues = checkSurface(surface), wanted = checkSurface(dense);
   double worstVolume = 0;
   for (const auto& [label, tissue] : wanted)
-    worstVolume = std::max(worstVolume, tissues.count(label) ? std::abs(tissues.at(label).volume / tissue.volume - 1) : 1.);
-  const double good = double(std::count_if(ratios.begin(), ratios.end(), [](double x) { return x > 0.7 && x < 1.4; })) / double(ratios.size());
-  const Distribution angle = distributionOf(angles), outward = distributionOf(out), backward = distributionOf(back), child = distributionOf(near);
+    worstVolume =
+      std::max(worstVolume, tissues.count(label) ? std::abs(tissues.at(label).volume / tissue.volume - 1) : 1.);
+  const double good = double(std::count_if(ratios.begin(), ratios.end(), [](double x) { return x > 0.7 && x < 1.4; })) /
+                      double(ratios.size());
+  const Distribution angle = distributionOf(angles), outward = distributionOf(out), backward = distributionOf(back),
+                     child = distributionOf(near);
   std::ostringstream row;
   row << experiment.name << ',' << what << ',' << surface.points.size() << ',' << surface.triangles.size() << ','
-      << outward.mean << ',' << outward.maximum << ',' << backward.mean << ',' << backward.maximum << ',' << child.mean << ','
-      << child.maximum << ',' << angle.minimum << ',' << angle.percentile1 << ',' << angle.mean << ',' << good << ','
-      << wrongTissues(tissues, wanted) << ',' << crossings(surface) << ',' << worstVolume << ',' << seconds;
+      << outward.mean << ',' << outward.maximum << ',' << backward.mean << ',' << backward.maximum << ',' << child.mean
+      << ',' << child.maximum << ',' << angle.minimum << ',' << angle.percentile1 << ',' << angle.mean << ',' << good
+      << ',' << wrongTissues(tissues, wanted) << ',' << crossings(surface) << ',' << worstVolume << ',' << seconds;
   return row.str();
 }
 
@@ -204,7 +212,8 @@ void writeResult(const SurfaceComplex& surface, const Experiment& experiment, co
       distance[p] = std::max(distance[p], nearest ? nearest->distance : boundary.reach());
     }
   content.boundaryDistance = distance;
-  for (const Vec3& p : surface.points) content.targetEdgeLength.push_back(experiment.edgeLength(experiment.distance(p)));
+  for (const Vec3& p : surface.points)
+    content.targetEdgeLength.push_back(experiment.edgeLength(experiment.distance(p)));
   writeSurface(content, path + ".vtp");
   if (!sound(surface)) return;
   const SimplexMesh mesh = simplexMeshOf(surface);
@@ -225,7 +234,8 @@ void perform(const Experiment& experiment, const std::string& folder, std::strin
   OperatorLimits limits;
   limits.edgeLength = [&](const Vec3& p) { return experiment.edgeLength(experiment.distance(p)); };
   limits.proximity = [&](const Vec3& p) { return experiment.proximity(experiment.distance(p)); };
-  const SurfaceComplex before = experiment.facesBefore > 0 ? startOf(dense, boundary, limits, experiment.facesBefore) : dense;
+  const SurfaceComplex before =
+    experiment.facesBefore > 0 ? startOf(dense, boundary, limits, experiment.facesBefore) : dense;
   std::cout << experiment.name << ": " << dense.points.size() << " faces, " << std::flush;
   const std::clock_t start = std::clock();
   SimplexOperators mesh(before, boundary, limits);
@@ -248,7 +258,8 @@ void perform(const Experiment& experiment, const std::string& folder, std::strin
     add("vtkDecimatePro", other, 0);
   }
   add("simplex", after, seconds);
-  std::cout << steps.front().faces << " to " << after.points.size() << " faces in " << seconds << " s of processor time" << std::endl;
+  std::cout << steps.front().faces << " to " << after.points.size() << " faces in " << seconds << " s of processor time"
+            << std::endl;
 }
 
 /// Well-composed, without islands and pockets below `volume` mm^3, in the grid's own frame.
@@ -276,14 +287,16 @@ TissueMap thinned(const TissueMap& map, int n)
   for (int& size : thin.grid.size) size = (size + n - 1) / n;
   for (int k = 0; k < thin.grid.size[2]; ++k)
     for (int j = 0; j < thin.grid.size[1]; ++j)
-      for (int i = 0; i < thin.grid.size[0]; ++i) thin.labels.push_back(map.labels[map.grid.index(n * i, n * j, n * k)]);
+      for (int i = 0; i < thin.grid.size[0]; ++i)
+        thin.labels.push_back(map.labels[map.grid.index(n * i, n * j, n * k)]);
   return thin;
 }
 
 /// A hollow cube with two openings along x and two along y, and a hemispherical gland under its inner ceiling.
 Experiment invaginatedCube()
 {
-  const auto paint = [](int i, int j, int k) {
+  const auto paint = [](int i, int j, int k)
+  {
     const double x = i - 31.5, y = j - 31.5, z = k - 31.5;
     const double outer = std::max({ std::abs(x), std::abs(y), std::abs(z) });
     const bool gland = z < 16 && x * x + y * y + (z - 16) * (z - 16) < 64;
@@ -291,8 +304,12 @@ Experiment invaginatedCube()
     return gland || (outer < 24 && outer > 16 && !opening) ? 1 : 0;
   };
   const Vec3 target{ 31.5, 31.5, 47.5 - 4 };
-  return { "cube", prepared(test::paintedMap({ 64, 64, 64 }, paint)),
-           [=](const Vec3& p) { return norm(p - target); }, { 2, 11.5, 10, 20 }, { 0.4, 2.5, 10, 20 }, 1224 };
+  return { "cube",
+           prepared(test::paintedMap({ 64, 64, 64 }, paint)),
+           [=](const Vec3& p) { return norm(p - target); },
+           { 2, 11.5, 10, 20 },
+           { 0.4, 2.5, 10, 20 },
+           1224 };
 }
 
 /// The outside of the brain: all tissues of the JHU atlas as one, dense around the pituitary gland.
@@ -301,46 +318,64 @@ Experiment brain(const std::string& templates)
   TissueMap map = thinned(readTissueMap(templates + "/jhu189.nii.gz"), 3);
   for (Label& label : map.labels) label = label != 0;
   const Vec3 target = map.grid.worldToGrid({ 0, 0, -10 });
-  return { "brain", prepared(map, 1e4), [=](const Vec3& p) { return norm(p - target); }, { 4, 12.5, 10, 35 }, { 1.5, 4, 10, 35 },
+  return { "brain",
+           prepared(map, 1e4),
+           [=](const Vec3& p) { return norm(p - target); },
+           { 4, 12.5, 10, 35 },
+           { 1.5, 4, 10, 35 },
            2618 };
 }
 
 /// A forked artery and two nerves that cross, at constant density.
 Experiment tubes()
 {
-  const std::vector<std::array<Vec3, 2>> artery{ { Vec3{ 24, 20, 4 }, { 24, 22, 26 } }, { Vec3{ 24, 22, 26 }, { 12, 26, 44 } },
+  const std::vector<std::array<Vec3, 2>> artery{ { Vec3{ 24, 20, 4 }, { 24, 22, 26 } },
+                                                 { Vec3{ 24, 22, 26 }, { 12, 26, 44 } },
                                                  { Vec3{ 24, 22, 26 }, { 37, 25, 44 } } };
-  const std::vector<std::array<Vec3, 2>> nerves{ { Vec3{ 8, 44, 8 }, { 24, 38, 24 } }, { Vec3{ 40, 44, 8 }, { 24, 38, 24 } },
-                                                 { Vec3{ 24, 38, 24 }, { 10, 40, 42 } }, { Vec3{ 24, 38, 24 }, { 38, 40, 42 } } };
-  const auto within = [](const Vec3& p, const auto& segments, double radius) {
-    return std::any_of(segments.begin(), segments.end(), [&](const auto& s) { return distanceToSegment(p, s[0], s[1]) < radius; });
+  const std::vector<std::array<Vec3, 2>> nerves{ { Vec3{ 8, 44, 8 }, { 24, 38, 24 } },
+                                                 { Vec3{ 40, 44, 8 }, { 24, 38, 24 } },
+                                                 { Vec3{ 24, 38, 24 }, { 10, 40, 42 } },
+                                                 { Vec3{ 24, 38, 24 }, { 38, 40, 42 } } };
+  const auto within = [](const Vec3& p, const auto& segments, double radius)
+  {
+    return std::any_of(segments.begin(), segments.end(),
+                       [&](const auto& s) { return distanceToSegment(p, s[0], s[1]) < radius; });
   };
-  const auto paint = [&](int i, int j, int k) {
+  const auto paint = [&](int i, int j, int k)
+  {
     const Vec3 p{ double(i), double(j), double(k) };
     return within(p, artery, 3) ? 1 : within(p, nerves, 2.2) ? 2 : 0;
   };
-  return { "tubes", prepared(test::paintedMap({ 48, 56, 48 }, paint)), [](const Vec3&) { return 0.; }, { 2, 2, 1, 1 },
+  return { "tubes",
+           prepared(test::paintedMap({ 48, 56, 48 }, paint)),
+           [](const Vec3&) { return 0.; },
+           { 2, 2, 1, 1 },
            { 0.4, 0.4, 1, 1 } };
 }
 
-/// A phantom of head and brain, dense along a path through the nose to the pituitary gland. What of the head is both more
-/// than 10 mm from the path and more than 25 mm from its end is tissue of null displacement (label 3).
+/// A phantom of head and brain, dense along a path through the nose to the pituitary gland. What of the head is both
+/// more than 10 mm from the path and more than 25 mm from its end is tissue of null displacement (label 3).
 Experiment path()
 {
   constexpr double voxel = 3;
   const Vec3 nose{ 84, 6, 66 }, gland{ 84, 92, 84 };
-  const auto within = [](const Vec3& p, const Vec3& centre, const Vec3& axes) {
+  const auto within = [](const Vec3& p, const Vec3& centre, const Vec3& axes)
+  {
     const Vec3 d = p - centre;
     return d.x * d.x / (axes.x * axes.x) + d.y * d.y / (axes.y * axes.y) + d.z * d.z / (axes.z * axes.z) < 1;
   };
-  const auto paint = [=](int i, int j, int k) {
+  const auto paint = [=](int i, int j, int k)
+  {
     const Vec3 p{ i * voxel, j * voxel, k * voxel };
     if (within(p, { 84, 108, 114 }, { 60, 78, 54 })) return 2;
     if (!within(p, { 84, 102, 90 }, { 78, 96, 84 })) return 0;
     return distanceToSegment(p, nose, gland) > 10 && norm(p - gland) > 25 ? 3 : 1;
   };
-  return { "path", prepared(test::paintedMap({ 56, 68, 60 }, paint, { voxel, voxel, voxel }), 1e3),
-           [=](const Vec3& p) { return distanceToSegment(p, nose, gland); }, { 4, 18, 10, 30 }, { 1.5, 5, 10, 30 } };
+  return { "path",
+           prepared(test::paintedMap({ 56, 68, 60 }, paint, { voxel, voxel, voxel }), 1e3),
+           [=](const Vec3& p) { return distanceToSegment(p, nose, gland); },
+           { 4, 18, 10, 30 },
+           { 1.5, 5, 10, 30 } };
 }
 
 } // namespace
