@@ -12,7 +12,7 @@
 /// An operation that returns false has changed nothing. It is refused if it would
 ///   - change any tissue's topology: on the surface of each tissue, the outside included, the link condition holds (two
 ///     faces fuse only if they share exactly one edge there), and no two tissues stop touching there. Faces on a
-///     where three tissues meet may so fuse with others as long as each tissue stays what it is;
+///     curve where three tissues meet may so fuse with others as long as each tissue stays what it is;
 ///   - leave a triangle that is flatter than `minimumQuality`, or turned from the boundary beside it by more than
 ///     `minimumCosine` says, or farther from it than the proximity bound, or leave a part of the boundary uncovered by
 ///     as much: worse than any of the triangles it replaces, that is;
