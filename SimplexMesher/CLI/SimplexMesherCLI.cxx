@@ -1,11 +1,13 @@
 // SimplexMesherCLI: label map and scale in; prepared map, shared surface of all tissues and its ambient tetrahedra out.
 
+#include "AvailableMemory.h"
 #include "BoundaryDistance.h"
 #include "CommandLine.h"
 #include "ComplexChecks.h"
 #include "ComplexIO.h"
 #include "Errors.h"
 #include "FaceNeighbours.h"
+#include "MemoryEstimate.h"
 #include "Report.h"
 #include "SimplexMesh.h"
 #include "SimplexMesherCLIXML.h"
@@ -200,6 +202,7 @@ void run(CommandLine& line)
   completeShells(results.settings, map, asked);
   prepare(line, map, asked, subProgress(progress, 0.02, 0.06), results);
   const ScaleField scale = lengthsFor(line, map, asked, results);
+  requireMemory(estimateSurfaceMemory(map, scale), availableMemory(), line.text("labelMap"));
 
   SurfaceMesherOptions options;
   options.maximumDistance = line.number("maximumDistance");

@@ -229,7 +229,9 @@ private:
     if (!insideMap(corner, side)) return;
     const bool isMixed = side > m_Layout.cellUnits() && mixed(corner, side);
     // Background is thrown away in the end: only its boundary with tissue needs small elements.
-    if (!isMixed && (!(isTissue(corner)) || !tooLarge(corner, side))) return;
+    const bool isTooLarge = isTissue(corner) && tooLarge(corner, side);
+    if (!isMixed && !isTooLarge) return;
+    if (side <= mostTetrahedralCells * m_Layout.cellUnits() && !tooLarge(corner, side)) return activateMixedTetrahedra(corner, side);
     const int h = side / 2;
     for (int k = 0; k <= 2; ++k)
       for (int j = 0; j <= 2; ++j)
@@ -238,6 +240,40 @@ private:
     for (int k = 0; k < 2; ++k)
       for (int j = 0; j < 2; ++j)
         for (int i = 0; i < 2; ++i) activateCube({ corner[0] + i * h, corner[1] + j * h, corner[2] + k * h }, h);
+  }
+
+  /// In cells, the largest cube that is cut by tetrahedra; larger ones nearly always hold mixed ones everywhere.
+  static constexpr int mostTetrahedralCells = 4;
+
+  /// Only the tetrahedra that voxels of different labels share are cut: half of those in a cube that a boundary crosses lie
+  /// on one side of it.
+  void activateMixedTetrahedra(const Index& corner, int side)
+  {
+    forEachKuhnTetrahedron({ corner[0] / side, corner[1] / side, corner[2] / side }, side,
+                           [&](const Tet& t) { activateMixed(t, 3, side); });
+  }
+
+  static constexpr int mixedLabel = -1;
+
+  /// The label of all voxels that t, out of a cube of `side`, reaches into, or mixedLabel; then t's bisection, with tag d,
+  /// is active.
+  int activateMixed(const Tet& t, int d, int side)
+  {
+    Tet left, right;
+    const Index z = bisection(t, d, left, right);
+    const int nextTag = d > 1 ? d - 1 : 3, nextSide = d > 1 ? side : side / 2;
+    const bool last = nextSide == m_Layout.cellUnits(); // the halves lie in one cell each
+    const int inLeft = last ? labelOf(left) : activateMixed(left, nextTag, nextSide);
+    const int inRight = last ? labelOf(right) : activateMixed(right, nextTag, nextSide);
+    if (inLeft == inRight && inLeft != mixedLabel) return inLeft;
+    m_Active.set(z);
+    return mixedLabel;
+  }
+
+  Label labelOf(const Tet& t) const
+  {
+    const auto middle = [&](int a) { return 0.25 * (t[0][a] + t[1][a] + t[2][a] + t[3][a]); };
+    return labelAt(voxel(middle(0), 0), voxel(middle(1), 1), voxel(middle(2), 2));
   }
 
   bool isTissue(const Index& corner) const
@@ -280,15 +316,15 @@ private:
         }
   }
 
-  void generateRoot(const Index& root, AmbientLattice& out) const
+  /// The six tetrahedra of cube number `cube` of a side. Their paths lead from the corner whose numbers are all even to the
+  /// one where all are odd.
+  template <class F> static void forEachKuhnTetrahedron(const Index& cube, int side, F&& f)
   {
-    const int side = m_Layout.rootUnits();
-    // The path of a Kuhn tetrahedron leads from the corner whose root indices are all even to the one where all are odd.
     Index from, to;
     for (int a = 0; a < 3; ++a)
     {
-      from[a] = (root[a] + (root[a] & 1)) * side;
-      to[a] = (root[a] + 1 - (root[a] & 1)) * side;
+      from[a] = (cube[a] + (cube[a] & 1)) * side;
+      to[a] = (cube[a] + 1 - (cube[a] & 1)) * side;
     }
     std::array<int, 3> axes{ 0, 1, 2 };
     do
@@ -298,25 +334,34 @@ private:
       t[3] = to;
       t[1][axes[0]] = t[2][axes[0]] = to[axes[0]];
       t[2][axes[1]] = to[axes[1]];
-      bisect(t, 3, out);
+      f(t);
     } while (std::next_permutation(axes.begin(), axes.end()));
   }
 
-  /// Maubach's bisection of t with tag d.
-  void bisect(const Tet& t, int d, AmbientLattice& out) const
+  void generateRoot(const Index& root, AmbientLattice& out) const
+  {
+    forEachKuhnTetrahedron(root, m_Layout.rootUnits(), [&](const Tet& t) { bisect(t, 3, out); });
+  }
+
+  /// Maubach's bisection of t with tag d, at the point returned.
+  static Index bisection(const Tet& t, int d, Tet& left, Tet& right)
   {
     Index z;
-    bool even = true;
-    for (int a = 0; a < 3; ++a)
-    {
-      even = even && ((t[0][a] + t[d][a]) & 1) == 0;
-      z[a] = (t[0][a] + t[d][a]) / 2;
-    }
-    if (!even || !m_Active.test(z)) return emit(t, out);
-    Tet left = t, right = t;
+    for (int a = 0; a < 3; ++a) z[a] = (t[0][a] + t[d][a]) / 2;
+    left = right = t;
     left[d] = z;
     for (int i = 0; i < d; ++i) right[i] = t[i + 1];
     right[d] = z;
+    return z;
+  }
+
+  void bisect(const Tet& t, int d, AmbientLattice& out) const
+  {
+    Tet left, right;
+    const Index z = bisection(t, d, left, right);
+    for (int a = 0; a < 3; ++a)
+      if ((t[0][a] + t[d][a]) & 1) return emit(t, out);
+    if (!m_Active.test(z)) return emit(t, out);
     const int next = d > 1 ? d - 1 : 3;
     bisect(left, next, out);
     bisect(right, next, out);
@@ -330,8 +375,7 @@ private:
     for (int i = 0; i < 4; ++i) p[i] = { double(t[i][0]), double(t[i][1]), double(t[i][2]) };
     Tet x = t;
     if (orient(p[0], p[1], p[2], p[3]) < 0) std::swap(ids[2], ids[3]), std::swap(x[2], x[3]);
-    const Vec3 c = 0.25 * (p[0] + p[1] + p[2] + p[3]);
-    const Label label = labelAt(voxel(c.x, 0), voxel(c.y, 1), voxel(c.z, 2));
+    const Label label = labelOf(t);
     const std::int32_t id = std::int32_t(out.ambient.mesh.tetrahedra.size());
     out.ambient.mesh.tetrahedra.push_back(ids);
     out.ambient.mesh.labels.push_back(label);

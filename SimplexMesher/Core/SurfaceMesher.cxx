@@ -6,6 +6,8 @@
 #include "Improvement.h"
 #include "ReferenceSurface.h"
 
+#include <vtkSMPTools.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -43,14 +45,26 @@ public:
     m_Counts = {};
     const TetraMesh& mesh = m_Ambient.mesh;
     step.tetrahedra = std::size_t(std::count_if(mesh.labels.begin(), mesh.labels.end(), [](Label l) { return l != 0; }));
+    // In parts of a fixed size: their sum does not depend on the threads.
+    constexpr std::size_t part = 4096;
+    const auto& evidence = m_Ambient.evidence;
+    std::vector<std::pair<double, double>> sumAndMaximum((evidence.size() + part - 1) / part);
+    vtkSMPTools::For(0, vtkIdType(sumAndMaximum.size()), [&](vtkIdType begin, vtkIdType end) {
+      for (vtkIdType p = begin; p < end; ++p)
+        for (std::size_t i = std::size_t(p) * part; i < std::min(evidence.size(), (std::size_t(p) + 1) * part); ++i)
+        {
+          const auto& t = mesh.tetrahedra[evidence[i].tetrahedron];
+          const auto corner = [&](int k) { return mesh.points[t[(evidence[i].face + k) & 3]]; };
+          const double d = std::sqrt(squaredDistanceToTriangle(evidence[i].position, corner(1), corner(2), corner(3)));
+          sumAndMaximum[p].first += d;
+          sumAndMaximum[p].second = std::max(sumAndMaximum[p].second, d);
+        }
+    });
     double sum = 0;
-    for (const auto& e : m_Ambient.evidence)
+    for (const auto& [ofPart, maximum] : sumAndMaximum)
     {
-      const auto& t = mesh.tetrahedra[e.tetrahedron];
-      const auto corner = [&](int k) { return mesh.points[t[(e.face + k) & 3]]; };
-      const double d = std::sqrt(squaredDistanceToTriangle(e.position, corner(1), corner(2), corner(3)));
-      sum += d;
-      step.maximumDistance = std::max(step.maximumDistance, d);
+      sum += ofPart;
+      step.maximumDistance = std::max(step.maximumDistance, maximum);
     }
     if (!m_Ambient.evidence.empty()) step.meanDistance = sum / double(m_Ambient.evidence.size());
     m_Steps.push_back(step);
