@@ -12,6 +12,7 @@
 #include "MaterialTable.h"
 #include "MeshImprovement.h"
 #include "MeshQuality.h"
+#include "StiffnessConditioning.h"
 #include "SubMeshExport.h"
 #include "SubMeshes.h"
 #include "SurfaceEdgeLength.h"
@@ -21,6 +22,7 @@
 #include "TissueMapIO.h"
 #include "VtkExport.h"
 
+#include <rapidjson/document.h>
 #include <rapidjson/prettywriter.h>
 #include <rapidjson/stringbuffer.h>
 #include <vtkSMPTools.h>
@@ -190,8 +192,10 @@ std::vector<ShellChoice> readShells(const CommandLine& line, const TissueTable& 
 }
 
 /// What the command line alone can tell.
-void requireUsableExports(const CommandLine& line)
+void requireUsableOptions(const CommandLine& line)
 {
+  if (line.flag("conditioning") && !line.given("report"))
+    throw UsageError("--conditioning is given, but no --report, expected both");
   for (const std::string& file : line.outputNames("export")) exportFormatOf(file);
   const bool chosen = !line.texts("shell").empty();
   if (line.given("shells") && !chosen) throw UsageError("--shells is given, but no --shell");
@@ -293,7 +297,18 @@ void writeTopology(JsonWriter& json, const TetraMesh& mesh)
   json.EndArray();
 }
 
-std::string reportOf(const MeshFile& content, const SubMeshes& division, const MeshQuality& quality, bool fromAmbient)
+rapidjson::Value stiffnessJSON(const StiffnessConditioning& conditioning, rapidjson::Document::AllocatorType& allocator)
+{
+  rapidjson::Value stiffness(rapidjson::kObjectType);
+  stiffness.AddMember("unknowns", rapidjson::Value(std::uint64_t(conditioning.unknowns)), allocator);
+  stiffness.AddMember("converged", rapidjson::Value(conditioning.converged), allocator);
+  stiffness.AddMember("conditionNumber", rapidjson::Value(conditioning.condition), allocator);
+  stiffness.AddMember("iterations", rapidjson::Value(conditioning.iterations), allocator);
+  return stiffness;
+}
+
+std::string reportOf(const MeshFile& content, const SubMeshes& division, const MeshQuality& quality, bool fromAmbient,
+                     bool withConditioning)
 {
   rapidjson::StringBuffer buffer;
   JsonWriter json(buffer);
@@ -303,8 +318,14 @@ std::string reportOf(const MeshFile& content, const SubMeshes& division, const M
   writeSubMeshes(json, division);
   writeTopology(json, content.mesh);
   json.Key("quality");
-  const std::string qualityText = qualityJSON(quality, content.tissues);
-  json.RawValue(qualityText.c_str(), qualityText.size(), rapidjson::kObjectType);
+  rapidjson::Document members;
+  members.Parse(qualityJSON(quality, content.tissues).c_str());
+  if (withConditioning)
+  {
+    auto& allocator = members.GetAllocator();
+    members.AddMember("stiffness", stiffnessJSON(stiffnessConditioning(content.mesh), allocator), allocator);
+  }
+  members.Accept(json);
   json.EndObject();
   return std::string(buffer.GetString()) + "\n";
 }
@@ -324,7 +345,7 @@ void mesh(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
-  requireUsableExports(line);
+  requireUsableOptions(line);
   const ConstitutiveRule rule = readConstitutiveRule(line);
   SurfaceFile content = readSurface(line.text("surface"));
   const Lengths lengths = readLengths(line, content);
@@ -344,7 +365,11 @@ void mesh(CommandLine& line)
   writeExports(line, result, options);
   const MeshQuality quality = assessQuality(result.mesh, result.subMesh, edgeLength);
   const std::string reportFile = line.outputFile("report");
-  if (!reportFile.empty()) writeBytes(reportOf(result, division, quality, !line.text("ambient").empty()), reportFile);
+  if (!reportFile.empty())
+  {
+    const bool fromAmbient = !line.text("ambient").empty();
+    writeBytes(reportOf(result, division, quality, fromAmbient, line.flag("conditioning")), reportFile);
+  }
   line.message(summaryOf(quality.whole));
   report(progress, 1, "done");
 }

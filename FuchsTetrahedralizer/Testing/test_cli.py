@@ -5,6 +5,7 @@ Usage: test_cli.py EXECUTABLE FOLDER
 """
 import itertools
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -208,6 +209,19 @@ class FuchsTetrahedralizer(unittest.TestCase):
         for name in ("SubMesh", "Constitutive"):
             array = mesh.GetCellData().GetArray(name)
             self.assertEqual({array.GetValue(i) for i in range(mesh.GetNumberOfCells())}, {0, 1})
+
+    def test_reports_the_conditioning(self):
+        surface = write(sphere(10), "surface.stl")
+        self.assertNotIn("stiffness", self.filled("--edgeLength", "3", surface)["quality"])
+        stiffness = self.filled("--edgeLength", "3", "--conditioning", surface)["quality"]["stiffness"]
+        self.assertTrue(stiffness["converged"])
+        self.assertGreater(stiffness["conditionNumber"], 1)
+        self.assertLess(stiffness["unknowns"], 3 * read(self.mesh).GetNumberOfPoints())
+        # Chebyshev's bound on conjugate gradients, in a norm that differs from the residual's by the condition at most.
+        bound = 0.5 * stiffness["conditionNumber"]**0.5 * math.log(2e8 * stiffness["conditionNumber"])
+        self.assertTrue(10 < stiffness["iterations"] <= bound, stiffness)
+        os.remove(self.mesh)
+        self.refused(2, "--report", "--edgeLength", "3", "--conditioning", surface)
 
     def test_shows_the_triangles_it_refuses(self):
         crossing = together(label(sphere(5), 1, 0), label(sphere(5, 6), 2, 0))
