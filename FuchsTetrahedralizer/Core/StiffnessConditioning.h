@@ -19,7 +19,8 @@ struct StiffnessConditioning
 /// modulus has no influence. Of each piece (tetrahedra joined through faces) the outermost points towards -z are held:
 /// the lowest twentieth, three at least, and all that are as low. The load is the body's own weight. The eigenvalues
 /// are those of the Lanczos matrices that conjugate gradients build (Golub, Van Loan, Matrix Computations, 10.2), from
-/// the weight and from forces scattered at random, as the weight alone leaves some modes at rest. `mesh` as requireSound() has it, without label 0. Deterministic, whatever the number of threads.
+/// the weight and from forces scattered at random, as the weight alone leaves some modes at rest. `mesh` as
+/// requireSound() has it, without label 0. Deterministic, whatever the number of threads.
 StiffnessConditioning stiffnessConditioning(const TetraMesh& mesh);
 
 } // namespace surgicalmesher
