@@ -19,7 +19,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double mostSlack = 1.6;      // times the tolerance, where an angle can't be mended otherwise
+constexpr double mostSlack = 2.4;      // times the tolerance, where an angle can't be mended otherwise
 constexpr double mostBalance = 0.25;   // voxels
 constexpr std::size_t blockSize = 40000; // tetrahedra: a few megabytes, and enough blocks for the threads
 
@@ -127,9 +127,9 @@ void setTolerances(AmbientMesh& ambient, const TissueMap& map, const ScaleFuncti
   const std::map<Label, double> thickness = thicknesses(map);
   for (auto& e : ambient.evidence)
   {
-    double tolerance = 0.45 * voxel + 0.08 * scale(e.position);
+    double tolerance = 0.45 * voxel + 0.071 * scale(e.position);
     for (const Label label : labelsBeside(map, e.position))
-      if (label != 0) tolerance = std::min(tolerance, std::max(0.65 * voxel, 0.3 * thickness.at(label)));
+      if (label != 0) tolerance = std::min(tolerance, std::max(0.6 * voxel, 0.28 * thickness.at(label)));
     e.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
   }
 }
@@ -223,7 +223,7 @@ std::vector<Step> coarseningSteps(const Grid& grid, double longest)
 /// angles allow.
 std::vector<Step> improvementSteps(double longest)
 {
-  constexpr double aim = 28.7, kept = 28.3; // degrees
+  constexpr double aim = 28.8, kept = 28.5; // degrees
   std::vector<Step> steps;
   const auto add = [&](double rmsLimit, double level, int polishes, const ImprovementOptions& improvement)
   {
@@ -237,16 +237,24 @@ std::vector<Step> improvementSteps(double longest)
   };
   add(0.4, longest, 2, Step::improvementTo(25, 8, 2));
   add(0.35, longest, 2, Step::improvementTo(aim, 8, 2));
+  steps.back().balance = true;
   add(0.35, longest, 2, Step::improvementTo(aim, 8, 1));
+  steps.back().balance = true;
   add(0.5, 0, 1, Step::improvementTo(aim, 16, 2));
   add(0.8, 0, 0, Step::improvementTo(aim, 16, 2));
   steps.back().slack = 1.3;
-  for (const double splitEdge : { 0.0, 0.6, 0.4 })
+  const auto repair = [&](double slack, double splitEdge, double ease)
   {
     add(1, 0, 0, Step::improvementTo(aim, 20, 3, splitEdge));
-    steps.back().slack = mostSlack;
-    steps.back().whole = true;
-  }
+    Step& step = steps.back();
+    step.improvement.ease = ease;
+    step.slack = slack;
+    step.whole = true;
+  };
+  repair(1.6, 0, 0.02);
+  repair(1.6, 0.6, 0.02);
+  repair(1.6, 0.4, 0.3);
+  repair(mostSlack, 0.3, 1);
   for (const double rmsLimit : { 0.3, 0.25 })
   {
     add(rmsLimit, 0, 1, Step::improvementTo(0, 0, 0));
@@ -257,6 +265,8 @@ std::vector<Step> improvementSteps(double longest)
     step.relaxation.fit = 5;
     step.polishing.fit = 20;
   }
+  repair(mostSlack, 0.4, 0.1); // what resisted may have got room
+  repair(mostSlack, 0.3, 1);
   return steps;
 }
 

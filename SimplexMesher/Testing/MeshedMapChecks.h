@@ -45,7 +45,7 @@ inline std::string faultOf(const SurfaceMesh& result, const TissueMap& map)
   if (result.ambient.lengths.size() != mesh.points.size()) return "there is not one target length per point";
   const auto neighbours = faceNeighbours(mesh);
   const Vec3 h = map.grid.spacing;
-  const auto allowed = [&](double tolerance) { return 1.6 * tolerance + 0.5 * std::min({ h.x, h.y, h.z }); };
+  const auto allowed = [&](double tolerance) { return 2.4 * tolerance + std::min({ h.x, h.y, h.z }); };
   for (const auto& e : result.ambient.evidence)
   {
     const std::int32_t n = neighbours.across[e.tetrahedron][e.face];
