@@ -97,6 +97,10 @@ bool onLattice(const Places& place, Place size)
   return (first == 0 || 2 * first == size) && remainder(1) == first && remainder(2) == first;
 }
 
+/// The lattice's mean edge over L(x) is between half of this and this: collapses mend what is too short, but only splits
+/// what is too long. Where L(x) is the same everywhere, the lattice has just that length.
+constexpr double kCoarsest = 1.000001;
+
 /// An octree of lattice cubes in a box around the surface, every cube as large as L(x) allows.
 class LatticeOctree
 {
@@ -141,17 +145,18 @@ public:
 private:
   static constexpr int kMaximumDepth = 20;
 
-  /// Too coarse by more than half an octave at the cube's centre, or by more than a whole one at a corner.
+  /// Too coarse at the cube's centre, or by more than half an octave at a corner.
   bool tooCoarse(const Places& corner, Place size) const
   {
     const double meanEdge = m_Unit * double(size) * kLatticeMeanEdge;
     const auto lengthAt = [&](Place i, Place j, Place k) {
       return checkedLength(m_EdgeLength, positionOf({ corner[0] + i, corner[1] + j, corner[2] + k }));
     };
-    if (meanEdge > std::sqrt(2.0) * lengthAt(size / 2, size / 2, size / 2)) return true;
+    if (meanEdge > kCoarsest * lengthAt(size / 2, size / 2, size / 2)) return true;
     for (int c = 0; c < 8; ++c)
     {
-      if (meanEdge > 2 * lengthAt((c & 1) * size, (c >> 1 & 1) * size, (c >> 2) * size)) return true;
+      const double length = lengthAt((c & 1) * size, (c >> 1 & 1) * size, (c >> 2) * size);
+      if (meanEdge > std::sqrt(2.0) * kCoarsest * length) return true;
     }
     return false;
   }

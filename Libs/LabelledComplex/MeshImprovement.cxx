@@ -1,11 +1,13 @@
 #include "MeshImprovement.h"
 
+#include "Coarsening.h"
 #include "FaceNeighbours.h"
 #include "Improvement.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace surgicalmesher
 {
@@ -15,30 +17,57 @@ namespace
 
 constexpr std::size_t blockSize = 40000; // tetrahedra
 
-/// Splits cost regular sizes and drift costs fidelity: both only in the end, where an angle is still bad. Then in one block:
-/// borders are locked, and what is still bad lies at them.
+/// What one sweep over the blocks does, in this order. The angle that vertices may fall to while they move rises with what
+/// has been reached, and the angle aimed at with it: sizes suffer less than from one step straight to the end. Then only
+/// what is still bad may stray farther from the surface, in one block, as borders are locked and what is still bad lies at
+/// them. Splits cost regular sizes, and come late. In the end the surface goes back to where it was as far as the angles
+/// allow.
 struct Step
 {
   double rmsLimit, slack; ///< see GuardedOperations
-  int relaxations, polishes;
+  double collapseAngle;   ///< degrees, least that the collapse of a short edge leaves; 0: no collapses
+  int relaxations;
+  double relaxationAngle; ///< see RelaxationOptions::goodAngle
+  int polishes;
+  double polishAngle, polishFit; ///< see PolishOptions
+  double aim;             ///< degrees; the target angle at most
   int trials, passes;
-  double splitEdge; ///< 0: no splits
+  double splitEdge;       ///< 0: no splits
   bool whole;
 };
+constexpr double most = 90;
 constexpr Step steps[] = {
-  { 0.3, 1, 1, 3, 8, 2, 0, false }, { 0.5, 1, 1, 3, 12, 2, 0, false }, { 0.8, 1, 0, 3, 16, 2, 0, false },
-  { 1, 1, 0, 0, 20, 3, 0, true },   { 1, 2, 0, 0, 20, 3, 0.6, true },  { 1, 2, 0, 0, 20, 3, 0.4, true },
+  { 0.3, 1.0, 15, 3, 15, 2, 29.5, 1, 20, 8, 2, 0, false },   { 0.3, 1.0, 20, 1, 20, 2, 29.5, 1, 25, 8, 2, 0, false },
+  { 0.4, 1.0, 20, 1, 25, 3, 29.5, 1, most, 8, 2, 0, false }, { 0.4, 1.0, 20, 1, 25, 4, 29.5, 1, most, 8, 2, 0, false },
+  { 0.5, 1.0, 0, 0, 0, 4, 29.5, 1, most, 12, 2, 0, false },  { 0.8, 1.5, 0, 0, 0, 3, 29.5, 1, most, 16, 2, 0, false },
+  { 1.0, 2.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },      { 1.0, 3.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },
+  { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },      { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0.6, true },
+  { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 30, 4, 0.4, true },    { 0.4, 1.0, 0, 0, 0, 2, 28.4, 3, 0, 0, 0, 0, false },
 };
 
-ImprovementOptions improvementOf(const Step& step, double targetAngle)
+void work(GuardedOperations& operations, const Step& step, double targetAngle)
 {
-  ImprovementOptions o;
-  o.targetAngle = targetAngle;
-  o.trials = step.trials;
-  o.passes = step.passes;
-  o.split = step.splitEdge > 0;
-  o.splitEdge = step.splitEdge;
-  return o;
+  if (step.collapseAngle > 0)
+  {
+    CoarseningOptions coarsening;
+    coarsening.minimumAngle = step.collapseAngle;
+    coarsenBlock(operations, std::numeric_limits<double>::max(), coarsening);
+  }
+  RelaxationOptions relaxation;
+  relaxation.goodAngle = step.relaxationAngle;
+  PolishOptions polishing;
+  polishing.goodAngle = step.polishAngle;
+  polishing.fit = step.polishFit;
+  for (int i = 0; i < step.relaxations; ++i) relaxBlock(operations, relaxation);
+  for (int i = 0; i < step.polishes; ++i) polishBlock(operations, polishing);
+  if (step.passes == 0) return;
+  ImprovementOptions improvement;
+  improvement.targetAngle = std::min(step.aim, targetAngle);
+  improvement.trials = step.trials;
+  improvement.passes = step.passes;
+  improvement.split = step.splitEdge > 0;
+  improvement.splitEdge = step.splitEdge;
+  improveBlock(operations, improvement);
 }
 
 /// Points on every interface triangle, about half a target length apart: where the surface is now.
@@ -81,9 +110,7 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
       [&](TetComplex& block)
       {
         GuardedOperations operations(block, scale, step.rmsLimit, step.slack);
-        for (int k = 0; k < step.relaxations; ++k) relaxBlock(operations);
-        for (int k = 0; k < step.polishes; ++k) polishBlock(operations);
-        improveBlock(operations, improvementOf(step, options.targetAngle));
+        work(operations, step, options.targetAngle);
       },
       [&](double fraction, const std::string&) { report(progress, (double(i) + fraction) / double(sweeps), "improvement"); });
   }

@@ -10,8 +10,8 @@ namespace surgicalmesher
 
 struct MeshImprovementOptions
 {
-  double surfaceTolerance = 0.02; ///< how far the surface may move from where it was, as a share of the target
-                                  ///< length; twice as far where nothing else mends an angle
+  double surfaceTolerance = 0.017; ///< how far the surface may move from where it was, as a share of the target
+                                  ///< length; four times as far where nothing else mends an angle
   double targetAngle = 28.5;      ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
 };
 
