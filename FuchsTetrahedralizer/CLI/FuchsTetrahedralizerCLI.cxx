@@ -171,10 +171,18 @@ std::optional<ShellChoice> findShell(const std::string& text, const TissueTable&
   return {};
 }
 
-/// Slicer passes several in one text, separated by commas.
+/// Slicer passes several in one text, separated by commas. Without any, the tissues that the surface stage was asked to mesh
+/// as shells.
 std::vector<ShellChoice> readShells(const CommandLine& line, const TissueTable& names, const std::set<Label>& present)
 {
   std::vector<ShellChoice> choices;
+  if (line.texts("shell").empty())
+  {
+    for (const auto& [label, tissue] : names)
+      if (tissue.isShell && present.count(label) > 0) choices.push_back({ label, -1, line.number("shellThickness") });
+    if (choices.empty() && line.given("shells"))
+      throw UsageError("--shells is given, but no --shell, and no tissue of the surface has the role of a shell");
+  }
   for (const std::string& option : line.texts("shell"))
   {
     const bool isOne = findShell(option, names, present).has_value();
@@ -198,7 +206,6 @@ void requireUsableOptions(const CommandLine& line)
     throw UsageError("--conditioning is given, but no --report, expected both");
   for (const std::string& file : line.outputNames("export")) exportFormatOf(file);
   const bool chosen = !line.texts("shell").empty();
-  if (line.given("shells") && !chosen) throw UsageError("--shells is given, but no --shell");
   if (chosen && !line.given("shells") && !line.given("export"))
     throw UsageError("--shell is given, but neither --shells nor --export");
 }

@@ -1,5 +1,6 @@
 #include "ComplexIO.h"
 #include "ExecutableTest.h"
+#include "FaceNeighbours.h"
 #include "Shapes.h"
 
 #include <limits>
@@ -128,6 +129,16 @@ TEST_F(FuchsTetrahedralizerCLI, ExportsSeveralFormatsWithTheirSidecars)
   {
     EXPECT_NE(deck.find(card), std::string::npos) << card;
   }
+}
+
+TEST_F(FuchsTetrahedralizerCLI, MakesShellsOfTissuesThatTheSurfaceMarks)
+{
+  SurfaceFile marked = readSurface(folder.file("ball.vtp"));
+  marked.tissues[5].isShell = true;
+  writeSurface(marked, folder.file("marked.vtp"));
+  expectDone("--edgeLength 4 --shells s.vtp marked.vtp m.vtu");
+  const SurfaceFile shells = readSurface(folder.file("s.vtp"));
+  EXPECT_EQ(shells.surface.triangles.size(), interfaceOf(readMesh(folder.file("m.vtu")).mesh).triangles.size());
 }
 
 TEST_F(FuchsTetrahedralizerCLI, RefusesExportsAtFault)
