@@ -159,8 +159,8 @@ class FuchsTetrahedralizer(unittest.TestCase):
                 properties = vtk.vtkMassProperties()
                 properties.SetInputData(surface)
                 volume = report["quality"]["whole"]["volume"]
-                # The surface may move by 0.02 of the edge length while the tetrahedra improve.
-                self.assertLess(abs(volume - properties.GetVolume()), 0.02 * length * properties.GetSurfaceArea())
+                # The surface may move by 0.017 of the edge length, and four times as far at what is bad otherwise.
+                self.assertLess(abs(volume - properties.GetVolume()), 0.03 * length * properties.GetSurfaceArea())
 
     def test_nested_shells_are_tissues_in_each_other(self):
         surface = together(sphere(10), sphere(6, 1), sphere(2, 2), sphere(3, 20))

@@ -70,6 +70,21 @@ void work(GuardedOperations& operations, const Step& step, double targetAngle)
   improveBlock(operations, improvement);
 }
 
+/// The triangle cut into n^2 congruent ones.
+std::vector<std::array<Vec3, 3>> subdivided(const std::array<Vec3, 3>& p, int n)
+{
+  std::vector<std::array<Vec3, 3>> result;
+  const Vec3 u = (p[1] - p[0]) / n, v = (p[2] - p[0]) / n;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; i + j < n; ++j)
+    {
+      const Vec3 q = p[0] + i * u + j * v;
+      result.push_back({ q, q + u, q + v });
+      if (i + j + 1 < n) result.push_back({ q + u + v, q + v, q + u });
+    }
+  return result;
+}
+
 /// Points on every interface triangle, about half a target length apart: where the surface is now.
 void placeEvidence(AmbientMesh& ambient, double tolerance)
 {
@@ -88,8 +103,11 @@ void placeEvidence(AmbientMesh& ambient, double tolerance)
         p[k] = mesh.points[v];
         length += ambient.lengths[v] / 3;
       }
-      for (int k = 0; k < 3; ++k)
-        ambient.evidence.push_back({ (4 * p[k] + p[(k + 1) % 3] + p[(k + 2) % 3]) / 6, float(tolerance * length), t, i });
+      const double longest = std::max({ norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2]) });
+      const int parts = std::clamp(int(longest / (2 * length)) + 1, 1, 16);
+      for (const auto& q : subdivided(p, parts))
+        for (int k = 0; k < 3; ++k)
+          ambient.evidence.push_back({ (4 * q[k] + q[(k + 1) % 3] + q[(k + 2) % 3]) / 6, float(tolerance * length), t, i });
     }
 }
 
