@@ -3,6 +3,7 @@
 #include "Coarsening.h"
 #include "FaceNeighbours.h"
 #include "Improvement.h"
+#include "TetQuality.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +40,8 @@ constexpr double most = 90;
 constexpr Step steps[] = {
   { 0.3, 1.0, 15, 3, 15, 2, 29.5, 1, 20, 8, 2, 0, false },   { 0.3, 1.0, 20, 1, 20, 2, 29.5, 1, 25, 8, 2, 0, false },
   { 0.4, 1.0, 20, 1, 25, 3, 29.5, 1, most, 8, 2, 0, false }, { 0.4, 1.0, 20, 1, 25, 4, 29.5, 1, most, 8, 2, 0, false },
-  { 0.5, 1.0, 0, 0, 0, 4, 29.5, 1, most, 12, 2, 0, false },  { 0.8, 1.5, 0, 0, 0, 3, 29.5, 1, most, 16, 2, 0, false },
+  { 0.3, 1.0, 0, 1, 25, 4, 29.5, 1, most, 8, 2, 0, false },  { 0.5, 1.0, 0, 1, 25, 4, 29.5, 1, most, 12, 2, 0, false },
+  { 0.8, 1.5, 0, 0, 0, 5, 29.5, 1, most, 16, 2, 0, false },
   { 1.0, 2.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },      { 1.0, 3.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },
   { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },      { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0.6, true },
   { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 30, 4, 0.4, true },    { 0.4, 1.0, 0, 0, 0, 2, 28.4, 3, 0, 0, 0, 0, false },
@@ -68,6 +70,19 @@ void work(GuardedOperations& operations, const Step& step, double targetAngle)
   improvement.split = step.splitEdge > 0;
   improvement.splitEdge = step.splitEdge;
   improveBlock(operations, improvement);
+}
+
+/// Whether no tetrahedron within a tissue has an angle that only many collapses and flips would mend.
+bool isGood(const TetraMesh& mesh)
+{
+  const double least = sine2OfDegrees(20);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    const auto& [a, b, c, d] = mesh.tetrahedra[t];
+    const auto& p = mesh.points;
+    if (mesh.labels[t] != 0 && worstSine2(p[a], p[b], p[c], p[d]) < least) return false;
+  }
+  return true;
 }
 
 /// The triangle cut into n^2 congruent ones.
@@ -120,9 +135,11 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
   for (const Vec3& p : mesh.points) ambient.lengths.push_back(scale(p));
   placeEvidence(ambient, options.surfaceTolerance);
   const std::size_t sweeps = std::size(steps);
+  const bool good = isGood(mesh);
   for (std::size_t i = 0; i < sweeps; ++i)
   {
     const Step& step = steps[i];
+    if (good && step.collapseAngle > 0) continue;
     sweepBlocks(
       ambient, int(i), step.whole ? ambient.mesh.tetrahedra.size() : blockSize,
       [&](TetComplex& block)

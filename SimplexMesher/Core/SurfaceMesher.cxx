@@ -127,7 +127,7 @@ void setTolerances(AmbientMesh& ambient, const TissueMap& map, const ScaleFuncti
   const std::map<Label, double> thickness = thicknesses(map);
   for (auto& e : ambient.evidence)
   {
-    double tolerance = 0.45 * voxel + 0.071 * scale(e.position);
+    double tolerance = 0.45 * voxel + 0.0725 * scale(e.position);
     for (const Label label : labelsBeside(map, e.position))
       if (label != 0) tolerance = std::min(tolerance, std::max(0.6 * voxel, 0.28 * thickness.at(label)));
     e.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
@@ -243,18 +243,18 @@ std::vector<Step> improvementSteps(double longest)
   add(0.5, 0, 1, Step::improvementTo(aim, 16, 2));
   add(0.8, 0, 0, Step::improvementTo(aim, 16, 2));
   steps.back().slack = 1.3;
-  const auto repair = [&](double slack, double splitEdge, double ease)
+  const auto repair = [&](double angle, double slack, double splitEdge, double ease)
   {
-    add(1, 0, 0, Step::improvementTo(aim, 20, 3, splitEdge));
+    add(1, 0, 0, Step::improvementTo(angle, 20, 3, splitEdge));
     Step& step = steps.back();
     step.improvement.ease = ease;
     step.slack = slack;
     step.whole = true;
   };
-  repair(1.6, 0, 0.02);
-  repair(1.6, 0.6, 0.02);
-  repair(1.6, 0.4, 0.3);
-  repair(mostSlack, 0.3, 1);
+  repair(aim, 1.6, 0, 0.02);
+  repair(aim, 1.6, 0.6, 0.02);
+  repair(aim, 1.6, 0.4, 0.3);
+  repair(kept, mostSlack, 0.3, 1);
   for (const double rmsLimit : { 0.3, 0.25 })
   {
     add(rmsLimit, 0, 1, Step::improvementTo(0, 0, 0));
@@ -265,8 +265,8 @@ std::vector<Step> improvementSteps(double longest)
     step.relaxation.fit = 5;
     step.polishing.fit = 20;
   }
-  repair(mostSlack, 0.4, 0.1); // what resisted may have got room
-  repair(mostSlack, 0.3, 1);
+  repair(kept, mostSlack, 0.4, 0.1); // what resisted may have got room
+  repair(kept, mostSlack, 0.3, 1);
   return steps;
 }
 
