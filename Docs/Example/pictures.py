@@ -357,6 +357,7 @@ def draw_evolution(folder):
     for axes, title in zip(panels, ("Size", "Fidelity", "Operations")):
         axes.set_title(title, fontsize=13, color=INK)
         axes.set_xlabel("step", fontsize=12)
+        axes.xaxis.get_major_locator().set_params(integer=True)
         axes.spines[["top", "right"]].set_visible(False)
     for axes in (distance, operations):
         axes.legend(frameon=False)
