@@ -118,14 +118,16 @@ public:
   {
     const auto& mesh = ambient.mesh;
     std::vector<Centroid> centroids(mesh.tetrahedra.size());
-    vtkSMPTools::For(0, vtkIdType(centroids.size()), [&](vtkIdType begin, vtkIdType end) {
-      for (vtkIdType t = begin; t < end; ++t)
-      {
-        const auto& x = mesh.tetrahedra[t];
-        const Vec3 c = mesh.points[x[0]] + mesh.points[x[1]] + mesh.points[x[2]] + mesh.points[x[3]];
-        centroids[t] = { float(c.x), float(c.y), float(c.z) };
-      }
-    });
+    vtkSMPTools::For(0, vtkIdType(centroids.size()),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType t = begin; t < end; ++t)
+                       {
+                         const auto& x = mesh.tetrahedra[t];
+                         const Vec3 c = mesh.points[x[0]] + mesh.points[x[1]] + mesh.points[x[2]] + mesh.points[x[3]];
+                         centroids[t] = { float(c.x), float(c.y), float(c.z) };
+                       }
+                     });
     divide(centroids, round, most);
     sortEvidence();
     m_Results.resize(m_Blocks.size());
@@ -184,9 +186,11 @@ private:
     for (std::size_t t = 0; t < centroids.size(); t += stride) sample.push_back(centroids[t]);
     const Cuts cuts(std::move(sample), double(stride), most, round);
     m_BlockOf.resize(centroids.size());
-    vtkSMPTools::For(0, vtkIdType(centroids.size()), [&](vtkIdType begin, vtkIdType end) {
-      for (vtkIdType t = begin; t < end; ++t) m_BlockOf[t] = cuts.blockOf(centroids[t]);
-    });
+    vtkSMPTools::For(0, vtkIdType(centroids.size()),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType t = begin; t < end; ++t) m_BlockOf[t] = cuts.blockOf(centroids[t]);
+                     });
     std::vector<std::size_t> start(cuts.blockCount() + 1, 0);
     for (const std::int32_t b : m_BlockOf) ++start[b + 1];
     std::partial_sum(start.begin(), start.end(), start.begin());
@@ -210,7 +214,8 @@ private:
     std::partial_sum(m_EvidenceStart.begin(), m_EvidenceStart.end(), m_EvidenceStart.begin());
     m_EvidenceOrder.resize(n);
     std::vector<std::size_t> at(m_EvidenceStart.begin(), m_EvidenceStart.end() - 1);
-    for (std::size_t e = 0; e < n; ++e) m_EvidenceOrder[at[block[m_Ambient.evidence[e].tetrahedron]]++] = std::int32_t(e);
+    for (std::size_t e = 0; e < n; ++e)
+      m_EvidenceOrder[at[block[m_Ambient.evidence[e].tetrahedron]]++] = std::int32_t(e);
     m_Known = std::int32_t(m_Ambient.mesh.points.size());
   }
 
@@ -284,7 +289,8 @@ private:
       for (auto& v : x) v = ids[v];
       for (std::int32_t i = 0; i < 4; ++i)
         for (std::int32_t e = complex.evidenceHeads[t][i]; e >= 0; e = complex.evidence[e].next)
-          r.evidence.push_back({ complex.evidence[e].position, complex.evidence[e].tolerance, std::int32_t(r.tets.size()), i });
+          r.evidence.push_back(
+            { complex.evidence[e].position, complex.evidence[e].tolerance, std::int32_t(r.tets.size()), i });
       r.tets.push_back(x);
       r.labels.push_back(complex.labels[t]);
     }
@@ -329,26 +335,28 @@ void sweepBlocks(AmbientMesh& ambient, int round, std::size_t tetrahedraPerBlock
   std::mutex mutex;
   std::exception_ptr failure; // an exception must not leave a worker thread
   std::atomic<std::size_t> done{ 0 };
-  vtkSMPTools::For(0, vtkIdType(n), 1, [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType b = begin; b < end; ++b)
-    {
-      try
-      {
-        {
-          const std::lock_guard<std::mutex> lock(mutex);
-          if (failure) return;
-          report(progress, double(done) / double(n), "");
-        }
-        sweep.run(std::size_t(b), work);
-        ++done;
-      }
-      catch (...)
-      {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (!failure) failure = std::current_exception();
-      }
-    }
-  });
+  vtkSMPTools::For(0, vtkIdType(n), 1,
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (vtkIdType b = begin; b < end; ++b)
+                     {
+                       try
+                       {
+                         {
+                           const std::lock_guard<std::mutex> lock(mutex);
+                           if (failure) return;
+                           report(progress, double(done) / double(n), "");
+                         }
+                         sweep.run(std::size_t(b), work);
+                         ++done;
+                       }
+                       catch (...)
+                       {
+                         const std::lock_guard<std::mutex> lock(mutex);
+                         if (!failure) failure = std::current_exception();
+                       }
+                     }
+                   });
   if (failure) std::rethrow_exception(failure);
   sweep.merge();
 }

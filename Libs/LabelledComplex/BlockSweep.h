@@ -16,9 +16,9 @@ struct AmbientMesh
   struct Place
   {
     Vec3 position;
-    float tolerance;       ///< mm
+    float tolerance; ///< mm
     std::int32_t tetrahedron;
-    std::int32_t face;     ///< opposite this vertex (0..3); the tetrahedron's label is the larger of the face's two
+    std::int32_t face; ///< opposite this vertex (0..3); the tetrahedron's label is the larger of the face's two
   };
 
   TetraMesh mesh;

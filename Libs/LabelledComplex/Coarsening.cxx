@@ -102,9 +102,9 @@ private:
         const double r = ratio(v, x);
         if (r < m_Options.shortEdge) m_Near.push_back({ r, x });
       }
-    std::sort(m_Near.begin(), m_Near.end(), [](const Neighbour& a, const Neighbour& b) {
-      return a.ratio != b.ratio ? a.ratio < b.ratio : a.vertex < b.vertex;
-    });
+    std::sort(m_Near.begin(), m_Near.end(),
+              [](const Neighbour& a, const Neighbour& b)
+              { return a.ratio != b.ratio ? a.ratio < b.ratio : a.vertex < b.vertex; });
   }
 
   struct Candidate

@@ -8,11 +8,11 @@ namespace surgicalmesher
 
 struct CoarseningOptions
 {
-  double shortEdge = 0.75;     ///< edges shorter than this share of the target are collapsed
-  double longEdge = 1.4;       ///< no collapse makes an edge longer than this share of the target
-  double minimumAngle = 8;     ///< degrees; no collapse leaves a worse dihedral angle (nor one above 180 minus it)
-  bool fit = true;             ///< try the position that fits the evidence best instead of an edge's middle
-  double goodAngle = 20;       ///< degrees; a collapse that keeps this much is taken at once
+  double shortEdge = 0.75; ///< edges shorter than this share of the target are collapsed
+  double longEdge = 1.4;   ///< no collapse makes an edge longer than this share of the target
+  double minimumAngle = 8; ///< degrees; no collapse leaves a worse dihedral angle (nor one above 180 minus it)
+  bool fit = true;         ///< try the position that fits the evidence best instead of an edge's middle
+  double goodAngle = 20;   ///< degrees; a collapse that keeps this much is taken at once
 };
 
 /// One pass over a block at size level `level` (mm): vertices with an edge shorter than shortEdge * min(level, L) are

@@ -8,7 +8,8 @@ namespace surgicalmesher
 
 Vec3 Fit::times(const Vec3& x) const
 {
-  return { m[0] * x.x + m[1] * x.y + m[2] * x.z, m[1] * x.x + m[3] * x.y + m[4] * x.z, m[2] * x.x + m[4] * x.y + m[5] * x.z };
+  return { m[0] * x.x + m[1] * x.y + m[2] * x.z, m[1] * x.x + m[3] * x.y + m[4] * x.z,
+           m[2] * x.x + m[4] * x.y + m[5] * x.z };
 }
 
 Vec3 Fit::solve(const Vec3& b) const
@@ -20,7 +21,8 @@ Vec3 Fit::solve(const Vec3& b) const
   return (b.x * c0 + b.y * c1 + b.z * c2) / det;
 }
 
-void sheetFaces(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star, std::vector<SheetFace>& faces)
+void sheetFaces(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star,
+                std::vector<SheetFace>& faces)
 {
   faces.clear();
   for (std::int32_t t : star)

@@ -15,7 +15,8 @@ struct SheetFace
 };
 
 /// The interface faces at v, each once. `star`: the tetrahedra at v.
-void sheetFaces(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star, std::vector<SheetFace>& faces);
+void sheetFaces(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star,
+                std::vector<SheetFace>& faces);
 
 /// Normal equations m x = g, m symmetric.
 struct Fit

@@ -50,7 +50,8 @@ GuardedOperations::GuardedOperations(TetComplex& complex, ScaleFunction scale, d
 {
 }
 
-const std::vector<std::int32_t>& GuardedOperations::cachedStar(std::int32_t v, std::vector<std::int32_t>& star, std::int32_t& of)
+const std::vector<std::int32_t>& GuardedOperations::cachedStar(std::int32_t v, std::vector<std::int32_t>& star,
+                                                               std::int32_t& of)
 {
   if (of != v)
   {
@@ -239,7 +240,8 @@ Label GuardedOperations::localBit(Label label)
 /// edge lies on it, and the boundary's links of u and v meet only in the link of uv. Positive volumes see to the condition
 /// on the tetrahedra themselves: the cone from v tiles star(u) only if it holds.
 bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
-                                     const std::vector<std::int32_t>& ring, const std::vector<std::int32_t>& ringVertices)
+                                     const std::vector<std::int32_t>& ring,
+                                     const std::vector<std::int32_t>& ringVertices)
 {
   const auto& labels = m_Complex.labels;
   m_LocalLabels.clear();
@@ -266,9 +268,8 @@ bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v, const std::
     if (!m_Complex.ring(v, x, after, m_EdgeRing, m_EdgeRingVertices)) return false;
     const std::uint32_t onVX = bits(m_EdgeRing);
     if (bitCount(onVX) < 2) continue;
-    const std::uint32_t onFace = labels[before] == labels[after]
-                                   ? 0u
-                                   : (1u << localBit(labels[before])) | (1u << localBit(labels[after]));
+    const std::uint32_t onFace =
+      labels[before] == labels[after] ? 0u : (1u << localBit(labels[before])) | (1u << localBit(labels[after]));
     if (onUX & onVX & ~onFace) return false;
   }
   // A label that owns one tetrahedron of the ring and nothing beside it would vanish.
@@ -370,7 +371,8 @@ double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, c
   return worst;
 }
 
-bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality, double maximumRatio)
+bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality,
+                                 double maximumRatio)
 {
   auto& c = m_Complex;
   const bool moves = !(p == c.points[v]);

@@ -63,8 +63,9 @@ public:
   std::int32_t lastSplitVertex = -1;
 
 private:
-  using Pair = std::uint32_t; ///< two labels, the larger one in the upper half: compared far more often than taken apart
-  struct Face                        ///< an interface face as it would be, and where its evidence would go
+  using Pair =
+    std::uint32_t; ///< two labels, the larger one in the upper half: compared far more often than taken apart
+  struct Face      ///< an interface face as it would be, and where its evidence would go
   {
     std::array<Vec3, 3> corners;
     Pair pair;
@@ -92,7 +93,8 @@ private:
   bool keepsLengths(std::int32_t u, std::int32_t v, const Vec3& p, double maximumRatio) const;
   bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
   void gather(std::int32_t t, int face);
-  void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x, Label y);
+  void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x,
+                  Label y);
   double squaredDistanceNow(const Gathered& g);
   bool nearestFace(Gathered& g) const;
   bool tissuesStayNear(const Gathered& g) const;

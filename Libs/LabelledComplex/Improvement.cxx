@@ -16,7 +16,8 @@ class Relaxation
 {
 public:
   Relaxation(GuardedOperations& operations, const RelaxationOptions& options)
-    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options), m_Good(sine2OfDegrees(options.goodAngle))
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Good(sine2OfDegrees(options.goodAngle))
   {
   }
 
@@ -78,10 +79,8 @@ private:
       for (std::int32_t u : { f.x, f.y })
       {
         auto at = std::find_if(m_Degree.begin(), m_Degree.end(), [&](const auto& d) { return d.first == u; });
-        if (at == m_Degree.end())
-          m_Degree.push_back({ u, 1 });
-        else
-          ++at->second;
+        if (at == m_Degree.end()) m_Degree.push_back({ u, 1 });
+        else ++at->second;
       }
     const auto curves = std::count_if(m_Degree.begin(), m_Degree.end(), [](const auto& d) { return d.second > 2; });
     if (curves != 0 && curves != 2) return {};
@@ -116,7 +115,8 @@ class Polishing
 {
 public:
   Polishing(GuardedOperations& operations, const PolishOptions& options)
-    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options), m_Good(sine2OfDegrees(options.goodAngle))
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Good(sine2OfDegrees(options.goodAngle))
   {
   }
 
@@ -139,7 +139,8 @@ private:
     const Vec3 step = fit.solve(fit.g);
     const double before = m_Operations.starQuality(m_Operations.star(v));
     for (double share : { 1.0, 0.5, 0.25 })
-      if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : std::min(m_Good, before))) return;
+      if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : std::min(m_Good, before)))
+        return;
   }
 
   /// Sum of the sines of the worst angles at v, if it were at p; -1 if one is under `floor`.
@@ -213,7 +214,8 @@ class Improvement
 {
 public:
   Improvement(GuardedOperations& operations, const ImprovementOptions& options)
-    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options), m_Target(sine2OfDegrees(options.targetAngle))
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Target(sine2OfDegrees(options.targetAngle))
   {
   }
 
@@ -258,7 +260,8 @@ private:
     }
   }
 
-  template <class F> bool forEachEdge(std::int32_t t, F&& f)
+  template <class F>
+  bool forEachEdge(std::int32_t t, F&& f)
   {
     static constexpr int ends[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
     const auto x = m_Complex.tets[t];
@@ -269,15 +272,18 @@ private:
 
   bool removeAnEdge(std::int32_t t)
   {
-    return forEachEdge(t, [&](std::int32_t a, std::int32_t b) {
-      if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
-      if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
-      if (!m_Operations.removeEdge(a, b, t, m_Operations.starQuality(m_Ring) * 1.0001 + 1e-9)) return false;
-      m_Touched.resize(m_Complex.points.size(), 1);
-      m_Touched[a] = m_Touched[b] = 1;
-      for (std::int32_t v : m_RingVertices) m_Touched[v] = 1;
-      return true;
-    });
+    return forEachEdge(t,
+                       [&](std::int32_t a, std::int32_t b)
+                       {
+                         if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
+                         if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
+                         if (!m_Operations.removeEdge(a, b, t, m_Operations.starQuality(m_Ring) * 1.0001 + 1e-9))
+                           return false;
+                         m_Touched.resize(m_Complex.points.size(), 1);
+                         m_Touched[a] = m_Touched[b] = 1;
+                         for (std::int32_t v : m_RingVertices) m_Touched[v] = 1;
+                         return true;
+                       });
   }
 
   bool moveAVertex(std::int32_t t)
@@ -326,8 +332,7 @@ private:
         best = m_Operations.starQuality(m_Operations.star(v));
         step *= 1.3;
       }
-      else
-        step *= 0.8;
+      else step *= 0.8;
     }
     if (!(best > start * (1 + 1e-3))) return false;
     touchStar(v);
@@ -359,41 +364,48 @@ private:
 
   bool collapseAnEdge(std::int32_t t)
   {
-    return forEachEdge(t, [&](std::int32_t a, std::int32_t b) {
-      const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
-      if (length > m_Options.shortEdge * 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b])) return false;
-      for (const auto& [u, v] : { std::pair(a, b), std::pair(b, a) })
-      {
-        if (m_Complex.locked[u]) continue;
-        const double before = m_Operations.starQuality(m_Operations.star(u)) * 1.0001 + 1e-9;
-        const Vec3 from = m_Complex.points[u], to = m_Complex.points[v];
-        for (double share : { 1.0, 0.5 })
-          if (m_Operations.collapse(u, v, from + share * (to - from), before, m_Options.longEdge))
-          {
-            touchStar(v);
-            return true;
-          }
-      }
-      return false;
-    });
+    return forEachEdge(t,
+                       [&](std::int32_t a, std::int32_t b)
+                       {
+                         const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
+                         if (length > m_Options.shortEdge * 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b]))
+                           return false;
+                         for (const auto& [u, v] : { std::pair(a, b), std::pair(b, a) })
+                         {
+                           if (m_Complex.locked[u]) continue;
+                           const double before = m_Operations.starQuality(m_Operations.star(u)) * 1.0001 + 1e-9;
+                           const Vec3 from = m_Complex.points[u], to = m_Complex.points[v];
+                           for (double share : { 1.0, 0.5 })
+                             if (m_Operations.collapse(u, v, from + share * (to - from), before, m_Options.longEdge))
+                             {
+                               touchStar(v);
+                               return true;
+                             }
+                         }
+                         return false;
+                       });
   }
 
   bool splitAnEdge(std::int32_t t)
   {
-    return forEachEdge(t, [&](std::int32_t a, std::int32_t b) {
-      if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
-      const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
-      if (length < m_Options.splitEdge * 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b])) return false;
-      if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
-      return splitAtBest(a, b, t);
-    });
+    return forEachEdge(t,
+                       [&](std::int32_t a, std::int32_t b)
+                       {
+                         if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
+                         const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
+                         if (length < m_Options.splitEdge * 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b]))
+                           return false;
+                         if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
+                         return splitAtBest(a, b, t);
+                       });
   }
 
   /// Splits ab where the halves of its ring are best, if that beats the ring as it is.
   bool splitAtBest(std::int32_t a, std::int32_t b, std::int32_t seed)
   {
     const double before = m_Operations.starQuality(m_Ring);
-    const auto halves = [&](const Vec3& p) {
+    const auto halves = [&](const Vec3& p)
+    {
       double worst = std::numeric_limits<double>::max();
       for (std::int32_t t : m_Ring)
       {
@@ -409,10 +421,8 @@ private:
     for (int trial = 0; trial < 16; ++trial)
     {
       const Vec3 q = p + step * m_Directions.next();
-      if (const double value = halves(q); value > best)
-        best = value, p = q;
-      else
-        step *= 0.85;
+      if (const double value = halves(q); value > best) best = value, p = q;
+      else step *= 0.85;
     }
     if (!(best > before * 1.0001 + 1e-9) || !m_Operations.split(a, b, seed, p, before * 1.0001 + 1e-9)) return false;
     touchStar(m_Operations.lastSplitVertex);
@@ -436,10 +446,7 @@ void relaxBlock(GuardedOperations& operations, const RelaxationOptions& options)
   Relaxation(operations, options).run();
 }
 
-void polishBlock(GuardedOperations& operations, const PolishOptions& options)
-{
-  Polishing(operations, options).run();
-}
+void polishBlock(GuardedOperations& operations, const PolishOptions& options) { Polishing(operations, options).run(); }
 
 void improveBlock(GuardedOperations& operations, const ImprovementOptions& options)
 {

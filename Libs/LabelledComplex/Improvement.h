@@ -31,14 +31,15 @@ void polishBlock(GuardedOperations& operations, const PolishOptions& options = {
 
 struct ImprovementOptions
 {
-  double targetAngle = 34;   ///< degrees; tetrahedra with a dihedral angle below this, or above 180 minus it, are worked on
-  double shortEdge = 0.6;    ///< collapses that improve are tried on edges up to this share of the target
+  double targetAngle =
+    34; ///< degrees; tetrahedra with a dihedral angle below this, or above 180 minus it, are worked on
+  double shortEdge = 0.6; ///< collapses that improve are tried on edges up to this share of the target
   double longEdge = 1.6;
   bool split = true;
-  double splitEdge = 1.0;    ///< splits are tried on edges from this share of the target on
-  double ease = 0.02;        ///< as in PolishOptions
-  int trials = 12;           ///< positions tried for each vertex
-  int passes = 3;            ///< later passes work only where something has changed
+  double splitEdge = 1.0; ///< splits are tried on edges from this share of the target on
+  double ease = 0.02;     ///< as in PolishOptions
+  int trials = 12;        ///< positions tried for each vertex
+  int passes = 3;         ///< later passes work only where something has changed
 };
 
 /// Worst first: edge removal, vertex optimisation, collapse, split of the tetrahedra below the target, until nothing helps.

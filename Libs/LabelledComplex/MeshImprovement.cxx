@@ -31,9 +31,9 @@ struct Step
   double relaxationAngle; ///< see RelaxationOptions::goodAngle
   int polishes;
   double polishAngle, polishFit; ///< see PolishOptions
-  double aim;             ///< degrees; the target angle at most
+  double aim;                    ///< degrees; the target angle at most
   int trials, passes;
-  double splitEdge;       ///< 0: no splits
+  double splitEdge; ///< 0: no splits
   bool whole;
 };
 constexpr double most = 90;
@@ -41,10 +41,10 @@ constexpr Step steps[] = {
   { 0.3, 1.0, 15, 3, 15, 2, 29.5, 1, 20, 8, 2, 0, false },   { 0.3, 1.0, 20, 1, 20, 2, 29.5, 1, 25, 8, 2, 0, false },
   { 0.4, 1.0, 20, 1, 25, 3, 29.5, 1, most, 8, 2, 0, false }, { 0.4, 1.0, 20, 1, 25, 4, 29.5, 1, most, 8, 2, 0, false },
   { 0.3, 1.0, 0, 1, 25, 4, 29.5, 1, most, 8, 2, 0, false },  { 0.5, 1.0, 0, 1, 25, 4, 29.5, 1, most, 12, 2, 0, false },
-  { 0.8, 1.5, 0, 0, 0, 5, 29.5, 1, most, 16, 2, 0, false },
-  { 1.0, 2.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },      { 1.0, 3.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },
-  { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },      { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0.6, true },
-  { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 30, 4, 0.4, true },    { 0.4, 1.0, 0, 0, 0, 2, 28.4, 3, 0, 0, 0, 0, false },
+  { 0.8, 1.5, 0, 0, 0, 5, 29.5, 1, most, 16, 2, 0, false },  { 1.0, 2.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },
+  { 1.0, 3.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },      { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },
+  { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0.6, true },    { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 30, 4, 0.4, true },
+  { 0.4, 1.0, 0, 0, 0, 2, 28.4, 3, 0, 0, 0, 0, false },
 };
 
 void work(GuardedOperations& operations, const Step& step, double targetAngle)
@@ -122,13 +122,15 @@ void placeEvidence(AmbientMesh& ambient, double tolerance)
       const int parts = std::clamp(int(longest / (2 * length)) + 1, 1, 16);
       for (const auto& q : subdivided(p, parts))
         for (int k = 0; k < 3; ++k)
-          ambient.evidence.push_back({ (4 * q[k] + q[(k + 1) % 3] + q[(k + 2) % 3]) / 6, float(tolerance * length), t, i });
+          ambient.evidence.push_back(
+            { (4 * q[k] + q[(k + 1) % 3] + q[(k + 2) % 3]) / 6, float(tolerance * length), t, i });
     }
 }
 
 } // namespace
 
-void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovementOptions& options, const Progress& progress)
+void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovementOptions& options,
+                 const Progress& progress)
 {
   AmbientMesh ambient;
   ambient.mesh = mesh;
@@ -147,7 +149,8 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
         GuardedOperations operations(block, scale, step.rmsLimit, step.slack);
         work(operations, step, options.targetAngle);
       },
-      [&](double fraction, const std::string&) { report(progress, (double(i) + fraction) / double(sweeps), "improvement"); });
+      [&](double fraction, const std::string&)
+      { report(progress, (double(i) + fraction) / double(sweeps), "improvement"); });
   }
   mesh = std::move(ambient.mesh);
 }

@@ -125,8 +125,7 @@ bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::ve
       if (v != a && v != b) ids[n] = v, q[n++] = points[v];
     from = orient(points[a], points[b], q[0], q[1]) > 0 ? ids[0] : ids[1];
   }
-  do
-  {
+  do {
     tetrahedra.push_back(t);
     vertices.push_back(from);
     const int i = indexOf(t, from);
@@ -184,10 +183,8 @@ void TetComplex::collapse(std::int32_t u, std::int32_t v, const std::vector<std:
     if (ju >= 0) neighbours[nu][ju] = nv, evidenceHeads[nu][ju] = -1;
     if (jv >= 0) neighbours[nv][jv] = nu, evidenceHeads[nv][jv] = -1;
     // Beyond the block's border lies another label, or there would be no evidence.
-    if (head >= 0 && nu >= 0 && (nv < 0 || labels[nu] > labels[nv]))
-      evidenceHeads[nu][ju] = head;
-    else if (head >= 0 && nu >= 0 && labels[nu] < labels[nv])
-      evidenceHeads[nv][jv] = head;
+    if (head >= 0 && nu >= 0 && (nv < 0 || labels[nu] > labels[nv])) evidenceHeads[nu][ju] = head;
+    else if (head >= 0 && nu >= 0 && labels[nu] < labels[nv]) evidenceHeads[nv][jv] = head;
     for (std::int32_t x : tets[t])
       if (x != u && x != v) vertexTet[x] = nu >= 0 ? nu : nv;
     vertexTet[v] = nu >= 0 ? nu : nv;

@@ -44,7 +44,8 @@ public:
     return m_Before[a >> 6] + __builtin_popcountll(m_Words[a >> 6] & ((std::uint64_t(1) << (a & 63)) - 1));
   }
   std::int32_t numbered() const { return m_Before.back(); }
-  template <class F> void forEach(F&& f) const
+  template <class F>
+  void forEach(F&& f) const
   {
     std::int32_t n = 0;
     for (std::size_t w = 0; w < m_Words.size(); ++w)
@@ -66,11 +67,11 @@ private:
 struct Layout
 {
   Index cells{ 1, 1, 1 };
-  int levelsBelow = 0;   ///< cellUnits = 2^levelsBelow
-  int rootLevels = 5;    ///< a root cube is 2^rootLevels cells
-  Index roots{};         ///< root cubes along each axis
-  Index pad{};           ///< cells before the map's first voxel
-  Vec3 unit;             ///< mm
+  int levelsBelow = 0; ///< cellUnits = 2^levelsBelow
+  int rootLevels = 5;  ///< a root cube is 2^rootLevels cells
+  Index roots{};       ///< root cubes along each axis
+  Index pad{};         ///< cells before the map's first voxel
+  Vec3 unit;           ///< mm
 
   int cellUnits() const { return 1 << levelsBelow; }
   int rootUnits() const { return 1 << (levelsBelow + rootLevels); }
@@ -87,7 +88,8 @@ Layout makeLayout(const Grid& grid, double shortest, const LatticeOptions& optio
     l.cells[a] = std::max(1, int(std::lround(grid.spacing[a] / least)));
     cell = std::max(cell, grid.spacing[a] / l.cells[a]);
   }
-  while (l.levelsBelow < options.mostLevelsBelowVoxel && cell / l.cellUnits() > options.relativeSize * shortest) ++l.levelsBelow;
+  while (l.levelsBelow < options.mostLevelsBelowVoxel && cell / l.cellUnits() > options.relativeSize * shortest)
+    ++l.levelsBelow;
   for (int a = 0; a < 3; ++a)
   {
     const int cells = grid.size[a] * l.cells[a], root = 1 << l.rootLevels;
@@ -127,16 +129,21 @@ public:
     out.mesh.points.resize(m_Active.numbered());
     out.lengths.resize(m_Active.numbered());
     m_Active.forEach([&](std::int32_t id, const Index& p) { out.mesh.points[id] = position(p); });
-    vtkSMPTools::For(0, m_Active.numbered(), [&](vtkIdType begin, vtkIdType end) {
-      for (vtkIdType v = begin; v < end; ++v)
-        out.lengths[v] = float(m_Scale(m_Map.grid.gridToWorld(out.mesh.points[v])));
-    });
+    vtkSMPTools::For(0, m_Active.numbered(),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType v = begin; v < end; ++v)
+                         out.lengths[v] = float(m_Scale(m_Map.grid.gridToWorld(out.mesh.points[v])));
+                     });
     const Index r = m_Layout.roots;
     const int n = r[0] * r[1] * r[2];
     std::vector<AmbientLattice> parts(n);
-    vtkSMPTools::For(0, n, 1, [&](vtkIdType begin, vtkIdType end) {
-      for (vtkIdType i = begin; i < end; ++i) generateRoot({ int(i % r[0]), int(i / r[0] % r[1]), int(i / r[0] / r[1]) }, parts[i]);
-    });
+    vtkSMPTools::For(0, n, 1,
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType i = begin; i < end; ++i)
+                         generateRoot({ int(i % r[0]), int(i / r[0] % r[1]), int(i / r[0] / r[1]) }, parts[i]);
+                     });
     for (AmbientLattice& part : parts)
     {
       const std::int32_t shift = std::int32_t(out.mesh.tetrahedra.size());
@@ -153,7 +160,8 @@ public:
   }
 
 private:
-  template <class T> static void append(std::vector<T>& to, const std::vector<T>& from)
+  template <class T>
+  static void append(std::vector<T>& to, const std::vector<T>& from)
   {
     to.insert(to.end(), from.begin(), from.end());
   }
@@ -167,7 +175,8 @@ private:
     return size;
   }
 
-  template <class F> void forEachRoot(F&& f) const
+  template <class F>
+  void forEachRoot(F&& f) const
   {
     for (int k = 0; k < m_Layout.roots[2]; ++k)
       for (int j = 0; j < m_Layout.roots[1]; ++j)
@@ -189,7 +198,10 @@ private:
     return cell < 0 ? -1 : cell / m_Layout.cells[axis];
   }
 
-  Label labelAt(int i, int j, int k) const { return m_Map.grid.contains(i, j, k) ? m_Map.labels[m_Map.grid.index(i, j, k)] : 0; }
+  Label labelAt(int i, int j, int k) const
+  {
+    return m_Map.grid.contains(i, j, k) ? m_Map.labels[m_Map.grid.index(i, j, k)] : 0;
+  }
 
   bool mixed(const Index& corner, int side) const
   {
@@ -231,7 +243,8 @@ private:
     // Background is thrown away in the end: only its boundary with tissue needs small elements.
     const bool isTooLarge = isTissue(corner) && tooLarge(corner, side);
     if (!isMixed && !isTooLarge) return;
-    if (side <= mostTetrahedralCells * m_Layout.cellUnits() && !tooLarge(corner, side)) return activateMixedTetrahedra(corner, side);
+    if (side <= mostTetrahedralCells * m_Layout.cellUnits() && !tooLarge(corner, side))
+      return activateMixedTetrahedra(corner, side);
     const int h = side / 2;
     for (int k = 0; k <= 2; ++k)
       for (int j = 0; j <= 2; ++j)
@@ -318,7 +331,8 @@ private:
 
   /// The six tetrahedra of cube number `cube` of a side. Their paths lead from the corner whose numbers are all even to the
   /// one where all are odd.
-  template <class F> static void forEachKuhnTetrahedron(const Index& cube, int side, F&& f)
+  template <class F>
+  static void forEachKuhnTetrahedron(const Index& cube, int side, F&& f)
   {
     Index from, to;
     for (int a = 0; a < 3; ++a)
@@ -327,8 +341,7 @@ private:
       to[a] = (cube[a] + 1 - (cube[a] & 1)) * side;
     }
     std::array<int, 3> axes{ 0, 1, 2 };
-    do
-    {
+    do {
       Tet t;
       t[0] = t[1] = t[2] = from;
       t[3] = to;
@@ -429,9 +442,11 @@ private:
   bool coversCentre(const Index& a, const Index& b, const Index& c, int axis, const Index& voxel) const
   {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const auto middle = [&](int k) { return ((voxel[k] + 0.5) * m_Layout.cells[k] + m_Layout.pad[k]) * m_Layout.cellUnits(); };
+    const auto middle = [&](int k)
+    { return ((voxel[k] + 0.5) * m_Layout.cells[k] + m_Layout.pad[k]) * m_Layout.cellUnits(); };
     const double x = middle(u) - 0.11, y = middle(v) - 0.03;
-    const auto side = [&](const Index& p, const Index& q) { return (q[u] - p[u]) * (y - p[v]) - (q[v] - p[v]) * (x - p[u]) > 0; };
+    const auto side = [&](const Index& p, const Index& q)
+    { return (q[u] - p[u]) * (y - p[v]) - (q[v] - p[v]) * (x - p[u]) > 0; };
     return side(a, b) == side(b, c) && side(b, c) == side(c, a);
   }
 
@@ -445,7 +460,7 @@ private:
 } // namespace
 
 AmbientLattice ambientLattice(const TissueMap& map, const ScaleField& scale, const LatticeOptions& options,
-                           const Progress& progress)
+                              const Progress& progress)
 {
   Lattice lattice(map, scale, options);
   lattice.activate();

@@ -25,12 +25,13 @@ struct LatticeOptions
 struct AmbientLattice
 {
   AmbientMesh ambient; ///< with evidence at the centre of every voxel face between two labels, of tolerance 0
-  std::vector<std::pair<std::int32_t, std::int32_t>> interfaceFaces; ///< (tetrahedron of the larger label, face), each once
+  std::vector<std::pair<std::int32_t, std::int32_t>>
+    interfaceFaces; ///< (tetrahedron of the larger label, face), each once
 };
 
 /// Points in the grid frame of `map`, mm. The box reaches some voxels beyond the map on every side.
 /// Throws EngineError if the scale asks for more cells than can be numbered.
 AmbientLattice ambientLattice(const TissueMap& map, const ScaleField& scale, const LatticeOptions& options,
-                           const Progress& progress = {});
+                              const Progress& progress = {});
 
 } // namespace surgicalmesher

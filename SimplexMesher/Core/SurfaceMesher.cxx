@@ -19,8 +19,8 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double mostSlack = 2.4;      // times the tolerance, where an angle can't be mended otherwise
-constexpr double mostBalance = 0.25;   // voxels
+constexpr double mostSlack = 2.4;        // times the tolerance, where an angle can't be mended otherwise
+constexpr double mostBalance = 0.25;     // voxels
 constexpr std::size_t blockSize = 40000; // tetrahedra: a few megabytes, and enough blocks for the threads
 
 class Evolution
@@ -44,22 +44,27 @@ public:
     step.operations = m_Counts;
     m_Counts = {};
     const TetraMesh& mesh = m_Ambient.mesh;
-    step.tetrahedra = std::size_t(std::count_if(mesh.labels.begin(), mesh.labels.end(), [](Label l) { return l != 0; }));
+    step.tetrahedra =
+      std::size_t(std::count_if(mesh.labels.begin(), mesh.labels.end(), [](Label l) { return l != 0; }));
     // In parts of a fixed size: their sum does not depend on the threads.
     constexpr std::size_t part = 4096;
     const auto& evidence = m_Ambient.evidence;
     std::vector<std::pair<double, double>> sumAndMaximum((evidence.size() + part - 1) / part);
-    vtkSMPTools::For(0, vtkIdType(sumAndMaximum.size()), [&](vtkIdType begin, vtkIdType end) {
-      for (vtkIdType p = begin; p < end; ++p)
-        for (std::size_t i = std::size_t(p) * part; i < std::min(evidence.size(), (std::size_t(p) + 1) * part); ++i)
-        {
-          const auto& t = mesh.tetrahedra[evidence[i].tetrahedron];
-          const auto corner = [&](int k) { return mesh.points[t[(evidence[i].face + k) & 3]]; };
-          const double d = std::sqrt(squaredDistanceToTriangle(evidence[i].position, corner(1), corner(2), corner(3)));
-          sumAndMaximum[p].first += d;
-          sumAndMaximum[p].second = std::max(sumAndMaximum[p].second, d);
-        }
-    });
+    vtkSMPTools::For(
+      0, vtkIdType(sumAndMaximum.size()),
+      [&](vtkIdType begin, vtkIdType end)
+      {
+        for (vtkIdType p = begin; p < end; ++p)
+          for (std::size_t i = std::size_t(p) * part; i < std::min(evidence.size(), (std::size_t(p) + 1) * part); ++i)
+          {
+            const auto& t = mesh.tetrahedra[evidence[i].tetrahedron];
+            const auto corner = [&](int k) { return mesh.points[t[(evidence[i].face + k) & 3]]; };
+            const double d =
+              std::sqrt(squaredDistanceToTriangle(evidence[i].position, corner(1), corner(2), corner(3)));
+            sumAndMaximum[p].first += d;
+            sumAndMaximum[p].second = std::max(sumAndMaximum[p].second, d);
+          }
+      });
     double sum = 0;
     for (const auto& [ofPart, maximum] : sumAndMaximum)
     {
@@ -96,7 +101,8 @@ std::map<Label, double> thicknesses(const TissueMap& map)
           for (const int step : { -1, 1 })
           {
             const int n[3] = { i + (a == 0) * step, j + (a == 1) * step, k + (a == 2) * step };
-            if (!grid.contains(n[0], n[1], n[2]) || map.labels[grid.index(n[0], n[1], n[2])] != here) surface[here] += area[a];
+            if (!grid.contains(n[0], n[1], n[2]) || map.labels[grid.index(n[0], n[1], n[2])] != here)
+              surface[here] += area[a];
           }
       }
   std::map<Label, double> result;
@@ -179,8 +185,8 @@ struct Step
   PolishOptions polishing;
   ImprovementOptions improvement = improvementTo(0, 0, 0);
   bool balance = false; ///< tissues' volumes first; not under a bound on the distance to the boundary as it is
-  bool again = false; ///< collapses once more after the rest has made room
-  bool whole = false; ///< in one block: borders are locked, and what is still bad lies at them
+  bool again = false;   ///< collapses once more after the rest has made room
+  bool whole = false;   ///< in one block: borders are locked, and what is still bad lies at them
 
   static ImprovementOptions improvementTo(double angle, int trials, int passes, double splitEdge = 0)
   {

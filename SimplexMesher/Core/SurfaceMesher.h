@@ -25,10 +25,10 @@ struct SurfaceMesherOptions
 struct EvolutionStep
 {
   std::string stage;
-  std::size_t tetrahedra = 0;  ///< of tissues
-  double meanDistance = 0;     ///< mm, of the map's smoothed boundary to the surface
-  double maximumDistance = 0;  ///< mm
-  OperationCounts operations;  ///< since the step before
+  std::size_t tetrahedra = 0; ///< of tissues
+  double meanDistance = 0;    ///< mm, of the map's smoothed boundary to the surface
+  double maximumDistance = 0; ///< mm
+  OperationCounts operations; ///< since the step before
 };
 
 struct SurfaceMesh
