@@ -118,11 +118,10 @@ private:
   void visit(std::int32_t u)
   {
     ++m_Tries[u];
-    m_U = u;
     shortNeighbours(u);
     const Vec3 from = m_Complex.points[u];
     m_Candidates.clear();
-    const bool fits = m_Options.fit && quadricAt(u, m_QuadricOfU);
+    const bool fits = m_Options.fit && quadricAt(u, m_Operations.star(u), m_QuadricOfU);
     for (double share : { 1.0, 0.5, 0.0 })
       for (const Neighbour& n : m_Near)
       {
@@ -141,10 +140,10 @@ private:
       if (collapse(u, c)) return;
   }
 
-  /// What the evidence at v says of its position: m x = g. False if v has none.
-  bool quadricAt(std::int32_t v, Fit& quadric)
+  /// What the evidence at v says of its position: m x = g. False if v has none. `star`: the tetrahedra at v.
+  bool quadricAt(std::int32_t v, const std::vector<std::int32_t>& star, Fit& quadric)
   {
-    sheetFaces(m_Complex, v, v == m_U ? m_Operations.star(v) : m_Star, m_Faces);
+    sheetFaces(m_Complex, v, star, m_Faces);
     quadric = fitOf(m_Complex, v, m_Faces);
     quadric.g += quadric.times(m_Complex.points[v]);
     return quadric.trace() > 0;
@@ -155,7 +154,7 @@ private:
   {
     Fit both;
     m_Complex.star(v, m_Star);
-    if (!quadricAt(v, both)) return middle;
+    if (!quadricAt(v, m_Star, both)) return middle;
     for (int k = 0; k < 6; ++k) both.m[k] += m_QuadricOfU.m[k];
     both.g += m_QuadricOfU.g;
     const double spring = 0.02 * both.trace();
@@ -189,7 +188,6 @@ private:
   LengthQueue m_Queue;
   std::vector<Neighbour> m_Near;
   std::vector<Candidate> m_Candidates;
-  std::int32_t m_U = -1;
   Fit m_QuadricOfU;
   std::vector<SheetFace> m_Faces;
   std::vector<std::int32_t> m_Star;
