@@ -9,6 +9,7 @@
 #include "Export.h"
 #include "FaceNeighbours.h"
 #include "FuchsTetrahedralizerCLIXML.h"
+#include "JsonMember.h"
 #include "MaterialTable.h"
 #include "MeshImprovement.h"
 #include "MeshQuality.h"
@@ -277,8 +278,7 @@ void writeSubMeshes(JsonWriter& json, const SubMeshes& division)
 {
   json.Key("subMeshes");
   json.StartObject();
-  json.Key("children");
-  json.Int(division.children);
+  writeMember(json, "children", division.children);
   write(json, "pieces", division.pieces);
   write(json, "interfacePoints", division.interfacePoints);
   json.EndObject();
@@ -291,14 +291,10 @@ void writeTopology(JsonWriter& json, const TetraMesh& mesh)
   for (const auto& [label, betti] : meshTopology(mesh))
   {
     json.StartObject();
-    json.Key("label");
-    json.Int(label);
-    json.Key("components");
-    json.Int(betti.components);
-    json.Key("tunnels");
-    json.Int(betti.tunnels);
-    json.Key("cavities");
-    json.Int(betti.cavities);
+    writeMember(json, "label", label);
+    writeMember(json, "components", betti.components);
+    writeMember(json, "tunnels", betti.tunnels);
+    writeMember(json, "cavities", betti.cavities);
     json.EndObject();
   }
   json.EndArray();
@@ -320,8 +316,7 @@ std::string reportOf(const MeshFile& content, const SubMeshes& division, const M
   rapidjson::StringBuffer buffer;
   JsonWriter json(buffer);
   json.StartObject();
-  json.Key("start");
-  json.String(fromAmbient ? "ambient tetrahedra" : "constrained Delaunay");
+  writeMember(json, "start", fromAmbient ? "ambient tetrahedra" : "constrained Delaunay");
   writeSubMeshes(json, division);
   writeTopology(json, content.mesh);
   json.Key("quality");

@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "TextFile.h"
+#include "TextTable.h"
 #include "TissueMapIO.h"
 
 #include <algorithm>
@@ -26,11 +27,6 @@ enum Column
   ColumnCount
 };
 
-/// Field number of each column; -1 for one that the header row lacks.
-using Columns = std::array<int, ColumnCount>;
-
-[[noreturn]] void fail(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
-
 std::string lettersOf(const std::string& text)
 {
   std::string letters;
@@ -41,72 +37,46 @@ std::string lettersOf(const std::string& text)
   return letters;
 }
 
-Columns readHeader(const std::vector<std::string>& fields, const std::string& where)
+int columnOf(const std::string& name)
 {
-  const std::string expected = "expected tissue, model, youngsModulus, poissonsRatio, density, each at most once";
-  Columns columns;
-  columns.fill(-1);
-  for (std::size_t n = 0; n < fields.size(); ++n)
-  {
-    const auto found = std::find(std::begin(kColumnNames), std::end(kColumnNames), lettersOf(fields[n]));
-    const auto column = static_cast<std::size_t>(found - std::begin(kColumnNames));
-    if (column == ColumnCount || columns[column] >= 0) fail(where, "column \"" + fields[n] + "\", " + expected);
-    columns[column] = static_cast<int>(n);
-  }
-  for (const Column column : { ColumnTissue, ColumnYoung, ColumnPoisson })
-  {
-    if (columns[column] < 0) fail(where, std::string("no column ") + kColumnNames[column] + ", " + expected);
-  }
-  return columns;
+  const auto found = std::find(std::begin(kColumnNames), std::end(kColumnNames), lettersOf(name));
+  return found == std::end(kColumnNames) ? -1 : int(found - std::begin(kColumnNames));
 }
 
-/// One row of the table.
-struct Row
+double numberIn(const TextTableRow& row, Column column, double low, double high, const std::string& expected)
 {
-  std::string where; ///< file and line
-  std::vector<std::string> fields;
-  const Columns& columns;
+  const std::string& field = row.fields[column];
+  double value = 0;
+  if (text::parseNumber(field, value) && value > low && value < high) return value;
+  row.fail(std::string(kColumnNames[column]) + " \"" + field + "\", expected " + expected);
+}
 
-  std::string at(Column column) const
-  {
-    const int n = columns[column];
-    return n >= 0 && n < static_cast<int>(fields.size()) ? fields[n] : std::string();
-  }
-
-  double number(Column column, double low, double high, const std::string& expected) const
-  {
-    double value = 0;
-    if (text::parseNumber(at(column), value) && value > low && value < high) return value;
-    fail(where, std::string(kColumnNames[column]) + " \"" + at(column) + "\", expected " + expected);
-  }
-};
-
-Label readTissue(const Row& row, const TissueTable& names, const std::set<Label>& present)
+Label readTissue(const TextTableRow& row, const TissueTable& names, const std::set<Label>& present)
 {
-  const std::string tissue = row.at(ColumnTissue);
+  const std::string tissue = row.fields[ColumnTissue];
   Label label = 0;
-  if (!findTissue(tissue, names, label)) fail(row.where, "\"" + tissue + "\" is neither a label nor a tissue's name");
-  if (present.count(label) == 0) fail(row.where, "tissue " + tissue + " is not in the mesh, expected one that is");
+  if (!findTissue(tissue, names, label)) row.fail("\"" + tissue + "\" is neither a label nor a tissue's name");
+  if (present.count(label) == 0) row.fail("tissue " + tissue + " is not in the mesh, expected one that is");
   return label;
 }
 
-MaterialLaw readLaw(const Row& row)
+MaterialLaw readLaw(const TextTableRow& row)
 {
-  const std::string model = lettersOf(row.at(ColumnModel));
-  if (row.at(ColumnModel).empty() || model == "neohookean") return MaterialLaw::NeoHookean;
+  const std::string model = lettersOf(row.fields[ColumnModel]);
+  if (row.fields[ColumnModel].empty() || model == "neohookean") return MaterialLaw::NeoHookean;
   if (model == "linear" || model == "linearelastic") return MaterialLaw::LinearElastic;
-  fail(row.where, "model \"" + row.at(ColumnModel) + "\", expected linear or neo-Hookean");
+  row.fail("model \"" + row.fields[ColumnModel] + "\", expected linear or neo-Hookean");
 }
 
-TissueMaterial readMaterial(const Row& row)
+TissueMaterial readMaterial(const TextTableRow& row)
 {
   constexpr double huge = 1e30;
   TissueMaterial material;
   material.nonlinearLaw = readLaw(row);
-  material.youngsModulus = kMegaPascal * row.number(ColumnYoung, 0, huge, "a finite number above 0 (kPa)");
-  material.poissonsRatio = row.number(ColumnPoisson, -1, 0.5, "a number between -1 and 0.5");
-  if (!row.at(ColumnDensity).empty())
-    material.density = kTonnePerMm3 * row.number(ColumnDensity, 0, huge, "a finite number above 0 (kg/m^3)");
+  material.youngsModulus = kMegaPascal * numberIn(row, ColumnYoung, 0, huge, "a finite number above 0 (kPa)");
+  material.poissonsRatio = numberIn(row, ColumnPoisson, -1, 0.5, "a number between -1 and 0.5");
+  if (!row.fields[ColumnDensity].empty())
+    material.density = kTonnePerMm3 * numberIn(row, ColumnDensity, 0, huge, "a finite number above 0 (kg/m^3)");
   return material;
 }
 
@@ -115,19 +85,19 @@ TissueMaterial readMaterial(const Row& row)
 std::map<Label, TissueMaterial> readMaterialTable(const std::string& file, const TissueTable& names,
                                                   const std::set<Label>& present)
 {
-  std::map<Label, TissueMaterial> materials;
-  Columns columns{};
-  bool hasHeader = false;
-  const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
-  for (std::size_t n = 0; n < lines.size(); ++n)
+  const std::string columnNames = "tissue, model, youngsModulus, poissonsRatio, density";
+  const TextTable table = readTextTable(file, ColumnCount, columnOf, columnNames);
+  for (const Column column : { ColumnTissue, ColumnYoung, ColumnPoisson })
   {
-    const std::string line = text::trimmed(lines[n]);
-    if (line.empty() || line[0] == '#') continue;
-    const Row row{ file + ":" + std::to_string(n + 1), text::splitFields(line), columns };
-    if (!hasHeader) columns = readHeader(row.fields, row.where);
-    else if (!materials.emplace(readTissue(row, names, present), readMaterial(row)).second)
-      fail(row.where, "tissue " + row.at(ColumnTissue) + " is listed for the second time");
-    hasHeader = true;
+    if (!table.header.where.empty() && table.header.fields[column].empty())
+      table.header.fail(std::string("no column ") + kColumnNames[column] + ", expected " + columnNames +
+                        ", each at most once");
+  }
+  std::map<Label, TissueMaterial> materials;
+  for (const TextTableRow& row : table.rows)
+  {
+    if (!materials.emplace(readTissue(row, names, present), readMaterial(row)).second)
+      row.fail("tissue " + row.fields[ColumnTissue] + " is listed for the second time");
   }
   if (materials.empty()) throw InputError(file + ": no tissue, expected a header row and a row for each tissue");
   return materials;

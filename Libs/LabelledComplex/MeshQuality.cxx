@@ -1,6 +1,7 @@
 #include "MeshQuality.h"
 
 #include "FaceNeighbours.h"
+#include "JsonMember.h"
 
 #include <rapidjson/prettywriter.h>
 #include <rapidjson/stringbuffer.h>
@@ -166,31 +167,19 @@ Histogram histogramOf(const std::vector<double>& values, double low, double high
 
 using Writer = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
-void number(Writer& writer, const char* key, double value)
-{
-  writer.Key(key);
-  writer.Double(value);
-}
-
-void count(Writer& writer, const char* key, std::size_t value)
-{
-  writer.Key(key);
-  writer.Uint64(value);
-}
-
 void write(Writer& writer, const char* key, const Distribution& d)
 {
   writer.Key(key);
   writer.StartObject();
-  count(writer, "count", d.count);
-  number(writer, "minimum", d.minimum);
-  number(writer, "percentile1", d.percentile1);
-  number(writer, "percentile5", d.percentile5);
-  number(writer, "median", d.median);
-  number(writer, "percentile95", d.percentile95);
-  number(writer, "percentile99", d.percentile99);
-  number(writer, "maximum", d.maximum);
-  number(writer, "mean", d.mean);
+  writeMember(writer, "count", d.count);
+  writeMember(writer, "minimum", d.minimum);
+  writeMember(writer, "percentile1", d.percentile1);
+  writeMember(writer, "percentile5", d.percentile5);
+  writeMember(writer, "median", d.median);
+  writeMember(writer, "percentile95", d.percentile95);
+  writeMember(writer, "percentile99", d.percentile99);
+  writeMember(writer, "maximum", d.maximum);
+  writeMember(writer, "mean", d.mean);
   writer.EndObject();
 }
 
@@ -198,8 +187,8 @@ void write(Writer& writer, const char* key, const Histogram& histogram)
 {
   writer.Key(key);
   writer.StartObject();
-  number(writer, "low", histogram.low);
-  number(writer, "high", histogram.high);
+  writeMember(writer, "low", histogram.low);
+  writeMember(writer, "high", histogram.high);
   writer.Key("counts");
   writer.StartArray();
   for (const std::size_t value : histogram.counts) writer.Uint64(value);
@@ -209,16 +198,16 @@ void write(Writer& writer, const char* key, const Histogram& histogram)
 
 void writeMembers(Writer& writer, const QualityGroup& group)
 {
-  count(writer, "tetrahedra", group.tetrahedra);
-  count(writer, "points", group.points);
-  number(writer, "volume", group.volume);
+  writeMember(writer, "tetrahedra", group.tetrahedra);
+  writeMember(writer, "points", group.points);
+  writeMember(writer, "volume", group.volume);
   write(writer, "dihedral", group.dihedral);
   write(writer, "minimumDihedral", group.minimumDihedral);
   write(writer, "radiusRatio", group.radiusRatio);
   write(writer, "scaledJacobian", group.scaledJacobian);
   write(writer, "tetrahedronVolume", group.tetrahedronVolume);
   write(writer, "edgeOverTarget", group.edgeOverTarget);
-  number(writer, "edgesNearTarget", group.edgesNearTarget);
+  writeMember(writer, "edgesNearTarget", group.edgesNearTarget);
   write(writer, "valence", group.valence);
 }
 
@@ -347,7 +336,7 @@ std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues)
   for (const auto& [label, group] : quality.tissues)
   {
     writer.StartObject();
-    count(writer, "label", label);
+    writeMember(writer, "label", label);
     writer.Key("name");
     writer.String(nameOf(label, tissues).c_str());
     writeMembers(writer, group);
@@ -359,7 +348,7 @@ std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues)
   for (const auto& [id, group] : quality.subMeshes)
   {
     writer.StartObject();
-    count(writer, "subMesh", static_cast<std::size_t>(id));
+    writeMember(writer, "subMesh", static_cast<std::size_t>(id));
     writeMembers(writer, group);
     writer.EndObject();
   }

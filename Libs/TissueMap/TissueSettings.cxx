@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "TextFile.h"
+#include "TextTable.h"
 #include "TissueMapIO.h"
 
 #include <algorithm>
@@ -28,94 +29,62 @@ enum Column
 const std::array<const char*, ColumnCount> columnNames{ "label",   "name",      "role",    "minimum",
                                                         "maximum", "protected", "islands", "cavities" };
 
-/// Field number of each column; -1 for one that the header row lacks.
-using Columns = std::array<int, ColumnCount>;
-
-[[noreturn]] void fail(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
-
-/// One row of the table.
-struct Row
+int columnOf(const std::string& name)
 {
-  std::string where; ///< file and line
-  std::vector<std::string> fields;
-  const Columns& columns;
-
-  std::string at(Column column) const
-  {
-    const int n = columns[column];
-    return n >= 0 && n < int(fields.size()) ? fields[n] : std::string();
-  }
-};
-
-Columns readHeader(const std::vector<std::string>& fields, const std::string& where)
-{
-  Columns columns;
-  columns.fill(-1);
-  for (std::size_t n = 0; n < fields.size(); ++n)
-  {
-    const auto found = std::find(columnNames.begin(), columnNames.end(), text::lowerCase(fields[n]));
-    if (found == columnNames.end() || columns[found - columnNames.begin()] >= 0)
-    {
-      fail(where,
-           "column \"" + fields[n] +
-             "\", expected label, name, role, minimum, maximum, protected, islands, cavities, each at most once");
-    }
-    columns[found - columnNames.begin()] = int(n);
-  }
-  if (columns[ColumnLabel] < 0 && columns[ColumnName] < 0) fail(where, "no column label or name in the header row");
-  return columns;
+  const auto found = std::find(columnNames.begin(), columnNames.end(), text::lowerCase(name));
+  return found == columnNames.end() ? -1 : int(found - columnNames.begin());
 }
 
-Label readTissue(const Row& row, const TissueMap& map, const std::vector<Label>& present)
+Label readTissue(const TextTableRow& row, const TissueMap& map, const std::vector<Label>& present)
 {
-  const std::string tissue = row.at(ColumnLabel).empty() ? row.at(ColumnName) : row.at(ColumnLabel);
+  const std::string tissue = row.fields[ColumnLabel].empty() ? row.fields[ColumnName] : row.fields[ColumnLabel];
   Label label = 0;
   if (!findTissue(tissue, map.table, label) || label == 0)
   {
-    fail(row.where, "\"" + tissue + "\" is neither a label from 1 to 65535 nor the name of a tissue of the map");
+    row.fail("\"" + tissue + "\" is neither a label from 1 to 65535 nor the name of a tissue of the map");
   }
   if (!std::binary_search(present.begin(), present.end(), label))
   {
-    fail(row.where, "tissue " + tissue + " has no voxel in the map, expected one that has");
+    row.fail("tissue " + tissue + " has no voxel in the map, expected one that has");
   }
   return label;
 }
 
-void readRole(const Row& row, TissueSetting& setting)
+void readRole(const TextTableRow& row, TissueSetting& setting)
 {
-  const std::string role = row.at(ColumnRole);
+  const std::string role = row.fields[ColumnRole];
   const std::string word = text::lowerCase(role.substr(0, role.find_first_of(" \t")));
   if (word == "group") setting.group = text::trimmed(role.substr(word.size()));
   if (word.empty() || text::lowerCase(role) == "mesh") setting.role = TissueRole::Mesh;
   else if (text::lowerCase(role) == "shell") setting.role = TissueRole::Shell;
   else if (text::lowerCase(role) == "leave") setting.role = TissueRole::Leave;
   else if (!setting.group.empty()) setting.role = TissueRole::Group;
-  else fail(row.where, "role \"" + role + "\", expected mesh, group NAME, shell or leave");
+  else row.fail("role \"" + role + "\", expected mesh, group NAME, shell or leave");
 }
 
 /// An empty field leaves `value` alone.
-void readNumber(const Row& row, Column column, bool mayBeZero, double& value)
+void readNumber(const TextTableRow& row, Column column, bool mayBeZero, double& value)
 {
-  const std::string field = row.at(column);
+  const std::string field = row.fields[column];
   double number = 0;
   if (field.empty()) return;
   if (!text::parseNumber(field, number) || number < 0 || (number == 0 && !mayBeZero))
   {
-    fail(row.where, std::string(columnNames[column]) + " \"" + field + "\", expected a finite number " +
-                      (mayBeZero ? "of at least 0" : "above 0"));
+    row.fail(std::string(columnNames[column]) + " \"" + field + "\", expected a finite number " +
+             (mayBeZero ? "of at least 0" : "above 0"));
   }
   value = number;
 }
 
-bool readProtected(const Row& row)
+bool readProtected(const TextTableRow& row)
 {
-  const std::string field = text::lowerCase(row.at(ColumnProtected));
+  const std::string field = text::lowerCase(row.fields[ColumnProtected]);
   if (field == "yes" || field == "true" || field == "1") return true;
   if (field.empty() || field == "no" || field == "false" || field == "0") return false;
-  fail(row.where, "protected \"" + field + "\", expected yes or no");
+  row.fail("protected \"" + field + "\", expected yes or no");
 }
 
-TissueSetting readSetting(const Row& row)
+TissueSetting readSetting(const TextTableRow& row)
 {
   TissueSetting setting;
   readRole(row, setting);
@@ -126,10 +95,10 @@ TissueSetting readSetting(const Row& row)
   setting.isProtected = readProtected(row);
   double& minimum = setting.minimumEdgeLength;
   double& maximum = setting.maximumEdgeLength;
-  if (minimum > 0 && maximum > 0 && minimum > maximum) fail(row.where, "the minimum edge length is above the maximum");
+  if (minimum > 0 && maximum > 0 && minimum > maximum) row.fail("the minimum edge length is above the maximum");
   if (setting.role != TissueRole::Shell) return setting;
   if (minimum > 0 && maximum > 0 && minimum < maximum)
-    fail(row.where, "a shell of two edge lengths, expected one, as minimum or maximum");
+    row.fail("a shell of two edge lengths, expected one, as minimum or maximum");
   minimum = maximum = std::max(minimum, maximum);
   return setting;
 }
@@ -185,24 +154,17 @@ void joinGroup(const TissueGroup& group, TissueMap& map, TissueSettings& setting
 TissueSettings readTissueSettings(const std::string& file, const TissueMap& map)
 {
   const std::vector<Label> present = presentLabels(map);
+  const TextTable table =
+    readTextTable(file, ColumnCount, columnOf, "label, name, role, minimum, maximum, protected, islands, cavities");
+  const TextTableRow& header = table.header;
+  if (!header.where.empty() && header.fields[ColumnLabel].empty() && header.fields[ColumnName].empty())
+    header.fail("no column label or name in the header row");
   TissueSettings settings;
-  Columns columns{};
-  bool hasHeader = false;
-  const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
-  for (std::size_t n = 0; n < lines.size(); ++n)
+  for (const TextTableRow& row : table.rows)
   {
-    const std::string line = text::trimmed(lines[n]);
-    if (line.empty() || line[0] == '#') continue;
-    const Row row{ file + ":" + std::to_string(n + 1), text::splitFields(text::legible(line)), columns };
-    if (!hasHeader)
-    {
-      columns = readHeader(row.fields, row.where);
-      hasHeader = true;
-      continue;
-    }
     const Label label = readTissue(row, map, present);
     if (!settings.emplace(label, readSetting(row)).second)
-      fail(row.where, "tissue " + std::to_string(label) + " is listed for the second time");
+      row.fail("tissue " + std::to_string(label) + " is listed for the second time");
   }
   if (settings.empty()) throw InputError(file + ": no tissue, expected a header row and a row for each tissue");
   const auto isLeft = [&](Label label)

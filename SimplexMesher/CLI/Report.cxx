@@ -1,5 +1,7 @@
 #include "Report.h"
 
+#include "JsonMember.h"
+
 #include <rapidjson/prettywriter.h>
 #include <rapidjson/stringbuffer.h>
 
@@ -15,30 +17,6 @@ namespace
 {
 
 using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
-
-void write(JsonWriter& json, const char* key, double value)
-{
-  json.Key(key);
-  json.Double(value);
-}
-
-void write(JsonWriter& json, const char* key, std::size_t value)
-{
-  json.Key(key);
-  json.Uint64(value);
-}
-
-void write(JsonWriter& json, const char* key, const std::string& value)
-{
-  json.Key(key);
-  json.String(value.c_str(), rapidjson::SizeType(value.size()));
-}
-
-void write(JsonWriter& json, const char* key, bool value)
-{
-  json.Key(key);
-  json.Bool(value);
-}
 
 /// LPS mm, to a hundredth.
 void writePlace(JsonWriter& json, const Vec3& place)
@@ -65,15 +43,15 @@ void writeObjects(JsonWriter& json, const char* key, const Items& items, const W
 
 void writeTissue(JsonWriter& json, Label label, const TissueTable& table)
 {
-  write(json, "label", std::size_t(label));
-  write(json, "name", nameOf(label, table));
+  writeMember(json, "label", label);
+  writeMember(json, "name", nameOf(label, table));
 }
 
 void writeBetti(JsonWriter& json, const Betti& betti)
 {
-  write(json, "components", std::size_t(betti.components));
-  write(json, "tunnels", std::size_t(betti.tunnels));
-  write(json, "cavities", std::size_t(betti.cavities));
+  writeMember(json, "components", betti.components);
+  writeMember(json, "tunnels", betti.tunnels);
+  writeMember(json, "cavities", betti.cavities);
 }
 
 std::vector<Label> labelsWhere(const TissueSettings& settings, const std::function<bool(const TissueSetting&)>& holds)
@@ -94,21 +72,21 @@ void writeSelection(JsonWriter& json, const SurfaceReport& report)
   writeObjects(json, "groups", report.selection.groups,
                [&](const TissueGroup& group)
                {
-                 write(json, "label", std::size_t(group.label));
-                 write(json, "name", group.name);
+                 writeMember(json, "label", group.label);
+                 writeMember(json, "name", group.name);
                  writeObjects(json, "members", group.members, [&](Label member) { writeTissue(json, member, given); });
                });
   writeObjects(json, "leftOut", report.selection.voxelsLeft,
                [&](const auto& left)
                {
                  writeTissue(json, left.first, given);
-                 write(json, "voxels", left.second);
+                 writeMember(json, "voxels", left.second);
                });
   writeObjects(json, "shells", labelsWhere(report.settings, [](const auto& s) { return s.role == TissueRole::Shell; }),
                [&](Label label)
                {
                  writeTissue(json, label, report.tissues);
-                 write(json, "edgeLength", report.settings.at(label).maximumEdgeLength);
+                 writeMember(json, "edgeLength", report.settings.at(label).maximumEdgeLength);
                });
   writeObjects(json, "protected", labelsWhere(report.settings, [](const auto& s) { return s.isProtected; }),
                [&](Label label) { writeTissue(json, label, report.tissues); });
@@ -120,17 +98,17 @@ void writePreparation(JsonWriter& json, const SurfaceReport& report)
   const PreparationReport& preparation = report.preparation.preparation;
   json.Key("preparation");
   json.StartObject();
-  write(json, "criticalBlocksBefore", preparation.criticalBlocksBefore);
-  write(json, "contactVoxelsChanged", preparation.contactVoxelsChanged);
+  writeMember(json, "criticalBlocksBefore", preparation.criticalBlocksBefore);
+  writeMember(json, "contactVoxelsChanged", preparation.contactVoxelsChanged);
   writeObjects(json, "changes", preparation.changes,
                [&](const auto& entry)
                {
                  const TissueChanges& changes = entry.second;
                  writeTissue(json, entry.first, report.tissues);
-                 write(json, "islandsRemoved", changes.islandsRemoved);
-                 write(json, "islandVoxels", changes.islandVoxels);
-                 write(json, "voxelsLost", changes.voxelsLost);
-                 write(json, "voxelsGained", changes.voxelsGained);
+                 writeMember(json, "islandsRemoved", changes.islandsRemoved);
+                 writeMember(json, "islandVoxels", changes.islandVoxels);
+                 writeMember(json, "voxelsLost", changes.voxelsLost);
+                 writeMember(json, "voxelsGained", changes.voxelsGained);
                });
   json.EndObject();
 }
@@ -162,8 +140,8 @@ void writeSimplification(JsonWriter& json, const SurfaceReport& report)
     voxels += change.kind < ChangeKind::Cavity ? change.voxels : 0;
   json.Key("simplification");
   json.StartObject();
-  write(json, "featureScale", report.featureScale);
-  write(json, "voxelsChanged", voxels);
+  writeMember(json, "featureScale", report.featureScale);
+  writeMember(json, "voxelsChanged", voxels);
   writeObjects(json, "keptWhole", report.preparation.keptWhole,
                [&](Label label) { writeTissue(json, label, report.tissues); });
   writeObjects(json, "changes", byTissueAndKind(report.preparation.simplification),
@@ -172,9 +150,9 @@ void writeSimplification(JsonWriter& json, const SurfaceReport& report)
                  std::size_t sum = 0;
                  for (auto piece = pieces.begin; piece != pieces.end; ++piece) sum += piece->voxels;
                  writeTissue(json, pieces.begin->label, report.tissues);
-                 write(json, "kind", std::string(nameOf(pieces.begin->kind)));
-                 write(json, "count", std::size_t(pieces.end - pieces.begin));
-                 write(json, "voxels", sum);
+                 writeMember(json, "kind", std::string(nameOf(pieces.begin->kind)));
+                 writeMember(json, "count", std::size_t(pieces.end - pieces.begin));
+                 writeMember(json, "voxels", sum);
                  json.Key("places");
                  json.StartArray();
                  for (auto piece = pieces.begin; piece != pieces.end; ++piece) writePlace(json, piece->place);
@@ -188,13 +166,13 @@ void writeStructures(JsonWriter& json, const std::vector<Structure>& structures)
   writeObjects(json, "structures", structures,
                [&](const Structure& structure)
                {
-                 write(json, "label", std::size_t(structure.label));
-                 write(json, "name", structure.name);
-                 write(json, "voxels", structure.voxels);
+                 writeMember(json, "label", structure.label);
+                 writeMember(json, "name", structure.name);
+                 writeMember(json, "voxels", structure.voxels);
                  json.Key("centre");
                  writePlace(json, structure.centre);
-                 write(json, "tunnels", std::size_t(structure.topology.tunnels));
-                 write(json, "cavities", std::size_t(structure.topology.cavities));
+                 writeMember(json, "tunnels", structure.topology.tunnels);
+                 writeMember(json, "cavities", structure.topology.cavities);
                });
 }
 
@@ -210,19 +188,19 @@ void writeThickness(JsonWriter& json, const SurfaceReport& report)
   }
   json.Key("thickness");
   json.StartObject();
-  write(json, "followed", report.followsThickness);
-  write(json, "area", all.area);
-  write(json, "thinnerThanLength", all.thinArea);
-  write(json, "share", all.area > 0 ? all.thinArea / all.area : 0.0);
+  writeMember(json, "followed", report.followsThickness);
+  writeMember(json, "area", all.area);
+  writeMember(json, "thinnerThanLength", all.thinArea);
+  writeMember(json, "share", all.area > 0 ? all.thinArea / all.area : 0.0);
   writeObjects(json, "tissues", thin,
                [&](const auto& entry)
                {
                  const TissueThickness& tissue = entry.second;
                  writeTissue(json, entry.first, report.tissues);
-                 write(json, "area", tissue.area);
-                 write(json, "thinnerThanLength", tissue.thinArea);
-                 write(json, "share", tissue.thinArea / tissue.area);
-                 write(json, "smallestThickness", tissue.smallest);
+                 writeMember(json, "area", tissue.area);
+                 writeMember(json, "thinnerThanLength", tissue.thinArea);
+                 writeMember(json, "share", tissue.thinArea / tissue.area);
+                 writeMember(json, "smallestThickness", tissue.smallest);
                });
   json.EndObject();
 }
@@ -232,14 +210,14 @@ void writeEvolution(JsonWriter& json, const std::vector<EvolutionStep>& evolutio
   writeObjects(json, "evolution", evolution,
                [&](const EvolutionStep& step)
                {
-                 write(json, "stage", step.stage);
-                 write(json, "tetrahedra", step.tetrahedra);
-                 write(json, "meanDistance", step.meanDistance);
-                 write(json, "maximumDistance", step.maximumDistance);
-                 write(json, "collapses", std::size_t(step.operations.collapses));
-                 write(json, "splits", std::size_t(step.operations.splits));
-                 write(json, "flips", std::size_t(step.operations.flips));
-                 write(json, "moves", std::size_t(step.operations.moves));
+                 writeMember(json, "stage", step.stage);
+                 writeMember(json, "tetrahedra", step.tetrahedra);
+                 writeMember(json, "meanDistance", step.meanDistance);
+                 writeMember(json, "maximumDistance", step.maximumDistance);
+                 writeMember(json, "collapses", step.operations.collapses);
+                 writeMember(json, "splits", step.operations.splits);
+                 writeMember(json, "flips", step.operations.flips);
+                 writeMember(json, "moves", step.operations.moves);
                });
 }
 
@@ -251,16 +229,16 @@ std::string reportJson(const SurfaceReport& report)
   JsonWriter json(buffer);
   json.SetFormatOptions(rapidjson::kFormatSingleLineArray);
   json.StartObject();
-  write(json, "tissues", report.topology.size());
-  write(json, "points", report.points);
-  write(json, "triangles", report.triangles);
+  writeMember(json, "tissues", report.topology.size());
+  writeMember(json, "points", report.points);
+  writeMember(json, "triangles", report.triangles);
   writeSelection(json, report);
   writePreparation(json, report);
   writeSimplification(json, report);
   writeObjects(json, "topology", report.topology,
                [&](const auto& tissue)
                {
-                 write(json, "label", std::size_t(tissue.first));
+                 writeMember(json, "label", tissue.first);
                  writeBetti(json, tissue.second);
                });
   writeStructures(json, report.structures);

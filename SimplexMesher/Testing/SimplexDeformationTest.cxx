@@ -2,6 +2,7 @@
 #include "ComplexChecks.h"
 #include "FaceNeighbours.h"
 #include "Shapes.h"
+#include "UniformLimits.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>
@@ -12,14 +13,6 @@ namespace surgicalmesher
 using namespace test;
 namespace
 {
-
-OperatorLimits limitsOf(double length, double proximity)
-{
-  OperatorLimits limits;
-  limits.edgeLength = [=](const Vec3&) { return length; };
-  limits.proximity = [=](const Vec3&) { return proximity; };
-  return limits;
-}
 
 TissueMap ball(double radius, const Vec3& spacing = { 1, 1, 1 })
 {

@@ -3,6 +3,7 @@
 #include "RandomMaps.h"
 #include "Shapes.h"
 #include "SimplexDeformation.h"
+#include "UniformLimits.h"
 
 #include <gtest/gtest.h>
 
@@ -13,14 +14,6 @@ namespace surgicalmesher
 using namespace test;
 namespace
 {
-
-OperatorLimits limitsOf(double length, double proximity)
-{
-  OperatorLimits limits;
-  limits.edgeLength = [=](const Vec3&) { return length; };
-  limits.proximity = [=](const Vec3&) { return proximity; };
-  return limits;
-}
 
 /// Pairs of triangles of a surface that cross.
 int crossings(const SurfaceComplex& surface)

@@ -2,6 +2,7 @@
 
 #include "CommandLine.h"
 #include "Errors.h"
+#include "JsonMember.h"
 #include "MeshSizeEstimate.h"
 #include "NullDisplacement.h"
 #include "SurgicalPathScaleCLIXML.h"
@@ -160,24 +161,6 @@ std::vector<std::string> findOddities(const TissueMap& map, const Focus& focus, 
   return warnings;
 }
 
-void write(JsonWriter& json, const char* key, double value)
-{
-  json.Key(key);
-  json.Double(value);
-}
-
-void write(JsonWriter& json, const char* key, std::int64_t value)
-{
-  json.Key(key);
-  json.Int64(value);
-}
-
-void write(JsonWriter& json, const char* key, const std::string& value)
-{
-  json.Key(key);
-  json.String(value.c_str());
-}
-
 void write(JsonWriter& json, const char* key, const std::array<int, 3>& values)
 {
   json.Key(key);
@@ -203,19 +186,19 @@ void writeParameters(JsonWriter& json, const SurgicalScaleOptions& options, cons
 {
   json.Key("parameters");
   json.StartObject();
-  write(json, "minimumEdgeLength", options.range.minimum);
-  write(json, "maximumEdgeLength", options.range.maximum);
-  write(json, "childRadius", options.targetFalloff.childRadius);
-  write(json, "decayLength", options.targetFalloff.decayLength);
-  write(json, "pathChildRadius", options.pathFalloff.childRadius);
-  write(json, "pathDecayLength", options.pathFalloff.decayLength);
-  write(json, "combine", line.text("combine"));
-  write(json, "spacing", options.spacing);
-  write(json, "gradation", options.gradation);
-  write(json, "tissuesWithOwnLengths", std::int64_t(options.tissues.size()));
-  write(json, "nullDisplacementRadius", line.number("nullDisplacementRadius"));
-  write(json, "nullDisplacementPathDistance", line.number("nullDisplacementPathDistance"));
-  write(json, "nullDisplacementPathDistanceAtTarget", line.number("nullDisplacementPathDistanceAtTarget"));
+  writeMember(json, "minimumEdgeLength", options.range.minimum);
+  writeMember(json, "maximumEdgeLength", options.range.maximum);
+  writeMember(json, "childRadius", options.targetFalloff.childRadius);
+  writeMember(json, "decayLength", options.targetFalloff.decayLength);
+  writeMember(json, "pathChildRadius", options.pathFalloff.childRadius);
+  writeMember(json, "pathDecayLength", options.pathFalloff.decayLength);
+  writeMember(json, "combine", line.text("combine"));
+  writeMember(json, "spacing", options.spacing);
+  writeMember(json, "gradation", options.gradation);
+  writeMember(json, "tissuesWithOwnLengths", options.tissues.size());
+  writeMember(json, "nullDisplacementRadius", line.number("nullDisplacementRadius"));
+  writeMember(json, "nullDisplacementPathDistance", line.number("nullDisplacementPathDistance"));
+  writeMember(json, "nullDisplacementPathDistanceAtTarget", line.number("nullDisplacementPathDistanceAtTarget"));
   json.EndObject();
 }
 
@@ -227,7 +210,7 @@ void writeFocus(JsonWriter& json, const Focus& focus)
   for (const Path& path : focus.paths)
   {
     json.StartObject();
-    write(json, "length", pathLength(path));
+    writeMember(json, "length", pathLength(path));
     write(json, "points", path);
     json.EndObject();
   }
@@ -240,24 +223,24 @@ void writeResults(JsonWriter& json, const Results& results, const Grid& map, con
   json.Key("map");
   json.StartObject();
   write(json, "size", map.size);
-  write(json, "tissues", std::int64_t(results.tissueCount));
+  writeMember(json, "tissues", results.tissueCount);
   json.EndObject();
   json.Key("scale");
   json.StartObject();
   write(json, "size", scale.size);
-  write(json, "shortest", results.shortest);
-  write(json, "longest", results.longest);
+  writeMember(json, "shortest", results.shortest);
+  writeMember(json, "longest", results.longest);
   json.EndObject();
   json.Key("nullDisplacement");
   json.StartObject();
-  write(json, "label", std::int64_t(results.nullDisplacement.label));
-  write(json, "voxels", std::int64_t(results.nullDisplacement.voxelCount));
-  write(json, "volume", double(results.nullDisplacement.voxelCount) * voxelVolume);
+  writeMember(json, "label", results.nullDisplacement.label);
+  writeMember(json, "voxels", results.nullDisplacement.voxelCount);
+  writeMember(json, "volume", double(results.nullDisplacement.voxelCount) * voxelVolume);
   json.EndObject();
   json.Key("estimate");
   json.StartObject();
-  write(json, "triangles", std::int64_t(std::llround(results.estimate.triangles)));
-  write(json, "tetrahedra", std::int64_t(std::llround(results.estimate.tetrahedra)));
+  writeMember(json, "triangles", std::int64_t(std::llround(results.estimate.triangles)));
+  writeMember(json, "tetrahedra", std::int64_t(std::llround(results.estimate.tetrahedra)));
   json.EndObject();
   json.Key("warnings");
   json.StartArray();
@@ -274,8 +257,8 @@ void writeReport(const std::string& file, const CommandLine& line, const Focus& 
   JsonWriter json(wrapper);
   json.SetMaxDecimalPlaces(6);
   json.StartObject();
-  write(json, "module", std::string("SurgicalPathScale"));
-  write(json, "labelMap", line.text("labelMap"));
+  writeMember(json, "module", std::string("SurgicalPathScale"));
+  writeMember(json, "labelMap", line.text("labelMap"));
   writeFocus(json, focus);
   writeParameters(json, options, line);
   writeResults(json, results, map, scale);

@@ -2,6 +2,7 @@
 
 #include "Errors.h"
 #include "TextFile.h"
+#include "TextTable.h"
 #include "TissueMapIO.h"
 
 #include <algorithm>
@@ -22,39 +23,23 @@ enum Column
   ColumnCount
 };
 
-/// Field number of each column; -1 for one that the header row lacks.
-using Columns = std::array<int, ColumnCount>;
-
-[[noreturn]] void fail(const std::string& where, const std::string& what) { throw InputError(where + ": " + what); }
-
-Columns readHeader(const std::vector<std::string>& fields, const std::string& where)
+int columnOf(const std::string& field)
 {
-  Columns columns{ -1, -1, -1, -1 };
-  for (std::size_t n = 0; n < fields.size(); ++n)
-  {
-    const std::string name = text::lowerCase(fields[n]);
-    int column = ColumnCount;
-    if (name == "label" || name == "name") column = ColumnTissue;
-    else if (name == "minimum") column = ColumnMinimum;
-    else if (name == "maximum") column = ColumnMaximum;
-    else if (name == "factor") column = ColumnFactor;
-    if (column == ColumnCount || columns[column] >= 0)
-    {
-      fail(where, "column \"" + fields[n] + "\", expected label, minimum, maximum, factor, each at most once");
-    }
-    columns[column] = int(n);
-  }
-  if (columns[ColumnTissue] < 0) fail(where, "no column label or name in the header row");
-  return columns;
+  const std::string name = text::lowerCase(field);
+  if (name == "label" || name == "name") return ColumnTissue;
+  if (name == "minimum") return ColumnMinimum;
+  if (name == "maximum") return ColumnMaximum;
+  return name == "factor" ? ColumnFactor : -1;
 }
 
-double readValue(const std::vector<std::string>& fields, int column, double missing, const std::string& where)
+double readValue(const TextTableRow& row, Column column, double missing)
 {
-  if (column < 0 || column >= int(fields.size()) || fields[column].empty()) return missing;
+  const std::string& field = row.fields[column];
+  if (field.empty()) return missing;
   double value = 0;
-  if (!text::parseNumber(fields[column], value) || value <= 0)
+  if (!text::parseNumber(field, value) || value <= 0)
   {
-    fail(where, "\"" + fields[column] + "\", expected a finite number above 0");
+    row.fail("\"" + field + "\", expected a finite number above 0");
   }
   return value;
 }
@@ -64,34 +49,24 @@ double readValue(const std::vector<std::string>& fields, int column, double miss
 std::map<Label, TissueLength> readTissueLengths(const std::string& file, const LengthRange& range,
                                                 const TissueTable& names)
 {
+  const TextTable table = readTextTable(file, ColumnCount, columnOf, "label, minimum, maximum, factor");
+  if (!table.header.where.empty() && table.header.fields[ColumnTissue].empty())
+    table.header.fail("no column label or name in the header row");
   std::map<Label, TissueLength> lengths;
-  Columns columns{};
-  bool hasHeader = false;
-  const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
-  for (std::size_t n = 0; n < lines.size(); ++n)
+  for (const TextTableRow& row : table.rows)
   {
-    const std::string line = text::trimmed(lines[n]);
-    if (line.empty() || line[0] == '#') continue;
-    const std::string where = file + ":" + std::to_string(n + 1);
-    const std::vector<std::string> fields = text::splitFields(line);
-    if (!hasHeader)
-    {
-      columns = readHeader(fields, where);
-      hasHeader = true;
-      continue;
-    }
     Label label = 0;
-    const std::string tissue = columns[ColumnTissue] < int(fields.size()) ? fields[columns[ColumnTissue]] : "";
+    const std::string& tissue = row.fields[ColumnTissue];
     if (!findTissue(tissue, names, label) || label == 0)
     {
-      fail(where, "\"" + tissue + "\" is neither a label from 1 to 65535 nor the name of a tissue");
+      row.fail("\"" + tissue + "\" is neither a label from 1 to 65535 nor the name of a tissue");
     }
     TissueLength length;
-    length.range.minimum = readValue(fields, columns[ColumnMinimum], range.minimum, where);
-    length.range.maximum = readValue(fields, columns[ColumnMaximum], range.maximum, where);
-    length.factor = readValue(fields, columns[ColumnFactor], 1, where);
-    if (length.range.minimum > length.range.maximum) fail(where, "the minimum edge length is above the maximum");
-    if (!lengths.emplace(label, length).second) fail(where, "tissue " + tissue + " is listed for the second time");
+    length.range.minimum = readValue(row, ColumnMinimum, range.minimum);
+    length.range.maximum = readValue(row, ColumnMaximum, range.maximum);
+    length.factor = readValue(row, ColumnFactor, 1);
+    if (length.range.minimum > length.range.maximum) row.fail("the minimum edge length is above the maximum");
+    if (!lengths.emplace(label, length).second) row.fail("tissue " + tissue + " is listed for the second time");
   }
   if (lengths.empty()) throw InputError(file + ": no tissue, expected a header row and a row for each tissue");
   return lengths;

@@ -7,9 +7,9 @@
 // seconds of each phase, sizes, peak memory. CGAL's own chatter is on stderr.
 
 #include "ComplexIO.h"
+#include "Driver.h"
 #include "Errors.h"
 #include "TissueMapIO.h"
-#include "Timing.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Image_3.h>
@@ -176,8 +176,7 @@ void run(const Options& options)
   file.tissues = map.table;
   writeMesh(file, options.mesh);
   stopwatch.lap("write");
-  std::cout << runJSON("CGAL Mesh_3 " CGAL_VERSION_STR, stopwatch, file.mesh.points.size(),
-                       file.mesh.tetrahedra.size())
+  std::cout << runJSON("CGAL Mesh_3 " CGAL_VERSION_STR, stopwatch, file.mesh.points.size(), file.mesh.tetrahedra.size())
             << '\n';
 }
 
@@ -185,19 +184,5 @@ void run(const Options& options)
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    run(readOptions({ argv + 1, argv + argc }));
-    return 0;
-  }
-  catch (const Error& error)
-  {
-    std::cerr << error.what() << '\n';
-    return error.exitStatus();
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << error.what() << '\n';
-    return 3;
-  }
+  return runDriver([&] { run(readOptions({ argv + 1, argv + argc })); });
 }

@@ -9,9 +9,9 @@
 // Prints one JSON object: seconds of each phase, sizes, peak memory.
 
 #include "ComplexIO.h"
+#include "Driver.h"
 #include "Errors.h"
 #include "FaceNeighbours.h"
-#include "Timing.h"
 #include "TissueMapIO.h"
 
 #include <tetgen.h>
@@ -179,20 +179,10 @@ void run(const std::string& surfaceFile, const std::string& scaleFile, const std
 
 int main(int argc, char** argv)
 {
-  try
-  {
-    if (argc != 4) throw UsageError("usage: TetGenDriver SURFACE.vtp|MESH.vtu SCALE.nrrd OUT.vtu");
-    run(argv[1], argv[2], argv[3]);
-    return 0;
-  }
-  catch (const Error& error)
-  {
-    std::cerr << error.what() << '\n';
-    return error.exitStatus();
-  }
-  catch (const std::exception& error)
-  {
-    std::cerr << error.what() << '\n';
-    return 3;
-  }
+  return runDriver(
+    [&]
+    {
+      if (argc != 4) throw UsageError("usage: TetGenDriver SURFACE.vtp|MESH.vtu SCALE.nrrd OUT.vtu");
+      run(argv[1], argv[2], argv[3]);
+    });
 }

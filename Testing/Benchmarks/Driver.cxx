@@ -1,9 +1,13 @@
-#include "Timing.h"
+#include "Driver.h"
+
+#include "Errors.h"
 
 #include <rapidjson/stringbuffer.h>
 #include <rapidjson/writer.h>
 
 #include <sys/resource.h>
+
+#include <iostream>
 
 namespace surgicalmesher
 {
@@ -43,6 +47,25 @@ std::string runJSON(const std::string& program, const Stopwatch& stopwatch, std:
   json.Uint64(peakMemory());
   json.EndObject();
   return buffer.GetString();
+}
+
+int runDriver(const std::function<void()>& work)
+{
+  try
+  {
+    work();
+    return 0;
+  }
+  catch (const Error& error)
+  {
+    std::cerr << error.what() << '\n';
+    return error.exitStatus();
+  }
+  catch (const std::exception& error)
+  {
+    std::cerr << error.what() << '\n';
+    return 3;
+  }
 }
 
 } // namespace surgicalmesher

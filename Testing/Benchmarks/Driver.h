@@ -1,8 +1,10 @@
 #pragma once
-/// What the drivers of other meshers print: seconds by phase, sizes, and the peak of memory, as one JSON object.
+/// What the drivers of other meshers share: they print seconds by phase, sizes, and the peak of memory as one JSON object,
+/// or one line on stderr.
 
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,5 +33,8 @@ private:
 
 /// {"program": .., "seconds": {phase: s, ..}, "points": .., "tetrahedra": .., "peakMemory": bytes}
 std::string runJSON(const std::string& program, const Stopwatch& stopwatch, std::size_t points, std::size_t tetrahedra);
+
+/// Runs `work`. The exit status: 0, or that of the error, which goes to stderr.
+int runDriver(const std::function<void()>& work);
 
 } // namespace surgicalmesher

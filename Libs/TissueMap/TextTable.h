@@ -1,0 +1,32 @@
+#pragma once
+/// Small tables of comma-separated values whose first row names the columns. Empty lines and lines that begin with # don't
+/// count.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+struct TextTableRow
+{
+  std::string where;               ///< FILE:LINE
+  std::vector<std::string> fields; ///< by column; empty where the table or this row lacks it
+
+  /// Throws InputError: "FILE:LINE: what".
+  [[noreturn]] void fail(const std::string& what) const;
+};
+
+struct TextTable
+{
+  TextTableRow header; ///< the names as the file has them, by column; `where` is empty in a file without any row
+  std::vector<TextTableRow> rows;
+};
+
+/// `columnOf` numbers a name of the first row, from 0 to columns - 1; -1 if there is no such column. `names` lists them all
+/// for the user. Throws InputError for files that can't be read, and for names that are unknown or come twice.
+TextTable readTextTable(const std::string& file, int columns, const std::function<int(const std::string&)>& columnOf,
+                        const std::string& names);
+
+} // namespace surgicalmesher
