@@ -1,0 +1,183 @@
+#include "HostApplication.h"
+
+#include <qSlicerAbstractCoreModule.h>
+#include <qSlicerAbstractModule.h>
+#include <qSlicerAbstractModuleWidget.h>
+#include <qSlicerApplication.h>
+#include <qSlicerApplicationHelper.h>
+#include <qSlicerLayoutManager.h>
+#include <qSlicerMainWindow.h>
+#include <qSlicerModuleManager.h>
+#include <qSlicerStyle.h>
+
+#include <ctkErrorLogAbstractModel.h>
+
+#include <vtkMRMLAbstractLogic.h>
+#include <vtkMRMLScene.h>
+
+#include <QElapsedTimer>
+#include <QEventLoop>
+#include <QRegularExpression>
+#include <QScopedPointer>
+#include <QSplashScreen>
+#include <QVBoxLayout>
+#include <QWidget>
+
+#include <stdexcept>
+
+namespace surgicalmesher::test
+{
+namespace
+{
+
+const QStringList OUR_MODULES{ "SurgicalPathScale",    "SurgicalPathScaleCLI",    "SimplexMesher", "SimplexMesherCLI",
+                               "FuchsTetrahedralizer", "FuchsTetrahedralizerCLI" };
+
+std::vector<std::string> commandLine()
+{
+  return { "SlicerHostTest",
+           "--testing", // settings of its own, thrown away
+           "--no-main-window",
+           "--no-splash",
+           "--additional-module-paths",
+           SURGICALMESHER_LOADABLE_MODULES,
+           SURGICALMESHER_CLI_MODULES };
+}
+
+std::vector<char*> pointersTo(std::vector<std::string>& strings)
+{
+  std::vector<char*> pointers;
+  for (std::string& s : strings) pointers.push_back(s.data());
+  pointers.push_back(nullptr); // as argv ends
+  return pointers;
+}
+
+qSlicerAbstractCoreModule* moduleNamed(const qSlicerApplication& application, const QString& name)
+{
+  qSlicerAbstractCoreModule* module = const_cast<qSlicerApplication&>(application).moduleManager()->module(name);
+  if (!module) throw std::runtime_error("no module " + name.toStdString() + " in the host");
+  return module;
+}
+
+bool isComplaint(const QString& level)
+{
+  return level == "Warning" || level == "Error" || level == "Critical" || level == "Fatal";
+}
+
+} // namespace
+
+HostApplication::HostApplication()
+  : m_Arguments(commandLine())
+  , m_ArgumentPointers(pointersTo(m_Arguments))
+  , m_ArgumentCount(static_cast<int>(m_Arguments.size()))
+{
+  qSlicerApplicationHelper::preInitializeApplication(m_ArgumentPointers.front(), new qSlicerStyle);
+  m_Application = std::make_unique<qSlicerApplication>(m_ArgumentCount, m_ArgumentPointers.data());
+  makeViews();
+  loadModules();
+}
+
+HostApplication::~HostApplication()
+{
+  leavePanel();
+  scene()->Clear(1);
+  m_Application->setLayoutManager(nullptr);
+  m_Viewport.reset();
+}
+
+void HostApplication::makeViews()
+{
+  m_Viewport = std::make_unique<QWidget>();
+  m_Viewport->resize(900, 700);
+  auto* layout = new qSlicerLayoutManager(m_Viewport.get());
+  m_Application->setLayoutManager(layout);
+  layout->setMRMLScene(m_Application->mrmlScene());
+  layout->setLayout(vtkMRMLLayoutNode::SlicerLayoutFourUpPlotView);
+  m_Viewport->show();
+}
+
+void HostApplication::loadModules()
+{
+  QScopedPointer<QSplashScreen> noSplash;
+  QScopedPointer<qSlicerMainWindow> noWindow;
+  qSlicerApplicationHelper::postInitializeApplication<qSlicerMainWindow>(*m_Application, noSplash, noWindow);
+  QStringList missing;
+  for (const QString& name : OUR_MODULES)
+  {
+    if (!m_Application->moduleManager()->module(name)) missing << name;
+  }
+  if (!missing.isEmpty()) throw std::runtime_error("not loaded: " + missing.join(", ").toStdString());
+}
+
+vtkMRMLScene* HostApplication::scene() const
+{
+  return m_Application->mrmlScene();
+}
+
+qSlicerLayoutManager* HostApplication::layoutManager() const
+{
+  return m_Application->layoutManager();
+}
+
+qSlicerAbstractModuleWidget* HostApplication::enterPanel(const QString& moduleName)
+{
+  leavePanel();
+  m_Panel = dynamic_cast<qSlicerAbstractModuleWidget*>(moduleNamed(*m_Application, moduleName)->widgetRepresentation());
+  if (!m_Panel) throw std::runtime_error("module " + moduleName.toStdString() + " has no panel");
+  m_Panel->show();
+  m_Panel->enter();
+  return m_Panel;
+}
+
+void HostApplication::leavePanel()
+{
+  if (!m_Panel) return;
+  m_Panel->exit();
+  m_Panel->hide();
+  m_Panel = nullptr;
+}
+
+vtkMRMLAbstractLogic* HostApplication::logic(const QString& moduleName) const
+{
+  return moduleNamed(*m_Application, moduleName)->logic();
+}
+
+bool HostApplication::waitUntil(const std::function<bool()>& condition, double seconds)
+{
+  QElapsedTimer time;
+  time.start();
+  while (!condition())
+  {
+    if (time.elapsed() > 1000 * seconds) return false;
+    m_Application->processEvents(QEventLoop::AllEvents | QEventLoop::WaitForMoreEvents, 50);
+  }
+  return true;
+}
+
+void HostApplication::waitFor(double seconds)
+{
+  waitUntil([] { return false; }, seconds);
+}
+
+std::string HostApplication::complaints()
+{
+  waitFor(0.1); // messages of other threads reach the log as events
+  const ctkErrorLogAbstractModel& log = *m_Application->errorLogModel();
+  const bool isStart = m_LogEntriesSeen == 0;
+  static const QRegularExpression ours("SurgicalPathScale|SimplexMesher|FuchsTetrahedralizer|SurgicalMesher");
+  QString lines;
+  for (; m_LogEntriesSeen < log.logEntryCount(); ++m_LogEntriesSeen)
+  {
+    const QString level = log.logEntryData(m_LogEntriesSeen, ctkErrorLogAbstractModel::LogLevelColumn).toString();
+    const QString text = log.logEntryDescription(m_LogEntriesSeen);
+    if (isComplaint(level) && (!isStart || text.contains(ours))) lines += level + ": " + text + "\n";
+  }
+  return lines.toStdString();
+}
+
+void throwMissingChild(QObject* parent, const char* name)
+{
+  throw std::runtime_error(parent->objectName().toStdString() + " has no child " + name + " of the type asked for");
+}
+
+} // namespace surgicalmesher::test
