@@ -268,7 +268,7 @@ std::vector<Vec3> pointsOf(vtkPointSet* data, bool ras, const std::string& file)
     {
       refuse(file, "point " + std::to_string(i) + " has a coordinate that isn't a finite number");
     }
-    if (ras) p = { -p.x, -p.y, p.z };
+    if (ras) p = { 0 - p.x, 0 - p.y, p.z }; // of 0 comes 0, not -0
   }
   return points;
 }
@@ -333,29 +333,6 @@ std::vector<std::int32_t> integersOf(vtkFieldData* data, const char* name, vtkId
 constexpr double kAnyNumber = -std::numeric_limits<double>::infinity();
 constexpr int kHighestLabel = std::numeric_limits<Label>::max();
 constexpr int kHighestInteger = std::numeric_limits<std::int32_t>::max();
-
-/// Names and colours; tables that are incomplete or of other kinds are left out, as nothing depends on them.
-TissueTable tissuesOf(vtkFieldData* data)
-{
-  TissueTable table;
-  vtkDataArray* ids = data->GetArray(kTissueIds);
-  auto* names = vtkStringArray::SafeDownCast(data->GetAbstractArray(kTissueNames));
-  vtkDataArray* colors = data->GetArray(kTissueColors);
-  auto* roles = vtkStringArray::SafeDownCast(data->GetAbstractArray(kTissueRoles));
-  for (vtkIdType i = 0; ids && i < ids->GetNumberOfTuples(); ++i)
-  {
-    const double id = ids->GetComponent(i, 0);
-    if (!(id >= 0 && id <= kHighestLabel)) continue;
-    Tissue& tissue = table[static_cast<Label>(id)];
-    if (names && i < names->GetNumberOfValues()) tissue.name = names->GetValue(i);
-    tissue.isShell = roles && i < roles->GetNumberOfValues() && roles->GetValue(i) == "shell";
-    if (colors && colors->GetNumberOfComponents() == 3 && i < colors->GetNumberOfTuples())
-    {
-      colors->GetTuple(i, tissue.color.data());
-    }
-  }
-  return table;
-}
 
 /// Drops the points that nothing refers to, in all arrays alike; the order of the others stays.
 template <class Cells>
@@ -657,27 +634,54 @@ MeshFile readMesh(const std::string& file)
   requireReadable(file);
   bool ras = false;
   const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(file, ras);
+  return meshOfGrid(grid, ras, file);
+}
+
+MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name)
+{
   const vtkIdType pointCount = grid->GetNumberOfPoints();
   const vtkIdType cellCount = grid->GetNumberOfCells();
-  requireIdRange(pointCount, "points", file);
-  requireIdRange(cellCount, "cells", file);
+  requireIdRange(pointCount, "points", name);
+  requireIdRange(cellCount, "cells", name);
 
   MeshFile result;
-  result.mesh.tetrahedra = tetrahedraOf(grid, file);
-  result.mesh.points = pointsOf(grid, ras, file);
+  result.mesh.tetrahedra = tetrahedraOf(grid, name);
+  result.mesh.points = pointsOf(grid, ras, name);
   vtkCellData* cellData = grid->GetCellData();
-  const std::vector<std::int32_t> labels = integersOf(cellData, kTissueLabel, cellCount, kHighestLabel, file);
-  if (labels.empty()) refuse(file, std::string("no cell array ") + kTissueLabel);
+  const std::vector<std::int32_t> labels = integersOf(cellData, kTissueLabel, cellCount, kHighestLabel, name);
+  if (labels.empty()) refuse(name, std::string("no cell array ") + kTissueLabel);
   result.mesh.labels.assign(labels.begin(), labels.end());
-  result.subMesh = integersOf(cellData, kSubMesh, cellCount, kHighestInteger, file);
-  result.constitutive = integersOf(cellData, kConstitutive, cellCount, 2, file);
-  result.subMeshInterface = integersOf(grid->GetPointData(), kInterface, pointCount, 1, file);
-  result.targetEdgeLength = numbersOf(grid->GetPointData(), kTargetEdgeLength, pointCount, 0, file);
-  result.volumePointId = integersOf(grid->GetPointData(), kVolumePointId, pointCount, kHighestInteger, file);
-  result.interfaceId = integersOf(grid->GetPointData(), kInterfaceId, pointCount, kHighestInteger, file, -1);
+  result.subMesh = integersOf(cellData, kSubMesh, cellCount, kHighestInteger, name);
+  result.constitutive = integersOf(cellData, kConstitutive, cellCount, 2, name);
+  result.subMeshInterface = integersOf(grid->GetPointData(), kInterface, pointCount, 1, name);
+  result.targetEdgeLength = numbersOf(grid->GetPointData(), kTargetEdgeLength, pointCount, 0, name);
+  result.volumePointId = integersOf(grid->GetPointData(), kVolumePointId, pointCount, kHighestInteger, name);
+  result.interfaceId = integersOf(grid->GetPointData(), kInterfaceId, pointCount, kHighestInteger, name, -1);
   result.tissues = tissuesOf(grid->GetFieldData());
-  requireSound(result.mesh, file);
+  requireSound(result.mesh, name);
   return result;
+}
+
+TissueTable tissuesOf(vtkFieldData* data)
+{
+  TissueTable table;
+  vtkDataArray* ids = data->GetArray(kTissueIds);
+  auto* names = vtkStringArray::SafeDownCast(data->GetAbstractArray(kTissueNames));
+  vtkDataArray* colors = data->GetArray(kTissueColors);
+  auto* roles = vtkStringArray::SafeDownCast(data->GetAbstractArray(kTissueRoles));
+  for (vtkIdType i = 0; ids && i < ids->GetNumberOfTuples(); ++i)
+  {
+    const double id = ids->GetComponent(i, 0);
+    if (!(id >= 0 && id <= kHighestLabel)) continue;
+    Tissue& tissue = table[static_cast<Label>(id)];
+    if (names && i < names->GetNumberOfValues()) tissue.name = names->GetValue(i);
+    tissue.isShell = roles && i < roles->GetNumberOfValues() && roles->GetValue(i) == "shell";
+    if (colors && colors->GetNumberOfComponents() == 3 && i < colors->GetNumberOfTuples())
+    {
+      colors->GetTuple(i, tissue.color.data());
+    }
+  }
+  return table;
 }
 
 void writeMesh(const MeshFile& content, const std::string& file, FieldTexts texts)

@@ -12,6 +12,9 @@
 #include <string>
 #include <vector>
 
+class vtkFieldData;
+class vtkUnstructuredGrid;
+
 namespace surgicalmesher
 {
 
@@ -64,6 +67,14 @@ struct MeshFile
 /// Refused, beyond what readSurface refuses: cells other than tetrahedra, no TissueLabel, tetrahedra that are inverted
 /// or flat, points that no tetrahedron uses.
 MeshFile readMesh(const std::string& file);
+
+/// The same from memory. `ras`: the grid's coordinates are RAS, which its field data need not know; `name` stands for the
+/// file in messages.
+MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name);
+
+/// Names, colours and roles in field data; tables that are incomplete or of other kinds are left out, as nothing depends
+/// on them.
+TissueTable tissuesOf(vtkFieldData* data);
 
 /// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them.
 enum class FieldTexts
