@@ -10,6 +10,9 @@ find_program(SurgicalMesher_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(SurgicalMesher_PYTHON NAMES python3)
 
 add_library(SurgicalMesherFlags INTERFACE)
+if(Slicer_DIR)
+  set_property(GLOBAL APPEND PROPERTY Slicer_TARGETS SurgicalMesherFlags)
+endif()
 target_compile_options(SurgicalMesherFlags INTERFACE
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra>
   # Fused multiply-add would make the mesh depend on the processor.
@@ -29,6 +32,9 @@ function(surgicalmesher_add_library name)
   add_library(${name} STATIC ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE SurgicalMesherFlags)
+  if(Slicer_DIR)
+    set_property(GLOBAL APPEND PROPERTY Slicer_TARGETS ${name}) # the host exports what its libraries link to
+  endif()
 endfunction()
 
 # The description is compiled in, for --xml, and lies beside the executable, where Slicer looks first.
@@ -49,7 +55,7 @@ function(surgicalmesher_add_cli name)
     COMMAND ${CMAKE_COMMAND} -E copy_if_different ${xml} $<TARGET_FILE_DIR:${name}>/${name}.xml)
   install(TARGETS ${name} RUNTIME DESTINATION ${SurgicalMesher_CLI_INSTALL_DIRECTORY} COMPONENT RuntimeLibraries)
   install(FILES ${xml} DESTINATION ${SurgicalMesher_CLI_INSTALL_DIRECTORY} COMPONENT RuntimeLibraries)
-  if(BUILD_TESTING AND SurgicalMesher_PYTHON)
+  if(SurgicalMesher_UNIT_TESTS AND SurgicalMesher_PYTHON)
     surgicalmesher_add_description_test(${name})
   endif()
 endfunction()
