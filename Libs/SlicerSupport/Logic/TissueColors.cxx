@@ -1,0 +1,83 @@
+#include "TissueColors.h"
+
+#include "ComplexIO.h"
+
+#include <vtkMRMLColorTableNode.h>
+#include <vtkMRMLModelDisplayNode.h>
+#include <vtkMRMLModelNode.h>
+#include <vtkMRMLScene.h>
+
+#include <vtkAssignAttribute.h>
+#include <vtkPointSet.h>
+
+#include <algorithm>
+#include <string>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+constexpr const char* kOwner = "SurgicalMesher.ColorsOf"; // attribute of a colour table: id of the model it was made for
+
+/// Slicer 5.0 makes up names from the colours unless told that there are names. Since it knows for every entry whether it
+/// is defined, it does not, and being told is an error.
+template <class Node>
+auto keepNames(Node* colors, int) -> decltype(colors->SetColorDefined(0, true), void())
+{
+}
+
+template <class Node>
+void keepNames(Node* colors, long)
+{
+  colors->NamesInitialisedOn();
+}
+
+vtkMRMLColorTableNode* colorsOf(vtkMRMLModelNode* model)
+{
+  auto* colors = vtkMRMLColorTableNode::SafeDownCast(model->GetDisplayNode()->GetColorNode());
+  const char* owner = colors ? colors->GetAttribute(kOwner) : nullptr;
+  if (owner && std::string(owner) == model->GetID()) return colors;
+  colors = vtkMRMLColorTableNode::SafeDownCast(model->GetScene()->AddNewNodeByClass(
+    "vtkMRMLColorTableNode", model->GetScene()->GenerateUniqueName(std::string(model->GetName()) + " tissues")));
+  colors->SetAttribute(kOwner, model->GetID());
+  return colors;
+}
+
+} // namespace
+
+void fillColorTable(const TissueTable& tissues, vtkMRMLColorTableNode* colors)
+{
+  const int wasModifying = colors->StartModify();
+  const int highest = tissues.empty() ? 0 : tissues.rbegin()->first;
+  colors->SetTypeToUser();
+  colors->SetAttribute("Category", "User Generated");
+  colors->SetNumberOfColors(1); // forgets what was there
+  colors->SetNumberOfColors(highest + 1);
+  keepNames(colors, 0);
+  colors->SetColor(0, "background", 0, 0, 0, 0);
+  for (const auto& [label, tissue] : tissues)
+  {
+    const std::string name = tissue.name.empty() ? std::to_string(label) : tissue.name;
+    if (label != 0) colors->SetColor(label, name.c_str(), tissue.color[0], tissue.color[1], tissue.color[2]);
+  }
+  colors->GetLookupTable()->SetTableRange(0, std::max(highest, 1));
+  colors->EndModify(wasModifying);
+}
+
+vtkMRMLColorTableNode* showTissueColors(vtkMRMLModelNode* model, const char* array)
+{
+  model->CreateDefaultDisplayNodes();
+  vtkMRMLColorTableNode* colors = colorsOf(model);
+  fillColorTable(tissuesOf(model->GetMesh()->GetFieldData()), colors);
+  vtkMRMLModelDisplayNode* display = model->GetModelDisplayNode();
+  const int wasModifying = display->StartModify();
+  display->SetActiveScalar(array, vtkAssignAttribute::CELL_DATA);
+  display->SetAndObserveColorNodeID(colors->GetID());
+  display->SetScalarRangeFlag(vtkMRMLDisplayNode::UseColorNodeScalarRange);
+  display->ScalarVisibilityOn();
+  display->EndModify(wasModifying);
+  return colors;
+}
+
+} // namespace surgicalmesher
