@@ -107,9 +107,7 @@ def extension():
     canvas = Canvas()
     canvas.disc((64, 64), 63, INK)
     target = (64, 64)
-    rings = [(12, 6, 0.0), (28, 6, 0.5), (56, 6, 0.0)]
-    points = [hexagon(radius, turn) for radius, _, turn in rings]
-    inner, middle, outer = points
+    inner, middle, outer = hexagon(12), hexagon(28, 0.5), hexagon(56)
     for i in range(6):
         j = (i + 1) % 6
         canvas.polygon([outer[i], outer[j], middle[i]], BLUES[0] if i % 2 else BLUES[1])

@@ -13,6 +13,7 @@
 #include <ctkErrorLogAbstractModel.h>
 
 #include <vtkMRMLAbstractLogic.h>
+#include <vtkMRMLLayoutNode.h>
 #include <vtkMRMLScene.h>
 
 #include <QElapsedTimer>
@@ -20,6 +21,7 @@
 #include <QRegularExpression>
 #include <QScopedPointer>
 #include <QSplashScreen>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <QWidget>
 
@@ -149,7 +151,9 @@ bool HostApplication::waitUntil(const std::function<bool()>& condition, double s
   while (!condition())
   {
     if (time.elapsed() > 1000 * seconds) return false;
-    m_Application->processEvents(QEventLoop::AllEvents | QEventLoop::WaitForMoreEvents, 50);
+    QEventLoop loop;
+    QTimer::singleShot(20, &loop, &QEventLoop::quit);
+    loop.exec();
   }
   return true;
 }

@@ -1,0 +1,171 @@
+#include "HostScene.h"
+
+#include <qSlicerApplication.h>
+#include <qSlicerModuleManager.h>
+#include <qSlicerAbstractCoreModule.h>
+
+#include <vtkMRMLColorTableNode.h>
+#include <vtkMRMLDisplayNode.h>
+#include <vtkMRMLLabelMapVolumeNode.h>
+#include <vtkMRMLLinearTransformNode.h>
+#include <vtkMRMLMarkupsNode.h>
+#include <vtkMRMLScene.h>
+#include <vtkMRMLSegmentationNode.h>
+#include <vtkSlicerSegmentationsModuleLogic.h>
+#include <vtkSlicerVolumesLogic.h>
+
+#include <vtkCollection.h>
+#include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+#include <vtkTransform.h>
+
+#include <QDir>
+#include <QFileInfo>
+
+#include <cmath>
+
+namespace surgicalmesher::test
+{
+namespace
+{
+
+/// Tumour, red, and brain, grey.
+vtkMRMLColorTableNode* addTissueColors(vtkMRMLScene* scene)
+{
+  vtkNew<vtkMRMLColorTableNode> colors;
+  colors->SetTypeToUser();
+  colors->SetName("Tissues");
+  colors->SetNumberOfColors(3);
+  colors->GetColorName(0); // until Slicer 5.4 the first look at a name would replace all names by numbers
+  colors->SetColor(0, "background", 0, 0, 0, 0);
+  colors->SetColor(1, "tumour", 0.9, 0.3, 0.25);
+  colors->SetColor(2, "brain", 0.8, 0.8, 0.8);
+  return vtkMRMLColorTableNode::SafeDownCast(scene->AddNode(colors));
+}
+
+std::string described(vtkMRMLNode* node)
+{
+  const std::string name = node->GetName() ? node->GetName() : "";
+  return std::string(node->GetClassName()) + " " + name + " (" + node->GetID() + ")";
+}
+
+} // namespace
+
+vtkMRMLLabelMapVolumeNode* addLabelMap(vtkMRMLScene* scene, const char* name, int voxelsPerSide, double spacing,
+                                       const std::function<int(const Point&)>& labelAt)
+{
+  const double first = -0.5 * (voxelsPerSide - 1) * spacing;
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(voxelsPerSide, voxelsPerSide, voxelsPerSide);
+  image->AllocateScalars(VTK_SHORT, 1);
+  auto* voxel = static_cast<short*>(image->GetScalarPointer());
+  for (int k = 0; k < voxelsPerSide; ++k)
+  {
+    for (int j = 0; j < voxelsPerSide; ++j)
+    {
+      for (int i = 0; i < voxelsPerSide; ++i)
+      {
+        *voxel++ =
+          static_cast<short>(labelAt({ first + i * spacing, first + j * spacing, first + k * spacing }));
+      }
+    }
+  }
+  auto* labelMap = vtkMRMLLabelMapVolumeNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLLabelMapVolumeNode", name));
+  labelMap->SetSpacing(spacing, spacing, spacing);
+  labelMap->SetOrigin(first, first, first);
+  labelMap->SetAndObserveImageData(image);
+  labelMap->CreateDefaultDisplayNodes();
+  return labelMap;
+}
+
+vtkMRMLLabelMapVolumeNode* addNestedBalls(vtkMRMLScene* scene, const char* name)
+{
+  const auto labelAt = [](const Point& p)
+  {
+    const double radius = std::sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    return radius < 6 ? 1 : radius < 10 ? 2 : 0;
+  };
+  vtkMRMLLabelMapVolumeNode* labelMap = addLabelMap(scene, name, 26, 1, labelAt);
+  labelMap->GetDisplayNode()->SetAndObserveColorNodeID(addTissueColors(scene)->GetID());
+  return labelMap;
+}
+
+vtkMRMLSegmentationNode* addSegmentation(vtkMRMLScene* scene, vtkMRMLLabelMapVolumeNode* labelMap, const char* name)
+{
+  vtkMRMLSegmentationNode* segmentation = addEmptySegmentation(scene, name);
+  vtkSlicerSegmentationsModuleLogic::ImportLabelmapToSegmentationNode(labelMap, segmentation);
+  segmentation->SetReferenceImageGeometryParameterFromVolumeNode(labelMap);
+  return segmentation;
+}
+
+vtkMRMLSegmentationNode* addEmptySegmentation(vtkMRMLScene* scene, const char* name)
+{
+  auto* segmentation =
+    vtkMRMLSegmentationNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLSegmentationNode", name));
+  segmentation->CreateDefaultDisplayNodes();
+  return segmentation;
+}
+
+vtkMRMLLabelMapVolumeNode* loadLabelMap(vtkMRMLScene* scene, const std::string& fileName)
+{
+  constexpr int LABEL_MAP = 1;
+  vtkNew<vtkSlicerVolumesLogic> logic;
+  logic->SetMRMLScene(scene);
+  const std::string name = QFileInfo(QString::fromStdString(fileName)).baseName().toStdString();
+  return vtkMRMLLabelMapVolumeNode::SafeDownCast(logic->AddArchetypeVolume(fileName.c_str(), name.c_str(), LABEL_MAP));
+}
+
+std::string jhuAtlasFile()
+{
+  const QString file = "/usr/share/mricron/templates/jhu189.nii.gz";
+  return QFileInfo::exists(file) ? file.toStdString() : std::string();
+}
+
+vtkMRMLMarkupsNode* addMarkups(vtkMRMLScene* scene, const char* className, const std::vector<Point>& points)
+{
+  auto* markups = vtkMRMLMarkupsNode::SafeDownCast(scene->AddNewNodeByClass(className));
+  markups->CreateDefaultDisplayNodes();
+  for (const Point& p : points) markups->AddControlPoint(p[0], p[1], p[2]);
+  return markups;
+}
+
+vtkMRMLTransformNode* addTransform(vtkMRMLScene* scene)
+{
+  vtkNew<vtkTransform> transform;
+  transform->Translate(5, -3, 2);
+  transform->RotateZ(30);
+  auto* node = vtkMRMLLinearTransformNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLLinearTransformNode"));
+  node->SetMatrixTransformToParent(transform->GetMatrix());
+  return node;
+}
+
+LeftoverCheck::LeftoverCheck(vtkMRMLScene* scene) : m_Scene(scene)
+{
+  for (int i = 0; i < scene->GetNumberOfNodes(); ++i) m_Before.insert(scene->GetNthNode(i)->GetID());
+}
+
+std::string LeftoverCheck::leftovers(const std::set<std::string>& expectedClasses) const
+{
+  std::string lines;
+  for (int i = 0; i < m_Scene->GetNumberOfNodes(); ++i)
+  {
+    vtkMRMLNode* node = m_Scene->GetNthNode(i);
+    if (!m_Before.count(node->GetID()) && !expectedClasses.count(node->GetClassName())) lines += described(node) + "\n";
+  }
+  return lines;
+}
+
+std::set<std::string> temporaryFiles()
+{
+  const QDir folder(qSlicerApplication::application()->temporaryPath());
+  std::set<std::string> names;
+  for (const QString& name : folder.entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot))
+  {
+    names.insert(name.toStdString());
+  }
+  return names;
+}
+
+} // namespace surgicalmesher::test
