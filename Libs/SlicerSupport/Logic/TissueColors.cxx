@@ -1,6 +1,7 @@
 #include "TissueColors.h"
 
 #include "ComplexIO.h"
+#include "HostDifferences.h"
 
 #include <vtkMRMLColorTableNode.h>
 #include <vtkMRMLModelDisplayNode.h>
@@ -19,19 +20,6 @@ namespace
 {
 
 constexpr const char* kOwner = "SurgicalMesher.ColorsOf"; // attribute of a colour table: id of the model it was made for
-
-/// Slicer 5.0 makes up names from the colours unless told that there are names. Since it knows for every entry whether it
-/// is defined, it does not, and being told is an error.
-template <class Node>
-auto keepNames(Node* colors, int) -> decltype(colors->SetColorDefined(0, true), void())
-{
-}
-
-template <class Node>
-void keepNames(Node* colors, long)
-{
-  colors->NamesInitialisedOn();
-}
 
 vtkMRMLColorTableNode* colorsOf(vtkMRMLModelNode* model)
 {
@@ -54,7 +42,7 @@ void fillColorTable(const TissueTable& tissues, vtkMRMLColorTableNode* colors)
   colors->SetAttribute("Category", "User Generated");
   colors->SetNumberOfColors(1); // forgets what was there
   colors->SetNumberOfColors(highest + 1);
-  keepNames(colors, 0);
+  host::keepColorNames(colors);
   colors->SetColor(0, "background", 0, 0, 0, 0);
   for (const auto& [label, tissue] : tissues)
   {
