@@ -6,9 +6,24 @@ set(EXTENSION_CONTRIBUTORS "The SurgicalMesher contributors")
 string(CONCAT EXTENSION_DESCRIPTION
   "Turns a label map and surgical targets or paths into graded multi-tissue finite element meshes: dense where the "
   "surgeon works, sparse elsewhere, every tissue with the topology of the map.")
+set(EXTENSION_HOMEPAGE "https://github.com/SurgicalMesher/SurgicalMesher")
+set(published_files "https://raw.githubusercontent.com/SurgicalMesher/SurgicalMesher/main")
+set(EXTENSION_ICONURL "${published_files}/SurgicalMesher.png")
+string(CONCAT EXTENSION_SCREENSHOTURLS # one space between two
+  "${published_files}/Docs/images/slicer-scale.png "
+  "${published_files}/Docs/images/slicer-surface.png "
+  "${published_files}/Docs/images/slicer-tetrahedra.png")
 set(EXTENSION_DEPENDS "NA")
 set(EXTENSION_README_FILE ${PROJECT_SOURCE_DIR}/README.md)
 set(EXTENSION_LICENSE_FILE ${PROJECT_SOURCE_DIR}/LICENSE)
+
+# Slicer's extension factory says that it is at work by the first of these variables.
+set(SurgicalMesher_BUILD_SLICER_EXTENSION OFF CACHE BOOL "Build as Slicer's extension factory does")
+mark_as_advanced(SurgicalMesher_BUILD_SLICER_EXTENSION)
+option(SurgicalMesher_SUPERBUILD "Fetch and build TetGen and CGAL as well" ${SurgicalMesher_BUILD_SLICER_EXTENSION})
+if(SurgicalMesher_SUPERBUILD OR DEFINED EXTENSION_SUPERBUILD_BINARY_DIR)
+  set(EXTENSION_BUILD_SUBDIRECTORY inner-build)
+endif()
 
 find_package(Slicer REQUIRED)
 include(${Slicer_USE_FILE})
