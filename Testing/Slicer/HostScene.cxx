@@ -1,5 +1,7 @@
 #include "HostScene.h"
 
+#include "HostDifferences.h"
+
 #include <qSlicerApplication.h>
 #include <qSlicerModuleManager.h>
 #include <qSlicerAbstractCoreModule.h>
@@ -38,7 +40,7 @@ vtkMRMLColorTableNode* addTissueColors(vtkMRMLScene* scene)
   colors->SetTypeToUser();
   colors->SetName("Tissues");
   colors->SetNumberOfColors(3);
-  colors->GetColorName(0); // until Slicer 5.4 the first look at a name would replace all names by numbers
+  host::keepColorNames(colors.GetPointer());
   colors->SetColor(0, "background", 0, 0, 0, 0);
   colors->SetColor(1, "tumour", 0.9, 0.3, 0.25);
   colors->SetColor(2, "brain", 0.8, 0.8, 0.8);
