@@ -1,5 +1,6 @@
 #include "TissueMapIO.h"
 
+#include "CanonicalGrid.h"
 #include "Errors.h"
 #include "ImageData.h"
 #include "TextFile.h"
@@ -31,12 +32,9 @@ using MetaData = std::map<std::string, std::string>;
 constexpr double maximumVoxelCount = 2147483648.0; // 2^31: 4 GB of labels
 
 /// An image file as it lies in memory after reading, and how to walk it in the order of the canonical grid.
-struct Volume
+struct Volume : CanonicalGrid
 {
   std::string file;
-  Grid grid;                            ///< canonical: see TissueMap::grid
-  std::ptrdiff_t first = 0;             ///< voxel of the file that is voxel (0, 0, 0) of the grid
-  std::array<std::ptrdiff_t, 3> stride; ///< voxels of the file from one voxel of the grid to the next along i, j, k
   int components = 1;                   ///< values per voxel, interleaved
   itk::IOComponentEnum type = itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE;
   std::unique_ptr<char[]> data;
@@ -145,29 +143,6 @@ std::array<int, 3> volumeSize(const itk::ImageIOBase& io, const std::string& fil
   return size;
 }
 
-/// The nearest orthonormal frame, by Newton's iteration for the polar decomposition.
-std::array<Vec3, 3> orthonormalised(std::array<Vec3, 3> a)
-{
-  for (int iteration = 0; iteration < 10; ++iteration)
-  {
-    const Vec3 normals[3] = { cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1]) };
-    const double determinant = dot(a[0], normals[0]);
-    for (int axis = 0; axis < 3; ++axis) a[axis] = 0.5 * (a[axis] + normals[axis] / determinant);
-  }
-  return a;
-}
-
-bool arePerpendicular(const std::array<Vec3, 3>& axes)
-{
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const Vec3& a = axes[axis];
-    const Vec3& b = axes[(axis + 1) % 3];
-    if (!(std::abs(dot(a, b)) < 1e-3 * norm(a) * norm(b))) return false;
-  }
-  return true;
-}
-
 /// Millimetres per unit of a NIfTI header's coordinates.
 double niftiUnit(const MetaData& metaData)
 {
@@ -234,61 +209,6 @@ Grid fileGrid(const itk::ImageIOBase& io, const MetaData& niftiHeader, const std
   return grid;
 }
 
-/// How the axes of a file go onto those of the canonical grid: w runs along or against file axis source[w].
-struct AxisOrder
-{
-  std::array<int, 3> source;
-  std::array<int, 3> sign;
-};
-
-/// The right-handed order whose axes lie nearest to +L, +P, +S: of the 24, the one of largest trace. Where two are equally
-/// near, the choice depends on the directions in space alone, so that permuted and flipped copies of a map end alike.
-AxisOrder canonicalOrder(const std::array<Vec3, 3>& axes)
-{
-  constexpr double tolerance = 1e-6;
-  AxisOrder best{};
-  std::vector<double> bestKey;
-  std::array<int, 3> source{ 0, 1, 2 };
-  do {
-    for (int signs = 0; signs < 8; ++signs)
-    {
-      AxisOrder order{ source, { signs & 1 ? -1 : 1, signs & 2 ? -1 : 1, signs & 4 ? -1 : 1 } };
-      std::array<Vec3, 3> frame;
-      for (int w = 0; w < 3; ++w) frame[w] = order.sign[w] * axes[source[w]];
-      if (dot(cross(frame[0], frame[1]), frame[2]) < 0) continue;
-      std::vector<double> key{ frame[0].x + frame[1].y + frame[2].z };
-      for (const Vec3& axis : frame) key.insert(key.end(), { axis.x, axis.y, axis.z });
-      const auto difference = std::mismatch(key.begin(), key.end(), bestKey.begin(), bestKey.end(),
-                                            [=](double a, double b) { return std::abs(a - b) < tolerance; });
-      if (bestKey.empty() || (difference.first != key.end() && *difference.first > *difference.second))
-      {
-        best = order;
-        bestKey = key;
-      }
-    }
-  } while (std::next_permutation(source.begin(), source.end()));
-  return best;
-}
-
-void canonicalise(const Grid& in, Volume& volume)
-{
-  const std::ptrdiff_t strides[3] = { 1, in.size[0], std::ptrdiff_t(in.size[0]) * in.size[1] };
-  const AxisOrder order = canonicalOrder(in.axes);
-  volume.grid.origin = in.origin;
-  volume.first = 0;
-  for (int w = 0; w < 3; ++w)
-  {
-    const int source = order.source[w];
-    volume.grid.size[w] = in.size[source];
-    volume.grid.spacing[w] = in.spacing[source];
-    volume.grid.axes[w] = order.sign[w] * in.axes[source] + Vec3{}; // no negative zeros
-    volume.stride[w] = order.sign[w] * strides[source];
-    if (order.sign[w] > 0) continue;
-    volume.first += (in.size[source] - 1) * strides[source];
-    volume.grid.origin += ((in.size[source] - 1) * in.spacing[source]) * in.axes[source];
-  }
-}
-
 MetaData readMetaData(const itk::ImageIOBase& io)
 {
   MetaData metaData;
@@ -322,7 +242,7 @@ Volume readVolume(const std::string& file)
   // Other formats may carry a NIfTI header's entries on, from a file they were converted from: there they mean nothing.
   const bool isNifti = dynamic_cast<const itk::NiftiImageIO*>(io.GetPointer()) != nullptr;
   const MetaData niftiHeader = isNifti ? volume.metaData : MetaData();
-  canonicalise(fileGrid(*io, niftiHeader, file), volume);
+  static_cast<CanonicalGrid&>(volume) = canonicalGrid(fileGrid(*io, niftiHeader, file));
   volume.components = int(io->GetNumberOfComponents());
   volume.type = io->GetComponentType();
 

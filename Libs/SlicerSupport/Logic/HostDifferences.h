@@ -1,11 +1,11 @@
 #pragma once
 /// The few places where Slicer 5.0 and later ones want different code, each behind one name.
 
+#include <string>
+
 #if __has_include(<vtkMRMLI18N.h>)
 #include <vtkMRMLI18N.h>
 #else
-#include <string>
-
 /// `text` in the user's language, in code without Qt. Slicer has it since 5.3, and its tools collect texts by this name;
 /// before, text stays as it is.
 inline std::string vtkMRMLTr(const char*, const char* text)
@@ -36,6 +36,27 @@ template <class ColorNode>
 void keepColorNames(ColorNode* colors)
 {
   keepColorNames(colors, 0);
+}
+
+template <class ColorNode>
+auto hasColorName(ColorNode* colors, int index, int) -> decltype(colors->GetColorDefined(index))
+{
+  return colors->GetColorDefined(index);
+}
+
+template <class ColorNode>
+bool hasColorName(ColorNode* colors, int index, long)
+{
+  const char* noName = colors->GetNoName();
+  return std::string(noName ? noName : "") != colors->GetColorName(index);
+}
+
+/// Whether an entry of a colour table means something. Slicer 5.0 says so by its name.
+template <class ColorNode>
+bool hasColorName(ColorNode* colors, int index)
+{
+  const char* name = colors->GetColorName(index);
+  return name && *name && hasColorName(colors, index, 0);
 }
 
 template <class TableNode>

@@ -9,6 +9,7 @@
 #include <vtkMRMLScene.h>
 
 #include <vtkAssignAttribute.h>
+#include <vtkLookupTable.h>
 #include <vtkPointSet.h>
 
 #include <algorithm>

@@ -23,13 +23,13 @@ enum class TissueMapProblem
   NoVoxels,            ///< a label map without image data
   OnlyBackground,      ///< no voxel of any tissue
   NoReferenceGeometry, ///< a segmentation whose voxel grid is unknown
-  WarpingTransform,    ///< under a transform that is no rotation, translation and (axis-wise) scaling of its voxels
+  ShearingTransform,   ///< under a linear transform that turns its voxels into rhomboids
   NegativeLabels,      ///< voxels below 0, above 65535 or not whole
   NotExported          ///< the host could not convert the segmentation
 };
 
-/// What keeps `input` from being meshed, by looking at its headers and segments only: cheap enough for every change in a
-/// panel. OnlyBackground and NegativeLabels are found for voxels that were looked at before, see makeTissueMapNodes.
+/// What keeps `input` from being meshed; cheap enough for every change in a panel (the range of the voxels is looked for
+/// once and kept with the image).
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT TissueMapProblem checkTissueMap(vtkMRMLNode* input);
 
 /// A label map for a run, with the tissues' names and colours. Both nodes are in the scene of `input`, hidden, not saved.
@@ -43,7 +43,8 @@ struct TissueMapNodes
 /// Makes them; the caller hands them to a run (vtkSurgicalMesherRun::AddTemporaryNode) or removes them from the scene.
 /// A segmentation is exported in its reference geometry with all its segments: labels 1, 2, 3 ... in the segments' order,
 /// the later segment winning where two overlap. A label map shares its voxels with the input. World positions are those
-/// that the user sees: a linear parent transform moves the copy's grid. With a problem there are no nodes.
+/// that the user sees: a linear parent transform moves the copy's grid, another one resamples it. With a problem there are
+/// no nodes.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT TissueMapNodes makeTissueMapNodes(vtkMRMLNode* input);
 
 /// Names and colours by label as makeTissueMapNodes would give them, without exporting anything: for a segmentation all

@@ -4,6 +4,8 @@
 
 #include "qSurgicalMesherSupportWidgetsExport.h"
 
+#include <ctkVTKObject.h>
+
 #include <QScopedPointer>
 #include <QWidget>
 
@@ -15,6 +17,7 @@ class vtkSurgicalMesherRun;
 class Q_SURGICALMESHER_SUPPORT_WIDGETS_EXPORT qSurgicalMesherRunWidget : public QWidget
 {
   Q_OBJECT
+  QVTK_OBJECT
 
 public:
   explicit qSurgicalMesherRunWidget(QWidget* parent = nullptr);
@@ -45,6 +48,9 @@ signals:
   void cancelRequested();
   /// The run ended, well or not (vtkSurgicalMesherRun::CompletedEvent).
   void runEnded();
+
+private slots:
+  void onRunStatusChanged();
 
 private:
   Q_DECLARE_PRIVATE(qSurgicalMesherRunWidget)

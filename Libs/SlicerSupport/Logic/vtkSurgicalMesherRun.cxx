@@ -1,0 +1,537 @@
+#include "vtkSurgicalMesherRun.h"
+
+#include <ModuleDescription.h>
+#include <ModuleProcessInformation.h>
+#include <vtkMRMLCommandLineModuleNode.h>
+#include <vtkMRMLDisplayNode.h>
+#include <vtkMRMLDisplayableNode.h>
+#include <vtkMRMLScene.h>
+#include <vtkMRMLStorableNode.h>
+#include <vtkMRMLStorageNode.h>
+#include <vtkSlicerApplicationLogic.h>
+#include <vtkSlicerCLIModuleLogic.h>
+#include <vtkSlicerTask.h>
+
+#include <vtkCallbackCommand.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkSmartPointer.h>
+#include <vtkWeakPointer.h>
+#include <vtksys/SystemTools.hxx>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <locale>
+#include <sstream>
+#include <thread>
+#include <vector>
+
+#ifdef _WIN32
+#include <process.h>
+#else
+#include <unistd.h>
+#endif
+
+namespace
+{
+
+using Clock = std::chrono::steady_clock;
+
+/// Two tasks of the host's processing thread, scheduled around the module's own: they tell when the module's task has
+/// begun and when it has ended. The CLI node's status does not: it may say that the run is over while the thread still
+/// works, and a Cancel may be overwritten by the thread.
+class TaskFence : public vtkMRMLAbstractLogic
+{
+public:
+  static TaskFence* New();
+  vtkTypeMacro(TaskFence, vtkMRMLAbstractLogic);
+
+  std::atomic<bool> Begun{ false };
+  std::atomic<bool> Ended{ false };
+  vtkSlicerApplicationLogic* ApplicationLogic = nullptr; // outlives its threads
+
+  bool Schedule(void (TaskFence::*function)(void*))
+  {
+    vtkNew<vtkSlicerTask> task;
+    task->SetTypeToProcessing();
+    task->SetTaskFunction(this, static_cast<vtkMRMLAbstractLogic::TaskFunctionPointer>(function), nullptr);
+    return this->ApplicationLogic->ScheduleTask(task);
+  }
+  void Begin(void*) { this->Begun = true; }
+  void End(void*)
+  {
+    this->Ended = true;
+    this->ApplicationLogic->RequestModified(this); // invokes Modified() on the main thread
+  }
+};
+vtkStandardNewMacro(TaskFence);
+
+std::string numberText(double value)
+{
+  std::string text;
+  for (int digits : { 15, 17 })
+  {
+    std::ostringstream stream;
+    stream.imbue(std::locale::classic());
+    stream.precision(digits);
+    stream << value;
+    text = stream.str();
+    std::istringstream back(text);
+    back.imbue(std::locale::classic());
+    double read = 0;
+    if (back >> read && read == value) break;
+  }
+  return text;
+}
+
+/// The last line of what the host kept of stderr, without its heading and the executable's name.
+std::string moduleErrorLine(const std::string& errorText, const std::string& executable)
+{
+  const std::string heading = "standard error:\n\n";
+  const std::size_t start = errorText.find(heading);
+  std::istringstream lines(start == std::string::npos ? errorText : errorText.substr(start + heading.size()));
+  std::string last;
+  for (std::string line; std::getline(lines, line);)
+  {
+    if (line.find_first_not_of(" \t\r") != std::string::npos) last = line;
+  }
+  const std::string prefix = executable + ": ";
+  return last.compare(0, prefix.size(), prefix) == 0 ? last.substr(prefix.size()) : last;
+}
+
+int processId()
+{
+#ifdef _WIN32
+  return _getpid();
+#else
+  return int(getpid());
+#endif
+}
+
+/// A new empty folder for the files of one run.
+std::string makeFolder(const std::string& parent)
+{
+  static std::atomic<int> count{ 0 };
+  const std::string base = parent.empty() ? std::string(".") : parent;
+  std::string folder;
+  do {
+    folder = base + "/SurgicalMesher-" + std::to_string(processId()) + "-" + std::to_string(++count);
+  } while (vtksys::SystemTools::FileExists(folder));
+  vtksys::SystemTools::MakeDirectory(folder);
+  return folder;
+}
+
+/// With the display and storage nodes that only it refers to.
+void removeFromScene(vtkMRMLNode* node)
+{
+  vtkMRMLScene* scene = node->GetScene();
+  if (!scene) return;
+  std::vector<vtkSmartPointer<vtkMRMLNode>> nodes;
+  if (auto* displayable = vtkMRMLDisplayableNode::SafeDownCast(node))
+  {
+    for (int n = 0; n < displayable->GetNumberOfDisplayNodes(); ++n) nodes.push_back(displayable->GetNthDisplayNode(n));
+  }
+  if (auto* storable = vtkMRMLStorableNode::SafeDownCast(node))
+  {
+    for (int n = 0; n < storable->GetNumberOfStorageNodes(); ++n) nodes.push_back(storable->GetNthStorageNode(n));
+  }
+  nodes.insert(nodes.begin(), node);
+  for (vtkMRMLNode* each : nodes)
+  {
+    if (each && each->GetScene()) scene->RemoveNode(each);
+  }
+}
+
+} // namespace
+
+//----------------------------------------------------------------------------
+class vtkSurgicalMesherRun::Internal
+{
+public:
+  explicit Internal(vtkSurgicalMesherRun* run) : Run(run)
+  {
+    this->Callback->SetClientData(this);
+    this->Callback->SetCallback(&Internal::OnEvent);
+  }
+
+  struct Output
+  {
+    vtkSmartPointer<vtkMRMLNode> node;
+    bool isNew;
+  };
+
+  vtkSurgicalMesherRun* Run;
+  vtkWeakPointer<vtkSlicerCLIModuleLogic> Logic;
+  vtkSmartPointer<vtkMRMLCommandLineModuleNode> CommandLineNode;
+  vtkSmartPointer<TaskFence> Fence;
+  vtkNew<vtkCallbackCommand> Callback;
+  vtkWeakPointer<vtkMRMLScene> Scene;
+  vtkWeakPointer<vtkSlicerApplicationLogic> ApplicationLogic;
+
+  std::vector<vtkSmartPointer<vtkMRMLNode>> Temporaries;
+  std::vector<Output> Outputs;
+  std::vector<vtkSmartPointer<vtkMRMLNode>> Parameters; // nodes that parameters name
+  std::string Folder;
+  Status CurrentStatus = Idle;
+  std::string ErrorText;
+  bool IsCancelRequested = false;
+  Clock::time_point StartTime;
+  double Elapsed = 0;
+
+  void Forget();
+  bool Prepare();
+  bool ScheduleTasks();
+  void Observe();
+  void StopObserving();
+  void SetStatus(Status status);
+  void RequestCancel();
+  void EndNow();
+  void FinishIfOver();
+  void Finish(vtkMRMLNode* leaving = nullptr);
+  void CleanUp(Status outcome, vtkMRMLNode* leaving);
+  Status Outcome() const;
+  bool Uses(vtkMRMLNode* node) const;
+  int NodeStatus() const { return this->CommandLineNode->GetStatus(); }
+
+  static void OnEvent(vtkObject* caller, unsigned long event, void* self, void* callData);
+};
+
+//----------------------------------------------------------------------------
+vtkStandardNewMacro(vtkSurgicalMesherRun);
+
+vtkSurgicalMesherRun::vtkSurgicalMesherRun() : Private(new Internal(this)) {}
+
+vtkSurgicalMesherRun::~vtkSurgicalMesherRun()
+{
+  Internal& d = *this->Private;
+  d.EndNow();
+  if (this->IsBusy()) d.CleanUp(Cancelled, nullptr); // nobody is left to tell
+  d.Forget();
+  delete this->Private;
+}
+
+void vtkSurgicalMesherRun::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Status: " << this->GetStatus() << "\n";
+  os << indent << "ErrorText: " << this->GetErrorText() << "\n";
+}
+
+void vtkSurgicalMesherRun::SetCommandLineLogic(vtkMRMLAbstractLogic* logic)
+{
+  Internal& d = *this->Private;
+  if (this->IsBusy()) return;
+  d.Forget();
+  d.Logic = vtkSlicerCLIModuleLogic::SafeDownCast(logic);
+  d.SetStatus(Idle);
+  if (!d.Logic || !d.Logic->GetMRMLScene()) return;
+  d.CommandLineNode.TakeReference(d.Logic->CreateNode());
+  d.CommandLineNode->SetSaveWithScene(false);
+}
+
+bool vtkSurgicalMesherRun::HasCommandLineLogic() const { return this->Private->Logic != nullptr; }
+
+void vtkSurgicalMesherRun::SetParameter(const std::string& name, const std::string& value)
+{
+  Internal& d = *this->Private;
+  if (!d.CommandLineNode || this->IsBusy()) return;
+  if (!d.CommandLineNode->GetModuleDescription().HasParameter(name))
+  {
+    vtkErrorMacro("SetParameter: the module has no parameter " << name);
+    return;
+  }
+  d.CommandLineNode->SetParameterAsString(name.c_str(), value);
+}
+
+void vtkSurgicalMesherRun::SetParameter(const std::string& name, const char* value)
+{
+  this->SetParameter(name, std::string(value));
+}
+
+void vtkSurgicalMesherRun::SetParameter(const std::string& name, double value)
+{
+  this->SetParameter(name, numberText(value));
+}
+
+void vtkSurgicalMesherRun::SetParameter(const std::string& name, int value)
+{
+  this->SetParameter(name, std::to_string(value));
+}
+
+void vtkSurgicalMesherRun::SetParameter(const std::string& name, bool value)
+{
+  this->SetParameter(name, std::string(value ? "true" : "false"));
+}
+
+void vtkSurgicalMesherRun::SetParameterNode(const std::string& name, vtkMRMLNode* node)
+{
+  this->SetParameter(name, std::string(node && node->GetID() ? node->GetID() : ""));
+  if (node && !this->IsBusy()) this->Private->Parameters.push_back(node);
+}
+
+void vtkSurgicalMesherRun::AddTemporaryNode(vtkMRMLNode* node)
+{
+  Internal& d = *this->Private;
+  if (!node || this->IsBusy()) return;
+  node->SetHideFromEditors(true);
+  node->SetSaveWithScene(false);
+  if (!node->GetScene() && d.Logic) d.Logic->GetMRMLScene()->AddNode(node);
+  d.Temporaries.push_back(node);
+}
+
+void vtkSurgicalMesherRun::AddOutputNode(vtkMRMLNode* node, bool isNew)
+{
+  if (node && !this->IsBusy()) this->Private->Outputs.push_back({ node, isNew });
+}
+
+std::string vtkSurgicalMesherRun::NewTemporaryFile(const std::string& extension)
+{
+  Internal& d = *this->Private;
+  if (d.Folder.empty())
+  {
+    vtkSlicerApplicationLogic* application = d.Logic ? d.Logic->GetApplicationLogic() : nullptr;
+    d.Folder = makeFolder(application ? application->GetTemporaryPath() : ".");
+  }
+  std::string file;
+  int n = 0;
+  do {
+    file = d.Folder + "/" + std::to_string(++n) + extension;
+  } while (vtksys::SystemTools::FileExists(file));
+  vtksys::SystemTools::Touch(file, true); // so that the next call gives another name
+  return file;
+}
+
+bool vtkSurgicalMesherRun::Start()
+{
+  Internal& d = *this->Private;
+  if (!d.Prepare()) return false;
+  if (!d.ScheduleTasks())
+  {
+    d.ErrorText = "Slicer does not take tasks now.";
+    d.Finish();
+    return false;
+  }
+  return true;
+}
+
+bool vtkSurgicalMesherRun::StartAndWait()
+{
+  Internal& d = *this->Private;
+  if (!d.Prepare()) return false;
+  d.Fence->Begun = true;
+  d.Logic->ApplyAndWait(d.CommandLineNode, false);
+  d.Fence->Ended = true;
+  d.Finish();
+  return true;
+}
+
+void vtkSurgicalMesherRun::Cancel()
+{
+  if (this->IsBusy()) this->Private->RequestCancel();
+}
+
+vtkSurgicalMesherRun::Status vtkSurgicalMesherRun::GetStatus() const { return this->Private->CurrentStatus; }
+
+std::string vtkSurgicalMesherRun::GetErrorText() const { return this->Private->ErrorText; }
+
+std::string vtkSurgicalMesherRun::GetReturnedValue(const std::string& name) const
+{
+  const Internal& d = *this->Private;
+  const bool isOver = d.CurrentStatus == Completed || d.CurrentStatus == Failed;
+  return isOver && d.CommandLineNode ? d.CommandLineNode->GetParameterAsString(name.c_str()) : std::string();
+}
+
+double vtkSurgicalMesherRun::GetElapsedSeconds() const
+{
+  const Internal& d = *this->Private;
+  return d.CurrentStatus == Running ? std::chrono::duration<double>(Clock::now() - d.StartTime).count() : d.Elapsed;
+}
+
+vtkMRMLCommandLineModuleNode* vtkSurgicalMesherRun::GetCommandLineNode() const { return this->Private->CommandLineNode; }
+
+//----------------------------------------------------------------------------
+void vtkSurgicalMesherRun::Internal::Forget()
+{
+  this->StopObserving();
+  for (vtkMRMLNode* node : this->Temporaries) removeFromScene(node);
+  this->Temporaries.clear();
+  this->Outputs.clear();
+  this->Parameters.clear();
+  if (this->CommandLineNode) removeFromScene(this->CommandLineNode);
+  this->CommandLineNode = nullptr;
+  this->Fence = nullptr;
+  if (!this->Folder.empty()) vtksys::SystemTools::RemoveADirectory(this->Folder);
+  this->Folder.clear();
+  this->ErrorText.clear();
+  this->Elapsed = 0;
+  this->IsCancelRequested = false;
+}
+
+/// Everything but starting the process. A second Start() of the same fill is refused: its temporary nodes are gone.
+bool vtkSurgicalMesherRun::Internal::Prepare()
+{
+  if (this->CurrentStatus == Running)
+  {
+    this->ErrorText = "The module is running already.";
+    return false;
+  }
+  this->ErrorText.clear();
+  if (!this->Logic || !this->CommandLineNode || !this->Logic->GetApplicationLogic())
+  {
+    this->ErrorText = "The command-line module is not installed.";
+    return false;
+  }
+  if (this->CurrentStatus != Idle)
+  {
+    this->ErrorText = "The run has been started before.";
+    return false;
+  }
+  this->Scene = this->Logic->GetMRMLScene();
+  this->ApplicationLogic = this->Logic->GetApplicationLogic();
+  this->Scene->AddNode(this->CommandLineNode);
+  this->Fence = vtkSmartPointer<TaskFence>::New();
+  this->Fence->ApplicationLogic = this->ApplicationLogic;
+  this->IsCancelRequested = false;
+  this->StartTime = Clock::now();
+  this->Observe();
+  this->SetStatus(Running);
+  return true;
+}
+
+bool vtkSurgicalMesherRun::Internal::ScheduleTasks()
+{
+  if (!this->Fence->Schedule(&TaskFence::Begin)) return false;
+  this->Logic->Apply(this->CommandLineNode, false);
+  return this->NodeStatus() != vtkMRMLCommandLineModuleNode::Idle && this->Fence->Schedule(&TaskFence::End);
+}
+
+void vtkSurgicalMesherRun::Internal::Observe()
+{
+  this->CommandLineNode->AddObserver(vtkCommand::ModifiedEvent, this->Callback);
+  this->Fence->AddObserver(vtkCommand::ModifiedEvent, this->Callback);
+  this->Scene->AddObserver(vtkMRMLScene::StartCloseEvent, this->Callback);
+  this->Scene->AddObserver(vtkMRMLScene::NodeAboutToBeRemovedEvent, this->Callback);
+  this->ApplicationLogic->AddObserver(vtkSlicerApplicationLogic::RequestProcessedEvent, this->Callback);
+}
+
+void vtkSurgicalMesherRun::Internal::StopObserving()
+{
+  if (this->CommandLineNode) this->CommandLineNode->RemoveObserver(this->Callback);
+  if (this->Fence) this->Fence->RemoveObserver(this->Callback);
+  if (this->Scene) this->Scene->RemoveObserver(this->Callback);
+  if (this->ApplicationLogic) this->ApplicationLogic->RemoveObserver(this->Callback);
+}
+
+void vtkSurgicalMesherRun::Internal::SetStatus(Status status)
+{
+  if (status == this->CurrentStatus) return;
+  this->CurrentStatus = status;
+  this->Run->InvokeEvent(vtkSurgicalMesherRun::StatusChangedEvent);
+}
+
+/// Once the process has ended well its results are being read, and there is nothing left to cancel.
+void vtkSurgicalMesherRun::Internal::RequestCancel()
+{
+  if (this->NodeStatus() == vtkMRMLCommandLineModuleNode::Completing) return;
+  this->IsCancelRequested = true;
+  this->CommandLineNode->Cancel();
+}
+
+/// Ends the process and everything that the host still has to do for it, now. The host would dereference null on
+/// reading a result into a node that is gone, and works on the inputs' nodes in its thread.
+void vtkSurgicalMesherRun::Internal::EndNow()
+{
+  if (this->CurrentStatus != Running) return;
+  this->StopObserving();
+  this->IsCancelRequested = true;
+  this->CommandLineNode->Cancel();
+  const auto patience = std::chrono::seconds(30);
+  const Clock::time_point start = Clock::now();
+  while (this->Fence->Begun && !this->Fence->Ended && Clock::now() - start < patience)
+  {
+    // The thread resets the request when the process starts.
+    if (this->NodeStatus() == vtkMRMLCommandLineModuleNode::Running) this->CommandLineNode->Cancel();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  while (this->ApplicationLogic && this->ApplicationLogic->GetReadDataQueueSize() > 0)
+  {
+    this->ApplicationLogic->ProcessReadData();
+  }
+}
+
+bool vtkSurgicalMesherRun::Internal::Uses(vtkMRMLNode* node) const
+{
+  const auto contains = [node](const std::vector<vtkSmartPointer<vtkMRMLNode>>& nodes)
+  { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); };
+  return node == this->CommandLineNode || contains(this->Temporaries) || contains(this->Parameters) ||
+         std::any_of(this->Outputs.begin(), this->Outputs.end(), [node](const Output& o) { return o.node == node; });
+}
+
+void vtkSurgicalMesherRun::Internal::OnEvent(vtkObject* caller, unsigned long event, void* self, void* callData)
+{
+  auto* d = static_cast<Internal*>(self);
+  if (d->CurrentStatus != Running) return;
+  const vtkSmartPointer<vtkSurgicalMesherRun> keep(d->Run); // an observer may let go of the run
+  if (caller == d->Scene)
+  {
+    auto* leaving =
+      event == vtkMRMLScene::NodeAboutToBeRemovedEvent ? reinterpret_cast<vtkMRMLNode*>(callData) : nullptr;
+    if (leaving && !d->Uses(leaving)) return;
+    d->EndNow();
+    d->Finish(leaving);
+    return;
+  }
+  d->FinishIfOver();
+}
+
+void vtkSurgicalMesherRun::Internal::FinishIfOver()
+{
+  const int status = this->NodeStatus();
+  // A request that came while the host wrote the inputs is forgotten when the process starts: ask again.
+  if (this->IsCancelRequested && status == vtkMRMLCommandLineModuleNode::Running) this->CommandLineNode->Cancel();
+  const bool isReading =
+    status == vtkMRMLCommandLineModuleNode::Completing || this->ApplicationLogic->GetReadDataQueueSize() > 0;
+  if (this->Fence->Ended && !isReading) this->Finish();
+}
+
+vtkSurgicalMesherRun::Status vtkSurgicalMesherRun::Internal::Outcome() const
+{
+  if (this->IsCancelRequested) return Cancelled;
+  return this->NodeStatus() == vtkMRMLCommandLineModuleNode::Completed ? Completed : Failed;
+}
+
+void vtkSurgicalMesherRun::Internal::Finish(vtkMRMLNode* leaving)
+{
+  this->StopObserving();
+  const Status outcome = this->Outcome();
+  this->Elapsed = std::chrono::duration<double>(Clock::now() - this->StartTime).count();
+  if (outcome == Failed && this->ErrorText.empty())
+  {
+    const std::string target = this->CommandLineNode->GetModuleTarget();
+    this->ErrorText = moduleErrorLine(this->CommandLineNode->GetErrorText(),
+                                      vtksys::SystemTools::GetFilenameWithoutLastExtension(target));
+  }
+  this->CleanUp(outcome, leaving);
+  this->SetStatus(outcome);
+  this->Run->InvokeEvent(vtkSurgicalMesherRun::CompletedEvent);
+}
+
+/// `leaving`: a node that is being removed by somebody else.
+void vtkSurgicalMesherRun::Internal::CleanUp(Status outcome, vtkMRMLNode* leaving)
+{
+  std::vector<vtkSmartPointer<vtkMRMLNode>> nodes = this->Temporaries;
+  nodes.push_back(this->CommandLineNode);
+  for (const Output& output : this->Outputs)
+  {
+    if (output.isNew && outcome != Completed) nodes.push_back(output.node);
+  }
+  this->Temporaries.clear();
+  this->Parameters.clear();
+  this->Outputs.clear();
+  for (vtkMRMLNode* node : nodes)
+  {
+    if (node != leaving) removeFromScene(node);
+  }
+}
