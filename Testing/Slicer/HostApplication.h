@@ -36,7 +36,6 @@ namespace surgicalmesher::test
 class HostApplication
 {
 public:
-  /// Throws std::runtime_error that names what is missing if one of our six modules did not load.
   HostApplication();
   ~HostApplication();
   HostApplication(const HostApplication&) = delete;
