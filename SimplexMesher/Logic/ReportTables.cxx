@@ -1,0 +1,286 @@
+#include "ReportTables.h"
+
+#include "ComplexIO.h"
+#include "Errors.h"
+#include "HostDifferences.h"
+#include "TextFile.h"
+
+#include <vtkMRMLModelNode.h>
+#include <vtkMRMLPlotChartNode.h>
+#include <vtkMRMLPlotSeriesNode.h>
+#include <vtkMRMLScene.h>
+#include <vtkMRMLTableNode.h>
+
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+#include <vtkTriangle.h>
+
+#include <rapidjson/document.h>
+
+#include <array>
+#include <map>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+rapidjson::Document readReport(const std::string& file)
+{
+  rapidjson::Document report;
+  report.Parse(text::readTextFile(file).c_str());
+  if (report.HasParseError() || !report.IsObject()) throw InputError(file + ": no JSON object, expected a report");
+  return report;
+}
+
+/// Members of a path; an empty array where the report lacks one.
+const rapidjson::Value& itemsOf(const rapidjson::Value& report, std::initializer_list<const char*> path)
+{
+  static const rapidjson::Value nothing(rapidjson::kArrayType);
+  const rapidjson::Value* at = &report;
+  for (const char* name : path)
+  {
+    if (!at->IsObject() || !at->HasMember(name)) return nothing;
+    at = &(*at)[name];
+  }
+  return at->IsArray() ? *at : nothing;
+}
+
+double numberOf(const rapidjson::Value& item, const char* name)
+{
+  const auto found = item.FindMember(name);
+  return found != item.MemberEnd() && found->value.IsNumber() ? found->value.GetDouble() : 0;
+}
+
+struct Report
+{
+  std::array<double, 3> topology{}; ///< components, tunnels, cavities
+  std::array<double, 3> changes{};  ///< islands removed, voxels lost, voxels gained
+  double thinShare = 0;             ///< of the area
+  double smallestThickness = 0;     ///< mm
+  double area = 0;                  ///< mm^2
+  int triangles = 0;
+};
+
+void addSurface(vtkPolyData* surface, std::map<Label, Report>& tissues)
+{
+  vtkDataArray* labels = surface->GetCellData()->GetArray("BoundaryLabels");
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType t = 0; labels && t < surface->GetNumberOfCells(); ++t)
+  {
+    surface->GetCellPoints(t, ids);
+    std::array<std::array<double, 3>, 3> p;
+    for (int corner = 0; corner < 3; ++corner) surface->GetPoint(ids->GetId(corner), p[corner].data());
+    for (int side = 0; side < 2; ++side)
+    {
+      const auto tissue = tissues.find(Label(labels->GetComponent(t, side)));
+      if (tissue == tissues.end()) continue;
+      ++tissue->second.triangles;
+      tissue->second.area += vtkTriangle::TriangleArea(p[0].data(), p[1].data(), p[2].data());
+    }
+  }
+}
+
+std::map<Label, Report> reportByTissue(const rapidjson::Value& report, vtkPolyData* surface)
+{
+  std::map<Label, Report> tissues;
+  for (const auto& item : itemsOf(report, { "topology" }).GetArray())
+  {
+    tissues[Label(numberOf(item, "label"))].topology = { numberOf(item, "components"), numberOf(item, "tunnels"),
+                                                         numberOf(item, "cavities") };
+  }
+  for (const auto& item : itemsOf(report, { "preparation", "changes" }).GetArray())
+  {
+    const auto tissue = tissues.find(Label(numberOf(item, "label")));
+    if (tissue == tissues.end()) continue; // background
+    tissue->second.changes = { numberOf(item, "islandsRemoved"), numberOf(item, "voxelsLost"),
+                               numberOf(item, "voxelsGained") };
+  }
+  for (const auto& item : itemsOf(report, { "thickness", "tissues" }).GetArray())
+  {
+    const auto tissue = tissues.find(Label(numberOf(item, "label")));
+    if (tissue == tissues.end()) continue;
+    tissue->second.thinShare = numberOf(item, "share");
+    tissue->second.smallestThickness = numberOf(item, "smallestThickness");
+  }
+  addSurface(surface, tissues);
+  return tissues;
+}
+
+/// Columns are added one after the other, with their names in the user's language.
+class TableFiller
+{
+public:
+  explicit TableFiller(vtkMRMLTableNode* node) : m_Node(node) {}
+  ~TableFiller()
+  {
+    m_Node->SetAndObserveTable(m_Table);
+    host::showColumnNames(m_Node);
+    m_Node->SetLocked(true);
+  }
+  TableFiller(const TableFiller&) = delete;
+  void operator=(const TableFiller&) = delete;
+
+  template <class Array, class Items, class ValueOf>
+  void add(const std::string& name, const Items& items, const ValueOf& valueOf)
+  {
+    vtkNew<Array> column;
+    column->SetName(name.c_str());
+    for (const auto& item : items) column->InsertNextValue(valueOf(item));
+    m_Table->AddColumn(column);
+  }
+
+private:
+  vtkMRMLTableNode* m_Node;
+  vtkNew<vtkTable> m_Table;
+};
+
+/// Of the evolution table; plots refer to columns by name.
+struct EvolutionColumns
+{
+  std::string step = vtkMRMLTr("SimplexMesher", "Step");
+  std::string stage = vtkMRMLTr("SimplexMesher", "Stage");
+  std::string tetrahedra = vtkMRMLTr("SimplexMesher", "Tetrahedra");
+  std::string meanDistance = vtkMRMLTr("SimplexMesher", "Mean distance (mm)");
+  std::string maximumDistance = vtkMRMLTr("SimplexMesher", "Maximum distance (mm)");
+  std::string collapses = vtkMRMLTr("SimplexMesher", "T1 (collapses)");
+  std::string splits = vtkMRMLTr("SimplexMesher", "T2 (splits)");
+  std::string flips = vtkMRMLTr("SimplexMesher", "T7 (flips)");
+  std::string moves = vtkMRMLTr("SimplexMesher", "Moves");
+};
+
+struct Plot
+{
+  std::string title, axis;
+  std::vector<std::string> columns;
+};
+
+constexpr std::array<std::array<double, 3>, 3> lineColors{
+  { { 0.12, 0.47, 0.71 }, { 0.84, 0.37, 0.0 }, { 0.17, 0.63, 0.17 } }
+};
+
+void fillSeries(vtkMRMLPlotSeriesNode* series, vtkMRMLTableNode* table, const std::string& column, std::size_t number)
+{
+  const auto& color = lineColors[number];
+  series->SetName(column.c_str());
+  series->SetAndObserveTableNodeID(table->GetID());
+  series->SetPlotType(vtkMRMLPlotSeriesNode::PlotTypeScatter);
+  series->SetXColumnName(EvolutionColumns().step);
+  series->SetYColumnName(column);
+  series->SetMarkerStyle(vtkMRMLPlotSeriesNode::MarkerStyleNone);
+  series->SetLineStyle(vtkMRMLPlotSeriesNode::LineStyleSolid);
+  series->SetColor(color[0], color[1], color[2]);
+}
+
+void fillChart(vtkMRMLPlotChartNode* chart, vtkMRMLTableNode* table, const Plot& plot)
+{
+  chart->SetName((table->GetName() + (": " + plot.title)).c_str());
+  chart->SetTitle(plot.title.c_str());
+  chart->SetXAxisTitle(EvolutionColumns().step.c_str());
+  chart->SetYAxisTitle(plot.axis.c_str());
+  chart->SetLegendVisibility(plot.columns.size() > 1);
+  for (std::size_t i = 0; i < plot.columns.size(); ++i)
+  {
+    vtkMRMLPlotSeriesNode* series = chart->GetNthPlotSeriesNode(int(i));
+    const bool isNew = !series;
+    if (isNew)
+    {
+      series = vtkMRMLPlotSeriesNode::SafeDownCast(chart->GetScene()->AddNewNodeByClass("vtkMRMLPlotSeriesNode"));
+    }
+    fillSeries(series, table, plot.columns[i], i);
+    if (isNew) chart->AddAndObservePlotSeriesNodeID(series->GetID());
+  }
+}
+
+} // namespace
+
+void fillTissueTable(const std::string& reportFile, vtkMRMLModelNode* surface, vtkMRMLTableNode* node)
+{
+  const rapidjson::Document report = readReport(reportFile);
+  const std::map<Label, Report> tissues = reportByTissue(report, surface->GetPolyData());
+  const TissueTable names = tissuesOf(surface->GetPolyData()->GetFieldData());
+  const auto nameOf = [&](const auto& entry)
+  {
+    const auto found = names.find(entry.first);
+    const bool known = found != names.end() && !found->second.name.empty();
+    return known ? found->second.name : std::to_string(entry.first);
+  };
+  const auto count = [&](TableFiller& table, const std::string& name, const auto& valueOf)
+  { table.add<vtkIntArray>(name, tissues, [&](const auto& entry) { return int(valueOf(entry.second)); }); };
+  const auto measure = [&](TableFiller& table, const std::string& name, const auto& valueOf)
+  { table.add<vtkDoubleArray>(name, tissues, [&](const auto& entry) { return valueOf(entry.second); }); };
+
+  TableFiller table(node);
+  table.add<vtkIntArray>(vtkMRMLTr("SimplexMesher", "Label"), tissues, [](const auto& entry) { return entry.first; });
+  table.add<vtkStringArray>(vtkMRMLTr("SimplexMesher", "Tissue"), tissues, nameOf);
+  measure(table, vtkMRMLTr("SimplexMesher", "Area (mm^2)"), [](const Report& r) { return r.area; });
+  count(table, vtkMRMLTr("SimplexMesher", "Triangles"), [](const Report& r) { return r.triangles; });
+  count(table, vtkMRMLTr("SimplexMesher", "Components"), [](const Report& r) { return r.topology[0]; });
+  count(table, vtkMRMLTr("SimplexMesher", "Tunnels"), [](const Report& r) { return r.topology[1]; });
+  count(table, vtkMRMLTr("SimplexMesher", "Cavities"), [](const Report& r) { return r.topology[2]; });
+  count(table, vtkMRMLTr("SimplexMesher", "Islands removed"), [](const Report& r) { return r.changes[0]; });
+  count(table, vtkMRMLTr("SimplexMesher", "Voxels lost"), [](const Report& r) { return r.changes[1]; });
+  count(table, vtkMRMLTr("SimplexMesher", "Voxels gained"), [](const Report& r) { return r.changes[2]; });
+  measure(table, vtkMRMLTr("SimplexMesher", "Thinner than L (%)"), [](const Report& r) { return 100 * r.thinShare; });
+  measure(table, vtkMRMLTr("SimplexMesher", "Smallest thickness (mm)"),
+          [](const Report& r) { return r.smallestThickness; });
+}
+
+void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* node)
+{
+  const rapidjson::Document report = readReport(reportFile);
+  const auto steps = itemsOf(report, { "evolution" }).GetArray();
+  const EvolutionColumns names;
+  TableFiller table(node);
+  const auto number = [&](const std::string& name, const char* member)
+  {
+    table.add<vtkDoubleArray>(name, steps, [&](const auto& step) { return numberOf(step, member); });
+  };
+  int count = 0;
+  table.add<vtkIntArray>(names.step, steps, [&](const auto&) { return count++; });
+  table.add<vtkStringArray>(names.stage, steps,
+                            [](const auto& step)
+                            {
+                              const auto stage = step.FindMember("stage");
+                              const bool known = stage != step.MemberEnd() && stage->value.IsString();
+                              return std::string(known ? stage->value.GetString() : "");
+                            });
+  number(names.tetrahedra, "tetrahedra");
+  number(names.meanDistance, "meanDistance");
+  number(names.maximumDistance, "maximumDistance");
+  number(names.collapses, "collapses");
+  number(names.splits, "splits");
+  number(names.flips, "flips");
+  number(names.moves, "moves");
+}
+
+std::vector<vtkMRMLPlotChartNode*> plotEvolution(vtkMRMLTableNode* table,
+                                                 const std::vector<vtkMRMLPlotChartNode*>& charts)
+{
+  const EvolutionColumns names;
+  const std::array<Plot, 3> plots{
+    { { names.tetrahedra, names.tetrahedra, { names.tetrahedra } },
+      { vtkMRMLTr("SimplexMesher", "Distance to the tissue boundary"), vtkMRMLTr("SimplexMesher", "Distance (mm)"),
+        { names.meanDistance, names.maximumDistance } },
+      { vtkMRMLTr("SimplexMesher", "Operations"), vtkMRMLTr("SimplexMesher", "Operations per step"),
+        { names.collapses, names.splits, names.flips } } }
+  };
+  std::vector<vtkMRMLPlotChartNode*> result = charts;
+  for (std::size_t i = 0; i < plots.size(); ++i)
+  {
+    if (i == result.size())
+    {
+      result.push_back(
+        vtkMRMLPlotChartNode::SafeDownCast(table->GetScene()->AddNewNodeByClass("vtkMRMLPlotChartNode")));
+    }
+    fillChart(result[i], table, plots[i]);
+  }
+  return result;
+}
+
+} // namespace surgicalmesher

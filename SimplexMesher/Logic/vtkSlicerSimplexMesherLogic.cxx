@@ -1,0 +1,416 @@
+#include "vtkSlicerSimplexMesherLogic.h"
+
+#include "Errors.h"
+#include "HostDifferences.h"
+#include "ReportTables.h"
+#include "TissueColors.h"
+#include "TissueModels.h"
+#include "vtkMRMLSimplexMesherNode.h"
+#include "vtkSurgicalMesherRun.h"
+
+#include <vtkMRMLColorTableNode.h>
+#include <vtkMRMLLabelMapVolumeNode.h>
+#include <vtkMRMLModelDisplayNode.h>
+#include <vtkMRMLModelNode.h>
+#include <vtkMRMLPlotChartNode.h>
+#include <vtkMRMLScene.h>
+#include <vtkMRMLTableNode.h>
+#include <vtkMRMLTransformNode.h>
+
+#include <vtkCallbackCommand.h>
+#include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkObjectFactory.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkTable.h>
+
+#include <array>
+#include <locale>
+#include <sstream>
+
+using namespace surgicalmesher;
+
+namespace
+{
+
+using Node = vtkMRMLSimplexMesherNode;
+using Problem = vtkSlicerSimplexMesherLogic::Problem;
+using Check = vtkSlicerSimplexMesherLogic::Check;
+
+bool isUnderWarp(vtkMRMLTransformableNode* node)
+{
+  vtkMRMLTransformNode* transform = node->GetParentTransformNode();
+  return transform && !transform->IsTransformToWorldLinear();
+}
+
+/// From voxel indices to world, RAS; the parent transform has to be linear.
+vtkSmartPointer<vtkMatrix4x4> voxelsToWorld(vtkMRMLVolumeNode* volume)
+{
+  auto matrix = vtkSmartPointer<vtkMatrix4x4>::New();
+  volume->GetIJKToRASMatrix(matrix);
+  if (vtkMRMLTransformNode* transform = volume->GetParentTransformNode())
+  {
+    vtkNew<vtkMatrix4x4> toWorld;
+    transform->GetMatrixTransformToWorld(toWorld);
+    vtkMatrix4x4::Multiply4x4(toWorld, matrix, matrix);
+  }
+  return matrix;
+}
+
+/// Whether the volume of `scale`, with the outer halves of its voxels, holds that of `map`, as requireCover() asks.
+bool covers(vtkMRMLVolumeNode* scale, vtkMRMLVolumeNode* map)
+{
+  vtkNew<vtkMatrix4x4> toScale;
+  vtkMatrix4x4::Invert(voxelsToWorld(scale), toScale);
+  vtkMatrix4x4::Multiply4x4(toScale, voxelsToWorld(map), toScale);
+  const int* mapSize = map->GetImageData()->GetDimensions();
+  const std::array<int, 3> mapVoxels{ mapSize[0], mapSize[1], mapSize[2] };
+  const int* scaleSize = scale->GetImageData()->GetDimensions();
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    double p[4] = { -0.5, -0.5, -0.5, 1 };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if ((corner >> axis) & 1) p[axis] = mapVoxels[axis] - 0.5;
+    }
+    toScale->MultiplyPoint(p, p);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      constexpr double tolerance = 1e-3; // voxels
+      if (p[axis] < -0.5 - tolerance || p[axis] > scaleSize[axis] - 0.5 + tolerance) return false;
+    }
+  }
+  return true;
+}
+
+/// Of a segmentation, or a map to be resampled, the voxel grid is known only once it is exported: SimplexMesherCLI looks
+/// at it then.
+Problem scaleProblem(Node* parameters)
+{
+  if (!parameters->GetUseScale())
+    return parameters->GetEdgeLength() > 0 ? Problem::None : Problem::NoEdgeLength;
+  vtkMRMLScalarVolumeNode* scale = parameters->GetScaleNode();
+  if (!scale || !scale->GetImageData()) return Problem::NoScale;
+  if (isUnderWarp(scale)) return Problem::ScaleWarped;
+  auto* map = vtkMRMLLabelMapVolumeNode::SafeDownCast(parameters->GetTissueMapNode());
+  return !map || isUnderWarp(map) || covers(scale, map) ? Problem::None : Problem::ScaleTooSmall;
+}
+
+Problem lengthProblem(const TissueSetting& setting)
+{
+  const double minimum = setting.minimumEdgeLength;
+  const double maximum = setting.maximumEdgeLength;
+  if (setting.role == TissueRole::Leave || !(minimum > 0 && maximum > 0)) return Problem::None;
+  if (minimum > maximum) return Problem::LengthsContradict;
+  const bool differ = setting.role == TissueRole::Shell && minimum < maximum;
+  return differ ? Problem::LengthsOfShellDiffer : Problem::None;
+}
+
+Check tissueProblem(Node* parameters, const std::vector<TissueRow>& tissues)
+{
+  Check check;
+  bool isAnyMeshed = false;
+  for (const TissueRow& tissue : tissues)
+  {
+    const TissueSetting setting = parameters->GetTissueSetting(tissue.id);
+    isAnyMeshed = isAnyMeshed || (setting.role != TissueRole::Leave && tissue.voxels != 0);
+    check.problem = lengthProblem(setting);
+    check.tissue = tissue.name;
+    if (check.problem != Problem::None) return check;
+  }
+  check.problem = isAnyMeshed || tissues.empty() ? Problem::None : Problem::NothingToMesh;
+  check.tissue.clear();
+  return check;
+}
+
+std::string roleText(const TissueSetting& setting)
+{
+  switch (setting.role)
+  {
+    case TissueRole::Group: return "group " + setting.group;
+    case TissueRole::Shell: return "shell";
+    case TissueRole::Leave: return "leave";
+    default: return "mesh";
+  }
+}
+
+/// Empty for a value that is left open.
+std::string numberText(double value, bool isOpen)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(17);
+  if (!isOpen) text << value;
+  return text.str();
+}
+
+/// What --tissues reads: a row for every tissue of the map that isn't to be meshed as it is; null if there is none.
+/// SimplexMesherCLI refuses tissues without voxels.
+vtkSmartPointer<vtkMRMLTableNode> settingsTable(Node* parameters, const std::vector<TissueRow>& tissues,
+                                                vtkImageData* exported)
+{
+  const std::array<const char*, 7> names{ "label", "role", "minimum", "maximum", "protected", "islands", "cavities" };
+  std::array<vtkNew<vtkStringArray>, 7> columns;
+  const std::map<Label, std::int64_t> present = countVoxels(exported);
+  for (const TissueRow& tissue : tissues)
+  {
+    if (parameters->GetTissueSettings().count(tissue.id) == 0 || present.count(tissue.label) == 0) continue;
+    const TissueSetting s = parameters->GetTissueSetting(tissue.id);
+    const std::array<std::string, 7> fields{ std::to_string(tissue.label),
+                                             roleText(s),
+                                             numberText(s.minimumEdgeLength, s.minimumEdgeLength == 0),
+                                             numberText(s.maximumEdgeLength, s.maximumEdgeLength == 0),
+                                             s.isProtected ? "yes" : "no",
+                                             numberText(s.islandVolume, s.islandVolume < 0),
+                                             numberText(s.cavityVolume, s.cavityVolume < 0) };
+    for (std::size_t i = 0; i < fields.size(); ++i) columns[i]->InsertNextValue(fields[i]);
+  }
+  if (columns[0]->GetNumberOfValues() == 0) return nullptr;
+  auto node = vtkSmartPointer<vtkMRMLTableNode>::New();
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    columns[i]->SetName(names[i]);
+    node->GetTable()->AddColumn(columns[i]);
+  }
+  return node;
+}
+
+/// A hidden copy that shares its voxels and lies where the user sees the volume.
+vtkSmartPointer<vtkMRMLScalarVolumeNode> copyForRun(vtkMRMLScalarVolumeNode* volume)
+{
+  auto copy = vtkSmartPointer<vtkMRMLScalarVolumeNode>::New();
+  copy->SetName(volume->GetName());
+  copy->SetAndObserveImageData(volume->GetImageData());
+  copy->SetIJKToRASMatrix(voxelsToWorld(volume));
+  return copy;
+}
+
+/// The node in a role, or a new one there. Nodes of a run are given to it, and lie in the world.
+template <class Wanted>
+Wanted* outputNode(vtkMRMLNode* owner, const char* role, const std::string& name, vtkSurgicalMesherRun* run)
+{
+  auto* node = Wanted::SafeDownCast(owner->GetNodeReference(role));
+  const bool isNew = !node;
+  if (isNew)
+  {
+    vtkMRMLScene* scene = owner->GetScene();
+    vtkNew<Wanted> fresh;
+    node = Wanted::SafeDownCast(
+      scene->AddNewNodeByClass(fresh->GetClassName(), scene->GenerateUniqueName(name)));
+    owner->SetNodeReferenceID(role, node->GetID());
+  }
+  run->AddOutputNode(node, isNew);
+  if (auto* placed = vtkMRMLTransformableNode::SafeDownCast(node)) placed->SetAndObserveTransformNodeID(nullptr);
+  return node;
+}
+
+/// Kept for the volume stage only: nobody wants to see millions of tetrahedra on both sides of every surface.
+vtkMRMLModelNode* ambientNode(vtkMRMLModelNode* surface, vtkSurgicalMesherRun* run)
+{
+  const std::string name = surface->GetName() + (" " + vtkMRMLTr("SimplexMesher", "ambient tetrahedra"));
+  auto* node = outputNode<vtkMRMLModelNode>(surface, Node::AmbientTetrahedraRole(), name, run);
+  node->SetHideFromEditors(true);
+  node->CreateDefaultDisplayNodes();
+  node->SetDisplayVisibility(false);
+  return node;
+}
+
+void removeNode(vtkMRMLNode* node)
+{
+  if (node && node->GetScene()) node->GetScene()->RemoveNode(node);
+}
+
+/// A node that the parameter node refers to, made on first use.
+template <class Wanted>
+Wanted* ownNode(Node* parameters, const char* role, const std::string& name)
+{
+  auto* node = Wanted::SafeDownCast(parameters->GetNodeReference(role));
+  if (node) return node;
+  vtkNew<Wanted> fresh;
+  vtkMRMLScene* scene = parameters->GetScene();
+  node = Wanted::SafeDownCast(scene->AddNewNodeByClass(fresh->GetClassName(), scene->GenerateUniqueName(name)));
+  parameters->SetNode(role, node);
+  return node;
+}
+
+/// A run that ended badly took its new nodes along.
+void forgetMissingNodes(Node* parameters)
+{
+  const int wasModifying = parameters->StartModify();
+  for (const char* role : { Node::SurfaceRole(), Node::PreparedLabelMapRole(), Node::SimplexMeshRole(),
+                            Node::FollowedScaleRole() })
+  {
+    if (!parameters->GetNodeReference(role)) parameters->SetNode(role, nullptr);
+  }
+  vtkMRMLModelNode* surface = parameters->GetSurfaceNode();
+  if (surface && !surface->GetNodeReference(Node::AmbientTetrahedraRole()))
+    surface->SetNodeReferenceID(Node::AmbientTetrahedraRole(), nullptr);
+  parameters->EndModify(wasModifying);
+}
+
+} // namespace
+
+vtkStandardNewMacro(vtkSlicerSimplexMesherLogic);
+
+vtkSlicerSimplexMesherLogic::vtkSlicerSimplexMesherLogic()
+{
+  this->RunEnded->SetClientData(this);
+  this->RunEnded->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+                              { static_cast<vtkSlicerSimplexMesherLogic*>(self)->FinishRun(); });
+  this->Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, this->RunEnded, 1); // before those of default priority
+}
+
+vtkSlicerSimplexMesherLogic::~vtkSlicerSimplexMesherLogic() { this->Run->RemoveObserver(this->RunEnded); }
+
+void vtkSlicerSimplexMesherLogic::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Run:\n";
+  this->Run->PrintSelf(os, indent.GetNextIndent());
+}
+
+void vtkSlicerSimplexMesherLogic::RegisterNodes()
+{
+  this->GetMRMLScene()->RegisterNodeClass(vtkSmartPointer<vtkMRMLSimplexMesherNode>::New());
+}
+
+vtkMRMLSimplexMesherNode* vtkSlicerSimplexMesherLogic::ParameterNode()
+{
+  vtkMRMLScene* scene = this->GetMRMLScene();
+  if (!scene) return nullptr;
+  vtkMRMLNode* node = scene->GetFirstNodeByClass("vtkMRMLSimplexMesherNode");
+  return Node::SafeDownCast(node ? node : scene->AddNewNodeByClass("vtkMRMLSimplexMesherNode", "SimplexMesher"));
+}
+
+Check vtkSlicerSimplexMesherLogic::FindProblem(vtkMRMLSimplexMesherNode* parameters,
+                                               const std::vector<TissueRow>& tissues)
+{
+  Check check;
+  check.tissueMap = checkTissueMap(parameters->GetTissueMapNode());
+  if (!this->GetModuleLogic("SimplexMesherCLI")) check.problem = Problem::NoModule;
+  else if (check.tissueMap != TissueMapProblem::None) check.problem = Problem::TissueMap;
+  else check.problem = scaleProblem(parameters);
+  return check.problem == Problem::None ? tissueProblem(parameters, tissues) : check;
+}
+
+bool vtkSlicerSimplexMesherLogic::Start(vtkMRMLSimplexMesherNode* parameters)
+{
+  if (!this->Prepare(parameters)) return false;
+  const bool started = this->Run->Start();
+  if (!started) forgetMissingNodes(parameters);
+  return started;
+}
+
+bool vtkSlicerSimplexMesherLogic::StartAndWait(vtkMRMLSimplexMesherNode* parameters)
+{
+  return this->Prepare(parameters) && this->Run->StartAndWait();
+}
+
+bool vtkSlicerSimplexMesherLogic::Prepare(vtkMRMLSimplexMesherNode* parameters)
+{
+  if (this->Run->IsBusy()) return false;
+  vtkMRMLNode* tissueMap = parameters->GetTissueMapNode();
+  const std::vector<TissueRow> tissues = listTissues(tissueMap);
+  if (this->FindProblem(parameters, tissues).problem != Problem::None) return false;
+  const TissueMapNodes map = makeTissueMapNodes(tissueMap);
+  if (map.problem != TissueMapProblem::None) return false;
+
+  this->Run->SetCommandLineLogic(this->GetModuleLogic("SimplexMesherCLI"));
+  const auto setInput = [&](const char* name, vtkMRMLNode* node)
+  {
+    if (!node) return;
+    this->Run->AddTemporaryNode(node);
+    this->Run->SetParameterNode(name, node);
+  };
+  setInput("labelMap", map.labelMap);
+  setInput("names", map.colors);
+  setInput("tissues", settingsTable(parameters, tissues, map.labelMap->GetImageData()));
+  if (parameters->GetUseScale()) setInput("scale", copyForRun(parameters->GetScaleNode()));
+  else this->Run->SetParameter("edgeLength", parameters->GetEdgeLength());
+  this->Run->SetParameter("minimumIslandVolume", parameters->GetMinimumIslandVolume());
+  this->Run->SetParameter("minimumCavityVolume", parameters->GetMinimumCavityVolume());
+  this->Run->SetParameter("featureScale", parameters->GetFeatureScale());
+  this->Run->SetParameter("maximumDistance", parameters->GetMaximumDistance());
+  this->Run->SetParameter("followThickness", parameters->GetFollowThickness());
+  this->Run->SetParameter("gradation", parameters->GetGradation());
+  this->Run->SetParameter("threads", parameters->GetThreads());
+  this->PrepareOutputs(parameters);
+  this->Parameters = parameters;
+  return true;
+}
+
+void vtkSlicerSimplexMesherLogic::PrepareOutputs(vtkMRMLSimplexMesherNode* parameters)
+{
+  const std::string name = parameters->GetTissueMapNode()->GetName() + (" " + vtkMRMLTr("SimplexMesher", "surface"));
+  auto* surface = outputNode<vtkMRMLModelNode>(parameters, Node::SurfaceRole(), name, this->Run);
+  this->Run->SetParameterNode("surface", surface);
+  if (parameters->GetKeepAmbient()) this->Run->SetParameterNode("ambient", ambientNode(surface, this->Run));
+  const auto setChosen = [&](const char* parameter, vtkMRMLTransformableNode* node)
+  {
+    if (!node) return;
+    node->SetAndObserveTransformNodeID(nullptr);
+    this->Run->AddOutputNode(node, false);
+    this->Run->SetParameterNode(parameter, node);
+  };
+  setChosen("preparedLabelMap", parameters->GetPreparedLabelMapNode());
+  setChosen("simplexMesh", parameters->GetSimplexMeshNode());
+  setChosen("followedScale", parameters->GetFollowedScaleNode());
+  this->ReportFile = parameters->GetReport() ? this->Run->NewTemporaryFile(".json") : std::string();
+  if (!this->ReportFile.empty()) this->Run->SetParameter("report", this->ReportFile);
+}
+
+void vtkSlicerSimplexMesherLogic::FinishRun()
+{
+  vtkMRMLSimplexMesherNode* parameters = this->Parameters;
+  if (!parameters || !parameters->GetScene()) return;
+  vtkMRMLModelNode* surface = parameters->GetSurfaceNode();
+  if (this->Run->GetStatus() == vtkSurgicalMesherRun::Completed && surface && surface->GetPolyData())
+  {
+    this->FinishSurface(surface);
+    if (!this->ReportFile.empty()) this->FinishReport(surface);
+  }
+  forgetMissingNodes(parameters);
+  parameters->Modified();
+}
+
+void vtkSlicerSimplexMesherLogic::FinishSurface(vtkMRMLModelNode* surface)
+{
+  vtkMRMLColorTableNode* colors = showTissueColors(surface, "BoundaryLabels"); // by the higher label of the two
+  vtkMRMLLabelMapVolumeNode* prepared = this->Parameters->GetPreparedLabelMapNode();
+  if (prepared && prepared->GetDisplayNode()) prepared->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
+  if (vtkMRMLModelNode* mesh = this->Parameters->GetSimplexMeshNode()) showTissueColors(mesh, "TissueLabel");
+  // Tetrahedra of an earlier surface would mislead the volume stage.
+  if (!this->Parameters->GetKeepAmbient()) removeNode(surface->GetNodeReference(Node::AmbientTetrahedraRole()));
+  if (this->Parameters->GetTissueModels()) makeTissueModels(surface);
+  else removeTissueModels(surface);
+  surface->SetDisplayVisibility(!this->Parameters->GetTissueModels()); // the same triangles twice would flicker
+}
+
+void vtkSlicerSimplexMesherLogic::FinishReport(vtkMRMLModelNode* surface)
+{
+  const std::string name = surface->GetName();
+  try
+  {
+    auto* tissues = ownNode<vtkMRMLTableNode>(this->Parameters, Node::TissueTableRole(),
+                                              name + ": " + vtkMRMLTr("SimplexMesher", "tissues"));
+    fillTissueTable(this->ReportFile, surface, tissues);
+    auto* evolution = ownNode<vtkMRMLTableNode>(this->Parameters, Node::EvolutionTableRole(),
+                                                name + ": " + vtkMRMLTr("SimplexMesher", "evolution"));
+    fillEvolutionTable(this->ReportFile, evolution);
+    std::vector<vtkMRMLPlotChartNode*> charts;
+    for (int i = 0; i < this->Parameters->GetNumberOfNodeReferences(Node::EvolutionChartRole()); ++i)
+    {
+      vtkMRMLNode* chart = this->Parameters->GetNthNodeReference(Node::EvolutionChartRole(), i);
+      if (chart) charts.push_back(vtkMRMLPlotChartNode::SafeDownCast(chart));
+    }
+    charts = plotEvolution(evolution, charts);
+    this->Parameters->RemoveNodeReferenceIDs(Node::EvolutionChartRole());
+    for (vtkMRMLPlotChartNode* chart : charts)
+      this->Parameters->AddNodeReferenceID(Node::EvolutionChartRole(), chart->GetID());
+  }
+  catch (const InputError& error)
+  {
+    vtkErrorMacro("The report could not be read: " << error.what());
+  }
+}

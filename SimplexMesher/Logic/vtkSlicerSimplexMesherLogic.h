@@ -1,0 +1,85 @@
+#pragma once
+/// Runs SimplexMesherCLI for a parameter node, and turns what it leaves into nodes that can be seen, read and plotted.
+
+#include "TissueMapInput.h"
+#include "TissueRows.h"
+#include "vtkSlicerSimplexMesherModuleLogicExport.h"
+
+#include <vtkSlicerModuleLogic.h>
+
+#include <vtkNew.h>
+#include <vtkWeakPointer.h>
+
+#include <string>
+#include <vector>
+
+class vtkCallbackCommand;
+class vtkMRMLModelNode;
+class vtkMRMLSimplexMesherNode;
+class vtkSurgicalMesherRun;
+
+class VTK_SLICER_SIMPLEXMESHER_MODULE_LOGIC_EXPORT vtkSlicerSimplexMesherLogic : public vtkSlicerModuleLogic
+{
+public:
+  static vtkSlicerSimplexMesherLogic* New();
+  vtkTypeMacro(vtkSlicerSimplexMesherLogic, vtkSlicerModuleLogic);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// The scene's first parameter node, made if there is none; null without a scene.
+  vtkMRMLSimplexMesherNode* ParameterNode();
+
+  /// What keeps a parameter node from being run.
+  enum class Problem
+  {
+    None,
+    NoModule,            ///< SimplexMesherCLI isn't loaded
+    TissueMap,           ///< see `tissueMap`
+    NoScale,             ///< neither a scale volume with voxels nor one length is chosen
+    ScaleWarped,         ///< the scale volume is under a transform that isn't linear
+    ScaleTooSmall,       ///< the scale volume leaves out part of the map
+    NoEdgeLength,        ///< the one length isn't positive
+    NothingToMesh,       ///< every tissue is left out
+    LengthsContradict,   ///< `tissue` has a minimum above its maximum
+    LengthsOfShellDiffer ///< `tissue` is a shell with two lengths
+  };
+  struct Check
+  {
+    Problem problem = Problem::None;
+    surgicalmesher::TissueMapProblem tissueMap = surgicalmesher::TissueMapProblem::None;
+    std::string tissue; ///< name
+  };
+
+  /// `tissues` as surgicalmesher::listTissues gives them for the parameter node's map.
+  Check FindProblem(vtkMRMLSimplexMesherNode* parameters, const std::vector<surgicalmesher::TissueRow>& tissues);
+
+  /// Starts a run, unless there is a problem or a run is busy. Nodes for results that are wanted and not chosen yet are
+  /// made and put into the parameter node; they go again unless the run completes. False if it could not be started:
+  /// GetRun()->GetErrorText() has the reason.
+  bool Start(vtkMRMLSimplexMesherNode* parameters);
+  /// The same, waiting for its end in this thread.
+  bool StartAndWait(vtkMRMLSimplexMesherNode* parameters);
+
+  /// The one run of this logic: its status, its error, its end. By the time that others see its CompletedEvent, if they
+  /// observe it with the default priority, the results have been finished.
+  vtkSurgicalMesherRun* GetRun() const { return this->Run; }
+
+protected:
+  vtkSlicerSimplexMesherLogic();
+  ~vtkSlicerSimplexMesherLogic() override;
+  vtkSlicerSimplexMesherLogic(const vtkSlicerSimplexMesherLogic&) = delete;
+  void operator=(const vtkSlicerSimplexMesherLogic&) = delete;
+
+  void RegisterNodes() override;
+
+private:
+  bool Prepare(vtkMRMLSimplexMesherNode* parameters);
+  void PrepareOutputs(vtkMRMLSimplexMesherNode* parameters);
+  void FinishRun();
+  void FinishSurface(vtkMRMLModelNode* surface);
+  void FinishReport(vtkMRMLModelNode* surface);
+
+  vtkNew<vtkSurgicalMesherRun> Run;
+  vtkNew<vtkCallbackCommand> RunEnded;
+  vtkWeakPointer<vtkMRMLSimplexMesherNode> Parameters; ///< of the run
+  std::string ReportFile;                              ///< of the run; empty if none is wanted
+};

@@ -1,0 +1,441 @@
+#include "qSlicerSimplexMesherModuleWidget.h"
+
+#include "ui_qSlicerSimplexMesherModuleWidget.h"
+#include "vtkMRMLSimplexMesherNode.h"
+#include "vtkSlicerSimplexMesherLogic.h"
+#include "vtkSurgicalMesherRun.h"
+
+#include <qSlicerApplication.h>
+#include <qSlicerIOManager.h>
+#include <qSlicerLayoutManager.h>
+#include <qSlicerModuleManager.h>
+
+#include <vtkMRMLDisplayableNode.h>
+#include <vtkMRMLLabelMapVolumeNode.h>
+#include <vtkMRMLModelNode.h>
+#include <vtkMRMLPlotChartNode.h>
+#include <vtkMRMLScene.h>
+#include <vtkMRMLSegmentationNode.h>
+#include <vtkMRMLTableNode.h>
+#include <vtkSegmentation.h>
+#include <vtkSlicerPlotsLogic.h>
+
+#include <QSignalBlocker>
+#include <QTableView>
+#include <QTimer>
+
+#include <vtkPolyData.h>
+#include <vtkWeakPointer.h>
+
+#include <functional>
+
+using surgicalmesher::TissueMapProblem;
+using Node = vtkMRMLSimplexMesherNode;
+using Problem = vtkSlicerSimplexMesherLogic::Problem;
+using Widget = qSlicerSimplexMesherModuleWidget;
+
+/// What is in the way, and what a click can do about it.
+struct Obstacle
+{
+  QString sentence;
+  QString fixText;
+  std::function<void()> fix;
+};
+
+class qSlicerSimplexMesherModuleWidgetPrivate : public Ui_qSlicerSimplexMesherModuleWidget
+{
+  Q_DECLARE_PUBLIC(qSlicerSimplexMesherModuleWidget)
+  qSlicerSimplexMesherModuleWidget* const q_ptr;
+
+public:
+  explicit qSlicerSimplexMesherModuleWidgetPrivate(qSlicerSimplexMesherModuleWidget& object) : q_ptr(&object) {}
+
+  vtkSlicerSimplexMesherLogic* logic() const { return vtkSlicerSimplexMesherLogic::SafeDownCast(q_ptr->logic()); }
+
+  vtkWeakPointer<vtkMRMLSimplexMesherNode> Parameters;
+  vtkWeakPointer<vtkMRMLNode> TissueMap; ///< whose tissues are listed
+  QTimer ListTimer;
+  bool IsUpdating = false; ///< controls follow the node, not the other way round
+
+  void setParameterNode(vtkMRMLSimplexMesherNode* node);
+  void observeTissueMap(vtkMRMLNode* node);
+  void connectControls();
+  void connectSelector(qMRMLNodeComboBox* selector, const char* role);
+  template <class Control, class Signal, class Setter>
+  void connectValue(Control* control, Signal signal, Setter setter);
+  void showValues();
+  void showReports();
+  void showObstacle();
+
+  Obstacle obstacle();
+  Obstacle tissueMapObstacle(TissueMapProblem problem);
+  Obstacle scaleObstacle(Problem problem);
+  Obstacle tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check);
+  void openModule(const QString& name);
+};
+
+void qSlicerSimplexMesherModuleWidgetPrivate::setParameterNode(vtkMRMLSimplexMesherNode* node)
+{
+  Q_Q(qSlicerSimplexMesherModuleWidget);
+  q->qvtkReconnect(this->Parameters, node, vtkCommand::ModifiedEvent, q, SLOT(updateFromNode()));
+  this->Parameters = node;
+  this->TissueTable->setParameterNode(node);
+  q->updateFromNode();
+}
+
+void qSlicerSimplexMesherModuleWidgetPrivate::observeTissueMap(vtkMRMLNode* node)
+{
+  Q_Q(qSlicerSimplexMesherModuleWidget);
+  for (const unsigned long event :
+       { (unsigned long)vtkCommand::ModifiedEvent, (unsigned long)vtkMRMLDisplayableNode::DisplayModifiedEvent,
+         (unsigned long)vtkMRMLTransformableNode::TransformModifiedEvent,
+         (unsigned long)vtkMRMLVolumeNode::ImageDataModifiedEvent, (unsigned long)vtkSegmentation::RepresentationModified,
+         (unsigned long)vtkSegmentation::SegmentAdded, (unsigned long)vtkSegmentation::SegmentRemoved,
+         (unsigned long)vtkSegmentation::SegmentModified, (unsigned long)vtkSegmentation::SegmentsOrderModified })
+  {
+    q->qvtkReconnect(this->TissueMap, node, event, q, SLOT(onTissueMapChanged()));
+  }
+  this->TissueMap = node;
+  this->ListTimer.stop();
+  q->listTissues();
+}
+
+/// A value goes from its control to the node by `setter`, unless the control has just been told by the node.
+template <class Control, class Signal, class Setter>
+void qSlicerSimplexMesherModuleWidgetPrivate::connectValue(Control* control, Signal signal, Setter setter)
+{
+  QObject::connect(control, signal, q_ptr,
+                   [this, setter](auto value)
+                   {
+                     if (this->Parameters && !this->IsUpdating) (this->Parameters->*setter)(value);
+                   });
+}
+
+void qSlicerSimplexMesherModuleWidgetPrivate::connectSelector(qMRMLNodeComboBox* selector, const char* role)
+{
+  QObject::connect(selector, static_cast<void (qMRMLNodeComboBox::*)(vtkMRMLNode*)>(&qMRMLNodeComboBox::currentNodeChanged),
+                   q_ptr,
+                   [this, role](vtkMRMLNode* node)
+                   {
+                     if (this->Parameters && !this->IsUpdating) this->Parameters->SetNode(role, node);
+                   });
+}
+
+void qSlicerSimplexMesherModuleWidgetPrivate::connectControls()
+{
+  this->connectSelector(this->TissueMapSelector, Node::TissueMapRole());
+  this->connectSelector(this->ScaleSelector, Node::ScaleRole());
+  this->connectSelector(this->SurfaceSelector, Node::SurfaceRole());
+  this->connectSelector(this->PreparedLabelMapSelector, Node::PreparedLabelMapRole());
+  this->connectSelector(this->SimplexMeshSelector, Node::SimplexMeshRole());
+  this->connectSelector(this->FollowedScaleSelector, Node::FollowedScaleRole());
+  const auto spun = static_cast<void (QDoubleSpinBox::*)(double)>(&QDoubleSpinBox::valueChanged);
+  this->connectValue(this->ScaleRadioButton, &QRadioButton::toggled, &Node::SetUseScale);
+  this->connectValue(this->EdgeLengthSlider, &ctkSliderWidget::valueChanged, &Node::SetEdgeLength);
+  this->connectValue(this->TissueModelsCheckBox, &QCheckBox::toggled, &Node::SetTissueModels);
+  this->connectValue(this->KeepAmbientCheckBox, &QCheckBox::toggled, &Node::SetKeepAmbient);
+  this->connectValue(this->ReportCheckBox, &QCheckBox::toggled, &Node::SetReport);
+  this->connectValue(this->MinimumIslandVolumeSpinBox, spun, &Node::SetMinimumIslandVolume);
+  this->connectValue(this->MinimumCavityVolumeSpinBox, spun, &Node::SetMinimumCavityVolume);
+  this->connectValue(this->FeatureScaleSlider, &ctkSliderWidget::valueChanged, &Node::SetFeatureScale);
+  this->connectValue(this->MaximumDistanceSpinBox, spun, &Node::SetMaximumDistance);
+  this->connectValue(this->GradationSlider, &ctkSliderWidget::valueChanged, &Node::SetGradation);
+  this->connectValue(this->FollowThicknessCheckBox, &QCheckBox::toggled, &Node::SetFollowThickness);
+  this->connectValue(this->ThreadsSpinBox, static_cast<void (QSpinBox::*)(int)>(&QSpinBox::valueChanged),
+                     &Node::SetThreads);
+}
+
+void qSlicerSimplexMesherModuleWidgetPrivate::showValues()
+{
+  Node* const p = this->Parameters;
+  this->TissueMapSelector->setCurrentNode(p->GetTissueMapNode());
+  this->ScaleSelector->setCurrentNode(p->GetScaleNode());
+  this->SurfaceSelector->setCurrentNode(p->GetSurfaceNode());
+  this->PreparedLabelMapSelector->setCurrentNode(p->GetPreparedLabelMapNode());
+  this->SimplexMeshSelector->setCurrentNode(p->GetSimplexMeshNode());
+  this->FollowedScaleSelector->setCurrentNode(p->GetFollowedScaleNode());
+  (p->GetUseScale() ? this->ScaleRadioButton : this->EdgeLengthRadioButton)->setChecked(true);
+  this->EdgeLengthSlider->setValue(p->GetEdgeLength());
+  this->ScaleSelector->setEnabled(p->GetUseScale());
+  this->EdgeLengthSlider->setEnabled(!p->GetUseScale());
+  this->TissueModelsCheckBox->setChecked(p->GetTissueModels());
+  this->KeepAmbientCheckBox->setChecked(p->GetKeepAmbient());
+  this->ReportCheckBox->setChecked(p->GetReport());
+  this->MinimumIslandVolumeSpinBox->setValue(p->GetMinimumIslandVolume());
+  this->MinimumCavityVolumeSpinBox->setValue(p->GetMinimumCavityVolume());
+  this->FeatureScaleSlider->setValue(p->GetFeatureScale());
+  this->MaximumDistanceSpinBox->setValue(p->GetMaximumDistance());
+  this->GradationSlider->setValue(p->GetGradation());
+  this->FollowThicknessCheckBox->setChecked(p->GetFollowThickness());
+  this->ThreadsSpinBox->setValue(p->GetThreads());
+}
+
+/// The tables and plots that there are.
+void qSlicerSimplexMesherModuleWidgetPrivate::showReports()
+{
+  Q_Q(qSlicerSimplexMesherModuleWidget);
+  const QString plot = this->PlotComboBox->currentText();
+  const QSignalBlocker blocker(this->PlotComboBox);
+  this->PlotComboBox->clear();
+  for (int i = 0; i < this->Parameters->GetNumberOfNodeReferences(Node::EvolutionChartRole()); ++i)
+  {
+    auto* chart =
+      vtkMRMLPlotChartNode::SafeDownCast(this->Parameters->GetNthNodeReference(Node::EvolutionChartRole(), i));
+    if (chart) this->PlotComboBox->addItem(QString::fromUtf8(chart->GetTitle()), QString(chart->GetID()));
+  }
+  this->PlotComboBox->setCurrentIndex(qMax(0, this->PlotComboBox->findText(plot)));
+  this->PlotComboBox->setEnabled(this->PlotComboBox->count() > 0);
+  this->ShowPlotButton->setEnabled(this->PlotComboBox->count() > 0);
+  q->showReport();
+}
+
+void qSlicerSimplexMesherModuleWidgetPrivate::showObstacle()
+{
+  const Obstacle found = this->obstacle();
+  if (found.sentence.isEmpty()) this->RunWidget->clearProblem();
+  else this->RunWidget->setProblem(found.sentence, found.fixText, found.fix);
+}
+
+Obstacle qSlicerSimplexMesherModuleWidgetPrivate::obstacle()
+{
+  const vtkSlicerSimplexMesherLogic::Check check =
+    this->logic()->FindProblem(this->Parameters, this->TissueTable->tissues());
+  switch (check.problem)
+  {
+    case Problem::None: return {};
+    case Problem::NoModule:
+      return { Widget::tr("The command-line module SimplexMesherCLI isn't loaded; see the application's log."), {}, {} };
+    case Problem::TissueMap: return this->tissueMapObstacle(check.tissueMap);
+    case Problem::NothingToMesh:
+    case Problem::LengthsContradict:
+    case Problem::LengthsOfShellDiffer: return this->tissueObstacle(check);
+    default: return this->scaleObstacle(check.problem);
+  }
+}
+
+Obstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueMapObstacle(TissueMapProblem problem)
+{
+  vtkMRMLNode* map = this->Parameters->GetTissueMapNode();
+  const QString edit = Widget::tr("Edit segments");
+  const auto editSegments = [this] { this->openModule("SegmentEditor"); };
+  switch (problem)
+  {
+    case TissueMapProblem::NothingChosen:
+    case TissueMapProblem::NotATissueMap:
+      if (this->TissueMapSelector->nodeCount() == 0)
+        return { Widget::tr("There is no segmentation or label map to mesh."), Widget::tr("Add data..."),
+                 [] { qSlicerApplication::application()->ioManager()->openAddDataDialog(); } };
+      return { Widget::tr("Choose a segmentation or a label map."),
+               Widget::tr("Choose %1").arg(this->TissueMapSelector->nodeFromIndex(0)->GetName()),
+               [this] { this->TissueMapSelector->setCurrentNodeIndex(0); } };
+    case TissueMapProblem::NoSegment: return { Widget::tr("The segmentation has no segments."), edit, editSegments };
+    case TissueMapProblem::NoVoxels: return { Widget::tr("The label map has no voxels; choose another one."), {}, {} };
+    case TissueMapProblem::OnlyBackground:
+      if (vtkMRMLSegmentationNode::SafeDownCast(map))
+        return { Widget::tr("All segments are empty."), edit, editSegments };
+      return { Widget::tr("No voxel of the label map belongs to a tissue; choose another one."), {}, {} };
+    case TissueMapProblem::NoReferenceGeometry:
+      return { Widget::tr("The segmentation's voxel size isn't known: set its source geometry in Segment Editor."), edit,
+               editSegments };
+    case TissueMapProblem::ShearingTransform:
+      return { Widget::tr("The transform of the tissues turns their voxels into rhomboids; choose another one."),
+               Widget::tr("Transforms"), [this] { this->openModule("Transforms"); } };
+    case TissueMapProblem::NegativeLabels:
+      return { Widget::tr("Some voxels of the label map are no whole numbers from 0 to 65535."), {}, {} };
+    default: return { Widget::tr("The segmentation can't be turned into a label map; see the application's log."), {}, {} };
+  }
+}
+
+Obstacle qSlicerSimplexMesherModuleWidgetPrivate::scaleObstacle(Problem problem)
+{
+  const QString makeScale = Widget::tr("Surgical Path Scale");
+  const auto openScale = [this] { this->openModule("SurgicalPathScale"); };
+  switch (problem)
+  {
+    case Problem::NoScale:
+      return { Widget::tr("Choose a scale volume, or one edge length for all."), Widget::tr("One edge length"),
+               [this] { this->Parameters->UseScaleOff(); } };
+    case Problem::ScaleWarped:
+      return { Widget::tr("The scale volume is under a transform that isn't linear; harden or remove it."),
+               Widget::tr("Transforms"), [this] { this->openModule("Transforms"); } };
+    case Problem::ScaleTooSmall:
+      return { Widget::tr("The scale volume doesn't cover the whole label map; make one for this map."), makeScale,
+               openScale };
+    default:
+      return { Widget::tr("The edge length has to be above 0."), Widget::tr("2 mm"),
+               [this] { this->Parameters->SetEdgeLength(2); } };
+  }
+}
+
+Obstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check)
+{
+  const QString tissue = QString::fromStdString(check.tissue);
+  if (check.problem == Problem::NothingToMesh)
+    return { Widget::tr("All tissues are left out."), Widget::tr("Mesh all"),
+             [this] { this->Parameters->SetTissueSettings({}); } };
+  std::string id;
+  for (const surgicalmesher::TissueRow& row : this->TissueTable->tissues())
+  {
+    if (row.name == check.tissue) id = row.id;
+  }
+  const auto dropMaximum = [this, id]
+  {
+    surgicalmesher::TissueSetting setting = this->Parameters->GetTissueSetting(id);
+    setting.maximumEdgeLength = 0;
+    this->Parameters->SetTissueSetting(id, setting);
+  };
+  const QString sentence = check.problem == Problem::LengthsContradict
+                             ? Widget::tr("The minimum edge length of %1 is above its maximum.").arg(tissue)
+                             : Widget::tr("%1 is a shell, which has one edge length, not two.").arg(tissue);
+  return { sentence, Widget::tr("Drop the maximum"), dropMaximum };
+}
+
+void qSlicerSimplexMesherModuleWidgetPrivate::openModule(const QString& name)
+{
+  qSlicerApplication* application = qSlicerApplication::application();
+  if (application->moduleManager()->module(name)) application->layoutManager()->setCurrentModule(name);
+}
+
+qSlicerSimplexMesherModuleWidget::qSlicerSimplexMesherModuleWidget(QWidget* parent)
+  : Superclass(parent)
+  , d_ptr(new qSlicerSimplexMesherModuleWidgetPrivate(*this))
+{
+}
+
+qSlicerSimplexMesherModuleWidget::~qSlicerSimplexMesherModuleWidget() = default;
+
+void qSlicerSimplexMesherModuleWidget::setup()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  d->setupUi(this);
+  this->Superclass::setup();
+  d->ReportTableComboBox->addItem(tr("Tissues"), QByteArray(Node::TissueTableRole()));
+  d->ReportTableComboBox->addItem(tr("Evolution, step by step"), QByteArray(Node::EvolutionTableRole()));
+  QWidget::setTabOrder(d->ReportCheckBox, d->TissueTable->view());
+  d->ListTimer.setSingleShot(true);
+  d->ListTimer.setInterval(300);
+  connect(&d->ListTimer, SIGNAL(timeout()), this, SLOT(listTissues()));
+  d->connectControls();
+  connect(d->RunWidget, SIGNAL(applyRequested()), this, SLOT(apply()));
+  connect(d->RunWidget, SIGNAL(runEnded()), this, SLOT(onRunEnded()));
+  connect(d->ReportTableComboBox, SIGNAL(currentIndexChanged(int)), this, SLOT(showReport()));
+  connect(d->ShowPlotButton, SIGNAL(clicked()), this, SLOT(showPlot()));
+  d->RunWidget->setRun(d->logic()->GetRun());
+}
+
+void qSlicerSimplexMesherModuleWidget::enter()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  this->Superclass::enter();
+  d->setParameterNode(d->logic()->ParameterNode());
+  this->listTissues();
+}
+
+bool qSlicerSimplexMesherModuleWidget::setEditedNode(vtkMRMLNode* node, QString role, QString context)
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  if (auto* parameters = vtkMRMLSimplexMesherNode::SafeDownCast(node))
+  {
+    d->setParameterNode(parameters);
+    return true;
+  }
+  if (!d->Parameters) d->setParameterNode(d->logic()->ParameterNode());
+  if (!d->Parameters) return false;
+  if (vtkMRMLSegmentationNode::SafeDownCast(node) || vtkMRMLLabelMapVolumeNode::SafeDownCast(node))
+  {
+    d->Parameters->SetNode(Node::TissueMapRole(), node);
+    return true;
+  }
+  return this->Superclass::setEditedNode(node, role, context);
+}
+
+void qSlicerSimplexMesherModuleWidget::setMRMLScene(vtkMRMLScene* scene)
+{
+  for (const unsigned long event : { vtkMRMLScene::EndImportEvent, vtkMRMLScene::EndBatchProcessEvent,
+                                     vtkMRMLScene::EndCloseEvent, vtkMRMLScene::EndRestoreEvent })
+  {
+    this->qvtkReconnect(this->mrmlScene(), scene, event, this, SLOT(onSceneReplaced()));
+  }
+  this->Superclass::setMRMLScene(scene);
+  this->onSceneReplaced();
+}
+
+void qSlicerSimplexMesherModuleWidget::onSceneReplaced()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  vtkMRMLScene* scene = this->mrmlScene();
+  if (scene && scene->IsBatchProcessing()) return;
+  vtkMRMLNode* node = scene ? scene->GetFirstNodeByClass("vtkMRMLSimplexMesherNode") : nullptr;
+  if (!node && scene && this->isEntered()) node = d->logic()->ParameterNode();
+  d->setParameterNode(vtkMRMLSimplexMesherNode::SafeDownCast(node));
+}
+
+void qSlicerSimplexMesherModuleWidget::updateFromNode()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  this->setEnabled(d->Parameters != nullptr);
+  if (!d->Parameters)
+  {
+    d->TissueTable->setTissues({});
+    return;
+  }
+  d->IsUpdating = true;
+  d->showValues();
+  d->IsUpdating = false;
+  d->showReports();
+  vtkMRMLNode* map = d->Parameters->GetTissueMapNode();
+  if (map != d->TissueMap) d->observeTissueMap(map);
+  else d->showObstacle();
+}
+
+void qSlicerSimplexMesherModuleWidget::onTissueMapChanged()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  d->ListTimer.start();
+}
+
+void qSlicerSimplexMesherModuleWidget::listTissues()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  if (!d->Parameters || !this->isEntered()) return; // the voxels are looked at when the panel is opened
+  d->TissueTable->setTissues(surgicalmesher::listTissues(d->TissueMap));
+  d->showObstacle();
+}
+
+void qSlicerSimplexMesherModuleWidget::apply()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  if (!d->Parameters) return;
+  d->ListTimer.stop();
+  this->listTissues(); // what was painted a moment ago
+  if (d->RunWidget->problem().isEmpty()) d->logic()->Start(d->Parameters);
+}
+
+void qSlicerSimplexMesherModuleWidget::onRunEnded()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  vtkSurgicalMesherRun* run = d->logic()->GetRun();
+  vtkMRMLModelNode* surface = d->Parameters ? d->Parameters->GetSurfaceNode() : nullptr;
+  if (run->GetStatus() != vtkSurgicalMesherRun::Completed || !surface || !surface->GetPolyData()) return;
+  d->RunWidget->setResult(tr("%L1 triangles between %L2 points, in %3 s.")
+                            .arg(qlonglong(surface->GetPolyData()->GetNumberOfCells()))
+                            .arg(qlonglong(surface->GetPolyData()->GetNumberOfPoints()))
+                            .arg(run->GetElapsedSeconds(), 0, 'f', 1));
+}
+
+void qSlicerSimplexMesherModuleWidget::showReport()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  const QByteArray role = d->ReportTableComboBox->currentData().toByteArray();
+  vtkMRMLNode* table = d->Parameters ? d->Parameters->GetNodeReference(role.constData()) : nullptr;
+  d->ReportTableView->setMRMLTableNode(table);
+}
+
+void qSlicerSimplexMesherModuleWidget::showPlot()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  const QByteArray id = d->PlotComboBox->currentData().toString().toUtf8();
+  auto* chart = vtkMRMLPlotChartNode::SafeDownCast(this->mrmlScene()->GetNodeByID(id.constData()));
+  auto* plots = vtkSlicerPlotsLogic::SafeDownCast(d->logic()->GetModuleLogic("Plots"));
+  if (chart && plots) plots->ShowChartInLayout(chart);
+}
