@@ -13,13 +13,13 @@
 #include "MaterialTable.h"
 #include "MeshImprovement.h"
 #include "MeshQuality.h"
+#include "ShellChoices.h"
 #include "StiffnessConditioning.h"
 #include "SubMeshExport.h"
 #include "SubMeshes.h"
 #include "SurfaceEdgeLength.h"
 #include "SurfaceTetrahedralization.h"
 #include "SurfaceValidity.h"
-#include "TextFile.h"
 #include "TissueMapIO.h"
 #include "VtkExport.h"
 
@@ -153,50 +153,13 @@ ConstitutiveRule readConstitutiveRule(const CommandLine& line)
   return rule;
 }
 
-/// TISSUE or TISSUE:NEIGHBOUR, each a label or a name; `outside` stands for 0. Nothing if it isn't one.
-std::optional<ShellChoice> findShell(const std::string& text, const TissueTable& names, const std::set<Label>& present)
-{
-  ShellChoice choice;
-  const auto isTissue = [&](const std::string& name, Label& label)
-  { return findTissue(name, names, label) && present.count(label) > 0; };
-  if (isTissue(text, choice.label)) return choice;
-  for (std::size_t colon = text.find(':'); colon != text.npos; colon = text.find(':', colon + 1))
-  {
-    const std::string neighbour = text.substr(colon + 1);
-    Label other = 0;
-    const bool known = neighbour == "outside" || neighbour == "0" || isTissue(neighbour, other);
-    if (!known || !isTissue(text.substr(0, colon), choice.label)) continue;
-    choice.neighbour = other;
-    return choice;
-  }
-  return {};
-}
-
-/// Slicer passes several in one text, separated by commas. Without any, the tissues that the surface stage was asked to mesh
-/// as shells.
+/// Without --shell, the tissues that the surface stage was asked to mesh as shells.
 std::vector<ShellChoice> readShells(const CommandLine& line, const TissueTable& names, const std::set<Label>& present)
 {
-  std::vector<ShellChoice> choices;
-  if (line.texts("shell").empty())
-  {
-    for (const auto& [label, tissue] : names)
-      if (tissue.isShell && present.count(label) > 0) choices.push_back({ label, -1, line.number("shellThickness") });
-    if (choices.empty() && line.given("shells"))
-      throw UsageError("--shells is given, but no --shell, and no tissue of the surface has the role of a shell");
-  }
-  for (const std::string& option : line.texts("shell"))
-  {
-    const bool isOne = findShell(option, names, present).has_value();
-    for (const std::string& shell : isOne ? std::vector<std::string>{ option } : text::splitFields(option))
-    {
-      const std::optional<ShellChoice> choice = findShell(shell, names, present);
-      if (!choice)
-        throw UsageError("--shell: \"" + shell +
-                         "\" found, TISSUE or TISSUE:NEIGHBOUR with labels or names of the mesh's tissues expected");
-      choices.push_back(*choice);
-      choices.back().thickness = line.number("shellThickness");
-    }
-  }
+  const std::vector<ShellChoice> choices =
+    shellChoices(line.texts("shell"), names, present, line.number("shellThickness"));
+  if (choices.empty() && line.given("shells"))
+    throw UsageError("--shells is given, but no --shell, and no tissue of the surface has the role of a shell");
   return choices;
 }
 

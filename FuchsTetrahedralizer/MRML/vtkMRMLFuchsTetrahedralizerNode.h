@@ -155,7 +155,7 @@ protected:
   bool Conditioning = false;
   int Threads = 0;
   int ColorBy = Tissue;
-  int ClipPlane = Axial;
+  int ClipPlane = Coronal; // seen from in front, as by default, it shows the inside
   bool ClipFlipped = false;
   bool ShowEdges = true;
 };

@@ -1,0 +1,592 @@
+#include "vtkSlicerFuchsTetrahedralizerLogic.h"
+
+#include "ConstitutiveTags.h"
+#include "Errors.h"
+#include "Export.h"
+#include "HostDifferences.h"
+#include "MarkupsInput.h"
+#include "MaterialTable.h"
+#include "MeshDisplay.h"
+#include "MeshReport.h"
+#include "ModelMesh.h"
+#include "OutputFiles.h"
+#include "ShellChoices.h"
+#include "vtkMRMLFuchsTetrahedralizerNode.h"
+#include "vtkSurgicalMesherRun.h"
+
+#include <vtkMRMLMarkupsNode.h>
+#include <vtkMRMLModelDisplayNode.h>
+#include <vtkMRMLModelNode.h>
+#include <vtkMRMLPlotChartNode.h>
+#include <vtkMRMLScalarVolumeNode.h>
+#include <vtkMRMLScene.h>
+#include <vtkMRMLSliceNode.h>
+#include <vtkMRMLTableNode.h>
+#include <vtkMRMLTransformNode.h>
+
+#include <vtkCallbackCommand.h>
+#include <vtkFieldData.h>
+#include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkObjectFactory.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <fstream>
+#include <functional>
+#include <set>
+#include <sstream>
+
+using namespace surgicalmesher;
+using Parameters = vtkMRMLFuchsTetrahedralizerNode;
+using Problem = vtkSlicerFuchsTetrahedralizerLogic::Problem;
+using Check = vtkSlicerFuchsTetrahedralizerLogic::Check;
+
+namespace
+{
+
+constexpr const char* kOutputRoles[] = { "mesh", "parentMesh", "childMesh", "shells" }; // also the CLI's parameters
+
+std::vector<vtkMRMLModelNode*> surfacesOf(Parameters* parameters)
+{
+  std::vector<vtkMRMLModelNode*> surfaces;
+  for (vtkMRMLNode* node : parameters->GetNodes(Parameters::SurfaceRole()))
+  {
+    if (auto* model = vtkMRMLModelNode::SafeDownCast(node)) surfaces.push_back(model);
+  }
+  return surfaces;
+}
+
+vtkMRMLModelNode* ambientOf(const std::vector<vtkMRMLModelNode*>& surfaces)
+{
+  if (surfaces.size() != 1 || !isLabelledSurface(surfaces.front())) return nullptr;
+  auto* ambient =
+    vtkMRMLModelNode::SafeDownCast(surfaces.front()->GetNodeReference(Parameters::AmbientTetrahedraRole()));
+  return ambient && ambient->GetUnstructuredGrid() ? ambient : nullptr;
+}
+
+vtkMRMLScalarVolumeNode* scaleOf(Parameters* parameters)
+{
+  return vtkMRMLScalarVolumeNode::SafeDownCast(parameters->GetNodeReference(Parameters::ScaleRole()));
+}
+
+ConstitutiveRule ruleOf(Parameters* parameters)
+{
+  ConstitutiveRule rule;
+  for (vtkMRMLNode* node : parameters->GetNodes(Parameters::TargetRole()))
+  {
+    const std::vector<Vec3> points = markupsPoints(vtkMRMLMarkupsNode::SafeDownCast(node));
+    rule.targets.insert(rule.targets.end(), points.begin(), points.end());
+  }
+  for (vtkMRMLNode* node : parameters->GetNodes(Parameters::PathRole()))
+    rule.paths.push_back(markupsPath(vtkMRMLMarkupsNode::SafeDownCast(node)));
+  rule.nonlinearDistance = parameters->GetNonlinearDistance();
+  rule.nullTargetRadius = parameters->GetNullDisplacementRadius();
+  rule.nullPathDistance = parameters->GetNullDisplacementPathDistance();
+  rule.nullPathDistanceAtTarget = parameters->GetNullDisplacementPathDistanceAtTarget();
+  return rule;
+}
+
+std::vector<std::string> shellTextsOf(Parameters* parameters)
+{
+  const std::string& text = parameters->GetShellTissues();
+  if (text.find_first_not_of(" \t") == text.npos) return {};
+  return { text };
+}
+
+std::set<Label> labelsOf(const TissueTable& tissues)
+{
+  std::set<Label> labels;
+  for (const auto& [label, tissue] : tissues) labels.insert(label);
+  return labels;
+}
+
+FiniteElementOptions optionsOf(Parameters* parameters, const TissueTable& tissues, const std::set<Label>& present)
+{
+  FiniteElementOptions options;
+  if (!parameters->GetMaterialsFile().empty())
+    options.materials = readMaterialTable(parameters->GetMaterialsFile(), tissues, present);
+  options.shells = shellChoices(shellTextsOf(parameters), tissues, present, parameters->GetShellThickness());
+  return options;
+}
+
+// ---- what keeps a run from starting ---------------------------------------------------------------------------------
+
+Check checkSurfaces(const std::vector<vtkMRMLModelNode*>& surfaces)
+{
+  if (surfaces.empty()) return { Problem::NoSurface, nullptr, {} };
+  for (vtkMRMLModelNode* surface : surfaces)
+  {
+    vtkPolyData* triangles = surface->GetPolyData();
+    if (!triangles || triangles->GetNumberOfPolys() + triangles->GetNumberOfStrips() == 0)
+      return { Problem::NotASurface, surface, {} };
+    if (surfaces.size() > 1 && isLabelledSurface(surface)) return { Problem::LabelledAmongOthers, surface, {} };
+  }
+  return {};
+}
+
+bool hasTargetLengths(const std::vector<vtkMRMLModelNode*>& surfaces)
+{
+  return surfaces.size() == 1 && surfaces.front()->GetPolyData() &&
+         surfaces.front()->GetPolyData()->GetPointData()->GetArray("TargetEdgeLength");
+}
+
+Check checkLengths(Parameters* parameters, const std::vector<vtkMRMLModelNode*>& surfaces)
+{
+  vtkMRMLScalarVolumeNode* scale = scaleOf(parameters);
+  switch (parameters->GetEdgeLengthSource())
+  {
+    case Parameters::FromSurface:
+      return { hasTargetLengths(surfaces) ? Problem::None : Problem::NoTargetLengths, nullptr, {} };
+    case Parameters::FromScale:
+      if (!scale || !scale->GetImageData()) return { Problem::NoScale, scale, {} };
+      if (scale->GetParentTransformNode() && !scale->GetParentTransformNode()->IsTransformToWorldLinear())
+        return { Problem::ScaleWarped, scale, {} };
+      return {};
+    default: return { parameters->GetEdgeLength() > 0 ? Problem::None : Problem::NoEdgeLength, nullptr, {} };
+  }
+}
+
+Check checkOutputs(Parameters* parameters)
+{
+  std::set<vtkMRMLNode*> taken;
+  for (vtkMRMLModelNode* surface : surfacesOf(parameters)) taken.insert(surface);
+  if (vtkMRMLModelNode* ambient = ambientOf(surfacesOf(parameters))) taken.insert(ambient);
+  for (const char* role : kOutputRoles)
+  {
+    vtkMRMLModelNode* output = parameters->GetModelNode(role);
+    if (output && !taken.insert(output).second) return { Problem::OutputIsInput, output, {} };
+  }
+  return {};
+}
+
+Check checkConstitutiveClasses(Parameters* parameters)
+{
+  for (vtkMRMLNode* node : parameters->GetNodes(Parameters::PathRole()))
+  {
+    if (markupsPath(vtkMRMLMarkupsNode::SafeDownCast(node)).empty()) return { Problem::NotAPath, node, {} };
+  }
+  const ConstitutiveRule rule = ruleOf(parameters);
+  const bool hasPlace = !rule.targets.empty() || !rule.paths.empty();
+  const bool hasDistance = rule.nonlinearDistance > 0 || rule.nullTargetRadius > 0 || rule.nullPathDistance > 0;
+  if (rule.nonlinearDistance > 0 && !hasPlace) return { Problem::NoPlaces, nullptr, {} };
+  if (rule.nullTargetRadius > 0 && rule.targets.empty()) return { Problem::NoTargets, nullptr, {} };
+  if (rule.nullPathDistance > 0 && rule.paths.empty()) return { Problem::NoPaths, nullptr, {} };
+  if (rule.nullPathDistanceAtTarget > 0 && rule.nullPathDistance == 0) return { Problem::NoEntryDistance, nullptr, {} };
+  if (hasPlace && !hasDistance) return { Problem::NoDistance, nullptr, {} };
+  return {};
+}
+
+/// Only a labelled surface tells its tissues before it is meshed.
+Check checkFiniteElements(Parameters* parameters, const std::vector<vtkMRMLModelNode*>& surfaces)
+{
+  if (!isLabelledSurface(surfaces.front())) return {};
+  const TissueTable tissues = tissuesOfSurface(surfaces.front());
+  std::vector<ShellChoice> shells;
+  try
+  {
+    shells = shellChoices(shellTextsOf(parameters), tissues, labelsOf(tissues), parameters->GetShellThickness());
+  }
+  catch (const Error&)
+  {
+    return { Problem::UnknownShell, nullptr, parameters->GetShellTissues() };
+  }
+  vtkMRMLModelNode* output = parameters->GetModelNode(Parameters::ShellsRole());
+  if (output && shells.empty()) return { Problem::ShellsUnused, output, {} };
+  if (parameters->GetMaterialsFile().empty()) return {};
+  try
+  {
+    readMaterialTable(parameters->GetMaterialsFile(), tissues, labelsOf(tissues));
+  }
+  catch (const Error& error)
+  {
+    return { Problem::BadMaterials, nullptr, error.what() };
+  }
+  return {};
+}
+
+// ---- nodes for a run ------------------------------------------------------------------------------------------------
+
+/// Shares its voxels; a linear parent transform moves its grid.
+vtkSmartPointer<vtkMRMLScalarVolumeNode> scaleInWorld(vtkMRMLScalarVolumeNode* scale)
+{
+  auto copy = vtkSmartPointer<vtkMRMLScalarVolumeNode>::New();
+  copy->SetName(scale->GetName());
+  vtkNew<vtkImageData> image; // the host's writer, in its own thread, has an object of its own
+  image->ShallowCopy(scale->GetImageData());
+  copy->SetAndObserveImageData(image);
+  vtkNew<vtkMatrix4x4> ijkToWorld;
+  scale->GetIJKToRASMatrix(ijkToWorld);
+  if (vtkMRMLTransformNode* parent = scale->GetParentTransformNode())
+  {
+    vtkNew<vtkMatrix4x4> toWorld;
+    parent->GetMatrixTransformToWorld(toWorld);
+    vtkMatrix4x4::Multiply4x4(toWorld, ijkToWorld, ijkToWorld);
+  }
+  copy->SetIJKToRASMatrix(ijkToWorld);
+  return copy;
+}
+
+vtkSmartPointer<vtkMRMLModelNode> hiddenModel(vtkPointSet* mesh, const std::string& name)
+{
+  auto model = vtkSmartPointer<vtkMRMLModelNode>::New();
+  model->SetName(name.c_str());
+  model->SetAndObserveMesh(mesh);
+  return model;
+}
+
+std::string contentOf(const std::string& file)
+{
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+/// A sentence on what went wrong in `action`; empty if nothing did.
+std::string failureOf(const std::function<void()>& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const std::exception& error)
+  {
+    return error.what();
+  }
+  return {};
+}
+
+} // namespace
+
+struct vtkSlicerFuchsTetrahedralizerLogic::AmbientCheck
+{
+  vtkPointSet* surface = nullptr;
+  vtkPointSet* ambient = nullptr;
+  vtkMTimeType surfaceTime = 0;
+  vtkMTimeType ambientTime = 0;
+  bool belong = false;
+
+  bool operator()(vtkMRMLModelNode* surfaceNode, vtkMRMLModelNode* ambientNode)
+  {
+    vtkPointSet *s = surfaceNode->GetMesh(), *a = ambientNode->GetMesh();
+    if (s == surface && a == ambient && s->GetMTime() == surfaceTime && a->GetMTime() == ambientTime) return belong;
+    belong = belongTogether(surfaceNode, ambientNode);
+    surface = s;
+    ambient = a;
+    surfaceTime = s->GetMTime();
+    ambientTime = a->GetMTime();
+    return belong;
+  }
+};
+
+vtkStandardNewMacro(vtkSlicerFuchsTetrahedralizerLogic);
+
+vtkSlicerFuchsTetrahedralizerLogic::vtkSlicerFuchsTetrahedralizerLogic() : LastAmbientCheck(new AmbientCheck)
+{
+  this->RunEnded->SetClientData(this);
+  this->RunEnded->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+                              { static_cast<vtkSlicerFuchsTetrahedralizerLogic*>(self)->FinishRun(); });
+  constexpr float beforeOthers = 10;
+  this->Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, this->RunEnded, beforeOthers);
+}
+
+vtkSlicerFuchsTetrahedralizerLogic::~vtkSlicerFuchsTetrahedralizerLogic()
+{
+  this->Run->RemoveObserver(this->RunEnded);
+  delete this->LastAmbientCheck;
+}
+
+void vtkSlicerFuchsTetrahedralizerLogic::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Run:\n";
+  this->Run->PrintSelf(os, indent.GetNextIndent());
+}
+
+void vtkSlicerFuchsTetrahedralizerLogic::RegisterNodes()
+{
+  this->GetMRMLScene()->RegisterNodeClass(vtkSmartPointer<vtkMRMLFuchsTetrahedralizerNode>::New());
+}
+
+vtkMRMLFuchsTetrahedralizerNode* vtkSlicerFuchsTetrahedralizerLogic::ParameterNode()
+{
+  vtkMRMLScene* scene = this->GetMRMLScene();
+  if (!scene) return nullptr;
+  vtkMRMLNode* node = scene->GetFirstNodeByClass("vtkMRMLFuchsTetrahedralizerNode");
+  if (!node) node = scene->AddNewNodeByClass("vtkMRMLFuchsTetrahedralizerNode");
+  return vtkMRMLFuchsTetrahedralizerNode::SafeDownCast(node);
+}
+
+// ---- before a run ---------------------------------------------------------------------------------------------------
+
+Check vtkSlicerFuchsTetrahedralizerLogic::FindProblem(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  const std::vector<vtkMRMLModelNode*> surfaces = surfacesOf(parameters);
+  Check check = checkSurfaces(surfaces);
+  if (check.problem == Problem::None) check = checkLengths(parameters, surfaces);
+  if (check.problem == Problem::None && parameters->GetUseAmbient())
+  {
+    vtkMRMLModelNode* ambient = ambientOf(surfaces);
+    if (ambient && !(*this->LastAmbientCheck)(surfaces.front(), ambient))
+      check = { Problem::AmbientChanged, surfaces.front(), {} };
+  }
+  if (check.problem == Problem::None) check = checkOutputs(parameters);
+  if (check.problem == Problem::None) check = checkConstitutiveClasses(parameters);
+  if (check.problem == Problem::None) check = checkFiniteElements(parameters, surfaces);
+  if (check.problem == Problem::None && !this->GetModuleLogic("FuchsTetrahedralizerCLI"))
+    check = { Problem::NoModule, nullptr, {} };
+  return check;
+}
+
+vtkSlicerFuchsTetrahedralizerLogic::Surface
+vtkSlicerFuchsTetrahedralizerLogic::DescribeSurface(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  const std::vector<vtkMRMLModelNode*> surfaces = surfacesOf(parameters);
+  Surface result;
+  for (vtkMRMLModelNode* surface : surfaces)
+  {
+    if (surface->GetPolyData()) result.triangles += surface->GetPolyData()->GetNumberOfPolys();
+  }
+  result.hasTargetLengths = hasTargetLengths(surfaces);
+  result.isLabelled = surfaces.size() == 1 && isLabelledSurface(surfaces.front());
+  if (result.isLabelled) result.tissues = int(tissuesOfSurface(surfaces.front()).size());
+  result.ambient = ambientOf(surfaces);
+  return result;
+}
+
+std::vector<vtkMRMLModelNode*> vtkSlicerFuchsTetrahedralizerLogic::LabelledSurfaces()
+{
+  std::vector<vtkMRMLModelNode*> surfaces;
+  std::vector<vtkMRMLNode*> models;
+  if (this->GetMRMLScene()) this->GetMRMLScene()->GetNodesByClass("vtkMRMLModelNode", models);
+  for (vtkMRMLNode* node : models)
+  {
+    auto* model = vtkMRMLModelNode::SafeDownCast(node);
+    if (!model->GetHideFromEditors() && isLabelledSurface(model)) surfaces.push_back(model);
+  }
+  return surfaces;
+}
+
+// ---- runs -----------------------------------------------------------------------------------------------------------
+
+bool vtkSlicerFuchsTetrahedralizerLogic::Start(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  return this->Prepare(parameters) && this->Run->Start();
+}
+
+bool vtkSlicerFuchsTetrahedralizerLogic::StartAndWait(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  return this->Prepare(parameters) && this->Run->StartAndWait();
+}
+
+bool vtkSlicerFuchsTetrahedralizerLogic::Prepare(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  if (this->Run->IsBusy() || this->FindProblem(parameters).problem != Problem::None) return false;
+  this->Run->SetCommandLineLogic(this->GetModuleLogic("FuchsTetrahedralizerCLI"));
+  this->Parameters = parameters;
+  this->PrepareSurface(parameters);
+  this->PrepareLengths(parameters);
+  this->PrepareConstitutiveClasses(parameters);
+  this->PrepareOutputs(parameters);
+  this->Run->SetParameter("materials", parameters->GetMaterialsFile());
+  this->Run->SetParameter("shellThickness", parameters->GetShellThickness());
+  if (parameters->GetModelNode(Parameters::ShellsRole()))
+    this->Run->SetParameter("shell", parameters->GetShellTissues());
+  this->Run->SetParameter("conditioning", parameters->GetConditioning());
+  this->Run->SetParameter("threads", parameters->GetThreads());
+  return true;
+}
+
+void vtkSlicerFuchsTetrahedralizerLogic::PrepareSurface(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  const std::vector<vtkMRMLModelNode*> surfaces = surfacesOf(parameters);
+  const auto surface = hiddenModel(surfaceInWorld(surfaces), surfaces.front()->GetName());
+  this->Run->AddTemporaryNode(surface);
+  this->Run->SetParameterNode("surface", surface);
+  vtkMRMLModelNode* ambient = ambientOf(surfaces);
+  if (!ambient || !parameters->GetUseAmbient()) return;
+  const auto copy = hiddenModel(ambientInWorld(ambient, surfaces.front()), ambient->GetName());
+  this->Run->AddTemporaryNode(copy);
+  this->Run->SetParameterNode("ambient", copy);
+}
+
+void vtkSlicerFuchsTetrahedralizerLogic::PrepareLengths(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  if (parameters->GetEdgeLengthSource() == Parameters::Uniform)
+    this->Run->SetParameter("edgeLength", parameters->GetEdgeLength());
+  if (parameters->GetEdgeLengthSource() != Parameters::FromScale) return;
+  const auto scale = scaleInWorld(scaleOf(parameters));
+  this->Run->AddTemporaryNode(scale);
+  this->Run->SetParameterNode("scale", scale);
+}
+
+void vtkSlicerFuchsTetrahedralizerLogic::PrepareConstitutiveClasses(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  const ConstitutiveRule rule = ruleOf(parameters);
+  const auto fileOf = [this](const std::vector<Path>& markups)
+  {
+    const std::string file = this->Run->NewTemporaryFile(".mrk.json");
+    writeMarkups(markups, file);
+    return file;
+  };
+  if (!rule.targets.empty()) this->Run->SetParameter("targets", fileOf({ rule.targets }));
+  if (!rule.paths.empty()) this->Run->SetParameter("path", fileOf(rule.paths));
+  this->Run->SetParameter("nonlinearDistance", rule.nonlinearDistance);
+  this->Run->SetParameter("nullDisplacementRadius", rule.nullTargetRadius);
+  this->Run->SetParameter("nullDisplacementPathDistance", rule.nullPathDistance);
+  this->Run->SetParameter("nullDisplacementPathDistanceAtTarget", rule.nullPathDistanceAtTarget);
+}
+
+void vtkSlicerFuchsTetrahedralizerLogic::PrepareOutputs(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  this->Outputs.clear();
+  for (const char* role : kOutputRoles)
+  {
+    vtkMRMLModelNode* output = parameters->GetModelNode(role);
+    const bool isNew = !output && role == std::string(Parameters::MeshRole());
+    if (isNew)
+    {
+      const std::string name = std::string(surfacesOf(parameters).front()->GetName()) + " " +
+                               vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "tetrahedra");
+      output = vtkMRMLModelNode::SafeDownCast(this->GetMRMLScene()->AddNewNodeByClass(
+        "vtkMRMLModelNode", this->GetMRMLScene()->GenerateUniqueName(name)));
+      parameters->SetNode(role, output);
+    }
+    if (!output) continue;
+    this->Outputs.emplace_back(output);
+    this->Run->AddOutputNode(output, isNew);
+    this->Run->SetParameterNode(role, output);
+  }
+  this->ReportFile = this->Run->NewTemporaryFile(".json");
+  this->Run->SetParameter("report", this->ReportFile);
+}
+
+void vtkSlicerFuchsTetrahedralizerLogic::FinishRun()
+{
+  if (this->Run->GetStatus() != vtkSurgicalMesherRun::Completed || !this->Parameters || this->Outputs.empty()) return;
+  for (vtkMRMLModelNode* output : this->Outputs)
+  {
+    if (!output || !output->GetMesh()) continue;
+    output->GetMesh()->GetFieldData()->RemoveArray("SPACE"); // it told of the file, and the host adds it to the next
+    output->SetAndObserveTransformNodeID(nullptr);           // results are in world coordinates
+    output->CreateDefaultDisplayNodes();
+  }
+  for (std::size_t i = 1; i < this->Outputs.size(); ++i)
+  {
+    if (!this->Outputs[i] || !this->Outputs[i]->GetMesh()) continue;
+    this->Outputs[i]->GetDisplayNode()->SetVisibility(false); // it is part of the mesh, at the same place
+    this->Outputs[i]->GetDisplayNode()->SetEdgeVisibility(true);
+  }
+  if (this->Outputs.front() && this->Outputs.front()->GetMesh()) this->FinishMesh(this->Outputs.front());
+  this->Outputs.clear();
+}
+
+void vtkSlicerFuchsTetrahedralizerLogic::FinishMesh(vtkMRMLModelNode* mesh)
+{
+  for (vtkMRMLModelNode* surface : surfacesOf(this->Parameters))
+  {
+    if (surface->GetDisplayNode()) surface->GetDisplayNode()->SetVisibility(false); // it hides the mesh
+  }
+  this->UpdateDisplay(this->Parameters);
+  double range[2];
+  if (this->GetClipRange(this->Parameters, range))
+  {
+    vtkMRMLSliceNode* slice = this->GetClipSlice(this->Parameters);
+    const double offset = slice->GetSliceOffset();
+    if (offset < range[0] || offset > range[1]) slice->SetSliceOffset(0.5 * (range[0] + range[1]));
+  }
+  const std::string failure = failureOf([&] { showReport(mesh, contentOf(this->ReportFile)); });
+  if (!failure.empty()) vtkErrorMacro(<< failure);
+}
+
+// ---- any tetrahedra -------------------------------------------------------------------------------------------------
+
+bool vtkSlicerFuchsTetrahedralizerLogic::IsMesh(vtkMRMLModelNode* mesh)
+{
+  return mesh && mesh->GetUnstructuredGrid() && mesh->GetUnstructuredGrid()->GetNumberOfCells() > 0;
+}
+
+bool vtkSlicerFuchsTetrahedralizerLogic::UpdateDisplay(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  vtkMRMLModelNode* mesh = parameters->GetModelNode(Parameters::MeshRole());
+  if (!IsMesh(mesh)) return false;
+  mesh->CreateDefaultDisplayNodes();
+  vtkMRMLModelDisplayNode* display = mesh->GetModelDisplayNode();
+  const int wasModifying = display->StartModify();
+  display->SetEdgeVisibility(parameters->GetShowEdges());
+  display->SetEdgeColor(0.15, 0.15, 0.15);
+  display->SetInterpolation(vtkMRMLDisplayNode::FlatInterpolation);
+  display->SetBackfaceCulling(false); // where it is cut, one looks into it
+  clipMesh(mesh, parameters->GetClipPlane(), parameters->GetClipFlipped());
+  const bool isColored = colorMesh(mesh, parameters->GetColorBy());
+  display->EndModify(wasModifying);
+  return isColored;
+}
+
+vtkMRMLSliceNode* vtkSlicerFuchsTetrahedralizerLogic::GetClipSlice(vtkMRMLFuchsTetrahedralizerNode* parameters)
+{
+  return this->GetMRMLScene() ? sliceOfPlane(this->GetMRMLScene(), parameters->GetClipPlane()) : nullptr;
+}
+
+bool vtkSlicerFuchsTetrahedralizerLogic::GetClipRange(vtkMRMLFuchsTetrahedralizerNode* parameters, double range[2])
+{
+  vtkMRMLModelNode* mesh = parameters->GetModelNode(Parameters::MeshRole());
+  vtkMRMLSliceNode* slice = this->GetClipSlice(parameters);
+  if (!IsMesh(mesh) || !slice) return false;
+  double bounds[6];
+  mesh->GetRASBounds(bounds);
+  vtkMatrix4x4* toWorld = slice->GetSliceToRAS();
+  range[0] = VTK_DOUBLE_MAX;
+  range[1] = -VTK_DOUBLE_MAX;
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    double offset = 0; // along the slice's normal, as the slice's own
+    for (int axis = 0; axis < 3; ++axis)
+      offset += toWorld->GetElement(axis, 2) * bounds[2 * axis + (corner >> axis & 1)];
+    range[0] = std::min(range[0], offset);
+    range[1] = std::max(range[1], offset);
+  }
+  return true;
+}
+
+vtkMRMLPlotChartNode* vtkSlicerFuchsTetrahedralizerLogic::GetHistogram(vtkMRMLModelNode* mesh, int histogram)
+{
+  return mesh ? vtkMRMLPlotChartNode::SafeDownCast(mesh->GetNthNodeReference(Parameters::HistogramRole(), histogram))
+              : nullptr;
+}
+
+vtkMRMLTableNode* vtkSlicerFuchsTetrahedralizerLogic::GetQualityTable(vtkMRMLModelNode* mesh)
+{
+  return mesh ? vtkMRMLTableNode::SafeDownCast(mesh->GetNodeReference(Parameters::QualityTableRole())) : nullptr;
+}
+
+std::string vtkSlicerFuchsTetrahedralizerLogic::Assess(vtkMRMLModelNode* mesh)
+{
+  return failureOf([mesh] { assessMesh(mesh); });
+}
+
+std::vector<vtkSlicerFuchsTetrahedralizerLogic::Format> vtkSlicerFuchsTetrahedralizerLogic::GetExportFormats()
+{
+  std::vector<Format> formats;
+  for (const ExportFormat& format : exportFormats()) formats.push_back({ format.extension, format.description });
+  return formats;
+}
+
+std::string vtkSlicerFuchsTetrahedralizerLogic::Export(vtkMRMLFuchsTetrahedralizerNode* parameters,
+                                                       const std::string& file)
+{
+  return failureOf(
+    [&]
+    {
+      vtkMRMLModelNode* mesh = parameters->GetModelNode(Parameters::MeshRole());
+      if (!mesh) throw InputError("no mesh is chosen");
+      const MeshFile content = meshOfModel(mesh);
+      const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
+      const FiniteElementModel model =
+        finiteElementModel(content, optionsOf(parameters, content.tissues, present));
+      OutputFiles outputs;
+      exportModel(model, file, [&outputs](const std::string& finalPath) { return outputs.temporary(finalPath); });
+      outputs.commit();
+    });
+}

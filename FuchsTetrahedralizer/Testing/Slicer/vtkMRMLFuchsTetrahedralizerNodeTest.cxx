@@ -1,0 +1,150 @@
+// The parameter node: what it holds survives a scene's file and a copy, and it tells of its inputs' changes.
+
+#include "MeshComparison.h"
+#include "vtkMRMLFuchsTetrahedralizerNode.h"
+
+#include <vtkMRMLCoreTestingMacros.h>
+#include <vtkMRMLModelNode.h>
+#include <vtkMRMLScene.h>
+
+#include <vtkNew.h>
+#include <vtkSphereSource.h>
+
+namespace
+{
+
+using Node = vtkMRMLFuchsTetrahedralizerNode;
+
+void fill(Node* node)
+{
+  node->SetEdgeLengthSource(Node::Uniform);
+  node->SetEdgeLength(3.25);
+  node->UseAmbientOff();
+  node->SetShellTissues("dura mater, \"falx\" & <tentorium>:outside");
+  node->SetShellThickness(0.5);
+  node->SetMaterialsFile("/data/materials of the head.csv");
+  node->SetNonlinearDistance(25);
+  node->SetNullDisplacementRadius(60);
+  node->SetNullDisplacementPathDistance(40);
+  node->SetNullDisplacementPathDistanceAtTarget(10);
+  node->ConditioningOn();
+  node->SetThreads(3);
+  node->SetColorBy(Node::MinimumDihedralAngle);
+  node->SetClipPlane(Node::Sagittal);
+  node->ClipFlippedOn();
+  node->ShowEdgesOff();
+}
+
+int checkFilled(Node* node)
+{
+  CHECK_INT(node->GetEdgeLengthSource(), Node::Uniform);
+  CHECK_DOUBLE(node->GetEdgeLength(), 3.25);
+  CHECK_BOOL(node->GetUseAmbient(), false);
+  CHECK_STD_STRING(node->GetShellTissues(), "dura mater, \"falx\" & <tentorium>:outside");
+  CHECK_DOUBLE(node->GetShellThickness(), 0.5);
+  CHECK_STD_STRING(node->GetMaterialsFile(), "/data/materials of the head.csv");
+  CHECK_DOUBLE(node->GetNonlinearDistance(), 25);
+  CHECK_DOUBLE(node->GetNullDisplacementRadius(), 60);
+  CHECK_DOUBLE(node->GetNullDisplacementPathDistance(), 40);
+  CHECK_DOUBLE(node->GetNullDisplacementPathDistanceAtTarget(), 10);
+  CHECK_BOOL(node->GetConditioning(), true);
+  CHECK_INT(node->GetThreads(), 3);
+  CHECK_INT(node->GetColorBy(), Node::MinimumDihedralAngle);
+  CHECK_INT(node->GetClipPlane(), Node::Sagittal);
+  CHECK_BOOL(node->GetClipFlipped(), true);
+  CHECK_BOOL(node->GetShowEdges(), false);
+  return EXIT_SUCCESS;
+}
+
+int testSceneFile()
+{
+  const std::string file = surgicalmesher::test::newFolder("vtkMRMLFuchsTetrahedralizerNodeTest") + "/scene.mrml";
+  vtkNew<vtkMRMLScene> saved;
+  saved->RegisterNodeClass(vtkNew<Node>());
+  auto* node = Node::SafeDownCast(saved->AddNewNodeByClass("vtkMRMLFuchsTetrahedralizerNode"));
+  vtkMRMLNode* first = saved->AddNewNodeByClass("vtkMRMLModelNode", "first");
+  vtkMRMLNode* second = saved->AddNewNodeByClass("vtkMRMLModelNode", "second");
+  vtkMRMLNode* mesh = saved->AddNewNodeByClass("vtkMRMLModelNode", "mesh");
+  fill(node);
+  node->SetNodes(Node::SurfaceRole(), { first, second });
+  node->SetNode(Node::MeshRole(), mesh);
+  saved->SetURL(file.c_str());
+  CHECK_INT(saved->Commit(), 1);
+
+  vtkNew<vtkMRMLScene> restored;
+  restored->RegisterNodeClass(vtkNew<Node>());
+  restored->SetURL(file.c_str());
+  CHECK_INT(restored->Import(), 1);
+  auto* again = Node::SafeDownCast(restored->GetFirstNodeByClass("vtkMRMLFuchsTetrahedralizerNode"));
+  CHECK_NOT_NULL(again);
+  CHECK_EXIT_SUCCESS(checkFilled(again));
+  const std::vector<vtkMRMLNode*> surfaces = again->GetNodes(Node::SurfaceRole());
+  CHECK_INT(surfaces.size(), 2);
+  CHECK_STRING(surfaces[0]->GetName(), "first");
+  CHECK_STRING(surfaces[1]->GetName(), "second");
+  CHECK_STRING(again->GetModelNode(Node::MeshRole())->GetName(), "mesh");
+  CHECK_NULL(again->GetModelNode(Node::ChildMeshRole()));
+  return EXIT_SUCCESS;
+}
+
+int testCopyAndRefusals()
+{
+  vtkNew<Node> node, copy;
+  fill(node);
+  copy->CopyContent(node);
+  CHECK_EXIT_SUCCESS(checkFilled(copy));
+  copy->SetEdgeLengthSource(17);
+  copy->SetColorBy(-1);
+  copy->SetClipPlane(Node::ClipPlane_Last);
+  CHECK_EXIT_SUCCESS(checkFilled(copy));
+  CHECK_INT(Node::GetColorByFromString("no such thing"), -1);
+  return EXIT_SUCCESS;
+}
+
+int testEvents()
+{
+  vtkNew<vtkMRMLScene> scene;
+  scene->RegisterNodeClass(vtkNew<Node>());
+  auto* node = Node::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLFuchsTetrahedralizerNode"));
+  auto* surface = vtkMRMLModelNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLModelNode"));
+  int modified = 0, inputModified = 0;
+  const auto count = [](vtkObject*, unsigned long, void* counter, void*) { ++*static_cast<int*>(counter); };
+  vtkNew<vtkCallbackCommand> onModified, onInputModified;
+  onModified->SetCallback(count);
+  onModified->SetClientData(&modified);
+  onInputModified->SetCallback(count);
+  onInputModified->SetClientData(&inputModified);
+  node->AddObserver(vtkCommand::ModifiedEvent, onModified);
+  node->AddObserver(Node::InputModifiedEvent, onInputModified);
+
+  node->SetEdgeLength(4);
+  CHECK_INT(modified, 1);
+  node->SetEdgeLength(4);
+  CHECK_INT(modified, 1);
+  node->SetNode(Node::SurfaceRole(), surface);
+  CHECK_INT(modified, 2);
+  node->SetNode(Node::SurfaceRole(), surface);
+  CHECK_INT(modified, 2);
+
+  CHECK_INT(inputModified, 0);
+  vtkNew<vtkSphereSource> sphere;
+  sphere->Update();
+  surface->SetAndObserveMesh(sphere->GetOutput());
+  CHECK_BOOL(inputModified > 0, true);
+
+  scene->RemoveNode(surface);
+  CHECK_INT(node->GetNodes(Node::SurfaceRole()).size(), 0);
+  return EXIT_SUCCESS;
+}
+
+} // namespace
+
+int vtkMRMLFuchsTetrahedralizerNodeTest(int, char*[])
+{
+  vtkNew<Node> node;
+  EXERCISE_ALL_BASIC_MRML_METHODS(node.GetPointer());
+  CHECK_EXIT_SUCCESS(testSceneFile());
+  CHECK_EXIT_SUCCESS(testCopyAndRefusals());
+  CHECK_EXIT_SUCCESS(testEvents());
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,642 @@
+#include "qSlicerFuchsTetrahedralizerModuleWidget.h"
+#include "ui_qSlicerFuchsTetrahedralizerModuleWidget.h"
+
+#include "vtkMRMLFuchsTetrahedralizerNode.h"
+#include "vtkSlicerFuchsTetrahedralizerLogic.h"
+#include "vtkSurgicalMesherRun.h"
+
+#include <qMRMLThreeDView.h>
+#include <qMRMLThreeDWidget.h>
+#include <qSlicerApplication.h>
+#include <qSlicerLayoutManager.h>
+#include <vtkSlicerApplicationLogic.h>
+#include <vtkSlicerPlotsLogic.h>
+#include <vtkSlicerTablesLogic.h>
+
+#include <vtkMRMLLayoutNode.h>
+#include <vtkMRMLModelNode.h>
+#include <vtkMRMLPlotChartNode.h>
+#include <vtkMRMLScalarVolumeNode.h>
+#include <vtkMRMLScene.h>
+#include <vtkMRMLSelectionNode.h>
+#include <vtkMRMLSliceNode.h>
+#include <vtkMRMLTableNode.h>
+#include <vtkMRMLTransformableNode.h>
+#include <vtkTable.h>
+#include <vtkWeakPointer.h>
+
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <QLocale>
+#include <QSignalBlocker>
+
+#include <functional>
+#include <vector>
+
+using Node = vtkMRMLFuchsTetrahedralizerNode;
+using Logic = vtkSlicerFuchsTetrahedralizerLogic;
+using Problem = Logic::Problem;
+
+namespace
+{
+
+/// What the panel says of a problem, and what its button does about it; without a text there is no button.
+struct Advice
+{
+  QString sentence;
+  QString fixText;
+  std::function<void(Node*)> fix;
+};
+
+std::function<void(Node*)> leaveOut(const char* role, vtkMRMLNode* node)
+{
+  vtkWeakPointer<vtkMRMLNode> unwanted = node;
+  return [role, unwanted](Node* parameters)
+  {
+    std::vector<vtkMRMLNode*> kept;
+    for (vtkMRMLNode* each : parameters->GetNodes(role))
+      if (each != unwanted) kept.push_back(each);
+    parameters->SetNodes(role, kept);
+  };
+}
+
+/// The first output that is this node.
+void forgetOutput(Node* parameters, vtkMRMLNode* node)
+{
+  for (const char* role : { Node::ShellsRole(), Node::ChildMeshRole(), Node::ParentMeshRole(), Node::MeshRole() })
+  {
+    if (!node || parameters->GetNodeReference(role) != node) continue;
+    parameters->SetNode(role, nullptr);
+    return;
+  }
+}
+
+} // namespace
+
+class qSlicerFuchsTetrahedralizerModuleWidgetPrivate : public Ui_qSlicerFuchsTetrahedralizerModuleWidget
+{
+  Q_DECLARE_PUBLIC(qSlicerFuchsTetrahedralizerModuleWidget)
+
+public:
+  explicit qSlicerFuchsTetrahedralizerModuleWidgetPrivate(qSlicerFuchsTetrahedralizerModuleWidget& object)
+    : q_ptr(&object)
+  {
+  }
+
+  Logic* logic() const;
+  vtkMRMLModelNode* mesh() const;
+  void setNode(Node* node);
+
+  void bindInputs();
+  void bindParameters();
+  void bindDisplay();
+  void bindButtons();
+  /// A control and a value of the node: each change of one goes to the other.
+  template <class Get, class Set>
+  void bind(ctkSliderWidget* slider, Get get, Set set);
+  template <class Get, class Set>
+  void bind(QCheckBox* box, Get get, Set set);
+  template <class Get, class Set>
+  void bind(QComboBox* box, Get get, Set set);
+  void bind(qMRMLNodeComboBox* box, const char* role);
+  void bind(qMRMLCheckableNodeComboBox* box, const char* role);
+
+  void updateDisplay();
+  void updateSurface();
+  void updateMesh();
+  void updateProblem();
+  Advice adviceFor(const Logic::Check& check) const;
+  Advice adviceOnInput(const Logic::Check& check) const;
+  Advice adviceOnClasses(const Logic::Check& check) const;
+  Advice adviceOnElements(const Logic::Check& check) const;
+  QString summaryOfMesh() const;
+  void say(const QString& sentence, bool isError = false);
+
+  vtkWeakPointer<Node> Parameters;
+  vtkWeakPointer<vtkMRMLSliceNode> Slice;         ///< that the clip slider moves
+  std::vector<std::function<void()>> Refreshers; ///< of controls, from the node
+  bool IsMeshNew = false;                         ///< the run is to make it
+
+protected:
+  qSlicerFuchsTetrahedralizerModuleWidget* const q_ptr;
+};
+
+Logic* qSlicerFuchsTetrahedralizerModuleWidgetPrivate::logic() const
+{
+  Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
+  return Logic::SafeDownCast(q->logic());
+}
+
+vtkMRMLModelNode* qSlicerFuchsTetrahedralizerModuleWidgetPrivate::mesh() const
+{
+  vtkMRMLModelNode* mesh = this->Parameters ? this->Parameters->GetModelNode(Node::MeshRole()) : nullptr;
+  return Logic::IsMesh(mesh) ? mesh : nullptr;
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::setNode(Node* node)
+{
+  Q_Q(qSlicerFuchsTetrahedralizerModuleWidget);
+  q->qvtkReconnect(this->Parameters, node, vtkCommand::ModifiedEvent, q, SLOT(updateFromNode()));
+  q->qvtkReconnect(this->Parameters, node, Node::InputModifiedEvent, q, SLOT(updateFromNode()));
+  this->Parameters = node;
+  q->updateFromNode();
+}
+
+// ---- controls and node ----------------------------------------------------------------------------------------------
+
+template <class Get, class Set>
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(ctkSliderWidget* slider, Get get, Set set)
+{
+  QObject::connect(slider, &ctkSliderWidget::valueChanged, q_ptr,
+                   [this, set](double value) { if (this->Parameters) (this->Parameters->*set)(value); });
+  this->Refreshers.push_back([this, slider, get] { slider->setValue((this->Parameters->*get)()); });
+}
+
+template <class Get, class Set>
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(QCheckBox* box, Get get, Set set)
+{
+  QObject::connect(box, &QCheckBox::toggled, q_ptr,
+                   [this, set](bool value) { if (this->Parameters) (this->Parameters->*set)(value); });
+  this->Refreshers.push_back([this, box, get] { box->setChecked((this->Parameters->*get)()); });
+}
+
+template <class Get, class Set>
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(QComboBox* box, Get get, Set set)
+{
+  QObject::connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), q_ptr,
+                   [this, set](int value) { if (this->Parameters) (this->Parameters->*set)(value); });
+  this->Refreshers.push_back([this, box, get] { box->setCurrentIndex((this->Parameters->*get)()); });
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(qMRMLNodeComboBox* box, const char* role)
+{
+  QObject::connect(box, QOverload<vtkMRMLNode*>::of(&qMRMLNodeComboBox::currentNodeChanged), q_ptr,
+                   [this, role](vtkMRMLNode* node) { if (this->Parameters) this->Parameters->SetNode(role, node); });
+  this->Refreshers.push_back([this, box, role] { box->setCurrentNode(this->Parameters->GetNodeReference(role)); });
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(qMRMLCheckableNodeComboBox* box, const char* role)
+{
+  QObject::connect(box, &qMRMLCheckableNodeComboBox::checkedNodesChanged, q_ptr,
+                   [this, box, role]
+                   {
+                     if (!this->Parameters) return;
+                     const QList<vtkMRMLNode*> checked = box->checkedNodes();
+                     this->Parameters->SetNodes(role, std::vector<vtkMRMLNode*>(checked.begin(), checked.end()));
+                   });
+  this->Refreshers.push_back(
+    [this, box, role]
+    {
+      const QSignalBlocker blocker(box); // the boxes change one by one
+      const std::vector<vtkMRMLNode*> chosen = this->Parameters->GetNodes(role);
+      for (vtkMRMLNode* node : box->nodes())
+      {
+        const bool isChosen = std::find(chosen.begin(), chosen.end(), node) != chosen.end();
+        const Qt::CheckState state = isChosen ? Qt::Checked : Qt::Unchecked;
+        if (box->checkState(node) != state) box->setCheckState(node, state);
+      }
+    });
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindInputs()
+{
+  this->bind(this->SurfaceComboBox, Node::SurfaceRole());
+  this->bind(this->UseAmbientCheckBox, &Node::GetUseAmbient, &Node::SetUseAmbient);
+  this->bind(this->EdgeLengthSourceComboBox, &Node::GetEdgeLengthSource, &Node::SetEdgeLengthSource);
+  this->bind(this->ScaleComboBox, Node::ScaleRole());
+  this->bind(this->EdgeLengthSlider, &Node::GetEdgeLength, &Node::SetEdgeLength);
+  this->bind(this->MeshComboBox, Node::MeshRole());
+  this->bind(this->ParentMeshComboBox, Node::ParentMeshRole());
+  this->bind(this->ChildMeshComboBox, Node::ChildMeshRole());
+  this->bind(this->ShellsComboBox, Node::ShellsRole());
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindParameters()
+{
+  QObject::connect(this->ShellTissuesLineEdit, &QLineEdit::textChanged, q_ptr,
+                   [this](const QString& text)
+                   { if (this->Parameters) this->Parameters->SetShellTissues(text.toStdString()); });
+  this->Refreshers.push_back(
+    [this]
+    {
+      const QString text = QString::fromStdString(this->Parameters->GetShellTissues());
+      if (this->ShellTissuesLineEdit->text() != text) this->ShellTissuesLineEdit->setText(text); // keeps the cursor
+    });
+  this->bind(this->ShellThicknessSlider, &Node::GetShellThickness, &Node::SetShellThickness);
+  QObject::connect(this->MaterialsPathLineEdit, &ctkPathLineEdit::currentPathChanged, q_ptr,
+                   [this](const QString& path)
+                   { if (this->Parameters) this->Parameters->SetMaterialsFile(path.toStdString()); });
+  this->Refreshers.push_back(
+    [this]
+    {
+      const QString path = QString::fromStdString(this->Parameters->GetMaterialsFile());
+      if (this->MaterialsPathLineEdit->currentPath() != path) this->MaterialsPathLineEdit->setCurrentPath(path);
+    });
+  this->bind(this->TargetComboBox, Node::TargetRole());
+  this->bind(this->PathComboBox, Node::PathRole());
+  this->bind(this->NonlinearDistanceSlider, &Node::GetNonlinearDistance, &Node::SetNonlinearDistance);
+  this->bind(this->NullDisplacementRadiusSlider, &Node::GetNullDisplacementRadius, &Node::SetNullDisplacementRadius);
+  this->bind(this->NullDisplacementPathDistanceSlider, &Node::GetNullDisplacementPathDistance,
+             &Node::SetNullDisplacementPathDistance);
+  this->bind(this->NullDisplacementPathDistanceAtTargetSlider, &Node::GetNullDisplacementPathDistanceAtTarget,
+             &Node::SetNullDisplacementPathDistanceAtTarget);
+  this->bind(this->ConditioningCheckBox, &Node::GetConditioning, &Node::SetConditioning);
+  QObject::connect(this->ThreadsSpinBox, QOverload<int>::of(&QSpinBox::valueChanged), q_ptr,
+                   [this](int threads) { if (this->Parameters) this->Parameters->SetThreads(threads); });
+  this->Refreshers.push_back([this] { this->ThreadsSpinBox->setValue(this->Parameters->GetThreads()); });
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindDisplay()
+{
+  this->bind(this->ColorComboBox, &Node::GetColorBy, &Node::SetColorBy);
+  this->bind(this->ShowEdgesCheckBox, &Node::GetShowEdges, &Node::SetShowEdges);
+  this->bind(this->ClipPlaneComboBox, &Node::GetClipPlane, &Node::SetClipPlane);
+  this->bind(this->ClipFlippedCheckBox, &Node::GetClipFlipped, &Node::SetClipFlipped);
+  // After the node has the values.
+  const auto update = [this] { this->updateDisplay(); };
+  for (QComboBox* box : { this->ColorComboBox, this->ClipPlaneComboBox })
+    QObject::connect(box, QOverload<int>::of(&QComboBox::activated), q_ptr, update);
+  for (QCheckBox* box : { this->ShowEdgesCheckBox, this->ClipFlippedCheckBox })
+    QObject::connect(box, &QCheckBox::clicked, q_ptr, update);
+  QObject::connect(this->ClipSlider, &ctkSliderWidget::valueChanged, q_ptr,
+                   [this](double offset) { if (this->Slice) this->Slice->SetSliceOffset(offset); });
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindButtons()
+{
+  Q_Q(qSlicerFuchsTetrahedralizerModuleWidget);
+  using Panel = qSlicerFuchsTetrahedralizerModuleWidget;
+  QObject::connect(this->ShowHistogramButton, &QPushButton::clicked, q, &Panel::showHistogram);
+  QObject::connect(this->ShowTableButton, &QPushButton::clicked, q, &Panel::showTable);
+  QObject::connect(this->AssessButton, &QPushButton::clicked, q, &Panel::onAssess);
+  QObject::connect(this->ExportButton, &QPushButton::clicked, q, &Panel::onExport);
+  QObject::connect(this->RunWidget, &qSurgicalMesherRunWidget::applyRequested, q, &Panel::apply);
+  QObject::connect(this->RunWidget, &qSurgicalMesherRunWidget::runEnded, q, &Panel::onRunEnded);
+}
+
+// ---- what the panel says --------------------------------------------------------------------------------------------
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateDisplay()
+{
+  Q_Q(qSlicerFuchsTetrahedralizerModuleWidget);
+  if (!this->mesh()) return;
+  const bool isColored = this->logic()->UpdateDisplay(this->Parameters);
+  this->say(isColored ? QString() : q->tr("This mesh does not tell what the colours stand for."), true);
+  q->updateClipSlider();
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateSurface()
+{
+  Q_Q(qSlicerFuchsTetrahedralizerModuleWidget);
+  const Logic::Surface surface = this->logic()->DescribeSurface(this->Parameters);
+  const QLocale locale;
+  QString text;
+  if (surface.isLabelled)
+    text = q->tr("%1 triangles between %n tissue(s)", nullptr, surface.tissues).arg(locale.toString(qlonglong(surface.triangles)));
+  else if (surface.triangles > 0)
+    text = q->tr("%1 triangles without labels: each closed shell becomes a tissue").arg(locale.toString(qlonglong(surface.triangles)));
+  this->SurfaceInfoLabel->setText(text);
+  this->SurfaceInfoLabel->setVisible(!text.isEmpty());
+  this->UseAmbientCheckBox->setVisible(surface.ambient != nullptr);
+  const int source = this->Parameters->GetEdgeLengthSource();
+  for (QWidget* widget : { static_cast<QWidget*>(this->ScaleComboBox), static_cast<QWidget*>(this->ScaleComboBoxLabel) })
+    widget->setVisible(source == Node::FromScale);
+  for (QWidget* widget : { static_cast<QWidget*>(this->EdgeLengthSlider), static_cast<QWidget*>(this->EdgeLengthSliderLabel) })
+    widget->setVisible(source == Node::Uniform);
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateMesh()
+{
+  Q_Q(qSlicerFuchsTetrahedralizerModuleWidget);
+  const bool isBusy = this->logic()->GetRun()->IsBusy();
+  vtkMRMLModelNode* mesh = this->mesh();
+  for (QWidget* widget : std::initializer_list<QWidget*>{ this->ColorComboBox, this->ShowEdgesCheckBox,
+                                                          this->ClipPlaneComboBox, this->ClipFlippedCheckBox })
+    widget->setEnabled(mesh != nullptr);
+  this->AssessButton->setEnabled(mesh && !isBusy);
+  this->ExportButton->setEnabled(mesh && !isBusy);
+  this->ShowTableButton->setEnabled(Logic::GetQualityTable(mesh) != nullptr);
+  const bool hasHistogram = Logic::GetHistogram(mesh, 0) != nullptr;
+  this->HistogramComboBox->setEnabled(hasHistogram);
+  this->ShowHistogramButton->setEnabled(hasHistogram);
+  q->updateClipSlider();
+}
+
+Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceFor(const Logic::Check& check) const
+{
+  Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
+  switch (check.problem)
+  {
+    case Problem::NoModule: return { q->tr("The command-line module FuchsTetrahedralizerCLI is not installed."), {}, {} };
+    case Problem::NotAPath:
+    case Problem::NoTargets:
+    case Problem::NoPaths:
+    case Problem::NoPlaces:
+    case Problem::NoDistance:
+    case Problem::NoEntryDistance: return this->adviceOnClasses(check);
+    case Problem::OutputIsInput:
+    case Problem::UnknownShell:
+    case Problem::ShellsUnused:
+    case Problem::BadMaterials: return this->adviceOnElements(check);
+    default: return this->adviceOnInput(check);
+  }
+}
+
+Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceOnInput(const Logic::Check& check) const
+{
+  Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
+  const QString name = check.node ? QString::fromUtf8(check.node->GetName()) : QString();
+  vtkWeakPointer<vtkMRMLNode> node = check.node;
+  switch (check.problem)
+  {
+    case Problem::NoSurface:
+    {
+      const std::vector<vtkMRMLModelNode*> surfaces = this->logic()->LabelledSurfaces();
+      if (surfaces.empty())
+        return { q->tr("Choose a surface: make one with Simplex Mesher, or load closed models."), {}, {} };
+      vtkWeakPointer<vtkMRMLNode> latest = surfaces.back();
+      return { q->tr("Choose a surface."), q->tr("Take %1").arg(QString::fromUtf8(latest->GetName())),
+               [latest](Node* p) { p->SetNode(Node::SurfaceRole(), latest); } };
+    }
+    case Problem::NotASurface:
+      return { q->tr("%1 has no triangles.").arg(name), q->tr("Leave it out"), leaveOut(Node::SurfaceRole(), node) };
+    case Problem::LabelledAmongOthers:
+      return { q->tr("%1 is a surface of several tissues, which can't be meshed along with other models.").arg(name),
+               q->tr("Take it alone"), [node](Node* p) { p->SetNode(Node::SurfaceRole(), node); } };
+    case Problem::NoTargetLengths:
+      return { q->tr("The surface has no edge lengths of its own."), q->tr("Take one length"),
+               [](Node* p) { p->SetEdgeLengthSource(Node::Uniform); } };
+    case Problem::NoScale:
+      return { q->tr("Choose a scale volume, as Surgical Path Scale makes it."), q->tr("Take one length"),
+               [](Node* p) { p->SetEdgeLengthSource(Node::Uniform); } };
+    case Problem::ScaleWarped:
+      return { q->tr("%1 is under a transform that isn't linear.").arg(name), q->tr("Harden the transform"),
+               [node](Node*)
+               { if (auto* scale = vtkMRMLTransformableNode::SafeDownCast(node)) scale->HardenTransform(); } };
+    case Problem::NoEdgeLength:
+      return { q->tr("The edge length has to be over 0 mm."), q->tr("Take 2 mm"), [](Node* p) { p->SetEdgeLength(2); } };
+    case Problem::AmbientChanged:
+      return { q->tr("%1 was edited after Simplex Mesher had made it with its tetrahedra.").arg(name),
+               q->tr("Begin from the surface alone"), [](Node* p) { p->UseAmbientOff(); } };
+    default: return {};
+  }
+}
+
+Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceOnClasses(const Logic::Check& check) const
+{
+  Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
+  switch (check.problem)
+  {
+    case Problem::NotAPath:
+      return { q->tr("%1 has fewer than two points, so it is no path.").arg(QString::fromUtf8(check.node->GetName())),
+               q->tr("Leave it out"), leaveOut(Node::PathRole(), check.node) };
+    case Problem::NoTargets:
+      return { q->tr("Choose targets with points, as tissue is to be still beyond a distance from them."),
+               q->tr("No distance from targets"), [](Node* p) { p->SetNullDisplacementRadius(0); } };
+    case Problem::NoPaths:
+      return { q->tr("Choose paths, as tissue is to be still beyond a distance from them."),
+               q->tr("No distance from paths"), [](Node* p) { p->SetNullDisplacementPathDistance(0); } };
+    case Problem::NoPlaces:
+      return { q->tr("Choose targets or paths, as tissue is to be nonlinear up to a distance from them."),
+               q->tr("No such distance"), [](Node* p) { p->SetNonlinearDistance(0); } };
+    case Problem::NoDistance:
+      return { q->tr("Targets and paths need a distance that goes with them."), q->tr("Nonlinear up to 25 mm"),
+               [](Node* p) { p->SetNonlinearDistance(25); } };
+    case Problem::NoEntryDistance:
+      return { q->tr("There is a distance at the target end of paths, but none at their entry."),
+               q->tr("The same at the entry"),
+               [](Node* p)
+               { p->SetNullDisplacementPathDistance(p->GetNullDisplacementPathDistanceAtTarget()); } };
+    default: return {};
+  }
+}
+
+Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceOnElements(const Logic::Check& check) const
+{
+  Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
+  const QString name = check.node ? QString::fromUtf8(check.node->GetName()) : QString();
+  const QString text = QString::fromStdString(check.text);
+  vtkWeakPointer<vtkMRMLNode> node = check.node;
+  switch (check.problem)
+  {
+    case Problem::OutputIsInput:
+      return { q->tr("%1 is chosen twice; an output has to be a model of its own.").arg(name), q->tr("Don't write it"),
+               [node](Node* p) { forgetOutput(p, node); } };
+    case Problem::UnknownShell:
+      return { q->tr("\"%1\" are not tissues of the surface.").arg(text), q->tr("No shells"),
+               [](Node* p) { p->SetShellTissues(""); } };
+    case Problem::ShellsUnused:
+      return { q->tr("Name the tissues that become shells, as %1 is to take them.").arg(name), q->tr("No shells"),
+               [](Node* p) { p->SetNode(Node::ShellsRole(), nullptr); } };
+    case Problem::BadMaterials:
+      return { q->tr("The materials can't be used: %1").arg(text), q->tr("Without materials"),
+               [](Node* p) { p->SetMaterialsFile(""); } };
+    default: return {};
+  }
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateProblem()
+{
+  const Logic::Check check = this->logic()->FindProblem(this->Parameters);
+  if (check.problem == Problem::None)
+  {
+    this->RunWidget->clearProblem();
+    return;
+  }
+  const Advice advice = this->adviceFor(check);
+  this->RunWidget->setProblem(advice.sentence, advice.fixText,
+                              [this, fix = advice.fix] { if (this->Parameters && fix) fix(this->Parameters); });
+}
+
+/// Its size and its worst angles, from the table of quality, whose first row is the whole mesh.
+QString qSlicerFuchsTetrahedralizerModuleWidgetPrivate::summaryOfMesh() const
+{
+  Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
+  vtkMRMLTableNode* table = Logic::GetQualityTable(this->mesh());
+  if (!table || table->GetNumberOfRows() == 0) return {};
+  const auto value = [table](int column) { return table->GetTable()->GetValue(0, column).ToDouble(); };
+  const QLocale locale;
+  return q->tr("%1 tetrahedra, %2 points, dihedral angles from %3 to %4 degrees.")
+    .arg(locale.toString(qlonglong(value(1))), locale.toString(qlonglong(value(2))), locale.toString(value(4), 'f', 1),
+         locale.toString(value(5), 'f', 1));
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::say(const QString& sentence, bool isError)
+{
+  this->MeshInfoLabel->setText(isError && !sentence.isEmpty()
+                                 ? QString("<font color=\"#b2182b\">%1</font>").arg(sentence.toHtmlEscaped())
+                                 : sentence.toHtmlEscaped());
+  this->MeshInfoLabel->setVisible(!sentence.isEmpty());
+}
+
+// ---- the panel ------------------------------------------------------------------------------------------------------
+
+qSlicerFuchsTetrahedralizerModuleWidget::qSlicerFuchsTetrahedralizerModuleWidget(QWidget* parent)
+  : Superclass(parent), d_ptr(new qSlicerFuchsTetrahedralizerModuleWidgetPrivate(*this))
+{
+}
+
+qSlicerFuchsTetrahedralizerModuleWidget::~qSlicerFuchsTetrahedralizerModuleWidget() = default;
+
+void qSlicerFuchsTetrahedralizerModuleWidget::setup()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  d->setupUi(this);
+  this->Superclass::setup();
+  d->bindInputs();
+  d->bindParameters();
+  d->bindDisplay();
+  d->bindButtons();
+  d->RunWidget->setRun(d->logic()->GetRun());
+  d->say({});
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::setMRMLScene(vtkMRMLScene* scene)
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  this->qvtkReconnect(this->mrmlScene(), scene, vtkMRMLScene::EndCloseEvent, this, SLOT(onSceneClosed()));
+  this->qvtkReconnect(this->mrmlScene(), scene, vtkMRMLScene::EndImportEvent, this, SLOT(onSceneImported()));
+  this->Superclass::setMRMLScene(scene);
+  vtkMRMLNode* node = scene ? scene->GetFirstNodeByClass("vtkMRMLFuchsTetrahedralizerNode") : nullptr;
+  d->setNode(vtkMRMLFuchsTetrahedralizerNode::SafeDownCast(node));
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::enter()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  this->Superclass::enter();
+  d->setNode(d->logic()->ParameterNode());
+}
+
+bool qSlicerFuchsTetrahedralizerModuleWidget::setEditedNode(vtkMRMLNode* node, QString, QString)
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  auto* parameters = vtkMRMLFuchsTetrahedralizerNode::SafeDownCast(node);
+  if (!parameters) return false;
+  d->setNode(parameters);
+  return true;
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::onSceneClosed()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  d->say({});
+  d->setNode(this->isEntered() ? d->logic()->ParameterNode() : nullptr);
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::onSceneImported()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  vtkMRMLNode* node = this->mrmlScene()->GetFirstNodeByClass("vtkMRMLFuchsTetrahedralizerNode");
+  if (node || !this->isEntered()) d->setNode(vtkMRMLFuchsTetrahedralizerNode::SafeDownCast(node));
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::updateFromNode()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  for (QWidget* section : { d->InputsCollapsibleButton, d->OutputsCollapsibleButton, d->FiniteElementsCollapsibleButton,
+                            d->ClassesCollapsibleButton, d->MeshCollapsibleButton, d->AdvancedCollapsibleButton })
+    section->setEnabled(d->Parameters != nullptr);
+  if (!d->Parameters || (this->mrmlScene() && this->mrmlScene()->IsBatchProcessing())) return;
+  for (const auto& refresh : d->Refreshers) refresh();
+  d->updateSurface();
+  d->updateMesh();
+  d->updateProblem();
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::updateClipSlider()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  double range[2] = { -100, 100 };
+  const bool clips = d->Parameters && d->logic()->GetClipRange(d->Parameters, range);
+  vtkMRMLSliceNode* slice = clips ? d->logic()->GetClipSlice(d->Parameters) : nullptr;
+  this->qvtkReconnect(d->Slice, slice, vtkCommand::ModifiedEvent, this, SLOT(updateClipSlider()));
+  d->Slice = slice;
+  d->ClipSlider->setEnabled(slice != nullptr);
+  if (!slice) return;
+  const QSignalBlocker blocker(d->ClipSlider);
+  d->ClipSlider->setRange(range[0], range[1]);
+  d->ClipSlider->setValue(slice->GetSliceOffset());
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::apply()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  if (!d->Parameters) return;
+  d->say({});
+  d->IsMeshNew = !d->Parameters->GetModelNode(vtkMRMLFuchsTetrahedralizerNode::MeshRole());
+  d->logic()->Start(d->Parameters);
+  this->updateFromNode();
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::onRunEnded()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  this->updateFromNode();
+  if (d->logic()->GetRun()->GetStatus() != vtkSurgicalMesherRun::Completed) return;
+  d->RunWidget->setResult(d->summaryOfMesh());
+  qSlicerLayoutManager* layout = qSlicerApplication::application()->layoutManager();
+  if (d->IsMeshNew && layout && layout->threeDViewCount() > 0)
+    layout->threeDWidget(0)->threeDView()->resetFocalPoint();
+}
+
+bool qSlicerFuchsTetrahedralizerModuleWidget::exportMesh(const QString& file)
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  if (!d->Parameters) return false;
+  QGuiApplication::setOverrideCursor(Qt::WaitCursor);
+  const std::string failure = d->logic()->Export(d->Parameters, file.toStdString());
+  QGuiApplication::restoreOverrideCursor();
+  if (failure.empty()) d->say(tr("Written: %1, and the names of its sets beside it.").arg(QFileInfo(file).fileName()));
+  else d->say(tr("Not exported: %1").arg(QString::fromStdString(failure)), true);
+  return failure.empty();
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::onExport()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  if (!d->mesh()) return;
+  QStringList filters;
+  for (const Logic::Format& format : Logic::GetExportFormats())
+    filters << QString("%1 (*%2)").arg(QString::fromStdString(format.description), QString::fromStdString(format.extension));
+  QString filter = filters.value(1);
+  QString file = QFileDialog::getSaveFileName(this, tr("Export tetrahedra"), QString::fromUtf8(d->mesh()->GetName()),
+                                              filters.join(";;"), &filter);
+  if (file.isEmpty()) return;
+  const QString extension = QString::fromStdString(Logic::GetExportFormats()[filters.indexOf(filter)].extension);
+  if (QFileInfo(file).suffix().isEmpty()) file += extension;
+  this->exportMesh(file);
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::onAssess()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  if (!d->mesh()) return;
+  QGuiApplication::setOverrideCursor(Qt::WaitCursor);
+  const std::string failure = d->logic()->Assess(d->mesh());
+  QGuiApplication::restoreOverrideCursor();
+  if (failure.empty()) d->say(d->summaryOfMesh());
+  else d->say(tr("Not assessed: %1").arg(QString::fromStdString(failure)), true);
+  d->updateMesh();
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::showHistogram()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  vtkMRMLPlotChartNode* chart = Logic::GetHistogram(d->mesh(), d->HistogramComboBox->currentIndex());
+  auto* plots = vtkSlicerPlotsLogic::SafeDownCast(d->logic()->GetModuleLogic("Plots"));
+  if (chart && plots) plots->ShowChartInLayout(chart);
+}
+
+void qSlicerFuchsTetrahedralizerModuleWidget::showTable()
+{
+  Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
+  vtkMRMLTableNode* table = Logic::GetQualityTable(d->mesh());
+  auto* layout = vtkMRMLLayoutNode::SafeDownCast(this->mrmlScene()->GetFirstNodeByClass("vtkMRMLLayoutNode"));
+  vtkSlicerApplicationLogic* application = d->logic()->GetApplicationLogic();
+  if (!table || !layout || !application) return;
+  layout->SetViewArrangement(vtkSlicerTablesLogic::GetLayoutWithTable(layout->GetViewArrangement()));
+  application->GetSelectionNode()->SetActiveTableID(table->GetID());
+  application->PropagateTableSelection();
+}

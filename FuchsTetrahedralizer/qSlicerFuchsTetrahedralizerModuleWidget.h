@@ -1,0 +1,55 @@
+#pragma once
+/// The panel of Fuchs Tetrahedralizer. It follows the scene's parameter node, and the node follows it.
+
+#include "qSlicerFuchsTetrahedralizerModuleExport.h"
+
+#include <qSlicerAbstractModuleWidget.h>
+
+#include <ctkVTKObject.h>
+
+#include <QScopedPointer>
+
+class qSlicerFuchsTetrahedralizerModuleWidgetPrivate;
+class vtkMRMLNode;
+class vtkMRMLScene;
+
+class Q_SLICER_QTMODULES_FUCHSTETRAHEDRALIZER_EXPORT qSlicerFuchsTetrahedralizerModuleWidget
+  : public qSlicerAbstractModuleWidget
+{
+  Q_OBJECT
+  QVTK_OBJECT
+
+public:
+  typedef qSlicerAbstractModuleWidget Superclass;
+  explicit qSlicerFuchsTetrahedralizerModuleWidget(QWidget* parent = nullptr);
+  ~qSlicerFuchsTetrahedralizerModuleWidget() override;
+
+  bool setEditedNode(vtkMRMLNode* node, QString role = QString(), QString context = QString()) override;
+
+  /// Exports the mesh without asking for the file, and says in the panel what came of it. False if it failed.
+  Q_INVOKABLE bool exportMesh(const QString& file);
+
+public slots:
+  void setMRMLScene(vtkMRMLScene* scene) override;
+
+protected:
+  void setup() override;
+  void enter() override;
+
+protected slots:
+  void onSceneClosed();
+  void onSceneImported();
+  void updateFromNode();
+  void updateClipSlider();
+  void apply();
+  void onRunEnded();
+  void onExport();
+  void onAssess();
+  void showHistogram();
+  void showTable();
+
+private:
+  Q_DECLARE_PRIVATE(qSlicerFuchsTetrahedralizerModuleWidget)
+  Q_DISABLE_COPY(qSlicerFuchsTetrahedralizerModuleWidget)
+  QScopedPointer<qSlicerFuchsTetrahedralizerModuleWidgetPrivate> d_ptr;
+};
