@@ -1,5 +1,7 @@
 #include "HostApplication.h"
 
+#include "Waiting.h"
+
 #include <qSlicerAbstractCoreModule.h>
 #include <qSlicerAbstractModule.h>
 #include <qSlicerAbstractModuleWidget.h>
@@ -16,12 +18,9 @@
 #include <vtkMRMLLayoutNode.h>
 #include <vtkMRMLScene.h>
 
-#include <QElapsedTimer>
-#include <QEventLoop>
 #include <QRegularExpression>
 #include <QScopedPointer>
 #include <QSplashScreen>
-#include <QTimer>
 #include <QVBoxLayout>
 #include <QWidget>
 
@@ -137,21 +136,12 @@ vtkMRMLAbstractLogic* HostApplication::logic(const QString& moduleName) const
 
 bool HostApplication::waitUntil(const std::function<bool()>& condition, double seconds)
 {
-  QElapsedTimer time;
-  time.start();
-  while (!condition())
-  {
-    if (time.elapsed() > 1000 * seconds) return false;
-    QEventLoop loop;
-    QTimer::singleShot(20, &loop, &QEventLoop::quit);
-    loop.exec();
-  }
-  return true;
+  return test::waitUntil(condition, seconds);
 }
 
 void HostApplication::waitFor(double seconds)
 {
-  waitUntil([] { return false; }, seconds);
+  test::waitFor(seconds);
 }
 
 std::string HostApplication::complaints()
