@@ -53,20 +53,26 @@ std::vector<Vec3> markupsPath(vtkMRMLMarkupsNode* node)
   return path;
 }
 
-void writeMarkups(const std::vector<Vec3>& points, const std::string& file)
+void writeMarkups(const std::vector<std::vector<Vec3>>& markups, const std::string& file)
 {
   std::ofstream stream(file);
   stream.imbue(std::locale::classic());
   stream.precision(17);
-  stream << "{\"markups\": [{\"type\": \"Fiducial\", \"coordinateSystem\": \"LPS\", \"controlPoints\": [";
-  const char* separator = "";
-  for (const Vec3& p : points)
+  stream << "{\"markups\": [";
+  const char* betweenLists = "";
+  for (const std::vector<Vec3>& points : markups)
   {
-    stream << separator << "\n{\"position\": [" << p.x << ", " << p.y << ", " << p.z
-           << "], \"positionStatus\": \"defined\"}";
-    separator = ",";
+    stream << betweenLists << "\n{\"type\": \"Fiducial\", \"coordinateSystem\": \"LPS\", \"controlPoints\": [";
+    const char* betweenPoints = "";
+    for (const Vec3& p : points)
+    {
+      stream << betweenPoints << "\n{\"position\": [" << p.x << ", " << p.y << ", " << p.z << "]}";
+      betweenPoints = ",";
+    }
+    stream << "]}";
+    betweenLists = ",";
   }
-  stream << "]}]}\n";
+  stream << "]}\n";
   stream.close();
   if (!stream) throw InputError(file + ": cannot be written");
 }

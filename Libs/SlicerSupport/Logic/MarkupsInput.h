@@ -20,8 +20,9 @@ VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT std::vector<Vec3> markupsPoints(vtkMRMLM
 /// fewer than two points.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT std::vector<Vec3> markupsPath(vtkMRMLMarkupsNode* node);
 
-/// Writes points as a .mrk.json from which readMarkups reads exactly the same points again. Throws InputError if the file
-/// cannot be written.
-VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void writeMarkups(const std::vector<Vec3>& points, const std::string& file);
+/// Writes lists of points, one markup each, as a .mrk.json from which readMarkups reads exactly the same lists again. Throws
+/// InputError if the file cannot be written.
+VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void writeMarkups(const std::vector<std::vector<Vec3>>& markups,
+                                                          const std::string& file);
 
 } // namespace surgicalmesher

@@ -3,6 +3,7 @@
 #include "CanonicalGrid.h"
 #include "Errors.h"
 #include "HostDifferences.h"
+#include "TissueColors.h"
 
 #include <vtkMRMLColorTableNode.h>
 #include <vtkMRMLLabelMapVolumeDisplayNode.h>
@@ -289,13 +290,7 @@ vtkSmartPointer<vtkMRMLColorTableNode> makeColorTable(const TissueTable& table, 
   auto colors = vtkSmartPointer<vtkMRMLColorTableNode>::New();
   colors->SetName(name);
   colors->SetTypeToUser();
-  host::keepColorNames(colors.GetPointer());
-  colors->SetNumberOfColors(table.rbegin()->first + 1);
-  for (const auto& entry : table)
-  {
-    const std::array<double, 3>& rgb = entry.second.color;
-    colors->SetColor(entry.first, entry.second.name.c_str(), rgb[0], rgb[1], rgb[2]);
-  }
+  fillColorTable(table, colors);
   return colors;
 }
 
@@ -375,6 +370,31 @@ TissueMapProblem checkTissueMap(vtkMRMLNode* input)
   if (!volume && !segmentation) return TissueMapProblem::NotATissueMap;
   const TissueMapProblem problem = volume ? checkLabelMap(volume) : checkSegmentation(segmentation);
   return problem == TissueMapProblem::None ? checkTransform(vtkMRMLTransformableNode::SafeDownCast(input)) : problem;
+}
+
+vtkMTimeType tissueMapTime(vtkMRMLNode* input)
+{
+  vtkMTimeType time = 0;
+  const auto include = [&time](vtkObject* object) { time = std::max(time, object ? object->GetMTime() : 0); };
+  if (auto* volume = vtkMRMLLabelMapVolumeNode::SafeDownCast(input))
+  {
+    include(volume);
+    include(volume->GetImageData());
+  }
+  auto* node = vtkMRMLSegmentationNode::SafeDownCast(input);
+  vtkSegmentation* segmentation = node ? node->GetSegmentation() : nullptr;
+  include(segmentation);
+  for (int n = 0; segmentation && n < segmentation->GetNumberOfSegments(); ++n)
+  {
+    vtkSegment* segment = segmentation->GetNthSegment(n);
+    include(segment);
+    std::vector<std::string> names;
+    segment->GetContainedRepresentationNames(names);
+    for (const std::string& name : names) include(segment->GetRepresentation(name));
+  }
+  auto* transformable = vtkMRMLTransformableNode::SafeDownCast(input);
+  vtkMRMLTransformNode* parent = transformable ? transformable->GetParentTransformNode() : nullptr;
+  return parent ? std::max(time, parent->GetTransformToWorldMTime()) : time;
 }
 
 TissueMapNodes makeTissueMapNodes(vtkMRMLNode* input)

@@ -6,6 +6,7 @@
 #include "vtkSurgicalMesherSupportLogicExport.h"
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 class vtkMRMLColorTableNode;
 class vtkMRMLLabelMapVolumeNode;
@@ -31,6 +32,9 @@ enum class TissueMapProblem
 /// What keeps `input` from being meshed; cheap enough for every change in a panel (the range of the voxels is looked for
 /// once and kept with the image).
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT TissueMapProblem checkTissueMap(vtkMRMLNode* input);
+
+/// When `input` last changed in what it is meshed from: voxels, segments, transform. 0 for null.
+VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT vtkMTimeType tissueMapTime(vtkMRMLNode* input);
 
 /// A label map for a run, with the tissues' names and colours. Both nodes are in the scene of `input`, hidden, not saved.
 struct TissueMapNodes

@@ -1,0 +1,27 @@
+#pragma once
+/// A parameter node in the terms of the host-independent core.
+
+#include "NullDisplacement.h"
+#include "SurgicalScale.h"
+
+class vtkMRMLSurgicalPathScaleNode;
+
+namespace surgicalmesher
+{
+
+/// Where the mesh has to be fine, in LPS mm.
+struct Focus
+{
+  std::vector<Vec3> targets;
+  std::vector<Path> paths; ///< of two points or more each
+};
+
+Focus focusOf(vtkMRMLSurgicalPathScaleNode* parameters);
+
+/// Throws InputError if the table of lengths by tissue cannot be used with the tissues' `names`.
+SurgicalScaleOptions scaleOptions(vtkMRMLSurgicalPathScaleNode* parameters, const TissueTable& names);
+
+/// Throws InputError for a tissue that is neither a label nor a name.
+NullDisplacementOptions nullDisplacementOptions(vtkMRMLSurgicalPathScaleNode* parameters, const TissueTable& names);
+
+} // namespace surgicalmesher

@@ -1,0 +1,20 @@
+#pragma once
+/// The plot of edge length over distance (figure 4 of Audette et al., Computer Aided Surgery 12(1), 2007).
+
+#include "vtkSlicerSurgicalPathScaleModuleLogicExport.h"
+
+class vtkMRMLPlotChartNode;
+class vtkMRMLSurgicalPathScaleNode;
+
+namespace surgicalmesher
+{
+
+/// Fills the parameter node's chart, its table and its two series; makes those that are missing in the parameter node's
+/// scene. The series of paths is there if paths have distances of their own.
+VTK_SLICER_SURGICALPATHSCALE_MODULE_LOGIC_EXPORT vtkMRMLPlotChartNode* plotProfile(
+  vtkMRMLSurgicalPathScaleNode* parameters);
+
+/// Removes all of them from the scene.
+VTK_SLICER_SURGICALPATHSCALE_MODULE_LOGIC_EXPORT void removeProfile(vtkMRMLSurgicalPathScaleNode* parameters);
+
+} // namespace surgicalmesher

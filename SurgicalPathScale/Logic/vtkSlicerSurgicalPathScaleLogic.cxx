@@ -1,0 +1,315 @@
+#include "vtkSlicerSurgicalPathScaleLogic.h"
+
+#include "Errors.h"
+#include "MarkupsInput.h"
+#include "ScaleInputs.h"
+#include "ScalePreview.h"
+#include "TissueColors.h"
+#include "vtkMRMLSurgicalPathScaleNode.h"
+#include "vtkSurgicalMesherRun.h"
+
+#include <vtkMRMLColorTableNode.h>
+#include <vtkMRMLDisplayNode.h>
+#include <vtkMRMLLabelMapVolumeNode.h>
+#include <vtkMRMLMarkupsNode.h>
+#include <vtkMRMLScalarVolumeNode.h>
+#include <vtkMRMLScene.h>
+
+#include <vtkCallbackCommand.h>
+#include <vtkImageData.h>
+#include <vtkIntArray.h>
+#include <vtkObjectFactory.h>
+#include <vtksys/SystemTools.hxx>
+
+#include <algorithm>
+#include <cstdlib>
+
+using namespace surgicalmesher;
+
+namespace
+{
+
+constexpr const char* colorOwner = "SurgicalMesher.ColorsOf"; // attribute of a colour table: id of the volume it belongs to
+
+vtkMRMLColorTableNode* colorTableOf(vtkMRMLLabelMapVolumeNode* volume)
+{
+  vtkMRMLScene* scene = volume->GetScene();
+  volume->CreateDefaultDisplayNodes();
+  auto* colors = vtkMRMLColorTableNode::SafeDownCast(volume->GetDisplayNode()->GetColorNode());
+  const char* owner = colors ? colors->GetAttribute(colorOwner) : nullptr;
+  if (owner && std::string(owner) == volume->GetID()) return colors;
+  const std::string name = scene->GenerateUniqueName(std::string(volume->GetName()) + " tissues");
+  colors = vtkMRMLColorTableNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLColorTableNode", name));
+  colors->SetAttribute(colorOwner, volume->GetID());
+  return colors;
+}
+
+double countOf(const std::string& text) { return text.empty() ? -1 : std::strtod(text.c_str(), nullptr); }
+
+} // namespace
+
+vtkStandardNewMacro(vtkSlicerSurgicalPathScaleLogic);
+
+//----------------------------------------------------------------------------
+vtkSlicerSurgicalPathScaleLogic::vtkSlicerSurgicalPathScaleLogic() : Preview(std::make_unique<ScalePreview>())
+{
+  this->RunEnded->SetClientData(this);
+  this->RunEnded->SetCallback([](vtkObject*, unsigned long, void* self, void*)
+                              { static_cast<vtkSlicerSurgicalPathScaleLogic*>(self)->FinishRun(); });
+  this->Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, this->RunEnded, 1); // before the panel
+}
+
+vtkSlicerSurgicalPathScaleLogic::~vtkSlicerSurgicalPathScaleLogic()
+{
+  this->Run->RemoveObserver(this->RunEnded);
+}
+
+void vtkSlicerSurgicalPathScaleLogic::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "IsPreviewShown: " << this->IsPreviewShown() << "\n";
+  os << indent << "Run:\n";
+  this->Run->PrintSelf(os, indent.GetNextIndent());
+}
+
+void vtkSlicerSurgicalPathScaleLogic::RegisterNodes()
+{
+  this->GetMRMLScene()->RegisterNodeClass(vtkSmartPointer<vtkMRMLSurgicalPathScaleNode>::New());
+}
+
+void vtkSlicerSurgicalPathScaleLogic::SetMRMLSceneInternal(vtkMRMLScene* scene)
+{
+  vtkNew<vtkIntArray> events;
+  events->InsertNextValue(vtkMRMLScene::StartCloseEvent);
+  this->SetAndObserveMRMLSceneEventsInternal(scene, events);
+}
+
+void vtkSlicerSurgicalPathScaleLogic::OnMRMLSceneStartClose()
+{
+  this->HidePreview();
+  this->Preview->forgetTissueMap();
+}
+
+vtkMRMLSurgicalPathScaleNode* vtkSlicerSurgicalPathScaleLogic::ParameterNode()
+{
+  vtkMRMLScene* scene = this->GetMRMLScene();
+  if (!scene) return nullptr;
+  const char* className = "vtkMRMLSurgicalPathScaleNode";
+  vtkMRMLNode* node = scene->GetFirstNodeByClass(className);
+  if (!node) node = scene->AddNewNodeByClass(className, "Surgical Path Scale");
+  return vtkMRMLSurgicalPathScaleNode::SafeDownCast(node);
+}
+
+//----------------------------------------------------------------------------
+vtkSlicerSurgicalPathScaleLogic::Check vtkSlicerSurgicalPathScaleLogic::FindProblem(
+  vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  if (!this->GetModuleLogic("SurgicalPathScaleCLI")) return { Problem::NoModule, TissueMapProblem::None, {} };
+  const TissueMapProblem tissueMap = checkTissueMap(parameters->GetTissueMapNode());
+  if (tissueMap != TissueMapProblem::None) return { Problem::TissueMap, tissueMap, {} };
+
+  const auto found = [](Problem problem, const std::string& name = {})
+  { return Check{ problem, TissueMapProblem::None, name }; };
+  for (vtkMRMLMarkupsNode* node : parameters->GetPathNodes())
+  {
+    if (markupsPoints(node).size() == 1) return found(Problem::PathOfOnePoint, node->GetName());
+  }
+  const Focus focus = focusOf(parameters);
+  const bool hasTarget = !focus.targets.empty();
+  const bool hasPath = !focus.paths.empty();
+  if (!hasTarget && !hasPath) return found(Problem::NoFocus);
+  if (!hasTarget && parameters->GetCombine() == "targets") return found(Problem::NoTarget);
+  if (!hasPath && parameters->GetCombine() == "path") return found(Problem::NoPath);
+  if (parameters->GetMinimumEdgeLength() > parameters->GetMaximumEdgeLength()) return found(Problem::LengthsContradict);
+  const std::string lengths = parameters->GetTissueLengths();
+  if (!lengths.empty() && !vtksys::SystemTools::FileExists(lengths, true))
+    return found(Problem::NoTissueLengths, lengths);
+  if (!hasTarget && parameters->GetNullDisplacementRadius() > 0) return found(Problem::NullDisplacementTarget);
+  if (!hasPath && parameters->GetNullDisplacementPathDistance() > 0) return found(Problem::NullDisplacementPath);
+  return {};
+}
+
+bool vtkSlicerSurgicalPathScaleLogic::Start(vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  return this->Prepare(parameters) && this->Run->Start();
+}
+
+bool vtkSlicerSurgicalPathScaleLogic::StartAndWait(vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  return this->Prepare(parameters) && this->Run->StartAndWait();
+}
+
+bool vtkSlicerSurgicalPathScaleLogic::Prepare(vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  if (this->Run->IsBusy() || this->FindProblem(parameters).problem != Problem::None) return false;
+  vtkSurgicalMesherRun* run = this->Run;
+  const TissueMapNodes map = makeTissueMapNodes(parameters->GetTissueMapNode());
+  if (!map.labelMap) return false;
+  run->SetCommandLineLogic(this->GetModuleLogic("SurgicalPathScaleCLI"));
+  run->AddTemporaryNode(map.labelMap);
+  run->SetParameterNode("labelMap", map.labelMap);
+  if (map.colors)
+  {
+    run->AddTemporaryNode(map.colors);
+    run->SetParameterNode("names", map.colors);
+  }
+  const Focus focus = focusOf(parameters);
+  if (!focus.targets.empty())
+  {
+    const std::string file = run->NewTemporaryFile(".mrk.json");
+    writeMarkups({ focus.targets }, file);
+    run->SetParameter("targets", file);
+  }
+  if (!focus.paths.empty())
+  {
+    const std::string file = run->NewTemporaryFile(".mrk.json");
+    writeMarkups(focus.paths, file);
+    run->SetParameter("path", file);
+  }
+  run->SetParameter("minimumEdgeLength", parameters->GetMinimumEdgeLength());
+  run->SetParameter("maximumEdgeLength", parameters->GetMaximumEdgeLength());
+  run->SetParameter("childRadius", parameters->GetChildRadius());
+  run->SetParameter("decayLength", parameters->GetDecayLength());
+  run->SetParameter("spacing", parameters->GetSpacing());
+  run->SetParameter("combine", parameters->GetCombine());
+  run->SetParameter("pathChildRadius", parameters->GetPathChildRadius());
+  run->SetParameter("pathDecayLength", parameters->GetPathDecayLength());
+  run->SetParameter("gradation", parameters->GetGradation());
+  run->SetParameter("tissueLengths", parameters->GetTissueLengths());
+  this->PrepareOutputs(parameters);
+  this->Parameters = parameters;
+  return true;
+}
+
+void vtkSlicerSurgicalPathScaleLogic::PrepareOutputs(vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  vtkMRMLScene* scene = parameters->GetScene();
+  const auto prepare = [&](const char* role, vtkMRMLNode* chosen, const char* className, const std::string& suffix,
+                           const char* parameter)
+  {
+    vtkMRMLNode* node = chosen;
+    if (!node)
+    {
+      const std::string name = std::string(parameters->GetTissueMapNode()->GetName()) + suffix;
+      node = scene->AddNewNodeByClass(className, scene->GenerateUniqueName(name));
+      parameters->SetNode(role, node);
+    }
+    this->Run->AddOutputNode(node, !chosen);
+    this->Run->SetParameterNode(parameter, node);
+  };
+  prepare(vtkMRMLSurgicalPathScaleNode::ScaleRole(), parameters->GetScaleNode(), "vtkMRMLScalarVolumeNode",
+          " edge lengths", "scale");
+  if (!parameters->WantsNullDisplacement()) return;
+  prepare(vtkMRMLSurgicalPathScaleNode::OutputLabelMapRole(), parameters->GetOutputLabelMapNode(),
+          "vtkMRMLLabelMapVolumeNode", " null displacement", "outputLabelMap");
+  this->Run->SetParameter("nullDisplacementRadius", parameters->GetNullDisplacementRadius());
+  this->Run->SetParameter("nullDisplacementPathDistance", parameters->GetNullDisplacementPathDistance());
+  this->Run->SetParameter("nullDisplacementPathDistanceAtTarget", parameters->GetNullDisplacementPathDistanceAtTarget());
+  this->Run->SetParameter("nullDisplacementTissues", parameters->GetNullDisplacementTissues());
+}
+
+void vtkSlicerSurgicalPathScaleLogic::FinishRun()
+{
+  vtkMRMLSurgicalPathScaleNode* parameters = this->Parameters;
+  if (!parameters || !parameters->GetScene() || this->Run->GetStatus() != vtkSurgicalMesherRun::Completed) return;
+  vtkMRMLScalarVolumeNode* scale = parameters->GetScaleNode();
+  if (scale && scale->GetImageData())
+  {
+    double range[2];
+    scale->GetImageData()->GetScalarRange(range);
+    setScaleColors(scale, range[0], range[1]);
+  }
+  if (parameters->WantsNullDisplacement()) this->FinishLabelMap(parameters);
+}
+
+/// The file that the module writes has names and colours, but the host reads them from segmentations only.
+void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  vtkMRMLLabelMapVolumeNode* labelMap = parameters->GetOutputLabelMapNode();
+  if (!labelMap || !labelMap->GetImageData()) return;
+  TissueTable table = tissueTable(parameters->GetTissueMapNode());
+  try
+  {
+    const TissueMap& before = this->Preview->tissueMap(parameters->GetTissueMapNode());
+    const std::vector<Label> old = presentLabels(before);
+    const std::vector<Label> now = presentLabels(readTissueMap(labelMap));
+    for (Label label : now)
+    {
+      if (!std::binary_search(old.begin(), old.end(), label))
+        table[label] = Tissue{ "null displacement", { 0.45, 0.55, 0.75 } };
+    }
+  }
+  catch (const Error&)
+  {
+    // The input has gone or changed meanwhile: the names that are known will do.
+  }
+  vtkMRMLColorTableNode* colors = colorTableOf(labelMap);
+  fillColorTable(table, colors);
+  labelMap->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
+}
+
+void vtkSlicerSurgicalPathScaleLogic::ShowResults(vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  this->HidePreview();
+  const bool hasLabels = parameters->WantsNullDisplacement() && parameters->GetOutputLabelMapNode();
+  showInSliceViews(parameters->GetScaleNode(), hasLabels ? parameters->GetOutputLabelMapNode() : nullptr);
+}
+
+//----------------------------------------------------------------------------
+vtkSlicerSurgicalPathScaleLogic::Estimate vtkSlicerSurgicalPathScaleLogic::GetEstimateOfRun() const
+{
+  return { countOf(this->Run->GetReturnedValue("estimatedTriangles")),
+           countOf(this->Run->GetReturnedValue("estimatedTetrahedra")) };
+}
+
+vtkSlicerSurgicalPathScaleLogic::Estimate vtkSlicerSurgicalPathScaleLogic::EstimateMesh(
+  vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  this->Refusal.clear();
+  if (this->FindProblem(parameters).problem != Problem::None) return {};
+  try
+  {
+    if (parameters->WantsNullDisplacement())
+      nullDisplacementOptions(parameters, tissueTable(parameters->GetTissueMapNode()));
+    const MeshSizeEstimate estimate = this->Preview->estimate(parameters);
+    return { estimate.triangles, estimate.tetrahedra };
+  }
+  catch (const Error& error)
+  {
+    this->Refusal = error.what();
+    return {};
+  }
+}
+
+bool vtkSlicerSurgicalPathScaleLogic::ShowPreview(vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  this->Refusal.clear();
+  if (this->FindProblem(parameters).problem == Problem::None)
+  {
+    try
+    {
+      this->Preview->show(parameters);
+      return true;
+    }
+    catch (const Error& error)
+    {
+      this->Refusal = error.what();
+    }
+  }
+  this->HidePreview();
+  return false;
+}
+
+void vtkSlicerSurgicalPathScaleLogic::HidePreview() { this->Preview->hide(); }
+
+bool vtkSlicerSurgicalPathScaleLogic::IsPreviewShown() const { return this->Preview->isShown(); }
+
+vtkMRMLScalarVolumeNode* vtkSlicerSurgicalPathScaleLogic::GetPreviewScaleNode() const
+{
+  return this->Preview->scaleNode();
+}
+
+vtkMRMLLabelMapVolumeNode* vtkSlicerSurgicalPathScaleLogic::GetPreviewNullDisplacementNode() const
+{
+  return this->Preview->nullDisplacementNode();
+}

@@ -1,0 +1,115 @@
+#pragma once
+/// What the panel of Surgical Path Scale shows. It lives in the scene and is saved with it. Names and defaults are those of
+/// SurgicalPathScaleCLI; lengths and distances in mm, and 0 means what it means to that module.
+
+#include "vtkSlicerSurgicalPathScaleModuleMRMLExport.h"
+
+#include <vtkCommand.h>
+#include <vtkMRMLNode.h>
+
+#include <string>
+#include <vector>
+
+class vtkMRMLLabelMapVolumeNode;
+class vtkMRMLMarkupsNode;
+class vtkMRMLPlotChartNode;
+class vtkMRMLScalarVolumeNode;
+
+class VTK_SLICER_SURGICALPATHSCALE_MODULE_MRML_EXPORT vtkMRMLSurgicalPathScaleNode : public vtkMRMLNode
+{
+public:
+  static vtkMRMLSurgicalPathScaleNode* New();
+  vtkTypeMacro(vtkMRMLSurgicalPathScaleNode, vtkMRMLNode);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  vtkMRMLNode* CreateNodeInstance() override;
+  const char* GetNodeTagName() override { return "SurgicalPathScale"; }
+  void ReadXMLAttributes(const char** atts) override;
+  void WriteXML(ostream& of, int indent) override;
+  void CopyContent(vtkMRMLNode* node, bool deepCopy = true) override;
+  /// Markups tell of their points by events of their own; all of them arrive here as InputModifiedEvent.
+  void ProcessMRMLEvents(vtkObject* caller, unsigned long event, void* callData) override;
+
+  enum Events
+  {
+    InputModifiedEvent = vtkCommand::UserEvent + 20 ///< an input's points, voxels, segments or transform changed
+  };
+
+  /// Roles of the nodes referred to.
+  static const char* TissueMapRole();      ///< label map or segmentation
+  static const char* TargetsRole();        ///< markups, of which every point is a target
+  static const char* PathRole();           ///< markups from entry to target
+  static const char* FurtherMarkupsRole(); ///< any number: curves and lines are paths, others targets
+  static const char* ScaleRole();          ///< scalar volume; a new one where there is none
+  static const char* OutputLabelMapRole(); ///< label map with null displacement; a new one where there is none
+  static const char* ProfileChartRole();   ///< plot of length over distance; none: not wanted
+
+  vtkMRMLNode* GetTissueMapNode();
+  /// All markups of which every point is a target; none that have left the scene.
+  std::vector<vtkMRMLMarkupsNode*> GetTargetNodes();
+  /// All markups that are a path each.
+  std::vector<vtkMRMLMarkupsNode*> GetPathNodes();
+  vtkMRMLScalarVolumeNode* GetScaleNode();
+  vtkMRMLLabelMapVolumeNode* GetOutputLabelMapNode();
+  vtkMRMLPlotChartNode* GetProfileChartNode();
+
+  /// Refers to `node`, which may be null, in a role of one node.
+  void SetNode(const char* role, vtkMRMLNode* node);
+  void SetFurtherMarkups(const std::vector<vtkMRMLNode*>& nodes);
+
+  vtkGetMacro(MinimumEdgeLength, double);
+  vtkSetMacro(MinimumEdgeLength, double);
+  vtkGetMacro(MaximumEdgeLength, double);
+  vtkSetMacro(MaximumEdgeLength, double);
+  vtkGetMacro(ChildRadius, double);
+  vtkSetMacro(ChildRadius, double);
+  vtkGetMacro(DecayLength, double);
+  vtkSetMacro(DecayLength, double);
+  vtkGetMacro(Spacing, double);
+  vtkSetMacro(Spacing, double);
+  vtkGetMacro(PathChildRadius, double);
+  vtkSetMacro(PathChildRadius, double);
+  vtkGetMacro(PathDecayLength, double);
+  vtkSetMacro(PathDecayLength, double);
+  vtkGetMacro(Gradation, double);
+  vtkSetMacro(Gradation, double);
+  /// "smaller", "targets" or "path".
+  vtkGetMacro(Combine, std::string);
+  vtkSetMacro(Combine, std::string);
+  /// CSV file with lengths by tissue; empty for none.
+  vtkGetMacro(TissueLengths, std::string);
+  vtkSetMacro(TissueLengths, std::string);
+
+  /// Whether tissue is to become null displacement: if either of the first two is positive.
+  bool WantsNullDisplacement() const;
+  vtkGetMacro(NullDisplacementRadius, double);
+  vtkSetMacro(NullDisplacementRadius, double);
+  vtkGetMacro(NullDisplacementPathDistance, double);
+  vtkSetMacro(NullDisplacementPathDistance, double);
+  vtkGetMacro(NullDisplacementPathDistanceAtTarget, double);
+  vtkSetMacro(NullDisplacementPathDistanceAtTarget, double);
+  /// Labels or names separated by commas; empty for all tissues.
+  vtkGetMacro(NullDisplacementTissues, std::string);
+  vtkSetMacro(NullDisplacementTissues, std::string);
+
+protected:
+  vtkMRMLSurgicalPathScaleNode();
+  ~vtkMRMLSurgicalPathScaleNode() override = default;
+  vtkMRMLSurgicalPathScaleNode(const vtkMRMLSurgicalPathScaleNode&) = delete;
+  void operator=(const vtkMRMLSurgicalPathScaleNode&) = delete;
+
+  double MinimumEdgeLength = 1;
+  double MaximumEdgeLength = 8;
+  double ChildRadius = 10;
+  double DecayLength = 25;
+  double Spacing = 2;
+  double PathChildRadius = 0;
+  double PathDecayLength = 0;
+  double Gradation = 0;
+  std::string Combine = "smaller";
+  std::string TissueLengths;
+  double NullDisplacementRadius = 0;
+  double NullDisplacementPathDistance = 0;
+  double NullDisplacementPathDistanceAtTarget = 0;
+  std::string NullDisplacementTissues;
+};

@@ -1,0 +1,479 @@
+#include "qSlicerSurgicalPathScaleModuleWidget.h"
+
+#include "PanelObstacle.h"
+#include "ScaleProfile.h"
+#include "ui_qSlicerSurgicalPathScaleModuleWidget.h"
+#include "vtkMRMLSurgicalPathScaleNode.h"
+#include "vtkSlicerSurgicalPathScaleLogic.h"
+#include "vtkSurgicalMesherRun.h"
+
+#include <vtkMRMLLabelMapVolumeNode.h>
+#include <vtkMRMLMarkupsCurveNode.h>
+#include <vtkMRMLMarkupsFiducialNode.h>
+#include <vtkMRMLMarkupsLineNode.h>
+#include <vtkMRMLPlotChartNode.h>
+#include <vtkMRMLScalarVolumeNode.h>
+#include <vtkMRMLScene.h>
+#include <vtkMRMLSegmentationNode.h>
+#include <vtkSlicerPlotsLogic.h>
+
+#include <vtkImageData.h>
+#include <vtkWeakPointer.h>
+
+#include <QLocale>
+#include <QTimer>
+#include <QToolButton>
+
+#include <cmath>
+
+using surgicalmesher::PanelObstacle;
+using Node = vtkMRMLSurgicalPathScaleNode;
+using Logic = vtkSlicerSurgicalPathScaleLogic;
+using Problem = Logic::Problem;
+using Widget = qSlicerSurgicalPathScaleModuleWidget;
+
+class qSlicerSurgicalPathScaleModuleWidgetPrivate : public Ui_qSlicerSurgicalPathScaleModuleWidget
+{
+  Q_DECLARE_PUBLIC(qSlicerSurgicalPathScaleModuleWidget)
+  qSlicerSurgicalPathScaleModuleWidget* const q_ptr;
+
+public:
+  explicit qSlicerSurgicalPathScaleModuleWidgetPrivate(qSlicerSurgicalPathScaleModuleWidget& object) : q_ptr(&object) {}
+
+  Logic* logic() const { return Logic::SafeDownCast(q_ptr->logic()); }
+
+  vtkWeakPointer<vtkMRMLSurgicalPathScaleNode> Parameters;
+  QTimer PreviewTimer;  ///< a slider being dragged asks for one preview, not for hundreds
+  QTimer EstimateTimer; ///< the estimate takes longer, and waits until the sliders rest
+  bool IsUpdating = false; ///< controls follow the node, not the other way round
+
+  void setParameterNode(vtkMRMLSurgicalPathScaleNode* node);
+  void setupPlacing(qSlicerMarkupsPlaceWidget* place, qMRMLNodeComboBox* selector);
+  void connectControls();
+  void connectSelector(qMRMLNodeComboBox* selector, const char* role);
+  template <class Control, class Signal, class Setter>
+  void connectValue(Control* control, Signal signal, Setter setter);
+  void connectTexts();
+  void showValues();
+  void scheduleUpdates();
+  void showObstacle();
+  void placePoints(qMRMLNodeComboBox* selector, qSlicerMarkupsPlaceWidget* place);
+
+  PanelObstacle obstacle();
+  PanelObstacle focusObstacle(const Logic::Check& check);
+  PanelObstacle valueObstacle(const Logic::Check& check);
+};
+
+namespace
+{
+
+/// To three significant digits.
+QString roundedCount(double count)
+{
+  const double unit = count < 1000 ? 1 : std::pow(10.0, std::floor(std::log10(count)) - 2);
+  return QLocale().toString(qlonglong(std::llround(count / unit) * std::llround(unit)));
+}
+
+QString sizeSentence(const Logic::Estimate& estimate)
+{
+  return Widget::tr("about %1 triangles and %2 tetrahedra")
+    .arg(roundedCount(estimate.triangles), roundedCount(estimate.tetrahedra));
+}
+
+} // namespace
+
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::setParameterNode(vtkMRMLSurgicalPathScaleNode* node)
+{
+  Q_Q(qSlicerSurgicalPathScaleModuleWidget);
+  q->qvtkReconnect(this->Parameters, node, vtkCommand::ModifiedEvent, q, SLOT(updateFromNode()));
+  q->qvtkReconnect(this->Parameters, node, Node::InputModifiedEvent, q, SLOT(onInputChanged()));
+  this->Parameters = node;
+  q->updateFromNode();
+}
+
+/// Only what placing needs; colours and the like are the business of Markups.
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::setupPlacing(qSlicerMarkupsPlaceWidget* place,
+                                                               qMRMLNodeComboBox* selector)
+{
+  place->setButtonsVisible(false);
+  place->placeButton()->setVisible(true);
+  place->deleteButton()->setVisible(true);
+  place->setPlaceMultipleMarkups(qSlicerMarkupsPlaceWidget::ForcePlaceMultipleMarkups);
+  QObject::connect(selector, SIGNAL(currentNodeChanged(vtkMRMLNode*)), place, SLOT(setCurrentNode(vtkMRMLNode*)));
+}
+
+/// A value goes from its control to the node by `setter`, unless the control has just been told by the node.
+template <class Control, class Signal, class Setter>
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectValue(Control* control, Signal signal, Setter setter)
+{
+  QObject::connect(control, signal, q_ptr,
+                   [this, setter](auto value)
+                   {
+                     if (this->Parameters && !this->IsUpdating) (this->Parameters->*setter)(value);
+                   });
+}
+
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectSelector(qMRMLNodeComboBox* selector, const char* role)
+{
+  QObject::connect(selector, static_cast<void (qMRMLNodeComboBox::*)(vtkMRMLNode*)>(&qMRMLNodeComboBox::currentNodeChanged),
+                   q_ptr,
+                   [this, role](vtkMRMLNode* node)
+                   {
+                     if (this->Parameters && !this->IsUpdating) this->Parameters->SetNode(role, node);
+                   });
+}
+
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectControls()
+{
+  this->connectSelector(this->TissueMapSelector, Node::TissueMapRole());
+  this->connectSelector(this->TargetsSelector, Node::TargetsRole());
+  this->connectSelector(this->PathSelector, Node::PathRole());
+  this->connectSelector(this->ScaleSelector, Node::ScaleRole());
+  this->connectSelector(this->OutputLabelMapSelector, Node::OutputLabelMapRole());
+  const auto slid = &ctkSliderWidget::valueChanged;
+  this->connectValue(this->MinimumEdgeLengthSlider, slid, &Node::SetMinimumEdgeLength);
+  this->connectValue(this->MaximumEdgeLengthSlider, slid, &Node::SetMaximumEdgeLength);
+  this->connectValue(this->ChildRadiusSlider, slid, &Node::SetChildRadius);
+  this->connectValue(this->DecayLengthSlider, slid, &Node::SetDecayLength);
+  const auto spun = static_cast<void (QDoubleSpinBox::*)(double)>(&QDoubleSpinBox::valueChanged);
+  this->connectValue(this->NullDisplacementRadiusSpinBox, spun, &Node::SetNullDisplacementRadius);
+  this->connectValue(this->NullDisplacementPathDistanceSpinBox, spun, &Node::SetNullDisplacementPathDistance);
+  this->connectValue(this->NullDisplacementPathDistanceAtTargetSpinBox, spun,
+                     &Node::SetNullDisplacementPathDistanceAtTarget);
+  this->connectValue(this->PathChildRadiusSpinBox, spun, &Node::SetPathChildRadius);
+  this->connectValue(this->PathDecayLengthSpinBox, spun, &Node::SetPathDecayLength);
+  this->connectValue(this->GradationSpinBox, spun, &Node::SetGradation);
+  this->connectValue(this->SpacingSpinBox, spun, &Node::SetSpacing);
+  this->connectTexts();
+}
+
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectTexts()
+{
+  const auto connectText = [this](auto* control, auto signal, void (Node::*setter)(std::string), auto text)
+  {
+    QObject::connect(control, signal, q_ptr,
+                     [=]
+                     {
+                       if (this->Parameters && !this->IsUpdating) (this->Parameters->*setter)(text().toStdString());
+                     });
+  };
+  connectText(this->NullDisplacementTissuesLineEdit, &QLineEdit::editingFinished, &Node::SetNullDisplacementTissues,
+              [this] { return this->NullDisplacementTissuesLineEdit->text(); });
+  connectText(this->TissueLengthsPathLineEdit, &ctkPathLineEdit::currentPathChanged, &Node::SetTissueLengths,
+              [this] { return this->TissueLengthsPathLineEdit->currentPath(); });
+  connectText(this->CombineComboBox, static_cast<void (QComboBox::*)(int)>(&QComboBox::currentIndexChanged),
+              &Node::SetCombine, [this] { return this->CombineComboBox->currentData().toString(); });
+  QObject::connect(this->FurtherMarkupsSelector, &qMRMLCheckableNodeComboBox::checkedNodesChanged, q_ptr,
+                   [this]
+                   {
+                     if (!this->Parameters || this->IsUpdating) return;
+                     const QList<vtkMRMLNode*> nodes = this->FurtherMarkupsSelector->checkedNodes();
+                     this->Parameters->SetFurtherMarkups({ nodes.begin(), nodes.end() });
+                   });
+}
+
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::showValues()
+{
+  Node* const p = this->Parameters;
+  this->TissueMapSelector->setCurrentNode(p->GetTissueMapNode());
+  this->TargetsSelector->setCurrentNode(p->GetNodeReference(Node::TargetsRole()));
+  this->PathSelector->setCurrentNode(p->GetNodeReference(Node::PathRole()));
+  this->ScaleSelector->setCurrentNode(p->GetScaleNode());
+  this->OutputLabelMapSelector->setCurrentNode(p->GetOutputLabelMapNode());
+  this->OutputLabelMapSelector->setEnabled(p->WantsNullDisplacement());
+  this->MinimumEdgeLengthSlider->setValue(p->GetMinimumEdgeLength());
+  this->MaximumEdgeLengthSlider->setValue(p->GetMaximumEdgeLength());
+  this->ChildRadiusSlider->setValue(p->GetChildRadius());
+  this->DecayLengthSlider->setValue(p->GetDecayLength());
+  this->ProfileCheckBox->setChecked(p->GetProfileChartNode() != nullptr);
+  this->NullDisplacementRadiusSpinBox->setValue(p->GetNullDisplacementRadius());
+  this->NullDisplacementPathDistanceSpinBox->setValue(p->GetNullDisplacementPathDistance());
+  this->NullDisplacementPathDistanceAtTargetSpinBox->setValue(p->GetNullDisplacementPathDistanceAtTarget());
+  this->NullDisplacementTissuesLineEdit->setText(QString::fromStdString(p->GetNullDisplacementTissues()));
+  this->CombineComboBox->setCurrentIndex(
+    qMax(0, this->CombineComboBox->findData(QString::fromStdString(p->GetCombine()))));
+  this->PathChildRadiusSpinBox->setValue(p->GetPathChildRadius());
+  this->PathDecayLengthSpinBox->setValue(p->GetPathDecayLength());
+  this->GradationSpinBox->setValue(p->GetGradation());
+  this->SpacingSpinBox->setValue(p->GetSpacing());
+  this->TissueLengthsPathLineEdit->setCurrentPath(QString::fromStdString(p->GetTissueLengths()));
+  std::vector<vtkMRMLNode*> further;
+  p->GetNodeReferences(Node::FurtherMarkupsRole(), further);
+  for (int n = 0; n < this->FurtherMarkupsSelector->nodeCount(); ++n)
+  {
+    vtkMRMLNode* node = this->FurtherMarkupsSelector->nodeFromIndex(n);
+    const bool isChosen = std::find(further.begin(), further.end(), node) != further.end();
+    this->FurtherMarkupsSelector->setCheckState(node, isChosen ? Qt::Checked : Qt::Unchecked);
+  }
+}
+
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::scheduleUpdates()
+{
+  Q_Q(qSlicerSurgicalPathScaleModuleWidget);
+  if (!q->isEntered()) return;
+  if (this->PreviewCheckBox->isChecked()) this->PreviewTimer.start();
+  this->EstimateTimer.start();
+}
+
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::showObstacle()
+{
+  const PanelObstacle found = this->obstacle();
+  if (found.sentence.isEmpty()) this->RunWidget->clearProblem();
+  else this->RunWidget->setProblem(found.sentence, found.fixText, found.fix);
+}
+
+PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::obstacle()
+{
+  const Logic::Check check = this->logic()->FindProblem(this->Parameters);
+  switch (check.problem)
+  {
+  case Problem::None: break;
+  case Problem::NoModule:
+    return { Widget::tr("The command-line module SurgicalPathScaleCLI isn't loaded; see the application's log."), {}, {} };
+  case Problem::TissueMap:
+    return surgicalmesher::tissueMapObstacle(check.tissueMap, this->Parameters->GetTissueMapNode(),
+                                             this->TissueMapSelector);
+  case Problem::NoFocus:
+  case Problem::PathOfOnePoint:
+  case Problem::NoTarget:
+  case Problem::NoPath: return this->focusObstacle(check);
+  default: return this->valueObstacle(check);
+  }
+  const QString refusal = QString::fromStdString(this->logic()->GetRefusal());
+  return { refusal.isEmpty() ? refusal : Widget::tr("The parameters can't be used: %1.").arg(refusal), {}, {} };
+}
+
+PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::focusObstacle(const Logic::Check& check)
+{
+  const auto placeTargets = [this] { this->placePoints(this->TargetsSelector, this->TargetsPlaceWidget); };
+  const auto placePath = [this] { this->placePoints(this->PathSelector, this->PathPlaceWidget); };
+  const auto countBoth = [this] { this->Parameters->SetCombine("smaller"); };
+  switch (check.problem)
+  {
+  case Problem::PathOfOnePoint:
+    return { Widget::tr("%1 has one point; a path needs two or more.").arg(QString::fromStdString(check.name)),
+             Widget::tr("Place points"), placePath };
+  case Problem::NoTarget:
+    return { Widget::tr("Only targets are to count, and no target is placed."), Widget::tr("Count both"), countBoth };
+  case Problem::NoPath:
+    return { Widget::tr("Only paths are to count, and there is no path."), Widget::tr("Count both"), countBoth };
+  default:
+    return { Widget::tr("Place a target or a path that the mesh has to be fine around."), Widget::tr("Place targets"),
+             placeTargets };
+  }
+}
+
+PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::valueObstacle(const Logic::Check& check)
+{
+  switch (check.problem)
+  {
+  case Problem::LengthsContradict:
+    return { Widget::tr("The minimum edge length is above the maximum."), Widget::tr("Exchange them"),
+             [this]
+             {
+               MRMLNodeModifyBlocker blocker(this->Parameters);
+               const double minimum = this->Parameters->GetMinimumEdgeLength();
+               this->Parameters->SetMinimumEdgeLength(this->Parameters->GetMaximumEdgeLength());
+               this->Parameters->SetMaximumEdgeLength(minimum);
+             } };
+  case Problem::NoTissueLengths:
+    return { Widget::tr("There is no file %1 with lengths by tissue.").arg(QString::fromStdString(check.name)),
+             Widget::tr("Do without"), [this] { this->Parameters->SetTissueLengths(std::string()); } };
+  case Problem::NullDisplacementTarget:
+    return { Widget::tr("Null displacement is to begin at a distance from targets, and there is no target."),
+             Widget::tr("Do without"), [this] { this->Parameters->SetNullDisplacementRadius(0); } };
+  default:
+    return { Widget::tr("Null displacement is to begin at a distance from paths, and there is no path."),
+             Widget::tr("Do without"), [this] { this->Parameters->SetNullDisplacementPathDistance(0); } };
+  }
+}
+
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::placePoints(qMRMLNodeComboBox* selector,
+                                                              qSlicerMarkupsPlaceWidget* place)
+{
+  if (!selector->currentNode()) selector->addNode();
+  place->setCurrentNode(selector->currentNode());
+  place->setPlaceModeEnabled(true);
+}
+
+//-----------------------------------------------------------------------------
+qSlicerSurgicalPathScaleModuleWidget::qSlicerSurgicalPathScaleModuleWidget(QWidget* parent)
+  : Superclass(parent), d_ptr(new qSlicerSurgicalPathScaleModuleWidgetPrivate(*this))
+{
+}
+
+qSlicerSurgicalPathScaleModuleWidget::~qSlicerSurgicalPathScaleModuleWidget() = default;
+
+void qSlicerSurgicalPathScaleModuleWidget::setup()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  d->setupUi(this);
+  this->Superclass::setup();
+  d->CombineComboBox->addItem(tr("the shorter length counts"), "smaller");
+  d->CombineComboBox->addItem(tr("only targets count"), "targets");
+  d->CombineComboBox->addItem(tr("only paths count"), "path");
+  d->setupPlacing(d->TargetsPlaceWidget, d->TargetsSelector);
+  d->setupPlacing(d->PathPlaceWidget, d->PathSelector);
+  d->PreviewTimer.setSingleShot(true);
+  d->PreviewTimer.setInterval(100);
+  d->EstimateTimer.setSingleShot(true);
+  d->EstimateTimer.setInterval(500);
+  connect(&d->PreviewTimer, SIGNAL(timeout()), this, SLOT(updatePreview()));
+  connect(&d->EstimateTimer, SIGNAL(timeout()), this, SLOT(updateEstimate()));
+  d->connectControls();
+  connect(d->PreviewCheckBox, SIGNAL(toggled(bool)), this, SLOT(updatePreview()));
+  connect(d->ProfileCheckBox, SIGNAL(toggled(bool)), this, SLOT(showProfile(bool)));
+  connect(d->RunWidget, SIGNAL(applyRequested()), this, SLOT(apply()));
+  connect(d->RunWidget, SIGNAL(runEnded()), this, SLOT(onRunEnded()));
+  d->RunWidget->setRun(d->logic()->GetRun());
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::enter()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  this->Superclass::enter();
+  d->setParameterNode(d->logic()->ParameterNode());
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::exit()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  d->PreviewTimer.stop();
+  d->EstimateTimer.stop();
+  d->logic()->HidePreview();
+  d->TargetsPlaceWidget->setPlaceModeEnabled(false);
+  d->PathPlaceWidget->setPlaceModeEnabled(false);
+  this->Superclass::exit();
+}
+
+bool qSlicerSurgicalPathScaleModuleWidget::setEditedNode(vtkMRMLNode* node, QString role, QString context)
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  if (auto* parameters = vtkMRMLSurgicalPathScaleNode::SafeDownCast(node))
+  {
+    d->setParameterNode(parameters);
+    return true;
+  }
+  if (!d->Parameters) d->setParameterNode(d->logic()->ParameterNode());
+  if (!d->Parameters) return false;
+  const char* target = nullptr;
+  if (vtkMRMLSegmentationNode::SafeDownCast(node) || vtkMRMLLabelMapVolumeNode::SafeDownCast(node))
+    target = Node::TissueMapRole();
+  else if (vtkMRMLMarkupsFiducialNode::SafeDownCast(node)) target = Node::TargetsRole();
+  else if (vtkMRMLMarkupsCurveNode::SafeDownCast(node) || vtkMRMLMarkupsLineNode::SafeDownCast(node))
+    target = Node::PathRole();
+  if (!target) return this->Superclass::setEditedNode(node, role, context);
+  d->Parameters->SetNode(target, node);
+  return true;
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::setMRMLScene(vtkMRMLScene* scene)
+{
+  vtkMRMLScene* old = this->mrmlScene();
+  for (const unsigned long event : { vtkMRMLScene::EndImportEvent, vtkMRMLScene::EndBatchProcessEvent,
+                                     vtkMRMLScene::EndCloseEvent, vtkMRMLScene::EndRestoreEvent })
+  {
+    this->qvtkReconnect(old, scene, event, this, SLOT(onSceneReplaced()));
+  }
+  this->qvtkReconnect(old, scene, vtkMRMLScene::StartSaveEvent, this, SLOT(onSaveStarted()));
+  this->qvtkReconnect(old, scene, vtkMRMLScene::EndSaveEvent, this, SLOT(onSaveEnded()));
+  this->Superclass::setMRMLScene(scene);
+  this->onSceneReplaced();
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::onSceneReplaced()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  vtkMRMLScene* scene = this->mrmlScene();
+  if (scene && scene->IsBatchProcessing()) return;
+  vtkMRMLNode* node = scene ? scene->GetFirstNodeByClass("vtkMRMLSurgicalPathScaleNode") : nullptr;
+  if (!node && scene && this->isEntered()) node = d->logic()->ParameterNode();
+  d->setParameterNode(vtkMRMLSurgicalPathScaleNode::SafeDownCast(node));
+}
+
+/// A saved scene must not refer to the preview's volumes, which are not saved.
+void qSlicerSurgicalPathScaleModuleWidget::onSaveStarted()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  d->logic()->HidePreview();
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::onSaveEnded()
+{
+  this->updatePreview();
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::updateFromNode()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  this->setEnabled(d->Parameters != nullptr);
+  if (!d->Parameters) return;
+  d->IsUpdating = true;
+  d->showValues();
+  d->IsUpdating = false;
+  if (d->Parameters->GetProfileChartNode()) surgicalmesher::plotProfile(d->Parameters);
+  this->onInputChanged();
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::onInputChanged()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  if (!d->Parameters) return;
+  d->showObstacle();
+  d->scheduleUpdates();
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::updatePreview()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  d->PreviewTimer.stop();
+  if (d->Parameters && this->isEntered() && d->PreviewCheckBox->isChecked())
+  {
+    d->logic()->ShowPreview(d->Parameters);
+    d->showObstacle();
+  }
+  else d->logic()->HidePreview();
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::updateEstimate()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  if (!d->Parameters || !this->isEntered()) return;
+  const Logic::Estimate estimate = d->logic()->EstimateMesh(d->Parameters);
+  d->EstimateLabel->setText(estimate.triangles < 0 ? tr("not known yet") : sizeSentence(estimate));
+  d->showObstacle();
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::showProfile(bool isWanted)
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  if (!d->Parameters || d->IsUpdating) return;
+  if (!isWanted) return surgicalmesher::removeProfile(d->Parameters);
+  vtkMRMLPlotChartNode* chart = surgicalmesher::plotProfile(d->Parameters);
+  auto* plots = vtkSlicerPlotsLogic::SafeDownCast(d->logic()->GetModuleLogic("Plots"));
+  if (plots) plots->ShowChartInLayout(chart);
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::apply()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  if (!d->Parameters) return;
+  d->showObstacle(); // what changed a moment ago
+  if (d->RunWidget->problem().isEmpty()) d->logic()->Start(d->Parameters);
+}
+
+void qSlicerSurgicalPathScaleModuleWidget::onRunEnded()
+{
+  Q_D(qSlicerSurgicalPathScaleModuleWidget);
+  vtkSurgicalMesherRun* run = d->logic()->GetRun();
+  vtkMRMLScalarVolumeNode* scale = d->Parameters ? d->Parameters->GetScaleNode() : nullptr;
+  if (run->GetStatus() != vtkSurgicalMesherRun::Completed || !scale || !scale->GetImageData()) return;
+  d->PreviewCheckBox->setChecked(false); // the result takes its place
+  d->logic()->ShowResults(d->Parameters);
+  double range[2];
+  scale->GetImageData()->GetScalarRange(range);
+  d->RunWidget->setResult(tr("Edge lengths from %1 to %2 mm; %3 to expect.")
+                            .arg(range[0], 0, 'g', 3)
+                            .arg(range[1], 0, 'g', 3)
+                            .arg(sizeSentence(d->logic()->GetEstimateOfRun())));
+}

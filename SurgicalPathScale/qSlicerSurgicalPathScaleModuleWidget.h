@@ -1,0 +1,50 @@
+#pragma once
+
+#include "qSlicerSurgicalPathScaleModuleExport.h"
+
+#include <qSlicerAbstractModuleWidget.h>
+
+class qSlicerSurgicalPathScaleModuleWidgetPrivate;
+class vtkMRMLNode;
+
+/// The panel. It shows the scene's parameter node, and writes to it what the user enters. The preview is the panel's own:
+/// it is there while the panel is open.
+class Q_SLICER_QTMODULES_SURGICALPATHSCALE_EXPORT qSlicerSurgicalPathScaleModuleWidget : public qSlicerAbstractModuleWidget
+{
+  Q_OBJECT
+
+public:
+  using Superclass = qSlicerAbstractModuleWidget;
+
+  explicit qSlicerSurgicalPathScaleModuleWidget(QWidget* parent = nullptr);
+  ~qSlicerSurgicalPathScaleModuleWidget() override;
+
+  void enter() override;
+  void exit() override;
+  /// A parameter node is shown; segmentations, label maps and markups become inputs.
+  bool setEditedNode(vtkMRMLNode* node, QString role = QString(), QString context = QString()) override;
+
+public slots:
+  void setMRMLScene(vtkMRMLScene* scene) override;
+
+protected slots:
+  /// Shows what the parameter node says, and what keeps it from being run.
+  void updateFromNode();
+  void onInputChanged();
+  void onSceneReplaced();
+  void onSaveStarted();
+  void onSaveEnded();
+  void updatePreview();
+  void updateEstimate();
+  void showProfile(bool isWanted);
+  void apply();
+  void onRunEnded();
+
+protected:
+  void setup() override;
+
+private:
+  QScopedPointer<qSlicerSurgicalPathScaleModuleWidgetPrivate> d_ptr;
+  Q_DECLARE_PRIVATE(qSlicerSurgicalPathScaleModuleWidget)
+  Q_DISABLE_COPY(qSlicerSurgicalPathScaleModuleWidget)
+};
