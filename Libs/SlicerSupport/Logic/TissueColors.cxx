@@ -20,16 +20,15 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr const char* kOwner = "SurgicalMesher.ColorsOf"; // attribute of a colour table: id of the model it was made for
+constexpr const char* kColorsRole = "tissueColors"; // of the model; its display may show other colours meanwhile
 
 vtkMRMLColorTableNode* colorsOf(vtkMRMLModelNode* model)
 {
-  auto* colors = vtkMRMLColorTableNode::SafeDownCast(model->GetDisplayNode()->GetColorNode());
-  const char* owner = colors ? colors->GetAttribute(kOwner) : nullptr;
-  if (owner && std::string(owner) == model->GetID()) return colors;
+  auto* colors = vtkMRMLColorTableNode::SafeDownCast(model->GetNodeReference(kColorsRole));
+  if (colors) return colors;
   colors = vtkMRMLColorTableNode::SafeDownCast(model->GetScene()->AddNewNodeByClass(
     "vtkMRMLColorTableNode", model->GetScene()->GenerateUniqueName(std::string(model->GetName()) + " tissues")));
-  colors->SetAttribute(kOwner, model->GetID());
+  model->SetNodeReferenceID(kColorsRole, colors->GetID());
   return colors;
 }
 
