@@ -14,6 +14,7 @@
 #include <vtkSlicerTablesLogic.h>
 
 #include <vtkMRMLLayoutNode.h>
+#include <vtkMRMLMarkupsNode.h>
 #include <vtkMRMLModelNode.h>
 #include <vtkMRMLPlotChartNode.h>
 #include <vtkMRMLScalarVolumeNode.h>
@@ -102,6 +103,7 @@ public:
   void bind(qMRMLNodeComboBox* box, const char* role);
   void bind(qMRMLCheckableNodeComboBox* box, const char* role);
 
+  void observeInputs();
   void updateDisplay();
   void updateSurface();
   void updateMesh();
@@ -114,6 +116,7 @@ public:
   void say(const QString& sentence, bool isError = false);
 
   vtkWeakPointer<Node> Parameters;
+  std::vector<vtkWeakPointer<vtkMRMLNode>> Inputs; ///< observed
   vtkWeakPointer<vtkMRMLSliceNode> Slice;         ///< that the clip slider moves
   std::vector<std::function<void()>> Refreshers; ///< of controls, from the node
   bool IsMeshNew = false;                         ///< the run is to make it
@@ -138,7 +141,6 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::setNode(Node* node)
 {
   Q_Q(qSlicerFuchsTetrahedralizerModuleWidget);
   q->qvtkReconnect(this->Parameters, node, vtkCommand::ModifiedEvent, q, SLOT(updateFromNode()));
-  q->qvtkReconnect(this->Parameters, node, Node::InputModifiedEvent, q, SLOT(updateFromNode()));
   this->Parameters = node;
   q->updateFromNode();
 }
@@ -173,6 +175,9 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(qMRMLNodeComboBox* box
 {
   QObject::connect(box, QOverload<vtkMRMLNode*>::of(&qMRMLNodeComboBox::currentNodeChanged), q_ptr,
                    [this, role](vtkMRMLNode* node) { if (this->Parameters) this->Parameters->SetNode(role, node); });
+  // The box would go on to a neighbour, which the next run could overwrite.
+  QObject::connect(box, &qMRMLNodeComboBox::nodeAboutToBeRemoved, q_ptr,
+                   [box](vtkMRMLNode* node) { if (box->currentNode() == node) box->setCurrentNode(nullptr); });
   this->Refreshers.push_back([this, box, role] { box->setCurrentNode(this->Parameters->GetNodeReference(role)); });
 }
 
@@ -273,6 +278,28 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindButtons()
   QObject::connect(this->ExportButton, &QPushButton::clicked, q, &Panel::onExport);
   QObject::connect(this->RunWidget, &qSurgicalMesherRunWidget::applyRequested, q, &Panel::apply);
   QObject::connect(this->RunWidget, &qSurgicalMesherRunWidget::runEnded, q, &Panel::onRunEnded);
+}
+
+/// Not by the node's references: the host warns when a node that it observes so has a second role, be it a wrong one.
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::observeInputs()
+{
+  Q_Q(qSlicerFuchsTetrahedralizerModuleWidget);
+  const unsigned long events[] = { vtkCommand::ModifiedEvent, vtkMRMLModelNode::MeshModifiedEvent,
+                                   vtkMRMLVolumeNode::ImageDataModifiedEvent,
+                                   vtkMRMLTransformableNode::TransformModifiedEvent,
+                                   vtkMRMLMarkupsNode::PointPositionDefinedEvent, vtkMRMLMarkupsNode::PointRemovedEvent };
+  std::vector<vtkWeakPointer<vtkMRMLNode>> inputs;
+  for (const char* role : { Node::SurfaceRole(), Node::ScaleRole(), Node::TargetRole(), Node::PathRole() })
+  {
+    if (!this->Parameters) break;
+    for (vtkMRMLNode* node : this->Parameters->GetNodes(role)) inputs.emplace_back(node);
+  }
+  if (inputs == this->Inputs) return;
+  for (vtkMRMLNode* node : this->Inputs)
+    for (const unsigned long event : events) q->qvtkDisconnect(node, event, q, SLOT(updateFromNode()));
+  for (vtkMRMLNode* node : inputs)
+    for (const unsigned long event : events) q->qvtkConnect(node, event, q, SLOT(updateFromNode()));
+  this->Inputs = inputs;
 }
 
 // ---- what the panel says --------------------------------------------------------------------------------------------
@@ -538,6 +565,7 @@ void qSlicerFuchsTetrahedralizerModuleWidget::updateFromNode()
   for (QWidget* section : { d->InputsCollapsibleButton, d->OutputsCollapsibleButton, d->FiniteElementsCollapsibleButton,
                             d->ClassesCollapsibleButton, d->MeshCollapsibleButton, d->AdvancedCollapsibleButton })
     section->setEnabled(d->Parameters != nullptr);
+  d->observeInputs();
   if (!d->Parameters || (this->mrmlScene() && this->mrmlScene()->IsBatchProcessing())) return;
   for (const auto& refresh : d->Refreshers) refresh();
   d->updateSurface();

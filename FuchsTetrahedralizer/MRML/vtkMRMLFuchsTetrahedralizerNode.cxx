@@ -2,12 +2,7 @@
 
 #include <vtkMRMLModelNode.h>
 #include <vtkMRMLScene.h>
-#include <vtkMRMLTransformableNode.h>
-#include <vtkMRMLVolumeNode.h>
 
-#include <vtkCommand.h>
-#include <vtkIntArray.h>
-#include <vtkNew.h>
 #include <vtkObjectFactory.h>
 
 #include <array>
@@ -40,12 +35,6 @@ int indexOf(const std::array<const char*, N>& names, const char* name)
   return -1;
 }
 
-bool isInput(const std::string& role)
-{
-  return role == Node::SurfaceRole() || role == Node::ScaleRole() || role == Node::TargetRole() ||
-         role == Node::PathRole();
-}
-
 } // namespace
 
 vtkMRMLNodeNewMacro(vtkMRMLFuchsTetrahedralizerNode);
@@ -65,17 +54,10 @@ const char* vtkMRMLFuchsTetrahedralizerNode::HistogramRole() { return "histogram
 vtkMRMLFuchsTetrahedralizerNode::vtkMRMLFuchsTetrahedralizerNode()
 {
   this->HideFromEditors = 1;
-  vtkNew<vtkIntArray> events;
-  for (const int event : { int(vtkCommand::ModifiedEvent), int(vtkMRMLModelNode::MeshModifiedEvent),
-                           int(vtkMRMLVolumeNode::ImageDataModifiedEvent),
-                           int(vtkMRMLTransformableNode::TransformModifiedEvent) })
-  {
-    events->InsertNextValue(event);
-  }
   for (const char* role : { SurfaceRole(), ScaleRole(), TargetRole(), PathRole(), MeshRole(), ParentMeshRole(),
                             ChildMeshRole(), ShellsRole() })
   {
-    this->AddNodeReferenceRole(role, (std::string(role) + "NodeRef").c_str(), isInput(role) ? events.Get() : nullptr);
+    this->AddNodeReferenceRole(role, (std::string(role) + "NodeRef").c_str());
   }
 }
 
@@ -172,12 +154,6 @@ void vtkMRMLFuchsTetrahedralizerNode::PrintSelf(ostream& os, vtkIndent indent)
   vtkMRMLPrintBooleanMacro(ClipFlipped);
   vtkMRMLPrintBooleanMacro(ShowEdges);
   vtkMRMLPrintEndMacro();
-}
-
-void vtkMRMLFuchsTetrahedralizerNode::ProcessMRMLEvents(vtkObject* caller, unsigned long event, void* callData)
-{
-  Superclass::ProcessMRMLEvents(caller, event, callData);
-  if (vtkMRMLNode::SafeDownCast(caller)) this->InvokeCustomModifiedEvent(InputModifiedEvent);
 }
 
 void vtkMRMLFuchsTetrahedralizerNode::SetNode(const char* role, vtkMRMLNode* node)

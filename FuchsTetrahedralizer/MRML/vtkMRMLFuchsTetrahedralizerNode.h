@@ -24,12 +24,6 @@ public:
   void ReadXMLAttributes(const char** atts) override;
   void WriteXML(ostream& of, int indent) override;
   void CopyContent(vtkMRMLNode* node, bool deepCopy = true) override;
-  void ProcessMRMLEvents(vtkObject* caller, unsigned long event, void* callData) override;
-
-  enum Events
-  {
-    InputModifiedEvent = 29101 ///< the content or the place of a node in one of the input roles changed
-  };
 
   /// Where edge lengths come from.
   enum EdgeLengthSourceType
