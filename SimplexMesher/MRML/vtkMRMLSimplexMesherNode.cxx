@@ -239,11 +239,12 @@ void vtkMRMLSimplexMesherNode::SetNode(const char* role, vtkMRMLNode* node)
 void vtkMRMLSimplexMesherNode::SetTissueSettings(const Settings& settings)
 {
   const std::string before = this->GetTissues();
-  this->TissueSettings.clear();
+  Settings asked;
   for (const auto& [id, setting] : settings)
   {
-    if (!isDefault(setting)) this->TissueSettings[id] = setting;
+    if (!isDefault(setting)) asked[id] = setting;
   }
+  this->TissueSettings = asked;
   if (this->GetTissues() != before) this->Modified();
 }
 
