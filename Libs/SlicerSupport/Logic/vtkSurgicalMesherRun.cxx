@@ -110,6 +110,27 @@ int processId()
 #endif
 }
 
+/// The host's files for nodes are named by the nodes' IDs, with letters for digits, which tells the user nothing: says the
+/// nodes' names instead.
+std::string withNodeNames(std::string text, const std::vector<vtkSmartPointer<vtkMRMLNode>>& nodes,
+                          const std::string& folder)
+{
+  for (vtkMRMLNode* node : nodes)
+  {
+    std::string stem = std::string("_") + (node->GetID() ? node->GetID() : "") + ".";
+    std::transform(stem.begin(), stem.end(), stem.begin(),
+                   [](char c) { return c >= '0' && c <= '9' ? char(c - '0' + 'A') : c; });
+    for (std::size_t at = text.find(stem); at != text.npos; at = text.find(stem, at + 1))
+    {
+      const std::size_t begin = text.rfind(folder, at), end = text.find_first_of(".:;, ", at + stem.size());
+      if (folder.empty() || begin == text.npos || (end < text.size() && text[end] == '.')) continue; // another file
+      text.replace(begin, end - begin, node->GetName() ? node->GetName() : "");
+      at = begin;
+    }
+  }
+  return text;
+}
+
 /// A new empty folder for the files of one run.
 std::string makeFolder(const std::string& parent)
 {
@@ -336,6 +357,8 @@ vtkSurgicalMesherRun::Status vtkSurgicalMesherRun::GetStatus() const { return th
 
 std::string vtkSurgicalMesherRun::GetErrorText() const { return this->Private->ErrorText; }
 
+void vtkSurgicalMesherRun::SetErrorText(const std::string& text) { this->Private->ErrorText = text; }
+
 std::string vtkSurgicalMesherRun::GetReturnedValue(const std::string& name) const
 {
   const Internal& d = *this->Private;
@@ -512,6 +535,7 @@ void vtkSurgicalMesherRun::Internal::Finish(vtkMRMLNode* leaving)
     const std::string target = this->CommandLineNode->GetModuleTarget();
     this->ErrorText = moduleErrorLine(this->CommandLineNode->GetErrorText(),
                                       vtksys::SystemTools::GetFilenameWithoutLastExtension(target));
+    this->ErrorText = withNodeNames(this->ErrorText, this->Parameters, this->ApplicationLogic->GetTemporaryPath());
   }
   this->CleanUp(outcome, leaving);
   this->SetStatus(outcome);

@@ -83,8 +83,10 @@ public:
 
   Status GetStatus() const;
   bool IsBusy() const { return this->GetStatus() == Running; }
-  /// Why the run failed: the module's own line on stderr; empty otherwise.
+  /// Why the run failed: the module's own line on stderr, with the names of nodes for the host's files; empty otherwise.
   std::string GetErrorText() const;
+  /// For an observer of StatusChangedEvent, with a priority over 0, that can say more.
+  void SetErrorText(const std::string& text);
   /// Value that the module returned for a simple output parameter; empty before the end, or if there is none.
   std::string GetReturnedValue(const std::string& name) const;
   double GetElapsedSeconds() const;
