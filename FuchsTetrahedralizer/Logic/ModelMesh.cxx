@@ -223,6 +223,19 @@ vtkSmartPointer<vtkPolyData> surfaceInWorld(const std::vector<vtkMRMLModelNode*>
   return surface;
 }
 
+vtkSmartPointer<vtkPolyData> polyDataOf(const SurfaceComplex& surface)
+{
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Vec3& p : surface.points) points->InsertNextPoint(-p.x, -p.y, p.z);
+  vtkNew<vtkCellArray> triangles;
+  for (const auto& [a, b, c] : surface.triangles) triangles->InsertNextCell({ a, b, c });
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  result->SetPolys(triangles);
+  return result;
+}
+
 vtkSmartPointer<vtkUnstructuredGrid> ambientInWorld(vtkMRMLModelNode* ambient, vtkMRMLModelNode* surface)
 {
   const auto grid = gridInWorld(ambient, surface);

@@ -25,6 +25,9 @@ TissueTable tissuesOfSurface(vtkMRMLModelNode* model);
 /// colours. In RAS, mm, without SPACE in its field data: the host complains when it finds that there while it writes.
 vtkSmartPointer<vtkPolyData> surfaceInWorld(const std::vector<vtkMRMLModelNode*>& models);
 
+/// Triangles in LPS as polydata in RAS.
+vtkSmartPointer<vtkPolyData> polyDataOf(const SurfaceComplex& surface);
+
 /// Ambient tetrahedra, which go where their surface goes: they are under the transform of `surface`. As above.
 vtkSmartPointer<vtkUnstructuredGrid> ambientInWorld(vtkMRMLModelNode* ambient, vtkMRMLModelNode* surface);
 

@@ -32,6 +32,7 @@
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
+#include <vtksys/SystemTools.hxx>
 
 #include <fstream>
 #include <functional>
@@ -284,16 +285,17 @@ vtkStandardNewMacro(vtkSlicerFuchsTetrahedralizerLogic);
 
 vtkSlicerFuchsTetrahedralizerLogic::vtkSlicerFuchsTetrahedralizerLogic() : LastAmbientCheck(new AmbientCheck)
 {
-  this->RunEnded->SetClientData(this);
-  this->RunEnded->SetCallback([](vtkObject*, unsigned long, void* self, void*)
-                              { static_cast<vtkSlicerFuchsTetrahedralizerLogic*>(self)->FinishRun(); });
+  this->RunEvents->SetClientData(this);
+  this->RunEvents->SetCallback([](vtkObject*, unsigned long event, void* self, void*)
+                               { static_cast<vtkSlicerFuchsTetrahedralizerLogic*>(self)->OnRunEvent(event); });
   constexpr float beforeOthers = 10;
-  this->Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, this->RunEnded, beforeOthers);
+  this->Run->AddObserver(vtkSurgicalMesherRun::StatusChangedEvent, this->RunEvents, beforeOthers);
+  this->Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, this->RunEvents, beforeOthers);
 }
 
 vtkSlicerFuchsTetrahedralizerLogic::~vtkSlicerFuchsTetrahedralizerLogic()
 {
-  this->Run->RemoveObserver(this->RunEnded);
+  this->Run->RemoveObserver(this->RunEvents);
   delete this->LastAmbientCheck;
 }
 
@@ -462,9 +464,42 @@ void vtkSlicerFuchsTetrahedralizerLogic::PrepareOutputs(vtkMRMLFuchsTetrahedrali
   this->Run->SetParameter("report", this->ReportFile);
 }
 
+void vtkSlicerFuchsTetrahedralizerLogic::OnRunEvent(unsigned long event)
+{
+  const vtkSurgicalMesherRun::Status status = this->Run->GetStatus();
+  if (event == vtkSurgicalMesherRun::StatusChangedEvent && status == vtkSurgicalMesherRun::Failed)
+    this->ShowTrianglesAtFault();
+  if (event == vtkSurgicalMesherRun::CompletedEvent && status == vtkSurgicalMesherRun::Completed) this->FinishRun();
+}
+
+/// The module's refusal ends with the name of a file of triangles.
+void vtkSlicerFuchsTetrahedralizerLogic::ShowTrianglesAtFault()
+{
+  const std::string refusal = this->Run->GetErrorText(), announcement = "; these triangles are in ";
+  const std::size_t at = refusal.find(announcement);
+  if (at == refusal.npos || !this->GetMRMLScene()) return;
+  const std::string file = refusal.substr(at + announcement.size());
+  const std::string failure = failureOf(
+    [&]
+    {
+      auto* model = vtkMRMLModelNode::SafeDownCast(this->GetMRMLScene()->AddNewNodeByClass(
+        "vtkMRMLModelNode", vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "Triangles at fault")));
+      model->SetAndObserveMesh(polyDataOf(readSurface(file).surface));
+      model->CreateDefaultDisplayNodes();
+      model->GetDisplayNode()->SetColor(0.84, 0.10, 0.11);
+      model->GetDisplayNode()->SetEdgeVisibility(true);
+      model->GetDisplayNode()->SetLineWidth(3);
+      this->Run->SetErrorText(refusal.substr(0, at) + "; " +
+                              vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "the triangles are in the model") + " \"" +
+                              model->GetName() + "\"");
+    });
+  vtksys::SystemTools::RemoveFile(file);
+  if (!failure.empty()) vtkErrorMacro(<< failure);
+}
+
 void vtkSlicerFuchsTetrahedralizerLogic::FinishRun()
 {
-  if (this->Run->GetStatus() != vtkSurgicalMesherRun::Completed || !this->Parameters || this->Outputs.empty()) return;
+  if (!this->Parameters || this->Outputs.empty()) return;
   for (vtkMRMLModelNode* output : this->Outputs)
   {
     if (!output || !output->GetMesh()) continue;

@@ -89,7 +89,8 @@ public:
   bool StartAndWait(vtkMRMLFuchsTetrahedralizerNode* parameters);
 
   /// The one run of this logic: its status, its error, its end. By the time that others see its CompletedEvent, if they
-  /// observe it with the default priority, the results have been finished: coloured, cut open, measured.
+  /// observe it with the default priority, the results have been finished: coloured, cut open, measured. Where a surface
+  /// was refused for some of its triangles, a new model shows these.
   vtkSurgicalMesherRun* GetRun() const { return this->Run; }
 
   // ---- any tetrahedra -----------------------------------------------------------------------------------------------
@@ -143,11 +144,13 @@ private:
   void PrepareLengths(vtkMRMLFuchsTetrahedralizerNode* parameters);
   void PrepareConstitutiveClasses(vtkMRMLFuchsTetrahedralizerNode* parameters);
   void PrepareOutputs(vtkMRMLFuchsTetrahedralizerNode* parameters);
+  void OnRunEvent(unsigned long event);
+  void ShowTrianglesAtFault();
   void FinishRun();
   void FinishMesh(vtkMRMLModelNode* mesh);
 
   vtkNew<vtkSurgicalMesherRun> Run;
-  vtkNew<vtkCallbackCommand> RunEnded;
+  vtkNew<vtkCallbackCommand> RunEvents;
   vtkWeakPointer<vtkMRMLFuchsTetrahedralizerNode> Parameters; ///< of the run
   std::vector<vtkWeakPointer<vtkMRMLModelNode>> Outputs;      ///< of the run; the mesh first
   std::string ReportFile;                                     ///< of the run

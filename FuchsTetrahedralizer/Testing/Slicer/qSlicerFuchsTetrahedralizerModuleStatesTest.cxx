@@ -9,6 +9,7 @@
 #include "vtkSurgicalMesherRun.h"
 
 #include <qSlicerAbstractModuleWidget.h>
+#include <qSlicerApplication.h>
 
 #include <vtkMRMLCoreTestingMacros.h>
 #include <vtkMRMLMarkupsNode.h>
@@ -215,9 +216,15 @@ int testRefusal(Panel& panel)
   panel.button("ApplyButton")->click();
   CHECK_BOOL(panel.waitForEnd(), true);
   CHECK_INT(panel.run()->GetStatus(), vtkSurgicalMesherRun::Failed);
-  CHECK_BOOL(panel.run()->GetErrorText().empty(), false);
-  std::cout << panel.run()->GetErrorText() << std::endl;
-  CHECK_STD_STRING(check.leftovers(), "");
+  const std::string text = panel.run()->GetErrorText();
+  CHECK_INT(text.find("open: the surface is open"), 0); // the model's name, not a file's
+  CHECK_BOOL(text.find(panel.host.application().temporaryPath().toStdString()) == std::string::npos, true);
+  auto* fault = vtkMRMLModelNode::SafeDownCast(scene->GetFirstNodeByName("Triangles at fault"));
+  CHECK_NOT_NULL(fault);
+  CHECK_INT(fault->GetPolyData()->GetNumberOfCells(), 3);
+  CHECK_STD_STRING(check.leftovers({ "vtkMRMLModelNode", "vtkMRMLModelDisplayNode" }), "");
+  panel.run()->SetCommandLineLogic(nullptr);
+  CHECK_STD_STRING(filesOfRuns(), "");
   panel.host.complaints(); // the host logs that the module failed
   return EXIT_SUCCESS;
 }
