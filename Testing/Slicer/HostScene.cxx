@@ -2,9 +2,9 @@
 
 #include "HostDifferences.h"
 
+#include <qSlicerAbstractCoreModule.h>
 #include <qSlicerApplication.h>
 #include <qSlicerModuleManager.h>
-#include <qSlicerAbstractCoreModule.h>
 
 #include <vtkMRMLColorTableNode.h>
 #include <vtkMRMLDisplayNode.h>
@@ -12,6 +12,7 @@
 #include <vtkMRMLLinearTransformNode.h>
 #include <vtkMRMLMarkupsNode.h>
 #include <vtkMRMLScene.h>
+#include <vtkMRMLScalarVolumeNode.h>
 #include <vtkMRMLSegmentationNode.h>
 #include <vtkSlicerSegmentationsModuleLogic.h>
 #include <vtkSlicerVolumesLogic.h>
@@ -45,6 +46,21 @@ vtkMRMLColorTableNode* addTissueColors(vtkMRMLScene* scene)
   colors->SetColor(1, "tumour", 0.9, 0.3, 0.25);
   colors->SetColor(2, "brain", 0.8, 0.8, 0.8);
   return vtkMRMLColorTableNode::SafeDownCast(scene->AddNode(colors));
+}
+
+/// By the host's own logic, which the application's dialogue uses as well.
+vtkMRMLVolumeNode* loadAnyVolume(vtkMRMLScene* scene, const std::string& fileName, int options)
+{
+  qSlicerAbstractCoreModule* module = qSlicerApplication::application()->moduleManager()->module("Volumes");
+  auto* logic = vtkSlicerVolumesLogic::SafeDownCast(module ? module->logic() : nullptr);
+  const std::string name = QFileInfo(QString::fromStdString(fileName)).baseName().toStdString();
+  return logic && scene == logic->GetMRMLScene() ? logic->AddArchetypeVolume(fileName.c_str(), name.c_str(), options)
+                                                 : nullptr;
+}
+
+std::string ifExists(const QString& file)
+{
+  return QFileInfo::exists(file) ? file.toStdString() : std::string();
 }
 
 std::string described(vtkMRMLNode* node)
@@ -113,16 +129,22 @@ vtkMRMLSegmentationNode* addEmptySegmentation(vtkMRMLScene* scene, const char* n
 vtkMRMLLabelMapVolumeNode* loadLabelMap(vtkMRMLScene* scene, const std::string& fileName)
 {
   constexpr int LABEL_MAP = 1;
-  vtkNew<vtkSlicerVolumesLogic> logic;
-  logic->SetMRMLScene(scene);
-  const std::string name = QFileInfo(QString::fromStdString(fileName)).baseName().toStdString();
-  return vtkMRMLLabelMapVolumeNode::SafeDownCast(logic->AddArchetypeVolume(fileName.c_str(), name.c_str(), LABEL_MAP));
+  return vtkMRMLLabelMapVolumeNode::SafeDownCast(loadAnyVolume(scene, fileName, LABEL_MAP));
+}
+
+vtkMRMLScalarVolumeNode* loadVolume(vtkMRMLScene* scene, const std::string& fileName)
+{
+  return vtkMRMLScalarVolumeNode::SafeDownCast(loadAnyVolume(scene, fileName, 0));
 }
 
 std::string jhuAtlasFile()
 {
-  const QString file = "/usr/share/mricron/templates/jhu189.nii.gz";
-  return QFileInfo::exists(file) ? file.toStdString() : std::string();
+  return ifExists("/usr/share/mricron/templates/jhu189.nii.gz");
+}
+
+std::string brainImageFile()
+{
+  return ifExists("/usr/share/mricron/templates/ch2better.nii.gz");
 }
 
 vtkMRMLMarkupsNode* addMarkups(vtkMRMLScene* scene, const char* className, const std::vector<Point>& points)

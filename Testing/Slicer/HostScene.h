@@ -40,8 +40,13 @@ vtkMRMLSegmentationNode* addEmptySegmentation(vtkMRMLScene* scene, const char* n
 /// A label map of a file, in the way that the host's own dialogue loads it. Null if it can't be read.
 vtkMRMLLabelMapVolumeNode* loadLabelMap(vtkMRMLScene* scene, const std::string& fileName);
 
-/// The JHU atlas of 189 brain tissues, where Debian's mricron-data has put it; empty if it is not installed.
+/// An image of a file, in the same way.
+vtkMRMLScalarVolumeNode* loadVolume(vtkMRMLScene* scene, const std::string& fileName);
+
+/// The JHU atlas of 189 brain tissues, and a T1 image in its space, where Debian's mricron-data has put them; empty if it
+/// is not installed.
 std::string jhuAtlasFile();
+std::string brainImageFile();
 
 /// A markups node of a class such as "vtkMRMLMarkupsFiducialNode" or "vtkMRMLMarkupsCurveNode".
 vtkMRMLMarkupsNode* addMarkups(vtkMRMLScene* scene, const char* className, const std::vector<Point>& points);

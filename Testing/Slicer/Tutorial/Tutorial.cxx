@@ -1,21 +1,43 @@
 #include "Tutorial.h"
 
+#include "HostApplication.h"
 #include "HostScene.h"
 #include "TutorialViews.h"
 #include "Waiting.h"
 
+#include <qMRMLCheckableNodeComboBox.h>
 #include <qMRMLNodeComboBox.h>
 #include <qSlicerAbstractModuleWidget.h>
 #include <qSlicerApplication.h>
+#include <qSurgicalMesherRunWidget.h>
+#include <vtkSurgicalMesherRun.h>
 
+#include <ctkCollapsibleButton.h>
+#include <ctkSliderWidget.h>
+
+#include <vtkMRMLApplicationLogic.h>
 #include <vtkMRMLLabelMapVolumeNode.h>
 #include <vtkMRMLLayoutNode.h>
+#include <vtkMRMLMarkupsDisplayNode.h>
 #include <vtkMRMLMarkupsNode.h>
+#include <vtkMRMLModelDisplayNode.h>
+#include <vtkMRMLModelNode.h>
+#include <vtkMRMLScalarVolumeNode.h>
 #include <vtkMRMLScene.h>
 #include <vtkMRMLSegmentationDisplayNode.h>
 #include <vtkMRMLSegmentationNode.h>
+#include <vtkMRMLSelectionNode.h>
+#include <vtkSlicerApplicationLogic.h>
 
+#include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
 #include <QDir>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QPushButton>
+#include <QRadioButton>
+#include <QTimer>
 
 #include <stdexcept>
 
@@ -25,6 +47,57 @@ namespace
 {
 
 constexpr Point SELLA{ 0, 0, -10 }; ///< near the pituitary gland, RAS
+const std::vector<Point> TRANSNASAL_PATH{ { 0, 78, -34 }, { 0, 52, -26 }, { 0, 26, -17 }, SELLA };
+constexpr double RUN_LIMIT = 300; ///< s
+
+void require(bool condition, const std::string& expectation)
+{
+  if (!condition) throw std::runtime_error("expected " + expectation);
+}
+
+/// Applies as the button does, and waits for the end of the run.
+void apply(qSlicerAbstractModuleWidget* panel)
+{
+  auto* foot = findChild<qSurgicalMesherRunWidget>(panel, "RunWidget");
+  require(foot->problem().isEmpty(), "no problem, found: " + foot->problem().toStdString());
+  foot->apply();
+  require(foot->run() && foot->run()->GetStatus() == vtkSurgicalMesherRun::Running, "a run");
+}
+
+void waitForRun(qSlicerAbstractModuleWidget* panel)
+{
+  vtkSurgicalMesherRun* run = findChild<qSurgicalMesherRunWidget>(panel, "RunWidget")->run();
+  waitUntil([run] { return run->GetStatus() != vtkSurgicalMesherRun::Running; }, RUN_LIMIT);
+  require(run->GetStatus() == vtkSurgicalMesherRun::Completed, "a completed run, found: " + run->GetErrorText());
+  waitFor(1);
+}
+
+/// A new node for an output, as the selector's own menu makes it.
+vtkMRMLNode* addNode(qSlicerAbstractModuleWidget* panel, const char* selector)
+{
+  auto* box = findChild<qMRMLNodeComboBox>(panel, selector);
+  box->addNode();
+  require(box->currentNode() != nullptr, std::string("a new node in ") + selector);
+  return box->currentNode();
+}
+
+void choose(qSlicerAbstractModuleWidget* panel, const char* selector, vtkMRMLNode* node)
+{
+  auto* box = findChild<qMRMLNodeComboBox>(panel, selector);
+  box->setCurrentNode(node);
+  require(box->currentNode() == node, std::string("the node to be offered by ") + selector);
+}
+
+void collapse(qSlicerAbstractModuleWidget* panel, const char* section, bool collapsed = true)
+{
+  findChild<ctkCollapsibleButton>(panel, section)->setCollapsed(collapsed);
+  waitFor(0.2);
+}
+
+void expand(qSlicerAbstractModuleWidget* panel, const char* section)
+{
+  collapse(panel, section, false);
+}
 
 class Tutorial
 {
@@ -35,34 +108,211 @@ public:
   {
     arrangeMainWindow();
     loadSegmentation();
+    setScale();
+    holdFarTissueStill();
+    makeScale();
+    setSurface();
+    makeSurface();
+    lookAtReport();
+    makeTetrahedra();
+    lookAtQuality();
+    exportMesh();
   }
 
 private:
   vtkMRMLScene* scene() const { return qSlicerApplication::application()->mrmlScene(); }
 
-  void take(const QString& name) { takePicture(m_Folder + "/tutorial-" + name + ".png"); }
+  void take(const QString& name) { takePicture(m_Folder + "/" + name + ".png"); }
 
+  /// A patient's image and its segmentation: here a brain of one person and an atlas in the same space.
   void loadSegmentation()
   {
+    vtkMRMLScalarVolumeNode* image = loadVolume(scene(), brainImageFile());
+    qSlicerApplication* application = qSlicerApplication::application();
+    application->applicationLogic()->GetSelectionNode()->SetActiveVolumeID(image->GetID());
+    application->applicationLogic()->PropagateVolumeSelection();
     vtkMRMLLabelMapVolumeNode* atlas = loadLabelMap(scene(), jhuAtlasFile());
     m_Segmentation = addSegmentation(scene(), atlas, "Brain");
     scene()->RemoveNode(atlas);
     vtkMRMLSegmentationDisplayNode::SafeDownCast(m_Segmentation->GetDisplayNode())->SetOpacity2DFill(0.6);
     openModule("Segmentations");
     showLayout(vtkMRMLLayoutNode::SlicerLayoutFourUpView);
-    showSlicesAt(SELLA, 180);
-    take("1-segmentation");
+    showSlicesAt(SELLA, 190);
+    take("tutorial-1-segmentation");
+  }
+
+  /// A target and a path, the scale over the slices, and its profile as a plot.
+  void setScale()
+  {
+    vtkMRMLMarkupsNode* target = addMarkups(scene(), "vtkMRMLMarkupsFiducialNode", { SELLA });
+    target->SetName("Sella");
+    vtkMRMLMarkupsNode* path = addMarkups(scene(), "vtkMRMLMarkupsCurveNode", TRANSNASAL_PATH);
+    path->SetName("Transnasal");
+    for (vtkMRMLMarkupsNode* markups : { target, path })
+    {
+      auto* display = vtkMRMLMarkupsDisplayNode::SafeDownCast(markups->GetDisplayNode());
+      display->SetPointLabelsVisibility(false);
+      display->SetPropertiesLabelVisibility(false);
+    }
+    vtkMRMLSegmentationDisplayNode::SafeDownCast(m_Segmentation->GetDisplayNode())->SetOpacity2DFill(0);
+    m_ScalePanel = openModule("SurgicalPathScale");
+    choose(m_ScalePanel, "TissueMapSelector", m_Segmentation);
+    choose(m_ScalePanel, "TargetsSelector", target);
+    choose(m_ScalePanel, "PathSelector", path);
+    findChild<QCheckBox>(m_ScalePanel, "PreviewCheckBox")->setChecked(true);
+    findChild<QCheckBox>(m_ScalePanel, "ProfileCheckBox")->setChecked(true);
+    showSlicesAt(SELLA, 190);
+    waitFor(3); // preview and estimate
+    take("tutorial-2-scale");
+  }
+
+  void holdFarTissueStill()
+  {
+    collapse(m_ScalePanel, "EdgeLengthCollapsibleButton");
+    expand(m_ScalePanel, "NullDisplacementCollapsibleButton");
+    findChild<QDoubleSpinBox>(m_ScalePanel, "NullDisplacementRadiusSpinBox")->setValue(40);
+    findChild<QDoubleSpinBox>(m_ScalePanel, "NullDisplacementPathDistanceSpinBox")->setValue(20);
+    waitFor(3);
+    take("tutorial-3-null-displacement");
+    findChild<QDoubleSpinBox>(m_ScalePanel, "NullDisplacementRadiusSpinBox")->setValue(0);
+    findChild<QDoubleSpinBox>(m_ScalePanel, "NullDisplacementPathDistanceSpinBox")->setValue(0);
+  }
+
+  void makeScale()
+  {
+    collapse(m_ScalePanel, "NullDisplacementCollapsibleButton");
+    expand(m_ScalePanel, "EdgeLengthCollapsibleButton");
+    m_Scale = addNode(m_ScalePanel, "ScaleSelector");
+    apply(m_ScalePanel);
+    waitForRun(m_ScalePanel);
+    showSlicesAt(SELLA, 190);
+    take("slicer-scale");
+  }
+
+  void setSurface()
+  {
+    m_SurfacePanel = openModule("SimplexMesher");
+    showLayout(vtkMRMLLayoutNode::SlicerLayoutFourUpView);
+    choose(m_SurfacePanel, "TissueMapSelector", m_Segmentation);
+    findChild<QRadioButton>(m_SurfacePanel, "ScaleRadioButton")->setChecked(true);
+    choose(m_SurfacePanel, "ScaleSelector", m_Scale);
+    m_Surface = addNode(m_SurfacePanel, "SurfaceSelector");
+    findChild<QDoubleSpinBox>(m_SurfacePanel, "MinimumIslandVolumeSpinBox")->setValue(30);
+    findChild<QCheckBox>(m_SurfacePanel, "TissueModelsCheckBox")->setChecked(true);
+    waitFor(1);
+    take("tutorial-4-tissues");
+  }
+
+  void makeSurface()
+  {
+    apply(m_SurfacePanel);
+    waitFor(8);
+    scrollTo(findChild<QWidget>(m_SurfacePanel, "RunWidget"));
+    take("tutorial-5-running");
+    waitForRun(m_SurfacePanel);
+    collapse(m_SurfacePanel, "TissuesCollapsibleButton");
+    auto* surface = vtkMRMLModelNode::SafeDownCast(m_Surface);
+    require(surface && surface->GetMesh() && surface->GetMesh()->GetNumberOfCells() > 10000, "a surface");
+    showLayout(vtkMRMLLayoutNode::SlicerLayoutOneUp3DView);
+    lookAt(SELLA, { 0.25, -0.75, 0.6 }, 120);
+    scrollTo(findChild<QWidget>(m_SurfacePanel, "RunWidget"));
+    take("tutorial-6-surface");
+  }
+
+  void lookAtReport()
+  {
+    collapse(m_SurfacePanel, "InputsCollapsibleButton");
+    collapse(m_SurfacePanel, "OutputsCollapsibleButton");
+    expand(m_SurfacePanel, "ReportCollapsibleButton");
+    findChild<QPushButton>(m_SurfacePanel, "ShowPlotButton")->click();
+    waitFor(1);
+    take("tutorial-7-report");
+  }
+
+  void makeTetrahedra()
+  {
+    m_MeshPanel = openModule("FuchsTetrahedralizer");
+    showLayout(vtkMRMLLayoutNode::SlicerLayoutConventionalWidescreenView);
+    auto* surfaces = findChild<qMRMLCheckableNodeComboBox>(m_MeshPanel, "SurfaceComboBox");
+    surfaces->setCheckState(m_Surface, Qt::Checked);
+    addNode(m_MeshPanel, "MeshComboBox");
+    apply(m_MeshPanel);
+    waitForRun(m_MeshPanel);
+    showOnly(findChild<qMRMLNodeComboBox>(m_MeshPanel, "MeshComboBox")->currentNode());
+    showSlicesAt(SELLA, 190);
+    lookAt(SELLA, { -1, -0.25, -0.2 }, 150);
+    take("tutorial-8-tetrahedra");
+  }
+
+  /// Coloured by quality, with a histogram and the table.
+  void lookAtQuality()
+  {
+    auto* colors = findChild<QComboBox>(m_MeshPanel, "ColorComboBox");
+    select(colors, colors->count() - 1);
+    findChild<QPushButton>(m_MeshPanel, "ShowHistogramButton")->click();
+    findChild<QPushButton>(m_MeshPanel, "ShowTableButton")->click();
+    showLayout(vtkMRMLLayoutNode::SlicerLayoutFourUpPlotTableView);
+    scrollTo(findChild<QWidget>(m_MeshPanel, "ExportButton"));
+    take("tutorial-9-quality");
+  }
+
+  /// The dialogue of the panel's button, which is shown, then answered as a user would.
+  void exportMesh()
+  {
+    const QString folder = m_Folder + "/export";
+    QDir(folder).removeRecursively();
+    QDir().mkpath(folder);
+    QTimer::singleShot(1500,
+                       [this, folder]
+                       {
+                         auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
+                         if (!dialog) return;
+                         dialog->setDirectory(folder);
+                         dialog->resize(760, 480);
+                         dialog->move(560, 200);
+                         take("tutorial-10-export");
+                         dialog->selectFile("brain.inp");
+                         QMetaObject::invokeMethod(dialog, "accept", Qt::QueuedConnection);
+                       });
+    findChild<QPushButton>(m_MeshPanel, "ExportButton")->click();
+    waitFor(1);
+    require(QDir(folder).exists("brain.inp"), "an exported mesh");
+    QDir(folder).removeRecursively();
+  }
+
+  /// As a user picks an entry, which is more than setting it.
+  void select(QComboBox* box, int index)
+  {
+    box->setCurrentIndex(index);
+    emit box->activated(index);
+    waitFor(0.5);
+  }
+
+  void showOnly(vtkMRMLNode* shown)
+  {
+    std::vector<vtkMRMLNode*> models;
+    scene()->GetNodesByClass("vtkMRMLModelNode", models);
+    for (vtkMRMLNode* node : models)
+    {
+      auto* display = vtkMRMLModelNode::SafeDownCast(node)->GetModelDisplayNode();
+      if (display && node != shown && !node->GetHideFromEditors()) display->SetVisibility(false);
+    }
   }
 
   QString m_Folder;
+  qSlicerAbstractModuleWidget* m_ScalePanel = nullptr;
+  qSlicerAbstractModuleWidget* m_SurfacePanel = nullptr;
+  qSlicerAbstractModuleWidget* m_MeshPanel = nullptr;
   vtkMRMLSegmentationNode* m_Segmentation = nullptr;
+  vtkMRMLNode* m_Scale = nullptr;
+  vtkMRMLNode* m_Surface = nullptr;
 };
 
 } // namespace
 
 int walkTutorial(const QString& pictureFolder)
 {
-  if (jhuAtlasFile().empty()) return SKIPPED;
+  if (jhuAtlasFile().empty() || brainImageFile().empty()) return SKIPPED;
   Tutorial(pictureFolder).walk();
   return 0;
 }
