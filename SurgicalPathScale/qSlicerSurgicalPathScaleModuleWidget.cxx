@@ -227,7 +227,7 @@ PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::obstacle()
   const Logic::Check check = this->logic()->FindProblem(this->Parameters);
   switch (check.problem)
   {
-  case Problem::None: break;
+  case Problem::None: return {};
   case Problem::NoModule:
     return { Widget::tr("The command-line module SurgicalPathScaleCLI isn't loaded; see the application's log."), {}, {} };
   case Problem::TissueMap:
@@ -237,10 +237,10 @@ PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::obstacle()
   case Problem::PathOfOnePoint:
   case Problem::NoTarget:
   case Problem::NoPath: return this->focusObstacle(check);
+  case Problem::Refused:
+    return { Widget::tr("The parameters can't be used: %1.").arg(QString::fromStdString(check.name)), {}, {} };
   default: return this->valueObstacle(check);
   }
-  const QString refusal = QString::fromStdString(this->logic()->GetRefusal());
-  return { refusal.isEmpty() ? refusal : Widget::tr("The parameters can't be used: %1.").arg(refusal), {}, {} };
 }
 
 PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::focusObstacle(const Logic::Check& check)
@@ -321,6 +321,10 @@ void qSlicerSurgicalPathScaleModuleWidget::setup()
   connect(&d->PreviewTimer, SIGNAL(timeout()), this, SLOT(updatePreview()));
   connect(&d->EstimateTimer, SIGNAL(timeout()), this, SLOT(updateEstimate()));
   d->connectControls();
+  // What there is to choose from is part of what is missing; known once the scene has changed.
+  connect(d->TissueMapSelector, SIGNAL(nodeAdded(vtkMRMLNode*)), this, SLOT(onInputChanged()), Qt::QueuedConnection);
+  connect(d->TissueMapSelector, SIGNAL(nodeAboutToBeRemoved(vtkMRMLNode*)), this, SLOT(onInputChanged()),
+          Qt::QueuedConnection);
   connect(d->PreviewCheckBox, SIGNAL(toggled(bool)), this, SLOT(updatePreview()));
   connect(d->ProfileCheckBox, SIGNAL(toggled(bool)), this, SLOT(showProfile(bool)));
   connect(d->RunWidget, SIGNAL(applyRequested()), this, SLOT(apply()));
@@ -427,11 +431,7 @@ void qSlicerSurgicalPathScaleModuleWidget::updatePreview()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
   d->PreviewTimer.stop();
-  if (d->Parameters && this->isEntered() && d->PreviewCheckBox->isChecked())
-  {
-    d->logic()->ShowPreview(d->Parameters);
-    d->showObstacle();
-  }
+  if (d->Parameters && this->isEntered() && d->PreviewCheckBox->isChecked()) d->logic()->ShowPreview(d->Parameters);
   else d->logic()->HidePreview();
 }
 
@@ -441,7 +441,6 @@ void qSlicerSurgicalPathScaleModuleWidget::updateEstimate()
   if (!d->Parameters || !this->isEntered()) return;
   const Logic::Estimate estimate = d->logic()->EstimateMesh(d->Parameters);
   d->EstimateLabel->setText(estimate.triangles < 0 ? tr("not known yet") : sizeSentence(estimate));
-  d->showObstacle();
 }
 
 void qSlicerSurgicalPathScaleModuleWidget::showProfile(bool isWanted)

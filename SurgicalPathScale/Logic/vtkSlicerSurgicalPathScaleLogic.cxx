@@ -18,6 +18,7 @@
 #include <vtkCallbackCommand.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
+#include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
 #include <vtksys/SystemTools.hxx>
 
@@ -42,6 +43,30 @@ vtkMRMLColorTableNode* colorTableOf(vtkMRMLLabelMapVolumeNode* volume)
   colors = vtkMRMLColorTableNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLColorTableNode", name));
   colors->SetAttribute(colorOwner, volume->GetID());
   return colors;
+}
+
+vtkMRMLVolumeNode* addOutput(vtkMRMLSurgicalPathScaleNode* parameters, const char* role, const char* className,
+                             const std::string& what)
+{
+  vtkMRMLScene* scene = parameters->GetScene();
+  vtkMRMLNode* map = parameters->GetTissueMapNode();
+  const std::string name = (map ? map->GetName() + std::string(" ") : std::string()) + what;
+  vtkMRMLNode* node = scene->AddNewNodeByClass(className, scene->GenerateUniqueName(name));
+  parameters->SetNode(role, node);
+  return vtkMRMLVolumeNode::SafeDownCast(node);
+}
+
+/// Voxels and where they lie, in the world.
+void takeVoxels(vtkMRMLVolumeNode* to, vtkMRMLVolumeNode* from)
+{
+  vtkNew<vtkMatrix4x4> matrix;
+  from->GetIJKToRASMatrix(matrix);
+  const int wasModifying = to->StartModify();
+  to->SetAndObserveTransformNodeID(nullptr);
+  to->SetIJKToRASMatrix(matrix);
+  to->SetAndObserveImageData(from->GetImageData());
+  to->CreateDefaultDisplayNodes();
+  to->EndModify(wasModifying);
 }
 
 double countOf(const std::string& text) { return text.empty() ? -1 : std::strtod(text.c_str(), nullptr); }
@@ -126,6 +151,16 @@ vtkSlicerSurgicalPathScaleLogic::Check vtkSlicerSurgicalPathScaleLogic::FindProb
     return found(Problem::NoTissueLengths, lengths);
   if (!hasTarget && parameters->GetNullDisplacementRadius() > 0) return found(Problem::NullDisplacementTarget);
   if (!hasPath && parameters->GetNullDisplacementPathDistance() > 0) return found(Problem::NullDisplacementPath);
+  try
+  {
+    const TissueTable names = tissueTable(parameters->GetTissueMapNode());
+    scaleOptions(parameters, names);
+    if (parameters->WantsNullDisplacement()) nullDisplacementOptions(parameters, names);
+  }
+  catch (const Error& error)
+  {
+    return found(Problem::Refused, error.what());
+  }
   return {};
 }
 
@@ -183,25 +218,14 @@ bool vtkSlicerSurgicalPathScaleLogic::Prepare(vtkMRMLSurgicalPathScaleNode* para
 
 void vtkSlicerSurgicalPathScaleLogic::PrepareOutputs(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  vtkMRMLScene* scene = parameters->GetScene();
-  const auto prepare = [&](const char* role, vtkMRMLNode* chosen, const char* className, const std::string& suffix,
-                           const char* parameter)
-  {
-    vtkMRMLNode* node = chosen;
-    if (!node)
-    {
-      const std::string name = std::string(parameters->GetTissueMapNode()->GetName()) + suffix;
-      node = scene->AddNewNodeByClass(className, scene->GenerateUniqueName(name));
-      parameters->SetNode(role, node);
-    }
-    this->Run->AddOutputNode(node, !chosen);
-    this->Run->SetParameterNode(parameter, node);
-  };
-  prepare(vtkMRMLSurgicalPathScaleNode::ScaleRole(), parameters->GetScaleNode(), "vtkMRMLScalarVolumeNode",
-          " edge lengths", "scale");
+  this->ScaleResult = vtkSmartPointer<vtkMRMLScalarVolumeNode>::New();
+  this->Run->AddTemporaryNode(this->ScaleResult);
+  this->Run->SetParameterNode("scale", this->ScaleResult);
+  this->LabelMapResult = nullptr;
   if (!parameters->WantsNullDisplacement()) return;
-  prepare(vtkMRMLSurgicalPathScaleNode::OutputLabelMapRole(), parameters->GetOutputLabelMapNode(),
-          "vtkMRMLLabelMapVolumeNode", " null displacement", "outputLabelMap");
+  this->LabelMapResult = vtkSmartPointer<vtkMRMLLabelMapVolumeNode>::New();
+  this->Run->AddTemporaryNode(this->LabelMapResult);
+  this->Run->SetParameterNode("outputLabelMap", this->LabelMapResult);
   this->Run->SetParameter("nullDisplacementRadius", parameters->GetNullDisplacementRadius());
   this->Run->SetParameter("nullDisplacementPathDistance", parameters->GetNullDisplacementPathDistance());
   this->Run->SetParameter("nullDisplacementPathDistanceAtTarget", parameters->GetNullDisplacementPathDistanceAtTarget());
@@ -211,22 +235,36 @@ void vtkSlicerSurgicalPathScaleLogic::PrepareOutputs(vtkMRMLSurgicalPathScaleNod
 void vtkSlicerSurgicalPathScaleLogic::FinishRun()
 {
   vtkMRMLSurgicalPathScaleNode* parameters = this->Parameters;
-  if (!parameters || !parameters->GetScene() || this->Run->GetStatus() != vtkSurgicalMesherRun::Completed) return;
-  vtkMRMLScalarVolumeNode* scale = parameters->GetScaleNode();
-  if (scale && scale->GetImageData())
+  if (parameters && parameters->GetScene() && this->Run->GetStatus() == vtkSurgicalMesherRun::Completed)
   {
-    double range[2];
-    scale->GetImageData()->GetScalarRange(range);
-    setScaleColors(scale, range[0], range[1]);
+    if (this->ScaleResult->GetImageData()) this->FinishScale(parameters);
+    if (this->LabelMapResult && this->LabelMapResult->GetImageData()) this->FinishLabelMap(parameters);
   }
-  if (parameters->WantsNullDisplacement()) this->FinishLabelMap(parameters);
+  this->ScaleResult = nullptr;
+  this->LabelMapResult = nullptr;
+}
+
+void vtkSlicerSurgicalPathScaleLogic::FinishScale(vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  vtkMRMLVolumeNode* volume = parameters->GetScaleNode();
+  if (!volume)
+    volume = addOutput(parameters, vtkMRMLSurgicalPathScaleNode::ScaleRole(), "vtkMRMLScalarVolumeNode", "edge lengths");
+  takeVoxels(volume, this->ScaleResult);
+  double range[2];
+  volume->GetImageData()->GetScalarRange(range);
+  setScaleColors(parameters->GetScaleNode(), range[0], range[1]);
 }
 
 /// The file that the module writes has names and colours, but the host reads them from segmentations only.
 void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNode* parameters)
 {
+  if (!parameters->GetOutputLabelMapNode())
+  {
+    addOutput(parameters, vtkMRMLSurgicalPathScaleNode::OutputLabelMapRole(), "vtkMRMLLabelMapVolumeNode",
+              "null displacement");
+  }
   vtkMRMLLabelMapVolumeNode* labelMap = parameters->GetOutputLabelMapNode();
-  if (!labelMap || !labelMap->GetImageData()) return;
+  takeVoxels(labelMap, this->LabelMapResult);
   TissueTable table = tissueTable(parameters->GetTissueMapNode());
   try
   {
@@ -265,25 +303,20 @@ vtkSlicerSurgicalPathScaleLogic::Estimate vtkSlicerSurgicalPathScaleLogic::GetEs
 vtkSlicerSurgicalPathScaleLogic::Estimate vtkSlicerSurgicalPathScaleLogic::EstimateMesh(
   vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  this->Refusal.clear();
   if (this->FindProblem(parameters).problem != Problem::None) return {};
   try
   {
-    if (parameters->WantsNullDisplacement())
-      nullDisplacementOptions(parameters, tissueTable(parameters->GetTissueMapNode()));
     const MeshSizeEstimate estimate = this->Preview->estimate(parameters);
     return { estimate.triangles, estimate.tetrahedra };
   }
-  catch (const Error& error)
+  catch (const Error&)
   {
-    this->Refusal = error.what();
-    return {};
+    return {}; // the run will say why
   }
 }
 
 bool vtkSlicerSurgicalPathScaleLogic::ShowPreview(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  this->Refusal.clear();
   if (this->FindProblem(parameters).problem == Problem::None)
   {
     try
@@ -291,9 +324,9 @@ bool vtkSlicerSurgicalPathScaleLogic::ShowPreview(vtkMRMLSurgicalPathScaleNode* 
       this->Preview->show(parameters);
       return true;
     }
-    catch (const Error& error)
+    catch (const Error&)
     {
-      this->Refusal = error.what();
+      // Nothing to show; the run will say why.
     }
   }
   this->HidePreview();

@@ -8,6 +8,7 @@
 #include <vtkSlicerModuleLogic.h>
 
 #include <vtkNew.h>
+#include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
 
 #include <memory>
@@ -47,7 +48,8 @@ public:
     LengthsContradict,      ///< the minimum is above the maximum
     NoTissueLengths,        ///< the file `name` cannot be read
     NullDisplacementTarget, ///< a radius from targets is given, and there is no target
-    NullDisplacementPath    ///< a distance from paths is given, and there is no path
+    NullDisplacementPath,   ///< a distance from paths is given, and there is no path
+    Refused                 ///< the core's own sentence is `name`: a table that doesn't fit, an unknown tissue
   };
   struct Check
   {
@@ -57,8 +59,8 @@ public:
   };
   Check FindProblem(vtkMRMLSurgicalPathScaleNode* parameters);
 
-  /// Starts a run, unless there is a problem or a run is busy. Nodes for results that are wanted and not chosen yet are
-  /// made and put into the parameter node; they go again unless the run completes. False if it could not be started:
+  /// Starts a run, unless there is a problem or a run is busy. The nodes chosen for results keep their contents until the
+  /// run completes; those that are wanted and not chosen are made then. False if it could not be started:
   /// GetRun()->GetErrorText() may have the reason.
   bool Start(vtkMRMLSurgicalPathScaleNode* parameters);
   /// The same, waiting for its end in this thread.
@@ -90,9 +92,6 @@ public:
   /// Hidden nodes; null while the preview isn't shown.
   vtkMRMLScalarVolumeNode* GetPreviewScaleNode() const;
   vtkMRMLLabelMapVolumeNode* GetPreviewNullDisplacementNode() const;
-  /// What the parameters are refused for by ShowPreview or EstimateMesh beyond what FindProblem looks at, such as a table
-  /// that doesn't fit; empty if nothing.
-  const std::string& GetRefusal() const { return this->Refusal; }
 
 protected:
   vtkSlicerSurgicalPathScaleLogic();
@@ -108,11 +107,15 @@ private:
   bool Prepare(vtkMRMLSurgicalPathScaleNode* parameters);
   void PrepareOutputs(vtkMRMLSurgicalPathScaleNode* parameters);
   void FinishRun();
+  void FinishScale(vtkMRMLSurgicalPathScaleNode* parameters);
   void FinishLabelMap(vtkMRMLSurgicalPathScaleNode* parameters);
 
   vtkNew<vtkSurgicalMesherRun> Run;
   vtkNew<vtkCallbackCommand> RunEnded;
   vtkWeakPointer<vtkMRMLSurgicalPathScaleNode> Parameters; ///< of the run
+  // The host empties a volume before it reads a file into it, which slice views that show it complain of: it reads into
+  // hidden ones.
+  vtkSmartPointer<vtkMRMLScalarVolumeNode> ScaleResult;
+  vtkSmartPointer<vtkMRMLLabelMapVolumeNode> LabelMapResult; ///< null if it isn't wanted
   std::unique_ptr<surgicalmesher::ScalePreview> Preview;
-  std::string Refusal;
 };

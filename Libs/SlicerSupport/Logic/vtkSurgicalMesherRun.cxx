@@ -144,6 +144,11 @@ std::string makeFolder(const std::string& parent)
   return folder;
 }
 
+void removeFolder(const std::string& folder)
+{
+  if (!folder.empty()) vtksys::SystemTools::RemoveADirectory(folder);
+}
+
 /// With the display and storage nodes that only it refers to.
 void removeFromScene(vtkMRMLNode* node)
 {
@@ -385,7 +390,7 @@ void vtkSurgicalMesherRun::Internal::Forget()
   if (this->CommandLineNode) removeFromScene(this->CommandLineNode);
   this->CommandLineNode = nullptr;
   this->Fence = nullptr;
-  if (!this->Folder.empty()) vtksys::SystemTools::RemoveADirectory(this->Folder);
+  removeFolder(this->Folder);
   this->Folder.clear();
   this->ErrorText.clear();
   this->Elapsed = 0;
@@ -538,8 +543,11 @@ void vtkSurgicalMesherRun::Internal::Finish(vtkMRMLNode* leaving)
     this->ErrorText = withNodeNames(this->ErrorText, this->Parameters, this->ApplicationLogic->GetTemporaryPath());
   }
   this->CleanUp(outcome, leaving);
+  std::string folder;
+  folder.swap(this->Folder);
   this->SetStatus(outcome);
   this->Run->InvokeEvent(vtkSurgicalMesherRun::CompletedEvent);
+  removeFolder(folder);
 }
 
 /// `leaving`: a node that is being removed by somebody else.

@@ -70,8 +70,8 @@ public:
   void AddTemporaryNode(vtkMRMLNode* node);
   /// A node that the run fills. `isNew`: made for this run, and removed again unless it completes.
   void AddOutputNode(vtkMRMLNode* node, bool isNew);
-  /// Name of a file that doesn't exist yet, in a folder of this run's own; `extension` with its dot. The folder goes
-  /// when the run is deleted or filled again: what a finished run wrote there can be read on CompletedEvent and after.
+  /// Name of a file that doesn't exist yet, in a folder of this run's own; `extension` with its dot. What the module
+  /// wrote there can be read on CompletedEvent; then the folder goes.
   std::string NewTemporaryFile(const std::string& extension);
 
   /// False, with a sentence in GetErrorText(), if the run is busy, was never filled, or the host lacks the module.
