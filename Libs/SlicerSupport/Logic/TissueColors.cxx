@@ -9,10 +9,12 @@
 #include <vtkMRMLScene.h>
 
 #include <vtkAssignAttribute.h>
+#include <vtkMath.h>
 #include <vtkLookupTable.h>
 #include <vtkPointSet.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace surgicalmesher
@@ -33,6 +35,21 @@ vtkMRMLColorTableNode* colorsOf(vtkMRMLModelNode* model)
 }
 
 } // namespace
+
+TissueTable withDistinctColors(TissueTable tissues)
+{
+  const bool isPlain = tissues.size() > 1 && std::all_of(tissues.begin(), tissues.end(), [](const auto& tissue)
+                                                         { return tissue.second.color == Tissue().color; });
+  for (auto& [label, tissue] : tissues)
+  {
+    if (!isPlain) break;
+    const double golden = 0.618033988749895; // steps around the circle of hues that never come near an earlier one
+    const double hue = label * golden - std::floor(label * golden);
+    vtkMath::HSVToRGB(hue, label % 3 == 0 ? 0.35 : 0.6, label % 2 == 0 ? 0.95 : 0.8, &tissue.color[0], &tissue.color[1],
+                      &tissue.color[2]);
+  }
+  return tissues;
+}
 
 void fillColorTable(const TissueTable& tissues, vtkMRMLColorTableNode* colors)
 {
@@ -57,7 +74,7 @@ vtkMRMLColorTableNode* showTissueColors(vtkMRMLModelNode* model, const char* arr
 {
   model->CreateDefaultDisplayNodes();
   vtkMRMLColorTableNode* colors = colorsOf(model);
-  fillColorTable(tissuesOf(model->GetMesh()->GetFieldData()), colors);
+  fillColorTable(withDistinctColors(tissuesOf(model->GetMesh()->GetFieldData())), colors);
   vtkMRMLModelDisplayNode* display = model->GetModelDisplayNode();
   const int wasModifying = display->StartModify();
   display->SetActiveScalar(array, vtkAssignAttribute::CELL_DATA);

@@ -17,6 +17,7 @@
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
+#include <vtksys/Directory.hxx>
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
@@ -38,6 +39,53 @@ namespace
 {
 
 using Clock = std::chrono::steady_clock;
+
+int processId()
+{
+#ifdef _WIN32
+  return _getpid();
+#else
+  return int(getpid());
+#endif
+}
+
+/// The host's files for nodes are named by the nodes' IDs, with letters for digits, which tells the user nothing: says the
+/// nodes' names instead.
+std::string withNodeNames(std::string text, const std::vector<vtkSmartPointer<vtkMRMLNode>>& nodes,
+                          const std::string& folder)
+{
+  for (vtkMRMLNode* node : nodes)
+  {
+    std::string stem = std::string("_") + (node->GetID() ? node->GetID() : "") + ".";
+    std::transform(stem.begin(), stem.end(), stem.begin(),
+                   [](char c) { return c >= '0' && c <= '9' ? char(c - '0' + 'A') : c; });
+    for (std::size_t at = text.find(stem); at != text.npos; at = text.find(stem, at + 1))
+    {
+      const std::size_t begin = text.rfind(folder, at), end = text.find_first_of(".:;, ", at + stem.size());
+      if (folder.empty() || begin == text.npos || (end < text.size() && text[end] == '.')) continue; // another file
+      text.replace(begin, end - begin, node->GetName() ? node->GetName() : "");
+      at = begin;
+    }
+  }
+  return text;
+}
+
+/// A module that was killed leaves its unfinished outputs, hidden, beside those that the host had asked for, which are
+/// named after the host's process: by its number, or by the same with letters for digits.
+void removeUnfinishedOutputs(const std::string& folder)
+{
+  const std::string number = std::to_string(processId());
+  std::string letters = number;
+  for (char& c : letters) c = char(c - '0' + 'A');
+  vtksys::Directory directory;
+  if (!directory.Load(folder)) return;
+  for (unsigned long n = 0; n < directory.GetNumberOfFiles(); ++n)
+  {
+    const std::string name = directory.GetFile(n);
+    const bool isOurs = name.find("." + number + "_") == 0 || name.find("." + letters + "_") == 0;
+    if (isOurs && name.find(".partial") != std::string::npos) vtksys::SystemTools::RemoveFile(folder + "/" + name);
+  }
+}
 
 /// Two tasks of the host's processing thread, scheduled around the module's own: they tell when the module's task has
 /// begun and when it has ended. The CLI node's status does not: it may say that the run is over while the thread still
@@ -62,6 +110,9 @@ public:
   void Begin(void*) { this->Begun = true; }
   void End(void*)
   {
+    // Here no other module of this host runs: the thread does one task after the other.
+    const char* folder = this->ApplicationLogic->GetTemporaryPath();
+    if (folder) removeUnfinishedOutputs(folder);
     this->Ended = true;
     this->ApplicationLogic->RequestModified(this); // invokes Modified() on the main thread
   }
@@ -99,36 +150,6 @@ std::string moduleErrorLine(const std::string& errorText, const std::string& exe
   }
   const std::string prefix = executable + ": ";
   return last.compare(0, prefix.size(), prefix) == 0 ? last.substr(prefix.size()) : last;
-}
-
-int processId()
-{
-#ifdef _WIN32
-  return _getpid();
-#else
-  return int(getpid());
-#endif
-}
-
-/// The host's files for nodes are named by the nodes' IDs, with letters for digits, which tells the user nothing: says the
-/// nodes' names instead.
-std::string withNodeNames(std::string text, const std::vector<vtkSmartPointer<vtkMRMLNode>>& nodes,
-                          const std::string& folder)
-{
-  for (vtkMRMLNode* node : nodes)
-  {
-    std::string stem = std::string("_") + (node->GetID() ? node->GetID() : "") + ".";
-    std::transform(stem.begin(), stem.end(), stem.begin(),
-                   [](char c) { return c >= '0' && c <= '9' ? char(c - '0' + 'A') : c; });
-    for (std::size_t at = text.find(stem); at != text.npos; at = text.find(stem, at + 1))
-    {
-      const std::size_t begin = text.rfind(folder, at), end = text.find_first_of(".:;, ", at + stem.size());
-      if (folder.empty() || begin == text.npos || (end < text.size() && text[end] == '.')) continue; // another file
-      text.replace(begin, end - begin, node->GetName() ? node->GetName() : "");
-      at = begin;
-    }
-  }
-  return text;
 }
 
 /// A new empty folder for the files of one run.

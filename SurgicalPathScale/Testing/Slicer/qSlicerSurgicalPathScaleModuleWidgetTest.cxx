@@ -13,6 +13,7 @@
 #include <ctkSliderWidget.h>
 #include <qMRMLNodeComboBox.h>
 #include <qSlicerAbstractModuleWidget.h>
+#include <qSlicerApplication.h>
 #include <qSlicerMarkupsPlaceWidget.h>
 
 #include <vtkMRMLColorNode.h>
@@ -506,6 +507,7 @@ int checkSceneClosed(const Panel& panel)
 int qSlicerSurgicalPathScaleModuleWidgetTest(int, char*[])
 {
   HostApplication host;
+  host.application().setTemporaryPath(QString::fromStdString(newFolder("SurgicalPathScaleTemporary")));
   const Panel panel(host);
   for (const auto check : { checkSentences, checkApply, checkSegmentation, checkPreview, checkPlotAndEstimate, checkPlacing,
                             checkCancel, checkSecondApply, checkDeletions, checkSceneClosed })
