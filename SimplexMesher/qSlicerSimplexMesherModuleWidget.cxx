@@ -27,7 +27,9 @@
 #include <vtkPolyData.h>
 #include <vtkWeakPointer.h>
 
+#include <algorithm>
 #include <functional>
+#include <vector>
 
 using surgicalmesher::TissueMapProblem;
 using Node = vtkMRMLSimplexMesherNode;
@@ -54,11 +56,13 @@ public:
 
   vtkWeakPointer<vtkMRMLSimplexMesherNode> Parameters;
   vtkWeakPointer<vtkMRMLNode> TissueMap; ///< whose tissues are listed
+  vtkWeakPointer<vtkMRMLNode> Scale;     ///< observed
   QTimer ListTimer;
   bool IsUpdating = false; ///< controls follow the node, not the other way round
 
   void setParameterNode(vtkMRMLSimplexMesherNode* node);
   void observeTissueMap(vtkMRMLNode* node);
+  void observeScale(vtkMRMLNode* node);
   void connectControls();
   void connectSelector(qMRMLNodeComboBox* selector, const char* role);
   template <class Control, class Signal, class Setter>
@@ -69,6 +73,7 @@ public:
 
   Obstacle obstacle();
   Obstacle tissueMapObstacle(TissueMapProblem problem);
+  Obstacle noTissueMapObstacle();
   Obstacle scaleObstacle(Problem problem);
   Obstacle tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check);
   void openModule(const QString& name);
@@ -98,6 +103,18 @@ void qSlicerSimplexMesherModuleWidgetPrivate::observeTissueMap(vtkMRMLNode* node
   this->TissueMap = node;
   this->ListTimer.stop();
   q->listTissues();
+}
+
+void qSlicerSimplexMesherModuleWidgetPrivate::observeScale(vtkMRMLNode* node)
+{
+  Q_Q(qSlicerSimplexMesherModuleWidget);
+  for (const unsigned long event :
+       { (unsigned long)vtkCommand::ModifiedEvent, (unsigned long)vtkMRMLTransformableNode::TransformModifiedEvent,
+         (unsigned long)vtkMRMLVolumeNode::ImageDataModifiedEvent })
+  {
+    q->qvtkReconnect(this->Scale, node, event, q, SLOT(onScaleChanged()));
+  }
+  this->Scale = node;
 }
 
 /// A value goes from its control to the node by `setter`, unless the control has just been told by the node.
@@ -222,12 +239,7 @@ Obstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueMapObstacle(TissueMapPro
   {
     case TissueMapProblem::NothingChosen:
     case TissueMapProblem::NotATissueMap:
-      if (this->TissueMapSelector->nodeCount() == 0)
-        return { Widget::tr("There is no segmentation or label map to mesh."), Widget::tr("Add data..."),
-                 [] { qSlicerApplication::application()->ioManager()->openAddDataDialog(); } };
-      return { Widget::tr("Choose a segmentation or a label map."),
-               Widget::tr("Choose %1").arg(this->TissueMapSelector->nodeFromIndex(0)->GetName()),
-               [this] { this->TissueMapSelector->setCurrentNodeIndex(0); } };
+      return this->noTissueMapObstacle();
     case TissueMapProblem::NoSegment: return { Widget::tr("The segmentation has no segments."), edit, editSegments };
     case TissueMapProblem::NoVoxels: return { Widget::tr("The label map has no voxels; choose another one."), {}, {} };
     case TissueMapProblem::OnlyBackground:
@@ -244,6 +256,23 @@ Obstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueMapObstacle(TissueMapPro
       return { Widget::tr("Some voxels of the label map are no whole numbers from 0 to 65535."), {}, {} };
     default: return { Widget::tr("The segmentation can't be turned into a label map; see the application's log."), {}, {} };
   }
+}
+
+Obstacle qSlicerSimplexMesherModuleWidgetPrivate::noTissueMapObstacle()
+{
+  std::vector<vtkMRMLNode*> nodes, labelMaps;
+  q_ptr->mrmlScene()->GetNodesByClass("vtkMRMLSegmentationNode", nodes);
+  q_ptr->mrmlScene()->GetNodesByClass("vtkMRMLLabelMapVolumeNode", labelMaps);
+  nodes.insert(nodes.end(), labelMaps.begin(), labelMaps.end());
+  const auto shown = [](vtkMRMLNode* node) { return !node->GetHideFromEditors(); };
+  const auto first = std::find_if(nodes.begin(), nodes.end(), shown);
+  if (first == nodes.end())
+    return { Widget::tr("There is no segmentation or label map to mesh."), Widget::tr("Add data..."),
+             [] { qSlicerApplication::application()->ioManager()->openAddDataDialog(); } };
+  const vtkWeakPointer<vtkMRMLNode> candidate(*first);
+  return { Widget::tr("Choose a segmentation or a label map."),
+           Widget::tr("Choose %1").arg(QString::fromUtf8(candidate->GetName())),
+           [this, candidate] { this->Parameters->SetNode(Node::TissueMapRole(), candidate); } };
 }
 
 Obstacle qSlicerSimplexMesherModuleWidgetPrivate::scaleObstacle(Problem problem)
@@ -356,6 +385,10 @@ void qSlicerSimplexMesherModuleWidget::setMRMLScene(vtkMRMLScene* scene)
   {
     this->qvtkReconnect(this->mrmlScene(), scene, event, this, SLOT(onSceneReplaced()));
   }
+  for (const unsigned long event : { vtkMRMLScene::NodeAddedEvent, vtkMRMLScene::NodeRemovedEvent })
+  {
+    this->qvtkReconnect(this->mrmlScene(), scene, event, this, SLOT(onSceneChanged()));
+  }
   this->Superclass::setMRMLScene(scene);
   this->onSceneReplaced();
 }
@@ -368,6 +401,13 @@ void qSlicerSimplexMesherModuleWidget::onSceneReplaced()
   vtkMRMLNode* node = scene ? scene->GetFirstNodeByClass("vtkMRMLSimplexMesherNode") : nullptr;
   if (!node && scene && this->isEntered()) node = d->logic()->ParameterNode();
   d->setParameterNode(vtkMRMLSimplexMesherNode::SafeDownCast(node));
+}
+
+void qSlicerSimplexMesherModuleWidget::onSceneChanged()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  if (d->Parameters && !d->Parameters->GetScene()) this->onSceneReplaced();
+  if (d->Parameters && !d->Parameters->GetTissueMapNode()) d->ListTimer.start(); // there may be one to choose now
 }
 
 void qSlicerSimplexMesherModuleWidget::updateFromNode()
@@ -383,8 +423,10 @@ void qSlicerSimplexMesherModuleWidget::updateFromNode()
   d->showValues();
   d->IsUpdating = false;
   d->showReports();
+  if (d->Scale != d->Parameters->GetScaleNode()) d->observeScale(d->Parameters->GetScaleNode());
   vtkMRMLNode* map = d->Parameters->GetTissueMapNode();
   if (map != d->TissueMap) d->observeTissueMap(map);
+  else if (!map) this->listTissues(); // the map itself may have been deleted
   else d->showObstacle();
 }
 
@@ -392,6 +434,12 @@ void qSlicerSimplexMesherModuleWidget::onTissueMapChanged()
 {
   Q_D(qSlicerSimplexMesherModuleWidget);
   d->ListTimer.start();
+}
+
+void qSlicerSimplexMesherModuleWidget::onScaleChanged()
+{
+  Q_D(qSlicerSimplexMesherModuleWidget);
+  if (d->Parameters) d->showObstacle();
 }
 
 void qSlicerSimplexMesherModuleWidget::listTissues()

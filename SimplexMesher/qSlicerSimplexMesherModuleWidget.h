@@ -29,8 +29,10 @@ protected slots:
   /// Shows what the parameter node says, and what keeps it from being run.
   void updateFromNode();
   void onSceneReplaced();
+  void onSceneChanged();
   /// The map or its voxels changed: its tissues are listed again, once it is quiet.
   void onTissueMapChanged();
+  void onScaleChanged();
   void listTissues();
   void apply();
   void onRunEnded();

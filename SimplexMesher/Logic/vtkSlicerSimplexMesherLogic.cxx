@@ -19,12 +19,14 @@
 
 #include <vtkCallbackCommand.h>
 #include <vtkImageData.h>
+#include <vtkIntArray.h>
 #include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 
+#include <algorithm>
 #include <array>
 #include <locale>
 #include <sstream>
@@ -124,11 +126,18 @@ Check tissueProblem(Node* parameters, const std::vector<TissueRow>& tissues)
   return check;
 }
 
+/// The host's writer of tables has no way to write a double quote.
+std::string withoutQuotes(std::string text)
+{
+  std::replace(text.begin(), text.end(), '"', '\'');
+  return text;
+}
+
 std::string roleText(const TissueSetting& setting)
 {
   switch (setting.role)
   {
-    case TissueRole::Group: return "group " + setting.group;
+    case TissueRole::Group: return "group " + withoutQuotes(setting.group);
     case TissueRole::Shell: return "shell";
     case TissueRole::Leave: return "leave";
     default: return "mesh";
@@ -292,6 +301,21 @@ Check vtkSlicerSimplexMesherLogic::FindProblem(vtkMRMLSimplexMesherNode* paramet
   else if (check.tissueMap != TissueMapProblem::None) check.problem = Problem::TissueMap;
   else check.problem = scaleProblem(parameters);
   return check.problem == Problem::None ? tissueProblem(parameters, tissues) : check;
+}
+
+void vtkSlicerSimplexMesherLogic::SetMRMLSceneInternal(vtkMRMLScene* scene)
+{
+  vtkNew<vtkIntArray> events;
+  events->InsertNextValue(vtkMRMLScene::NodeRemovedEvent);
+  this->SetAndObserveMRMLSceneEventsInternal(scene, events);
+}
+
+/// Nobody else could remove what is hidden.
+void vtkSlicerSimplexMesherLogic::OnMRMLSceneNodeRemoved(vtkMRMLNode* node)
+{
+  if (!node->IsA("vtkMRMLModelNode") || this->GetMRMLScene()->IsClosing()) return;
+  const char* ambient = node->GetNodeReferenceID(Node::AmbientTetrahedraRole());
+  removeNode(ambient ? this->GetMRMLScene()->GetNodeByID(ambient) : nullptr);
 }
 
 bool vtkSlicerSimplexMesherLogic::Start(vtkMRMLSimplexMesherNode* parameters)

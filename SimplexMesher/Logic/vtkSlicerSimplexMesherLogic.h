@@ -70,6 +70,8 @@ protected:
   void operator=(const vtkSlicerSimplexMesherLogic&) = delete;
 
   void RegisterNodes() override;
+  void SetMRMLSceneInternal(vtkMRMLScene* scene) override;
+  void OnMRMLSceneNodeRemoved(vtkMRMLNode* node) override;
 
 private:
   bool Prepare(vtkMRMLSimplexMesherNode* parameters);
