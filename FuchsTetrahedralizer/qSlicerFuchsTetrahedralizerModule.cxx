@@ -40,7 +40,7 @@ QStringList qSlicerFuchsTetrahedralizerModule::categories() const { return { "Su
 
 QStringList qSlicerFuchsTetrahedralizerModule::dependencies() const
 {
-  return { "FuchsTetrahedralizerCLI", "Plots", "Tables" };
+  return { "Colors", "FuchsTetrahedralizerCLI", "Plots", "Tables" };
 }
 
 QStringList qSlicerFuchsTetrahedralizerModule::associatedNodeTypes() const

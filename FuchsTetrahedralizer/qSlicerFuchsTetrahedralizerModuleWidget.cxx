@@ -31,6 +31,7 @@
 #include <QGuiApplication>
 #include <QLocale>
 #include <QSignalBlocker>
+#include <QTimer>
 
 #include <functional>
 #include <vector>
@@ -106,6 +107,7 @@ public:
   void observeInputs();
   void updateDisplay();
   void updateSurface();
+  void updateMarkups();
   void updateMesh();
   void updateProblem();
   Advice adviceFor(const Logic::Check& check) const;
@@ -206,6 +208,12 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(qMRMLCheckableNodeComb
 
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindInputs()
 {
+  for (qMRMLNodeComboBox* box : std::initializer_list<qMRMLNodeComboBox*>{ this->TargetComboBox, this->PathComboBox })
+  {
+    QObject::connect(box, &qMRMLNodeComboBox::nodeAdded, q_ptr, [this] { this->updateMarkups(); });
+    QObject::connect(box, &qMRMLNodeComboBox::nodeAboutToBeRemoved, q_ptr,
+                     [this] { QTimer::singleShot(0, this->q_ptr, [this] { this->updateMarkups(); }); });
+  }
   this->bind(this->SurfaceComboBox, Node::SurfaceRole());
   this->bind(this->UseAmbientCheckBox, &Node::GetUseAmbient, &Node::SetUseAmbient);
   this->bind(this->EdgeLengthSourceComboBox, &Node::GetEdgeLengthSource, &Node::SetEdgeLengthSource);
@@ -320,9 +328,9 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateSurface()
   const QLocale locale;
   QString text;
   if (surface.isLabelled)
-    text = q->tr("%1 triangles between %n tissue(s)", nullptr, surface.tissues).arg(locale.toString(qlonglong(surface.triangles)));
+    text = q->tr("%1 triangles, %2 tissues").arg(locale.toString(qlonglong(surface.triangles))).arg(surface.tissues);
   else if (surface.triangles > 0)
-    text = q->tr("%1 triangles without labels: each closed shell becomes a tissue").arg(locale.toString(qlonglong(surface.triangles)));
+    text = q->tr("%1 triangles; each closed shell becomes a tissue").arg(locale.toString(qlonglong(surface.triangles)));
   this->SurfaceInfoLabel->setText(text);
   this->SurfaceInfoLabel->setVisible(!text.isEmpty());
   this->UseAmbientCheckBox->setVisible(surface.ambient != nullptr);
@@ -331,6 +339,18 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateSurface()
     widget->setVisible(source == Node::FromScale);
   for (QWidget* widget : { static_cast<QWidget*>(this->EdgeLengthSlider), static_cast<QWidget*>(this->EdgeLengthSliderLabel) })
     widget->setVisible(source == Node::Uniform);
+}
+
+/// A box without nodes would say that all of them are chosen.
+void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateMarkups()
+{
+  const std::pair<qMRMLNodeComboBox*, QLabel*> boxes[] = { { this->TargetComboBox, this->NoTargetLabel },
+                                                           { this->PathComboBox, this->NoPathLabel } };
+  for (const auto& [box, label] : boxes)
+  {
+    box->setVisible(box->nodeCount() > 0);
+    label->setVisible(box->nodeCount() == 0);
+  }
 }
 
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateMesh()
@@ -569,6 +589,7 @@ void qSlicerFuchsTetrahedralizerModuleWidget::updateFromNode()
   if (!d->Parameters || (this->mrmlScene() && this->mrmlScene()->IsBatchProcessing())) return;
   for (const auto& refresh : d->Refreshers) refresh();
   d->updateSurface();
+  d->updateMarkups();
   d->updateMesh();
   d->updateProblem();
 }

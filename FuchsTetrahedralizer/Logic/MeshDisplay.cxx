@@ -6,11 +6,13 @@
 #include "TissueColors.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 
+#include <vtkMRMLColorLegendDisplayNode.h>
 #include <vtkMRMLColorTableNode.h>
 #include <vtkMRMLModelDisplayNode.h>
 #include <vtkMRMLModelNode.h>
 #include <vtkMRMLScene.h>
 #include <vtkMRMLSliceNode.h>
+#include <vtkSlicerColorLogic.h>
 
 // Since Slicer 5.8 every display node has a clip node of its own; before, one node clips all models that let it.
 #if __has_include(<vtkMRMLClipNode.h>)
@@ -141,6 +143,24 @@ void show(vtkMRMLModelNode* mesh, const char* scalars, vtkMRMLColorTableNode* co
   display->EndModify(wasModifying);
 }
 
+/// Beside the mesh: colours with their names, or a scale of numbers. Many names could not be read, so there are none then.
+void showLegend(vtkMRMLModelNode* mesh, const std::string& title, bool byName)
+{
+  constexpr int legible = 12;
+  if (!mesh->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // the host's module is missing
+  vtkMRMLDisplayNode* display = mesh->GetModelDisplayNode();
+  auto* colors = vtkMRMLColorTableNode::SafeDownCast(display->GetColorNode());
+  vtkMRMLColorLegendDisplayNode* legend = vtkSlicerColorLogic::AddDefaultColorLegendDisplayNode(display);
+  const int wasModifying = legend->StartModify();
+  legend->SetTitleText(title);
+  legend->SetUseColorNamesForLabels(byName);
+  legend->SetMaxNumberOfColors(colors->GetNumberOfColors());
+  legend->SetLabelFormat(byName ? legend->GetDefaultTextLabelFormat() : legend->GetDefaultNumericLabelFormat());
+  legend->SetVisibility(!byName || colors->GetNumberOfColors() <= legible);
+  legend->SetVisibility2D(false);
+  legend->EndModify(wasModifying);
+}
+
 constexpr double regularAngle = 70.53; // of a regular tetrahedron, degrees
 
 bool colorByMeasure(vtkMRMLModelNode* mesh, int colorBy)
@@ -151,6 +171,7 @@ bool colorByMeasure(vtkMRMLModelNode* mesh, int colorBy)
   vtkMRMLColorTableNode* colors = colorsFor(mesh, scalars);
   fillRamp(colors, byAngle ? regularAngle : 1);
   show(mesh, scalars, colors);
+  showLegend(mesh, translated(byAngle ? "Smallest dihedral angle (degrees)" : "Radius ratio"), false);
   return true;
 }
 
@@ -162,6 +183,7 @@ bool colorByCategory(vtkMRMLModelNode* mesh, int colorBy)
   vtkMRMLColorTableNode* colors = colorsFor(mesh, scalars);
   fillCategories(colors, bySubMesh ? subMeshCategories(mesh) : constitutiveCategories());
   show(mesh, scalars, colors);
+  showLegend(mesh, translated(bySubMesh ? "Child and parent" : "Constitutive classes"), true);
   return true;
 }
 
@@ -176,6 +198,7 @@ bool colorMesh(vtkMRMLModelNode* mesh, int colorBy)
     case Parameters::Tissue:
       if (!mesh->GetMesh()->GetCellData()->GetArray("TissueLabel")) return false;
       showTissueColors(mesh, "TissueLabel");
+      showLegend(mesh, translated("Tissues"), true);
       return true;
     case Parameters::SubMesh:
     case Parameters::ConstitutiveClass: return colorByCategory(mesh, colorBy);
