@@ -26,6 +26,7 @@
 #include <vtkFloatArray.h>
 #include <vtkLookupTable.h>
 #include <vtkNew.h>
+#include <vtkTextProperty.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -158,6 +159,8 @@ void showLegend(vtkMRMLModelNode* mesh, const std::string& title, bool byName)
   legend->SetLabelFormat(byName ? legend->GetDefaultTextLabelFormat() : legend->GetDefaultNumericLabelFormat());
   legend->SetVisibility(!byName || colors->GetNumberOfColors() <= legible);
   legend->SetVisibility2D(false);
+  legend->SetSize(0.08, 0.35);
+  legend->GetLabelTextProperty()->SetFontFamilyToArial();
   legend->EndModify(wasModifying);
 }
 
@@ -171,7 +174,7 @@ bool colorByMeasure(vtkMRMLModelNode* mesh, int colorBy)
   vtkMRMLColorTableNode* colors = colorsFor(mesh, scalars);
   fillRamp(colors, byAngle ? regularAngle : 1);
   show(mesh, scalars, colors);
-  showLegend(mesh, translated(byAngle ? "Smallest dihedral angle (degrees)" : "Radius ratio"), false);
+  showLegend(mesh, translated(byAngle ? "degrees" : "radius ratio"), false);
   return true;
 }
 
@@ -183,7 +186,7 @@ bool colorByCategory(vtkMRMLModelNode* mesh, int colorBy)
   vtkMRMLColorTableNode* colors = colorsFor(mesh, scalars);
   fillCategories(colors, bySubMesh ? subMeshCategories(mesh) : constitutiveCategories());
   show(mesh, scalars, colors);
-  showLegend(mesh, translated(bySubMesh ? "Child and parent" : "Constitutive classes"), true);
+  showLegend(mesh, translated(bySubMesh ? "sub-meshes" : "classes"), true);
   return true;
 }
 
@@ -198,7 +201,7 @@ bool colorMesh(vtkMRMLModelNode* mesh, int colorBy)
     case Parameters::Tissue:
       if (!mesh->GetMesh()->GetCellData()->GetArray("TissueLabel")) return false;
       showTissueColors(mesh, "TissueLabel");
-      showLegend(mesh, translated("Tissues"), true);
+      showLegend(mesh, translated("tissues"), true);
       return true;
     case Parameters::SubMesh:
     case Parameters::ConstitutiveClass: return colorByCategory(mesh, colorBy);

@@ -82,19 +82,19 @@ struct Column
 
 // clang-format off
 constexpr Column columns[] = {
-  { "tetrahedra",                       "tetrahedra",        nullptr,       1 },
-  { "points",                           "points",            nullptr,       1 },
-  { "volume (mm^3)",                    "volume",            nullptr,       1 },
-  { "smallest dihedral angle (deg)",    "dihedral",          "minimum",     1 },
-  { "largest dihedral angle (deg)",     "dihedral",          "maximum",     1 },
-  { "mean of the smallest angles (deg)", "minimumDihedral",  "mean",        1 },
-  { "smallest radius ratio",            "radiusRatio",       "minimum",     1 },
-  { "mean radius ratio",                "radiusRatio",       "mean",        1 },
-  { "smallest scaled Jacobian",         "scaledJacobian",    "minimum",     1 },
-  { "smallest volume (mm^3)",           "tetrahedronVolume", "minimum",     1 },
-  { "mean edge over target",            "edgeOverTarget",    "mean",        1 },
-  { "edges near target (%)",            "edgesNearTarget",   nullptr,       100 },
-  { "median valence",                   "valence",           "median",      1 },
+  { "tetrahedra",              "tetrahedra",        nullptr,   1 },
+  { "points",                  "points",            nullptr,   1 },
+  { "volume (ml)",             "volume",            nullptr,   0.001 },
+  { "min dihedral (deg)",      "dihedral",          "minimum", 1 },
+  { "max dihedral (deg)",      "dihedral",          "maximum", 1 },
+  { "mean min dihedral (deg)", "minimumDihedral",   "mean",    1 },
+  { "min radius ratio",        "radiusRatio",       "minimum", 1 },
+  { "mean radius ratio",       "radiusRatio",       "mean",    1 },
+  { "min scaled Jacobian",     "scaledJacobian",    "minimum", 1 },
+  { "min volume (mm^3)",       "tetrahedronVolume", "minimum", 1 },
+  { "mean edge/target",        "edgeOverTarget",    "mean",    1 },
+  { "edges near target (%)",   "edgesNearTarget",   nullptr,   100 },
+  { "median valence",          "valence",           "median",  1 },
 };
 // clang-format on
 
@@ -147,8 +147,8 @@ void addConditioning(vtkMRMLTableNode* table, const Json& quality)
 {
   const auto stiffness = quality.FindMember("stiffness");
   if (stiffness == quality.MemberEnd()) return;
-  const std::pair<const char*, const char*> columns[] = { { "condition number of the stiffness", "conditionNumber" },
-                                                          { "iterations of conjugate gradients", "iterations" } };
+  const std::pair<const char*, const char*> columns[] = { { "condition number", "conditionNumber" },
+                                                          { "CG iterations", "iterations" } };
   for (const auto& [title, member] : columns)
   {
     vtkNew<vtkStringArray> values; // of the whole mesh only: the other fields stay empty
