@@ -31,7 +31,7 @@ QIcon qSlicerSurgicalPathScaleModule::icon() const { return QIcon(":/Icons/Surgi
 
 QStringList qSlicerSurgicalPathScaleModule::categories() const { return { tr("Surgical Meshing") }; }
 
-QStringList qSlicerSurgicalPathScaleModule::dependencies() const { return { "Markups", "Plots", "Segmentations" }; }
+QStringList qSlicerSurgicalPathScaleModule::dependencies() const { return { "Colors", "Markups", "Plots", "Segmentations" }; }
 
 QStringList qSlicerSurgicalPathScaleModule::associatedNodeTypes() const { return { "vtkMRMLSurgicalPathScaleNode" }; }
 

@@ -20,6 +20,7 @@
 #include <vtkImageData.h>
 #include <vtkWeakPointer.h>
 
+#include <QElapsedTimer>
 #include <QLocale>
 #include <QTimer>
 #include <QToolButton>
@@ -76,7 +77,7 @@ QString roundedCount(double count)
 
 QString sizeSentence(const Logic::Estimate& estimate)
 {
-  return Widget::tr("about %1 triangles and %2 tetrahedra")
+  return Widget::tr("about %1 triangles, %2 tetrahedra")
     .arg(roundedCount(estimate.triangles), roundedCount(estimate.tetrahedra));
 }
 
@@ -439,7 +440,10 @@ void qSlicerSurgicalPathScaleModuleWidget::updateEstimate()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
   if (!d->Parameters || !this->isEntered()) return;
+  QElapsedTimer timer;
+  timer.start();
   const Logic::Estimate estimate = d->logic()->EstimateMesh(d->Parameters);
+  d->EstimateTimer.setInterval(qMax(500, 3 * int(timer.elapsed()))); // a large map's waits longer for the sliders to rest
   d->EstimateLabel->setText(estimate.triangles < 0 ? tr("not known yet") : sizeSentence(estimate));
 }
 
@@ -468,7 +472,7 @@ void qSlicerSurgicalPathScaleModuleWidget::onRunEnded()
   vtkMRMLScalarVolumeNode* scale = d->Parameters ? d->Parameters->GetScaleNode() : nullptr;
   if (run->GetStatus() != vtkSurgicalMesherRun::Completed || !scale || !scale->GetImageData()) return;
   d->PreviewCheckBox->setChecked(false); // the result takes its place
-  d->logic()->ShowResults(d->Parameters);
+  d->logic()->ShowResult(d->Parameters);
   double range[2];
   scale->GetImageData()->GetScalarRange(range);
   d->RunWidget->setResult(tr("Edge lengths from %1 to %2 mm; %3 to expect.")

@@ -5,6 +5,7 @@
 #include "TissueMapInput.h"
 #include "vtkMRMLSurgicalPathScaleNode.h"
 
+#include <vtkMRMLColorLegendDisplayNode.h>
 #include <vtkMRMLColorTableNode.h>
 #include <vtkMRMLLabelMapVolumeDisplayNode.h>
 #include <vtkMRMLLabelMapVolumeNode.h>
@@ -12,6 +13,7 @@
 #include <vtkMRMLScalarVolumeNode.h>
 #include <vtkMRMLScene.h>
 #include <vtkMRMLSliceCompositeNode.h>
+#include <vtkSlicerColorLogic.h>
 
 #include <vtkCollection.h>
 #include <vtkFloatArray.h>
@@ -92,9 +94,13 @@ void removeVolume(vtkMRMLVolumeNode* node)
 {
   vtkMRMLScene* scene = node->GetScene();
   if (!scene) return;
-  const vtkSmartPointer<vtkMRMLNode> display = node->GetDisplayNode();
+  std::vector<vtkSmartPointer<vtkMRMLNode>> displays;
+  for (int n = 0; n < node->GetNumberOfDisplayNodes(); ++n) displays.push_back(node->GetNthDisplayNode(n));
   scene->RemoveNode(node);
-  if (display && display->GetScene()) scene->RemoveNode(display);
+  for (vtkMRMLNode* display : displays)
+  {
+    if (display && display->GetScene()) scene->RemoveNode(display);
+  }
 }
 
 template <typename Array, typename T>
@@ -128,18 +134,13 @@ std::vector<vtkMRMLSliceCompositeNode*> sliceViews(vtkMRMLScene* scene)
 
 } // namespace
 
-void showInSliceViews(vtkMRMLScalarVolumeNode* scale, vtkMRMLLabelMapVolumeNode* labels)
+void showInSliceViews(vtkMRMLScalarVolumeNode* scale)
 {
   for (vtkMRMLSliceCompositeNode* view : sliceViews(scale->GetScene()))
   {
     const int wasModifying = view->StartModify();
     view->SetForegroundVolumeID(scale->GetID());
     view->SetForegroundOpacity(overlayOpacity);
-    if (labels)
-    {
-      view->SetLabelVolumeID(labels->GetID());
-      view->SetLabelOpacity(overlayOpacity);
-    }
     view->EndModify(wasModifying);
   }
 }
@@ -164,9 +165,16 @@ void setScaleColors(vtkMRMLScalarVolumeNode* node, double shortest, double longe
   const int wasModifying = display->StartModify();
   display->SetAndObserveColorNodeID(scaleColors);
   display->SetAutoWindowLevel(false);
-  display->SetWindowLevel(std::max(longest - shortest, 1e-3), 0.5 * (shortest + longest));
+  const double lower = shortest - 0.005 * std::max(longest - shortest, 1e-3); // the table's first entry is no colour
+  display->SetWindowLevelMinMax(lower, longest);
   display->SetInterpolate(true);
   display->EndModify(wasModifying);
+  vtkMRMLColorLegendDisplayNode* legend = vtkSlicerColorLogic::AddDefaultColorLegendDisplayNode(display);
+  if (!legend) return;
+  legend->SetTitleText("Edge length (mm)");
+  legend->SetLabelFormat("%.1f");
+  legend->SetHideFromEditors(node->GetHideFromEditors());
+  legend->SetSaveWithScene(node->GetSaveWithScene());
 }
 
 ScalePreview::~ScalePreview() { this->hide(); }
@@ -300,7 +308,11 @@ MeshSizeEstimate ScalePreview::estimate(vtkMRMLSurgicalPathScaleNode* parameters
   const Focus focus = focusOf(parameters);
   SurgicalScaleOptions options = scaleOptions(parameters, map.table);
   options.spacing = coarseSpacing(map.grid, options.spacing, estimateVoxels);
-  return estimateMeshSize(map, computeSurgicalScale(map, focus.targets, focus.paths, options));
+  const ScaleField scale = computeSurgicalScale(map, focus.targets, focus.paths, options);
+  if (!parameters->WantsNullDisplacement()) return estimateMeshSize(map, scale);
+  TissueMap held = map;
+  markNullDisplacement(held, focus.targets, focus.paths, nullDisplacementOptions(parameters, map.table));
+  return estimateMeshSize(held, scale);
 }
 
 } // namespace surgicalmesher

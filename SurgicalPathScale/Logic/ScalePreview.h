@@ -66,13 +66,13 @@ private:
   std::map<std::string, Layers> m_Before; ///< by id of the slice view's composite node
 };
 
-/// Puts them over every slice view; `labels` may be null.
-void showInSliceViews(vtkMRMLScalarVolumeNode* scale, vtkMRMLLabelMapVolumeNode* labels);
+/// Puts it over every slice view.
+void showInSliceViews(vtkMRMLScalarVolumeNode* scale);
 
 /// Where a volume node's voxels lie: those of `grid`, which is in LPS.
 void setGrid(vtkMRMLVolumeNode* node, const Grid& grid);
 
-/// Colours edge lengths from short (hot) to long (cold).
+/// Colours edge lengths from short (hot) to long (cold), with a legend.
 void setScaleColors(vtkMRMLScalarVolumeNode* node, double shortest, double longest);
 
 } // namespace surgicalmesher

@@ -286,11 +286,10 @@ void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNod
   labelMap->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
 }
 
-void vtkSlicerSurgicalPathScaleLogic::ShowResults(vtkMRMLSurgicalPathScaleNode* parameters)
+void vtkSlicerSurgicalPathScaleLogic::ShowResult(vtkMRMLSurgicalPathScaleNode* parameters)
 {
   this->HidePreview();
-  const bool hasLabels = parameters->WantsNullDisplacement() && parameters->GetOutputLabelMapNode();
-  showInSliceViews(parameters->GetScaleNode(), hasLabels ? parameters->GetOutputLabelMapNode() : nullptr);
+  if (parameters->GetScaleNode()) showInSliceViews(parameters->GetScaleNode());
 }
 
 //----------------------------------------------------------------------------

@@ -70,8 +70,8 @@ public:
   /// priority, the results have been finished.
   vtkSurgicalMesherRun* GetRun() const { return this->Run; }
 
-  /// Puts the results of the parameter node over the slice views.
-  void ShowResults(vtkMRMLSurgicalPathScaleNode* parameters);
+  /// Puts the scale volume of the parameter node over the slice views, in the place of the preview.
+  void ShowResult(vtkMRMLSurgicalPathScaleNode* parameters);
 
   /// Numbers of elements to expect; negative if unknown.
   struct Estimate

@@ -71,6 +71,7 @@ HostApplication::HostApplication()
 {
   qSlicerApplicationHelper::preInitializeApplication(m_ArgumentPointers.front(), new qSlicerStyle);
   m_Application = std::make_unique<qSlicerApplication>(m_ArgumentCount, m_ArgumentPointers.data());
+  m_Application->setTemporaryPath(m_TemporaryFolder.path());
   makeViews();
   loadModules();
 }

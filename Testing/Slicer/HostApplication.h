@@ -22,6 +22,7 @@
 
 #include <QObject>
 #include <QString>
+#include <QTemporaryDir>
 
 class QWidget;
 class qSlicerAbstractModuleWidget;
@@ -71,6 +72,7 @@ private:
   std::vector<std::string> m_Arguments;
   std::vector<char*> m_ArgumentPointers;
   int m_ArgumentCount;
+  QTemporaryDir m_TemporaryFolder; // several tests may run at a time
   std::unique_ptr<qSlicerApplication> m_Application;
   std::unique_ptr<QWidget> m_Viewport;
   qSlicerAbstractModuleWidget* m_Panel = nullptr;

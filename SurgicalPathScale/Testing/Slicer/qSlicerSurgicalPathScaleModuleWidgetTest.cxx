@@ -13,7 +13,6 @@
 #include <ctkSliderWidget.h>
 #include <qMRMLNodeComboBox.h>
 #include <qSlicerAbstractModuleWidget.h>
-#include <qSlicerApplication.h>
 #include <qSlicerMarkupsPlaceWidget.h>
 
 #include <vtkMRMLColorNode.h>
@@ -200,7 +199,7 @@ int checkApply(const Panel& panel)
   CHECK_BOOL(panel.sentence().find("triangles") != std::string::npos, true);
   CHECK_STD_STRING(nodes.leftovers({ "vtkMRMLScalarVolumeNode", "vtkMRMLScalarVolumeDisplayNode",
                                      "vtkMRMLLabelMapVolumeNode", "vtkMRMLLabelMapVolumeDisplayNode",
-                                     "vtkMRMLColorTableNode" }),
+                                     "vtkMRMLColorTableNode", "vtkMRMLColorLegendDisplayNode" }),
                    "");
 
   // The same outputs once more: filled again, none is added.
@@ -507,7 +506,6 @@ int checkSceneClosed(const Panel& panel)
 int qSlicerSurgicalPathScaleModuleWidgetTest(int, char*[])
 {
   HostApplication host;
-  host.application().setTemporaryPath(QString::fromStdString(newFolder("SurgicalPathScaleTemporary")));
   const Panel panel(host);
   for (const auto check : { checkSentences, checkApply, checkSegmentation, checkPreview, checkPlotAndEstimate, checkPlacing,
                             checkCancel, checkSecondApply, checkDeletions, checkSceneClosed })
