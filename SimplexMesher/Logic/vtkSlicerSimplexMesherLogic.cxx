@@ -195,22 +195,17 @@ vtkSmartPointer<vtkMRMLScalarVolumeNode> copyForRun(vtkMRMLScalarVolumeNode* vol
   return copy;
 }
 
-/// The node in a role, or a new one there. Nodes of a run are given to it, and lie in the world.
-template <class Wanted>
-Wanted* outputNode(vtkMRMLNode* owner, const char* role, const std::string& name, vtkSurgicalMesherRun* run)
+/// `chosen`, or a new node in its place, as an output of `run`, in the world's frame.
+vtkMRMLModelNode* outputModel(vtkMRMLModelNode* chosen, vtkMRMLScene* scene, const std::string& name,
+                              vtkSurgicalMesherRun* run)
 {
-  auto* node = Wanted::SafeDownCast(owner->GetNodeReference(role));
-  const bool isNew = !node;
-  if (isNew)
+  vtkMRMLModelNode* node = chosen;
+  if (!node)
   {
-    vtkMRMLScene* scene = owner->GetScene();
-    vtkNew<Wanted> fresh;
-    node = Wanted::SafeDownCast(
-      scene->AddNewNodeByClass(fresh->GetClassName(), scene->GenerateUniqueName(name)));
-    owner->SetNodeReferenceID(role, node->GetID());
+    node = vtkMRMLModelNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLModelNode", scene->GenerateUniqueName(name)));
   }
-  run->AddOutputNode(node, isNew);
-  if (auto* placed = vtkMRMLTransformableNode::SafeDownCast(node)) placed->SetAndObserveTransformNodeID(nullptr);
+  run->AddOutputNode(node, !chosen);
+  node->SetAndObserveTransformNodeID(nullptr);
   return node;
 }
 
@@ -218,7 +213,9 @@ Wanted* outputNode(vtkMRMLNode* owner, const char* role, const std::string& name
 vtkMRMLModelNode* ambientNode(vtkMRMLModelNode* surface, vtkSurgicalMesherRun* run)
 {
   const std::string name = surface->GetName() + (" " + vtkMRMLTr("SimplexMesher", "ambient tetrahedra"));
-  auto* node = outputNode<vtkMRMLModelNode>(surface, Node::AmbientTetrahedraRole(), name, run);
+  auto* node = vtkMRMLModelNode::SafeDownCast(surface->GetNodeReference(Node::AmbientTetrahedraRole()));
+  node = outputModel(node, surface->GetScene(), name, run);
+  surface->SetNodeReferenceID(Node::AmbientTetrahedraRole(), node->GetID());
   node->SetHideFromEditors(true);
   node->CreateDefaultDisplayNodes();
   node->SetDisplayVisibility(false);
@@ -241,21 +238,6 @@ Wanted* ownNode(Node* parameters, const char* role, const std::string& name)
   node = Wanted::SafeDownCast(scene->AddNewNodeByClass(fresh->GetClassName(), scene->GenerateUniqueName(name)));
   parameters->SetNode(role, node);
   return node;
-}
-
-/// A run that ended badly took its new nodes along.
-void forgetMissingNodes(Node* parameters)
-{
-  const int wasModifying = parameters->StartModify();
-  for (const char* role : { Node::SurfaceRole(), Node::PreparedLabelMapRole(), Node::SimplexMeshRole(),
-                            Node::FollowedScaleRole() })
-  {
-    if (!parameters->GetNodeReference(role)) parameters->SetNode(role, nullptr);
-  }
-  vtkMRMLModelNode* surface = parameters->GetSurfaceNode();
-  if (surface && !surface->GetNodeReference(Node::AmbientTetrahedraRole()))
-    surface->SetNodeReferenceID(Node::AmbientTetrahedraRole(), nullptr);
-  parameters->EndModify(wasModifying);
 }
 
 } // namespace
@@ -320,10 +302,7 @@ void vtkSlicerSimplexMesherLogic::OnMRMLSceneNodeRemoved(vtkMRMLNode* node)
 
 bool vtkSlicerSimplexMesherLogic::Start(vtkMRMLSimplexMesherNode* parameters)
 {
-  if (!this->Prepare(parameters)) return false;
-  const bool started = this->Run->Start();
-  if (!started) forgetMissingNodes(parameters);
-  return started;
+  return this->Prepare(parameters) && this->Run->Start();
 }
 
 bool vtkSlicerSimplexMesherLogic::StartAndWait(vtkMRMLSimplexMesherNode* parameters)
@@ -367,7 +346,8 @@ bool vtkSlicerSimplexMesherLogic::Prepare(vtkMRMLSimplexMesherNode* parameters)
 void vtkSlicerSimplexMesherLogic::PrepareOutputs(vtkMRMLSimplexMesherNode* parameters)
 {
   const std::string name = parameters->GetTissueMapNode()->GetName() + (" " + vtkMRMLTr("SimplexMesher", "surface"));
-  auto* surface = outputNode<vtkMRMLModelNode>(parameters, Node::SurfaceRole(), name, this->Run);
+  vtkMRMLModelNode* surface = outputModel(parameters->GetSurfaceNode(), parameters->GetScene(), name, this->Run);
+  this->Surface = surface;
   this->Run->SetParameterNode("surface", surface);
   if (parameters->GetKeepAmbient()) this->Run->SetParameterNode("ambient", ambientNode(surface, this->Run));
   const auto setChosen = [&](const char* parameter, vtkMRMLTransformableNode* node)
@@ -387,15 +367,20 @@ void vtkSlicerSimplexMesherLogic::PrepareOutputs(vtkMRMLSimplexMesherNode* param
 void vtkSlicerSimplexMesherLogic::FinishRun()
 {
   vtkMRMLSimplexMesherNode* parameters = this->Parameters;
-  if (!parameters || !parameters->GetScene()) return;
-  vtkMRMLModelNode* surface = parameters->GetSurfaceNode();
-  if (this->Run->GetStatus() == vtkSurgicalMesherRun::Completed && surface && surface->GetPolyData())
+  vtkMRMLModelNode* surface = this->Surface;
+  if (!surface || !surface->GetScene() || !parameters || !parameters->GetScene()) return;
+  if (this->Run->GetStatus() == vtkSurgicalMesherRun::Completed && surface->GetPolyData())
   {
+    const int wasModifying = parameters->StartModify();
+    parameters->SetNode(Node::SurfaceRole(), surface);
     this->FinishSurface(surface);
     if (!this->ReportFile.empty()) this->FinishReport(surface);
+    parameters->EndModify(wasModifying);
   }
-  forgetMissingNodes(parameters);
-  parameters->Modified();
+  else if (!surface->GetNodeReference(Node::AmbientTetrahedraRole())) // the run took it along
+  {
+    surface->SetNodeReferenceID(Node::AmbientTetrahedraRole(), nullptr);
+  }
 }
 
 void vtkSlicerSimplexMesherLogic::FinishSurface(vtkMRMLModelNode* surface)
