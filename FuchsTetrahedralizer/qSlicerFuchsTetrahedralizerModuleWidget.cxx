@@ -119,9 +119,9 @@ public:
 
   vtkWeakPointer<Node> Parameters;
   std::vector<vtkWeakPointer<vtkMRMLNode>> Inputs; ///< observed
-  vtkWeakPointer<vtkMRMLSliceNode> Slice;         ///< that the clip slider moves
-  std::vector<std::function<void()>> Refreshers; ///< of controls, from the node
-  bool IsMeshNew = false;                         ///< the run is to make it
+  vtkWeakPointer<vtkMRMLSliceNode> Slice;          ///< that the clip slider moves
+  std::vector<std::function<void()>> Refreshers;   ///< of controls, from the node
+  bool IsMeshNew = false;                          ///< the run is to make it
 
 protected:
   qSlicerFuchsTetrahedralizerModuleWidget* const q_ptr;
@@ -153,7 +153,10 @@ template <class Get, class Set>
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(ctkSliderWidget* slider, Get get, Set set)
 {
   QObject::connect(slider, &ctkSliderWidget::valueChanged, q_ptr,
-                   [this, set](double value) { if (this->Parameters) (this->Parameters->*set)(value); });
+                   [this, set](double value)
+                   {
+                     if (this->Parameters) (this->Parameters->*set)(value);
+                   });
   this->Refreshers.push_back([this, slider, get] { slider->setValue((this->Parameters->*get)()); });
 }
 
@@ -161,7 +164,10 @@ template <class Get, class Set>
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(QCheckBox* box, Get get, Set set)
 {
   QObject::connect(box, &QCheckBox::toggled, q_ptr,
-                   [this, set](bool value) { if (this->Parameters) (this->Parameters->*set)(value); });
+                   [this, set](bool value)
+                   {
+                     if (this->Parameters) (this->Parameters->*set)(value);
+                   });
   this->Refreshers.push_back([this, box, get] { box->setChecked((this->Parameters->*get)()); });
 }
 
@@ -169,17 +175,26 @@ template <class Get, class Set>
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(QComboBox* box, Get get, Set set)
 {
   QObject::connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), q_ptr,
-                   [this, set](int value) { if (this->Parameters) (this->Parameters->*set)(value); });
+                   [this, set](int value)
+                   {
+                     if (this->Parameters) (this->Parameters->*set)(value);
+                   });
   this->Refreshers.push_back([this, box, get] { box->setCurrentIndex((this->Parameters->*get)()); });
 }
 
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(qMRMLNodeComboBox* box, const char* role)
 {
   QObject::connect(box, QOverload<vtkMRMLNode*>::of(&qMRMLNodeComboBox::currentNodeChanged), q_ptr,
-                   [this, role](vtkMRMLNode* node) { if (this->Parameters) this->Parameters->SetNode(role, node); });
+                   [this, role](vtkMRMLNode* node)
+                   {
+                     if (this->Parameters) this->Parameters->SetNode(role, node);
+                   });
   // The box would go on to a neighbour, which the next run could overwrite.
   QObject::connect(box, &qMRMLNodeComboBox::nodeAboutToBeRemoved, q_ptr,
-                   [box](vtkMRMLNode* node) { if (box->currentNode() == node) box->setCurrentNode(nullptr); });
+                   [box](vtkMRMLNode* node)
+                   {
+                     if (box->currentNode() == node) box->setCurrentNode(nullptr);
+                   });
   this->Refreshers.push_back([this, box, role] { box->setCurrentNode(this->Parameters->GetNodeReference(role)); });
 }
 
@@ -229,7 +244,9 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindParameters()
 {
   QObject::connect(this->ShellTissuesLineEdit, &QLineEdit::textChanged, q_ptr,
                    [this](const QString& text)
-                   { if (this->Parameters) this->Parameters->SetShellTissues(text.toStdString()); });
+                   {
+                     if (this->Parameters) this->Parameters->SetShellTissues(text.toStdString());
+                   });
   this->Refreshers.push_back(
     [this]
     {
@@ -239,7 +256,9 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindParameters()
   this->bind(this->ShellThicknessSlider, &Node::GetShellThickness, &Node::SetShellThickness);
   QObject::connect(this->MaterialsPathLineEdit, &ctkPathLineEdit::currentPathChanged, q_ptr,
                    [this](const QString& path)
-                   { if (this->Parameters) this->Parameters->SetMaterialsFile(path.toStdString()); });
+                   {
+                     if (this->Parameters) this->Parameters->SetMaterialsFile(path.toStdString());
+                   });
   this->Refreshers.push_back(
     [this]
     {
@@ -256,7 +275,10 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindParameters()
              &Node::SetNullDisplacementPathDistanceAtTarget);
   this->bind(this->ConditioningCheckBox, &Node::GetConditioning, &Node::SetConditioning);
   QObject::connect(this->ThreadsSpinBox, QOverload<int>::of(&QSpinBox::valueChanged), q_ptr,
-                   [this](int threads) { if (this->Parameters) this->Parameters->SetThreads(threads); });
+                   [this](int threads)
+                   {
+                     if (this->Parameters) this->Parameters->SetThreads(threads);
+                   });
   this->Refreshers.push_back([this] { this->ThreadsSpinBox->setValue(this->Parameters->GetThreads()); });
 }
 
@@ -269,11 +291,14 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindDisplay()
   // After the node has the values.
   const auto update = [this] { this->updateDisplay(); };
   for (QComboBox* box : { this->ColorComboBox, this->ClipPlaneComboBox })
-    QObject::connect(box, QOverload<int>::of(&QComboBox::activated), q_ptr, update);
+    QObject::connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), q_ptr, update);
   for (QCheckBox* box : { this->ShowEdgesCheckBox, this->ClipFlippedCheckBox })
-    QObject::connect(box, &QCheckBox::clicked, q_ptr, update);
+    QObject::connect(box, &QCheckBox::toggled, q_ptr, update);
   QObject::connect(this->ClipSlider, &ctkSliderWidget::valueChanged, q_ptr,
-                   [this](double offset) { if (this->Slice) this->Slice->SetSliceOffset(offset); });
+                   [this](double offset)
+                   {
+                     if (this->Slice) this->Slice->SetSliceOffset(offset);
+                   });
 }
 
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindButtons()
@@ -292,10 +317,12 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindButtons()
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::observeInputs()
 {
   Q_Q(qSlicerFuchsTetrahedralizerModuleWidget);
-  const unsigned long events[] = { vtkCommand::ModifiedEvent, vtkMRMLModelNode::MeshModifiedEvent,
+  const unsigned long events[] = { vtkCommand::ModifiedEvent,
+                                   vtkMRMLModelNode::MeshModifiedEvent,
                                    vtkMRMLVolumeNode::ImageDataModifiedEvent,
                                    vtkMRMLTransformableNode::TransformModifiedEvent,
-                                   vtkMRMLMarkupsNode::PointPositionDefinedEvent, vtkMRMLMarkupsNode::PointRemovedEvent };
+                                   vtkMRMLMarkupsNode::PointPositionDefinedEvent,
+                                   vtkMRMLMarkupsNode::PointRemovedEvent };
   std::vector<vtkWeakPointer<vtkMRMLNode>> inputs;
   for (const char* role : { Node::SurfaceRole(), Node::ScaleRole(), Node::TargetRole(), Node::PathRole() })
   {
@@ -335,9 +362,11 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateSurface()
   this->SurfaceInfoLabel->setVisible(!text.isEmpty());
   this->UseAmbientCheckBox->setVisible(surface.ambient != nullptr);
   const int source = this->Parameters->GetEdgeLengthSource();
-  for (QWidget* widget : { static_cast<QWidget*>(this->ScaleComboBox), static_cast<QWidget*>(this->ScaleComboBoxLabel) })
+  for (QWidget* widget :
+       { static_cast<QWidget*>(this->ScaleComboBox), static_cast<QWidget*>(this->ScaleComboBoxLabel) })
     widget->setVisible(source == Node::FromScale);
-  for (QWidget* widget : { static_cast<QWidget*>(this->EdgeLengthSlider), static_cast<QWidget*>(this->EdgeLengthSliderLabel) })
+  for (QWidget* widget :
+       { static_cast<QWidget*>(this->EdgeLengthSlider), static_cast<QWidget*>(this->EdgeLengthSliderLabel) })
     widget->setVisible(source == Node::Uniform);
 }
 
@@ -375,18 +404,18 @@ Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceFor(const Logic::Ch
   Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
   switch (check.problem)
   {
-    case Problem::NoModule: return { q->tr("The command-line module FuchsTetrahedralizerCLI is not installed."), {}, {} };
-    case Problem::NotAPath:
-    case Problem::NoTargets:
-    case Problem::NoPaths:
-    case Problem::NoPlaces:
-    case Problem::NoDistance:
-    case Problem::NoEntryDistance: return this->adviceOnClasses(check);
-    case Problem::OutputIsInput:
-    case Problem::UnknownShell:
-    case Problem::ShellsUnused:
-    case Problem::BadMaterials: return this->adviceOnElements(check);
-    default: return this->adviceOnInput(check);
+  case Problem::NoModule: return { q->tr("The command-line module FuchsTetrahedralizerCLI is not installed."), {}, {} };
+  case Problem::NotAPath:
+  case Problem::NoTargets:
+  case Problem::NoPaths:
+  case Problem::NoPlaces:
+  case Problem::NoDistance:
+  case Problem::NoEntryDistance: return this->adviceOnClasses(check);
+  case Problem::OutputIsInput:
+  case Problem::UnknownShell:
+  case Problem::ShellsUnused:
+  case Problem::BadMaterials: return this->adviceOnElements(check);
+  default: return this->adviceOnInput(check);
   }
 }
 
@@ -397,36 +426,38 @@ Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceOnInput(const Logic
   vtkWeakPointer<vtkMRMLNode> node = check.node;
   switch (check.problem)
   {
-    case Problem::NoSurface:
-    {
-      const std::vector<vtkMRMLModelNode*> surfaces = this->logic()->LabelledSurfaces();
-      if (surfaces.empty())
-        return { q->tr("Choose a surface: make one with Simplex Mesher, or load closed models."), {}, {} };
-      vtkWeakPointer<vtkMRMLNode> latest = surfaces.back();
-      return { q->tr("Choose a surface."), q->tr("Take %1").arg(QString::fromUtf8(latest->GetName())),
-               [latest](Node* p) { p->SetNode(Node::SurfaceRole(), latest); } };
-    }
-    case Problem::NotASurface:
-      return { q->tr("%1 has no triangles.").arg(name), q->tr("Leave it out"), leaveOut(Node::SurfaceRole(), node) };
-    case Problem::LabelledAmongOthers:
-      return { q->tr("%1 is a surface of several tissues, which can't be meshed along with other models.").arg(name),
-               q->tr("Take it alone"), [node](Node* p) { p->SetNode(Node::SurfaceRole(), node); } };
-    case Problem::NoTargetLengths:
-      return { q->tr("The surface has no edge lengths of its own."), q->tr("Take one length"),
-               [](Node* p) { p->SetEdgeLengthSource(Node::Uniform); } };
-    case Problem::NoScale:
-      return { q->tr("Choose a scale volume, as Surgical Path Scale makes it."), q->tr("Take one length"),
-               [](Node* p) { p->SetEdgeLengthSource(Node::Uniform); } };
-    case Problem::ScaleWarped:
-      return { q->tr("%1 is under a transform that isn't linear.").arg(name), q->tr("Harden the transform"),
-               [node](Node*)
-               { if (auto* scale = vtkMRMLTransformableNode::SafeDownCast(node)) scale->HardenTransform(); } };
-    case Problem::NoEdgeLength:
-      return { q->tr("The edge length has to be over 0 mm."), q->tr("Take 2 mm"), [](Node* p) { p->SetEdgeLength(2); } };
-    case Problem::AmbientChanged:
-      return { q->tr("%1 was edited after Simplex Mesher had made it with its tetrahedra.").arg(name),
-               q->tr("Begin from the surface alone"), [](Node* p) { p->UseAmbientOff(); } };
-    default: return {};
+  case Problem::NoSurface:
+  {
+    const std::vector<vtkMRMLModelNode*> surfaces = this->logic()->LabelledSurfaces();
+    if (surfaces.empty())
+      return { q->tr("Choose a surface: make one with Simplex Mesher, or load closed models."), {}, {} };
+    vtkWeakPointer<vtkMRMLNode> latest = surfaces.back();
+    return { q->tr("Choose a surface."), q->tr("Take %1").arg(QString::fromUtf8(latest->GetName())),
+             [latest](Node* p) { p->SetNode(Node::SurfaceRole(), latest); } };
+  }
+  case Problem::NotASurface:
+    return { q->tr("%1 has no triangles.").arg(name), q->tr("Leave it out"), leaveOut(Node::SurfaceRole(), node) };
+  case Problem::LabelledAmongOthers:
+    return { q->tr("%1 is a surface of several tissues, which can't be meshed along with other models.").arg(name),
+             q->tr("Take it alone"), [node](Node* p) { p->SetNode(Node::SurfaceRole(), node); } };
+  case Problem::NoTargetLengths:
+    return { q->tr("The surface has no edge lengths of its own."), q->tr("Take one length"),
+             [](Node* p) { p->SetEdgeLengthSource(Node::Uniform); } };
+  case Problem::NoScale:
+    return { q->tr("Choose a scale volume, as Surgical Path Scale makes it."), q->tr("Take one length"),
+             [](Node* p) { p->SetEdgeLengthSource(Node::Uniform); } };
+  case Problem::ScaleWarped:
+    return { q->tr("%1 is under a transform that isn't linear.").arg(name), q->tr("Harden the transform"),
+             [node](Node*)
+             {
+               if (auto* scale = vtkMRMLTransformableNode::SafeDownCast(node)) scale->HardenTransform();
+             } };
+  case Problem::NoEdgeLength:
+    return { q->tr("The edge length has to be over 0 mm."), q->tr("Take 2 mm"), [](Node* p) { p->SetEdgeLength(2); } };
+  case Problem::AmbientChanged:
+    return { q->tr("%1 was edited after Simplex Mesher had made it with its tetrahedra.").arg(name),
+             q->tr("Begin from the surface alone"), [](Node* p) { p->UseAmbientOff(); } };
+  default: return {};
   }
 }
 
@@ -435,27 +466,26 @@ Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceOnClasses(const Log
   Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
   switch (check.problem)
   {
-    case Problem::NotAPath:
-      return { q->tr("%1 has fewer than two points, so it is no path.").arg(QString::fromUtf8(check.node->GetName())),
-               q->tr("Leave it out"), leaveOut(Node::PathRole(), check.node) };
-    case Problem::NoTargets:
-      return { q->tr("Choose targets with points, as tissue is to be still beyond a distance from them."),
-               q->tr("No distance from targets"), [](Node* p) { p->SetNullDisplacementRadius(0); } };
-    case Problem::NoPaths:
-      return { q->tr("Choose paths, as tissue is to be still beyond a distance from them."),
-               q->tr("No distance from paths"), [](Node* p) { p->SetNullDisplacementPathDistance(0); } };
-    case Problem::NoPlaces:
-      return { q->tr("Choose targets or paths, as tissue is to be nonlinear up to a distance from them."),
-               q->tr("No such distance"), [](Node* p) { p->SetNonlinearDistance(0); } };
-    case Problem::NoDistance:
-      return { q->tr("Targets and paths need a distance that goes with them."), q->tr("Nonlinear up to 25 mm"),
-               [](Node* p) { p->SetNonlinearDistance(25); } };
-    case Problem::NoEntryDistance:
-      return { q->tr("There is a distance at the target end of paths, but none at their entry."),
-               q->tr("The same at the entry"),
-               [](Node* p)
-               { p->SetNullDisplacementPathDistance(p->GetNullDisplacementPathDistanceAtTarget()); } };
-    default: return {};
+  case Problem::NotAPath:
+    return { q->tr("%1 has fewer than two points, so it is no path.").arg(QString::fromUtf8(check.node->GetName())),
+             q->tr("Leave it out"), leaveOut(Node::PathRole(), check.node) };
+  case Problem::NoTargets:
+    return { q->tr("Choose targets with points, as tissue is to be still beyond a distance from them."),
+             q->tr("No distance from targets"), [](Node* p) { p->SetNullDisplacementRadius(0); } };
+  case Problem::NoPaths:
+    return { q->tr("Choose paths, as tissue is to be still beyond a distance from them."),
+             q->tr("No distance from paths"), [](Node* p) { p->SetNullDisplacementPathDistance(0); } };
+  case Problem::NoPlaces:
+    return { q->tr("Choose targets or paths, as tissue is to be nonlinear up to a distance from them."),
+             q->tr("No such distance"), [](Node* p) { p->SetNonlinearDistance(0); } };
+  case Problem::NoDistance:
+    return { q->tr("Targets and paths need a distance that goes with them."), q->tr("Nonlinear up to 25 mm"),
+             [](Node* p) { p->SetNonlinearDistance(25); } };
+  case Problem::NoEntryDistance:
+    return { q->tr("There is a distance at the target end of paths, but none at their entry."),
+             q->tr("The same at the entry"),
+             [](Node* p) { p->SetNullDisplacementPathDistance(p->GetNullDisplacementPathDistanceAtTarget()); } };
+  default: return {};
   }
 }
 
@@ -467,19 +497,19 @@ Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceOnElements(const Lo
   vtkWeakPointer<vtkMRMLNode> node = check.node;
   switch (check.problem)
   {
-    case Problem::OutputIsInput:
-      return { q->tr("%1 is chosen twice; an output has to be a model of its own.").arg(name), q->tr("Don't write it"),
-               [node](Node* p) { forgetOutput(p, node); } };
-    case Problem::UnknownShell:
-      return { q->tr("\"%1\" are not tissues of the surface.").arg(text), q->tr("No shells"),
-               [](Node* p) { p->SetShellTissues(""); } };
-    case Problem::ShellsUnused:
-      return { q->tr("Name the tissues that become shells, as %1 is to take them.").arg(name), q->tr("No shells"),
-               [](Node* p) { p->SetNode(Node::ShellsRole(), nullptr); } };
-    case Problem::BadMaterials:
-      return { q->tr("The materials can't be used: %1").arg(text), q->tr("Without materials"),
-               [](Node* p) { p->SetMaterialsFile(""); } };
-    default: return {};
+  case Problem::OutputIsInput:
+    return { q->tr("%1 is chosen twice; an output has to be a model of its own.").arg(name), q->tr("Don't write it"),
+             [node](Node* p) { forgetOutput(p, node); } };
+  case Problem::UnknownShell:
+    return { q->tr("\"%1\" are not tissues of the surface.").arg(text), q->tr("No shells"),
+             [](Node* p) { p->SetShellTissues(""); } };
+  case Problem::ShellsUnused:
+    return { q->tr("Name the tissues that become shells, as %1 is to take them.").arg(name), q->tr("No shells"),
+             [](Node* p) { p->SetNode(Node::ShellsRole(), nullptr); } };
+  case Problem::BadMaterials:
+    return { q->tr("The materials can't be used: %1").arg(text), q->tr("Without materials"),
+             [](Node* p) { p->SetMaterialsFile(""); } };
+  default: return {};
   }
 }
 
@@ -493,7 +523,10 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateProblem()
   }
   const Advice advice = this->adviceFor(check);
   this->RunWidget->setProblem(advice.sentence, advice.fixText,
-                              [this, fix = advice.fix] { if (this->Parameters && fix) fix(this->Parameters); });
+                              [this, fix = advice.fix]
+                              {
+                                if (this->Parameters && fix) fix(this->Parameters);
+                              });
 }
 
 /// Its size and its worst angles, from the table of quality, whose first row is the whole mesh.
@@ -553,7 +586,8 @@ void qSlicerFuchsTetrahedralizerModuleWidget::enter()
 {
   Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
   this->Superclass::enter();
-  d->setNode(d->logic()->ParameterNode());
+  if (d->Parameters) this->updateFromNode();
+  else d->setNode(d->logic()->ParameterNode());
 }
 
 bool qSlicerFuchsTetrahedralizerModuleWidget::setEditedNode(vtkMRMLNode* node, QString, QString)
@@ -586,7 +620,7 @@ void qSlicerFuchsTetrahedralizerModuleWidget::updateFromNode()
                             d->ClassesCollapsibleButton, d->MeshCollapsibleButton, d->AdvancedCollapsibleButton })
     section->setEnabled(d->Parameters != nullptr);
   d->observeInputs();
-  if (!d->Parameters || (this->mrmlScene() && this->mrmlScene()->IsBatchProcessing())) return;
+  if (!d->Parameters || !this->isEntered() || this->mrmlScene()->IsBatchProcessing()) return;
   for (const auto& refresh : d->Refreshers) refresh();
   d->updateSurface();
   d->updateMarkups();
@@ -626,8 +660,7 @@ void qSlicerFuchsTetrahedralizerModuleWidget::onRunEnded()
   if (d->logic()->GetRun()->GetStatus() != vtkSurgicalMesherRun::Completed) return;
   d->RunWidget->setResult(d->summaryOfMesh());
   qSlicerLayoutManager* layout = qSlicerApplication::application()->layoutManager();
-  if (d->IsMeshNew && layout && layout->threeDViewCount() > 0)
-    layout->threeDWidget(0)->threeDView()->resetFocalPoint();
+  if (d->IsMeshNew && layout && layout->threeDViewCount() > 0) layout->threeDWidget(0)->threeDView()->resetFocalPoint();
 }
 
 bool qSlicerFuchsTetrahedralizerModuleWidget::exportMesh(const QString& file)
@@ -648,7 +681,8 @@ void qSlicerFuchsTetrahedralizerModuleWidget::onExport()
   if (!d->mesh()) return;
   QStringList filters;
   for (const Logic::Format& format : Logic::GetExportFormats())
-    filters << QString("%1 (*%2)").arg(QString::fromStdString(format.description), QString::fromStdString(format.extension));
+    filters
+      << QString("%1 (*%2)").arg(QString::fromStdString(format.description), QString::fromStdString(format.extension));
   QString filter = filters.value(1);
   QString file = QFileDialog::getSaveFileName(this, tr("Export tetrahedra"), QString::fromUtf8(d->mesh()->GetName()),
                                               filters.join(";;"), &filter);

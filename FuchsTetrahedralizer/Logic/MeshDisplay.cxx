@@ -43,16 +43,14 @@ namespace
 using Parameters = vtkMRMLFuchsTetrahedralizerNode;
 using Color = std::array<double, 3>;
 
-std::string translated(const char* text) { return vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", text); }
-
 /// The mesh refers to it by a role of the scalars' name, so that it is found again whatever colours are shown meanwhile.
 vtkMRMLColorTableNode* colorsFor(vtkMRMLModelNode* mesh, const char* scalars)
 {
   const std::string role = std::string("colors") + scalars;
   auto* colors = vtkMRMLColorTableNode::SafeDownCast(mesh->GetNodeReference(role.c_str()));
   if (colors) return colors;
-  colors = vtkMRMLColorTableNode::SafeDownCast(mesh->GetScene()->AddNewNodeByClass(
-    "vtkMRMLColorTableNode", std::string(mesh->GetName()) + " " + scalars));
+  colors = vtkMRMLColorTableNode::SafeDownCast(
+    mesh->GetScene()->AddNewNodeByClass("vtkMRMLColorTableNode", std::string(mesh->GetName()) + " " + scalars));
   mesh->SetNodeReferenceID(role.c_str(), colors->GetID());
   return colors;
 }
@@ -87,22 +85,29 @@ void fillRamp(vtkMRMLColorTableNode* colors, double highest)
 
 std::vector<Tissue> subMeshCategories(vtkMRMLModelNode* mesh)
 {
-  constexpr std::array<Color, 6> palette{ { { 0.90, 0.62, 0.00 }, { 0.34, 0.71, 0.91 }, { 0.00, 0.62, 0.45 },
-                                            { 0.80, 0.47, 0.65 }, { 0.94, 0.89, 0.26 }, { 0.00, 0.45, 0.70 } } };
-  std::vector<Tissue> categories{ { translated("parent"), { 0.75, 0.75, 0.75 }, false } };
+  constexpr std::array<Color, 6> palette{ { { 0.90, 0.62, 0.00 },
+                                            { 0.34, 0.71, 0.91 },
+                                            { 0.00, 0.62, 0.45 },
+                                            { 0.80, 0.47, 0.65 },
+                                            { 0.94, 0.89, 0.26 },
+                                            { 0.00, 0.45, 0.70 } } };
+  std::vector<Tissue> categories{
+    { vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "parent"), { 0.75, 0.75, 0.75 }, false }
+  };
   vtkDataArray* subMesh = mesh->GetMesh()->GetCellData()->GetArray("SubMesh");
   for (int child = 1; child <= int(subMesh->GetRange()[1]); ++child)
   {
-    categories.push_back({ translated("child") + " " + std::to_string(child), palette[(child - 1) % palette.size()], false });
+    categories.push_back({ vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "child") + " " + std::to_string(child),
+                           palette[(child - 1) % palette.size()], false });
   }
   return categories;
 }
 
 std::vector<Tissue> constitutiveCategories()
 {
-  return { { translated("linear"), { 0.75, 0.75, 0.75 }, false },
-           { translated("nonlinear"), { 0.90, 0.62, 0.00 }, false },
-           { translated("null displacement"), { 0.00, 0.45, 0.70 }, false } };
+  return { { vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "linear"), { 0.75, 0.75, 0.75 }, false },
+           { vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "nonlinear"), { 0.90, 0.62, 0.00 }, false },
+           { vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "null displacement"), { 0.00, 0.45, 0.70 }, false } };
 }
 
 using Measure = std::function<double(const Vec3&, const Vec3&, const Vec3&, const Vec3&)>;
@@ -174,7 +179,10 @@ bool colorByMeasure(vtkMRMLModelNode* mesh, int colorBy)
   vtkMRMLColorTableNode* colors = colorsFor(mesh, scalars);
   fillRamp(colors, byAngle ? regularAngle : 1);
   show(mesh, scalars, colors);
-  showLegend(mesh, translated(byAngle ? "degrees" : "radius ratio"), false);
+  showLegend(mesh,
+             byAngle ? vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "degrees")
+                     : vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "radius ratio"),
+             false);
   return true;
 }
 
@@ -186,7 +194,10 @@ bool colorByCategory(vtkMRMLModelNode* mesh, int colorBy)
   vtkMRMLColorTableNode* colors = colorsFor(mesh, scalars);
   fillCategories(colors, bySubMesh ? subMeshCategories(mesh) : constitutiveCategories());
   show(mesh, scalars, colors);
-  showLegend(mesh, translated(bySubMesh ? "sub-meshes" : "classes"), true);
+  showLegend(mesh,
+             bySubMesh ? vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "sub-meshes")
+                       : vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "classes"),
+             true);
   return true;
 }
 
@@ -198,14 +209,14 @@ bool colorMesh(vtkMRMLModelNode* mesh, int colorBy)
   mesh->CreateDefaultDisplayNodes();
   switch (colorBy)
   {
-    case Parameters::Tissue:
-      if (!mesh->GetMesh()->GetCellData()->GetArray("TissueLabel")) return false;
-      showTissueColors(mesh, "TissueLabel");
-      showLegend(mesh, translated("tissues"), true);
-      return true;
-    case Parameters::SubMesh:
-    case Parameters::ConstitutiveClass: return colorByCategory(mesh, colorBy);
-    default: return colorByMeasure(mesh, colorBy);
+  case Parameters::Tissue:
+    if (!mesh->GetMesh()->GetCellData()->GetArray("TissueLabel")) return false;
+    showTissueColors(mesh, "TissueLabel");
+    showLegend(mesh, vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "tissues"), true);
+    return true;
+  case Parameters::SubMesh:
+  case Parameters::ConstitutiveClass: return colorByCategory(mesh, colorBy);
+  default: return colorByMeasure(mesh, colorBy);
   }
 }
 

@@ -33,8 +33,6 @@ namespace
 using Json = rapidjson::Value;
 using Parameters = vtkMRMLFuchsTetrahedralizerNode;
 
-std::string translated(const char* text) { return vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", text); }
-
 // ---- nodes of a mesh ------------------------------------------------------------------------------------------------
 
 /// Subject hierarchies show it below the mesh.
@@ -47,17 +45,24 @@ void putBelow(vtkMRMLNode* node, vtkMRMLModelNode* mesh)
     hierarchy->SetItemParent(item, parent);
 }
 
-/// The nth node that `owner` refers to in `role`, made if there is none.
+/// A new node, named after the mesh and shown below it.
 template <class Node>
-Node* nodeOf(vtkMRMLModelNode* mesh, vtkMRMLNode* owner, const char* role, int n, const char* className,
-             const std::string& title)
+Node* addNode(vtkMRMLModelNode* mesh, const char* className, const std::string& title)
 {
-  auto* node = Node::SafeDownCast(owner->GetNthNodeReference(role, n));
-  if (node) return node;
-  node = Node::SafeDownCast(
-    mesh->GetScene()->AddNewNodeByClass(className, std::string(mesh->GetName()) + ": " + title));
-  owner->SetNthNodeReferenceID(role, n, node->GetID());
+  auto* node =
+    Node::SafeDownCast(mesh->GetScene()->AddNewNodeByClass(className, std::string(mesh->GetName()) + ": " + title));
   putBelow(node, mesh);
+  return node;
+}
+
+/// The nth node that the mesh refers to in `role`, made if there is none.
+template <class Node>
+Node* nodeOf(vtkMRMLModelNode* mesh, const char* role, int n, const char* className, const std::string& title)
+{
+  auto* node = Node::SafeDownCast(mesh->GetNthNodeReference(role, n));
+  if (node) return node;
+  node = addNode<Node>(mesh, className, title);
+  mesh->SetNthNodeReferenceID(role, n, node->GetID());
   return node;
 }
 
@@ -74,7 +79,7 @@ double numberAt(const Json& group, const char* member, const char* ofDistributio
 
 struct Column
 {
-  const char* title;
+  const char* name; ///< by which others may look it up, so it isn't translated
   const char* member;
   const char* ofDistribution;
   double factor;
@@ -106,7 +111,7 @@ struct Row
 
 std::vector<Row> rowsOf(const Json& quality)
 {
-  std::vector<Row> rows{ { translated("mesh"), &quality["whole"] } };
+  std::vector<Row> rows{ { vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "mesh"), &quality["whole"] } };
   for (const Json& tissue : quality["tissues"].GetArray())
   {
     const std::string name = tissue["name"].GetString();
@@ -115,7 +120,9 @@ std::vector<Row> rowsOf(const Json& quality)
   for (const Json& part : quality["subMeshes"].GetArray())
   {
     const int id = int(numberAt(part, "subMesh"));
-    rows.push_back({ id == 0 ? translated("parent") : translated("child") + " " + std::to_string(id), &part });
+    rows.push_back({ id == 0 ? vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "parent")
+                             : vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "child") + " " + std::to_string(id),
+                     &part });
   }
   return rows;
 }
@@ -125,13 +132,13 @@ void fillTable(vtkMRMLTableNode* table, const Json& quality)
   const std::vector<Row> rows = rowsOf(quality);
   vtkNew<vtkTable> content;
   vtkNew<vtkStringArray> names;
-  names->SetName(translated("part").c_str());
+  names->SetName("part");
   for (const Row& row : rows) names->InsertNextValue(row.name);
   content->AddColumn(names);
   for (const Column& column : columns)
   {
     vtkNew<vtkDoubleArray> values;
-    values->SetName(translated(column.title).c_str());
+    values->SetName(column.name);
     for (const Row& row : rows)
       values->InsertNextValue(column.factor * numberAt(*row.group, column.member, column.ofDistribution));
     content->AddColumn(values);
@@ -149,10 +156,10 @@ void addConditioning(vtkMRMLTableNode* table, const Json& quality)
   if (stiffness == quality.MemberEnd()) return;
   const std::pair<const char*, const char*> columns[] = { { "condition number", "conditionNumber" },
                                                           { "CG iterations", "iterations" } };
-  for (const auto& [title, member] : columns)
+  for (const auto& [name, member] : columns)
   {
     vtkNew<vtkStringArray> values; // of the whole mesh only: the other fields stay empty
-    values->SetName(translated(title).c_str());
+    values->SetName(name);
     values->SetNumberOfValues(table->GetNumberOfRows());
     values->SetValue(0, std::to_string(std::int64_t(numberAt(stiffness->value, member))));
     table->GetTable()->AddColumn(values);
@@ -185,8 +192,8 @@ Histogram radiusRatios(const TetraMesh& mesh)
 
 struct Plot
 {
-  const char* title;
-  const char* axis;
+  std::string title;
+  std::string axis;
   Histogram histogram;
 };
 
@@ -196,8 +203,8 @@ void fillHistogramTable(vtkMRMLTableNode* table, const Plot& plot)
   const double total = double(std::accumulate(histogram.counts.begin(), histogram.counts.end(), std::size_t(0)));
   const double width = (histogram.high - histogram.low) / double(histogram.counts.size());
   vtkNew<vtkDoubleArray> places, shares;
-  places->SetName(translated(plot.axis).c_str());
-  shares->SetName(translated("share (%)").c_str());
+  places->SetName("value");
+  shares->SetName("share (%)");
   for (std::size_t i = 0; i < histogram.counts.size(); ++i)
   {
     places->InsertNextValue(histogram.low + (double(i) + 0.5) * width);
@@ -213,23 +220,11 @@ void fillHistogramTable(vtkMRMLTableNode* table, const Plot& plot)
 
 void showHistogram(vtkMRMLModelNode* mesh, int n, const Plot& plot)
 {
-  const std::string title = translated(plot.title);
-  auto* chart =
-    nodeOf<vtkMRMLPlotChartNode>(mesh, mesh, Parameters::HistogramRole(), n, "vtkMRMLPlotChartNode", title);
-  auto* series = vtkMRMLPlotSeriesNode::SafeDownCast(chart->GetPlotSeriesNode());
-  if (!series)
-  {
-    series = vtkMRMLPlotSeriesNode::SafeDownCast(
-      mesh->GetScene()->AddNewNodeByClass("vtkMRMLPlotSeriesNode", std::string(mesh->GetName()) + ": " + title));
-    putBelow(series, mesh);
-  }
-  auto* table = series->GetTableNode();
-  if (!table)
-  {
-    table = vtkMRMLTableNode::SafeDownCast(
-      mesh->GetScene()->AddNewNodeByClass("vtkMRMLTableNode", std::string(mesh->GetName()) + ": " + title));
-    putBelow(table, mesh);
-  }
+  auto* chart = nodeOf<vtkMRMLPlotChartNode>(mesh, Parameters::HistogramRole(), n, "vtkMRMLPlotChartNode", plot.title);
+  vtkMRMLPlotSeriesNode* series = chart->GetPlotSeriesNode();
+  if (!series) series = addNode<vtkMRMLPlotSeriesNode>(mesh, "vtkMRMLPlotSeriesNode", plot.title);
+  vtkMRMLTableNode* table = series->GetTableNode();
+  if (!table) table = addNode<vtkMRMLTableNode>(mesh, "vtkMRMLTableNode", plot.title);
   fillHistogramTable(table, plot);
   series->SetAndObserveTableNodeID(table->GetID());
   series->SetPlotType(vtkMRMLPlotSeriesNode::PlotTypeScatterBar);
@@ -237,24 +232,32 @@ void showHistogram(vtkMRMLModelNode* mesh, int n, const Plot& plot)
   series->SetYColumnName(table->GetColumnName(1));
   series->SetColor(0.17, 0.48, 0.71);
   chart->SetAndObservePlotSeriesNodeID(series->GetID());
-  chart->SetTitle((std::string(mesh->GetName()) + ": " + title).c_str());
-  chart->SetXAxisTitle(translated(plot.axis).c_str());
-  chart->SetYAxisTitle(translated("share (%)").c_str());
+  chart->SetTitle((std::string(mesh->GetName()) + ": " + plot.title).c_str());
+  chart->SetXAxisTitle(plot.axis.c_str());
+  chart->SetYAxisTitle(vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "share (%)").c_str());
   chart->SetLegendVisibility(false);
 }
 
 void showQuality(vtkMRMLModelNode* mesh, const Json& quality)
 {
-  auto* table = nodeOf<vtkMRMLTableNode>(mesh, mesh, Parameters::QualityTableRole(), 0, "vtkMRMLTableNode",
-                                         translated("quality"));
+  auto* table = nodeOf<vtkMRMLTableNode>(mesh, Parameters::QualityTableRole(), 0, "vtkMRMLTableNode",
+                                         vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "quality"));
   fillTable(table, quality);
   addConditioning(table, quality);
   const Json& histograms = quality["histograms"];
   const std::vector<Plot> plots{
-    { "dihedral angles", "dihedral angle (degrees)", histogramOf(histograms["dihedral"]) },
-    { "edge lengths", "edge length over target", histogramOf(histograms["edgeOverTarget"]) },
-    { "valences", "tetrahedra around an inner point", histogramOf(histograms["valence"]) },
-    { "radius ratios", "three times inner over outer radius", radiusRatios(meshOfModel(mesh).mesh) },
+    { vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "dihedral angles"),
+      vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "dihedral angle (degrees)"),
+      histogramOf(histograms["dihedral"]) },
+    { vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "edge lengths"),
+      vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "edge length over target"),
+      histogramOf(histograms["edgeOverTarget"]) },
+    { vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "valences"),
+      vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "tetrahedra around an inner point"),
+      histogramOf(histograms["valence"]) },
+    { vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "radius ratios"),
+      vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "three times inner over outer radius"),
+      radiusRatios(meshOfModel(mesh).mesh) },
   };
   for (std::size_t n = 0; n < plots.size(); ++n) showHistogram(mesh, int(n), plots[n]);
 }

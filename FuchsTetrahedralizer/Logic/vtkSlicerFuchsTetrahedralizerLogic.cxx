@@ -138,14 +138,14 @@ Check checkLengths(Parameters* parameters, const std::vector<vtkMRMLModelNode*>&
   vtkMRMLScalarVolumeNode* scale = scaleOf(parameters);
   switch (parameters->GetEdgeLengthSource())
   {
-    case Parameters::FromSurface:
-      return { hasTargetLengths(surfaces) ? Problem::None : Problem::NoTargetLengths, nullptr, {} };
-    case Parameters::FromScale:
-      if (!scale || !scale->GetImageData()) return { Problem::NoScale, scale, {} };
-      if (scale->GetParentTransformNode() && !scale->GetParentTransformNode()->IsTransformToWorldLinear())
-        return { Problem::ScaleWarped, scale, {} };
-      return {};
-    default: return { parameters->GetEdgeLength() > 0 ? Problem::None : Problem::NoEdgeLength, nullptr, {} };
+  case Parameters::FromSurface:
+    return { hasTargetLengths(surfaces) ? Problem::None : Problem::NoTargetLengths, nullptr, {} };
+  case Parameters::FromScale:
+    if (!scale || !scale->GetImageData()) return { Problem::NoScale, scale, {} };
+    if (scale->GetParentTransformNode() && !scale->GetParentTransformNode()->IsTransformToWorldLinear())
+      return { Problem::ScaleWarped, scale, {} };
+    return {};
+  default: return { parameters->GetEdgeLength() > 0 ? Problem::None : Problem::NoEdgeLength, nullptr, {} };
   }
 }
 
@@ -451,8 +451,8 @@ void vtkSlicerFuchsTetrahedralizerLogic::PrepareOutputs(vtkMRMLFuchsTetrahedrali
     {
       const std::string name = std::string(surfacesOf(parameters).front()->GetName()) + " " +
                                vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "tetrahedra");
-      output = vtkMRMLModelNode::SafeDownCast(this->GetMRMLScene()->AddNewNodeByClass(
-        "vtkMRMLModelNode", this->GetMRMLScene()->GenerateUniqueName(name)));
+      output = vtkMRMLModelNode::SafeDownCast(
+        this->GetMRMLScene()->AddNewNodeByClass("vtkMRMLModelNode", this->GetMRMLScene()->GenerateUniqueName(name)));
       parameters->SetNode(role, output);
     }
     if (!output) continue;
@@ -490,8 +490,8 @@ void vtkSlicerFuchsTetrahedralizerLogic::ShowTrianglesAtFault()
       model->GetDisplayNode()->SetEdgeVisibility(true);
       model->GetDisplayNode()->SetLineWidth(3);
       this->Run->SetErrorText(refusal.substr(0, at) + "; " +
-                              vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "the triangles are in the model") + " \"" +
-                              model->GetName() + "\"");
+                              vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "the triangles are in the model") +
+                              " \"" + model->GetName() + "\"");
     });
   vtksys::SystemTools::RemoveFile(file);
   if (!failure.empty()) vtkErrorMacro(<< failure);
@@ -618,8 +618,7 @@ std::string vtkSlicerFuchsTetrahedralizerLogic::Export(vtkMRMLFuchsTetrahedraliz
       if (!mesh) throw InputError("no mesh is chosen");
       const MeshFile content = meshOfModel(mesh);
       const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
-      const FiniteElementModel model =
-        finiteElementModel(content, optionsOf(parameters, content.tissues, present));
+      const FiniteElementModel model = finiteElementModel(content, optionsOf(parameters, content.tissues, present));
       OutputFiles outputs;
       exportModel(model, file, [&outputs](const std::string& finalPath) { return outputs.temporary(finalPath); });
       outputs.commit();

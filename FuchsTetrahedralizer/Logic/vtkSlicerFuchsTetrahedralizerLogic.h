@@ -38,25 +38,25 @@ public:
   enum class Problem
   {
     None,
-    NoModule,           ///< FuchsTetrahedralizerCLI isn't loaded
-    NoSurface,          ///< no model is chosen
-    NotASurface,        ///< `node` holds no triangles: it is empty, or a volume mesh
+    NoModule,            ///< FuchsTetrahedralizerCLI isn't loaded
+    NoSurface,           ///< no model is chosen
+    NotASurface,         ///< `node` holds no triangles: it is empty, or a volume mesh
     LabelledAmongOthers, ///< `node` has labels on both sides of its triangles, so it has to be alone
-    NoTargetLengths,    ///< the lengths are to be the surface's own, and it has none
-    NoScale,            ///< no scale volume with voxels is chosen
-    ScaleWarped,        ///< the scale volume is under a transform that isn't linear
-    NoEdgeLength,       ///< the one length isn't positive
-    AmbientChanged,     ///< the surface was edited since its ambient tetrahedra were made
-    OutputIsInput,      ///< `node` is both, or two outputs at once
-    NotAPath,           ///< `node`, chosen as a path, has fewer than two points
-    NoTargets,          ///< a distance from targets is asked for, but no target has a point
-    NoPaths,            ///< a distance from paths is asked for, but no path is chosen
-    NoPlaces,           ///< a nonlinear distance is asked for, but neither target nor path is chosen
-    NoDistance,         ///< targets or paths are chosen, but no distance from them
-    NoEntryDistance,    ///< a distance at the target end of paths is asked for, but none at the entry
-    UnknownShell,       ///< `text` is no tissue of the surface
-    ShellsUnused,       ///< a model of shells is asked for, but no tissue becomes one
-    BadMaterials        ///< `text` says what is wrong with the materials file
+    NoTargetLengths,     ///< the lengths are to be the surface's own, and it has none
+    NoScale,             ///< no scale volume with voxels is chosen
+    ScaleWarped,         ///< the scale volume is under a transform that isn't linear
+    NoEdgeLength,        ///< the one length isn't positive
+    AmbientChanged,      ///< the surface was edited since its ambient tetrahedra were made
+    OutputIsInput,       ///< `node` is both, or two outputs at once
+    NotAPath,            ///< `node`, chosen as a path, has fewer than two points
+    NoTargets,           ///< a distance from targets is asked for, but no target has a point
+    NoPaths,             ///< a distance from paths is asked for, but no path is chosen
+    NoPlaces,            ///< a nonlinear distance is asked for, but neither target nor path is chosen
+    NoDistance,          ///< targets or paths are chosen, but no distance from them
+    NoEntryDistance,     ///< a distance at the target end of paths is asked for, but none at the entry
+    UnknownShell,        ///< `text` is no tissue of the surface
+    ShellsUnused,        ///< a model of shells is asked for, but no tissue becomes one
+    BadMaterials         ///< `text` says what is wrong with the materials file
   };
   struct Check
   {

@@ -44,7 +44,10 @@ struct Panel
   vtkSurgicalMesherRun* run() { return logic->GetRun(); }
   qSurgicalMesherRunWidget* foot() { return findChild<qSurgicalMesherRunWidget>(widget, "RunWidget"); }
   QPushButton* button(const char* name) { return findChild<QPushButton>(widget, name); }
-  bool waitForEnd() { return host.waitUntil([this] { return !run()->IsBusy(); }); }
+  bool waitForEnd()
+  {
+    return host.waitUntil([this] { return !run()->IsBusy(); });
+  }
 };
 
 /// What the host and the runs of this process left in the folder for temporary files, which other processes use too. The

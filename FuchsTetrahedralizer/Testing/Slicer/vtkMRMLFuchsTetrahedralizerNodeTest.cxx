@@ -1,7 +1,7 @@
 // The parameter node: what it holds survives a scene's file and a copy, and it tells of changes once.
 
-#include "MeshComparison.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
+#include "MeshComparison.h"
 
 #include <vtkMRMLCoreTestingMacros.h>
 #include <vtkMRMLModelNode.h>

@@ -1,13 +1,13 @@
 // The logic without its panel: closed models, transforms, constitutive classes, meshes from elsewhere, and what a saved
 // scene brings back.
 
+#include "vtkSlicerFuchsTetrahedralizerLogic.h"
 #include "ComplexIO.h"
 #include "HostApplication.h"
 #include "HostScene.h"
 #include "MeshComparison.h"
 #include "MeshedBalls.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
-#include "vtkSlicerFuchsTetrahedralizerLogic.h"
 #include "vtkSurgicalMesherRun.h"
 
 #include <qSlicerApplication.h>
@@ -105,7 +105,8 @@ int testTransforms(Logic* logic, vtkMRMLScene* scene, const MeshedBalls& balls)
   surface->SetAndObserveTransformNodeID(addTransform(scene)->GetID()); // to (5, -3, 2), RAS
   const MeshFile moved = contentOf(run(logic, node));
   CHECK_DOUBLE_TOLERANCE(distanceFrom(moved, { -5, 3, 2 }), 0, 0.5);
-  for (const auto& [label, volume] : volumesOf(moved)) CHECK_DOUBLE_TOLERANCE(volume, straight.at(label), 0.02 * volume);
+  for (const auto& [label, volume] : volumesOf(moved))
+    CHECK_DOUBLE_TOLERANCE(volume, straight.at(label), 0.02 * volume);
 
   auto* mirror = vtkMRMLTransformNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLLinearTransformNode"));
   vtkNew<vtkMatrix4x4> matrix;
@@ -115,7 +116,8 @@ int testTransforms(Logic* logic, vtkMRMLScene* scene, const MeshedBalls& balls)
   surface->SetAndObserveTransformNodeID(mirror->GetID());
   const MeshFile mirrored = contentOf(run(logic, node)); // refuses tetrahedra that are inverted
   CHECK_DOUBLE_TOLERANCE(distanceFrom(mirrored, { 0, 0, 7 }), 0, 0.5);
-  for (const auto& [label, volume] : volumesOf(mirrored)) CHECK_DOUBLE_TOLERANCE(volume, straight.at(label), 0.02 * volume);
+  for (const auto& [label, volume] : volumesOf(mirrored))
+    CHECK_DOUBLE_TOLERANCE(volume, straight.at(label), 0.02 * volume);
   surface->SetAndObserveTransformNodeID(nullptr);
   return EXIT_SUCCESS;
 }
