@@ -298,21 +298,16 @@ Obstacle qSlicerSimplexMesherModuleWidgetPrivate::scaleObstacle(Problem problem)
 
 Obstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check)
 {
-  const QString tissue = QString::fromStdString(check.tissue);
   if (check.problem == Problem::NothingToMesh)
     return { Widget::tr("All tissues are left out."), Widget::tr("Mesh all"),
              [this] { this->Parameters->SetTissueSettings({}); } };
-  std::string id;
-  for (const surgicalmesher::TissueRow& row : this->TissueTable->tissues())
-  {
-    if (row.name == check.tissue) id = row.id;
-  }
-  const auto dropMaximum = [this, id]
+  const auto dropMaximum = [this, id = check.tissue.id]
   {
     surgicalmesher::TissueSetting setting = this->Parameters->GetTissueSetting(id);
     setting.maximumEdgeLength = 0;
     this->Parameters->SetTissueSetting(id, setting);
   };
+  const QString tissue = QString::fromStdString(check.tissue.name);
   const QString sentence = check.problem == Problem::LengthsContradict
                              ? Widget::tr("The minimum edge length of %1 is above its maximum.").arg(tissue)
                              : Widget::tr("%1 is a shell, which has one edge length, not two.").arg(tissue);

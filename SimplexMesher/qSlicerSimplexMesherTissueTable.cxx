@@ -86,6 +86,12 @@ QString volumeText(double volume)
   return volume < 1000 ? Table::tr("%L1 mm³").arg(volume, 0, 'f', 0) : Table::tr("%L1 ml").arg(volume / 1000, 0, 'f', 1);
 }
 
+QString tooltip(const TissueRow& tissue)
+{
+  const QString text = Table::tr("%1: label %2").arg(QString::fromStdString(tissue.name).toHtmlEscaped()).arg(tissue.label);
+  return tissue.voxels < 0 ? text : Table::tr("%1, %L2 voxels").arg(text).arg(qlonglong(tissue.voxels));
+}
+
 class TissueModel : public QAbstractTableModel
 {
 public:
@@ -185,10 +191,7 @@ QVariant TissueModel::data(const QModelIndex& index, int role) const
       return setting.role == TissueRole::Leave ? QVariant(QColor(Qt::gray)) : QVariant();
     case Qt::ToolTipRole:
       if (column != Table::NameColumn) return this->headerData(column, Qt::Horizontal, Qt::ToolTipRole);
-      return Table::tr("%1: label %2, %L3 voxels")
-        .arg(QString::fromStdString(tissue.name).toHtmlEscaped())
-        .arg(tissue.label)
-        .arg(qlonglong(tissue.voxels));
+      return tooltip(tissue);
     default: return {};
   }
 }
@@ -372,7 +375,7 @@ void qSlicerSimplexMesherTissueTablePrivate::makeView(QWidget* parent)
   this->View->setShowGrid(false);
   this->View->setWordWrap(false);
   this->View->setSortingEnabled(true);
-  this->View->sortByColumn(Table::LabelColumn, Qt::AscendingOrder);
+  this->View->sortByColumn(-1, Qt::AscendingOrder); // as listed
   this->View->verticalHeader()->hide();
   this->View->verticalHeader()->setDefaultSectionSize(this->View->fontMetrics().height() + 6);
   this->View->setMinimumHeight(160);
@@ -380,6 +383,7 @@ void qSlicerSimplexMesherTissueTablePrivate::makeView(QWidget* parent)
   header->setSectionResizeMode(QHeaderView::ResizeToContents);
   header->setSectionResizeMode(Table::NameColumn, QHeaderView::Stretch);
   header->setHighlightSections(false);
+  this->View->hideColumn(Table::LabelColumn);
   this->View->hideColumn(Table::IslandsColumn);
   this->View->hideColumn(Table::CavitiesColumn);
   this->addColumnActions();

@@ -184,6 +184,7 @@ void fillChart(vtkMRMLPlotChartNode* chart, vtkMRMLTableNode* table, const Plot&
   chart->SetXAxisTitle(EvolutionColumns().step.c_str());
   chart->SetYAxisTitle(plot.axis.c_str());
   chart->SetLegendVisibility(plot.columns.size() > 1);
+  chart->SetLegendFontSize(12); // it lies on the curves
   for (std::size_t i = 0; i < plot.columns.size(); ++i)
   {
     vtkMRMLPlotSeriesNode* series = chart->GetNthPlotSeriesNode(int(i));
@@ -218,7 +219,7 @@ void fillTissueTable(const std::string& reportFile, vtkMRMLModelNode* surface, v
   TableFiller table(node);
   table.add<vtkIntArray>(vtkMRMLTr("SimplexMesher", "Label"), tissues, [](const auto& entry) { return entry.first; });
   table.add<vtkStringArray>(vtkMRMLTr("SimplexMesher", "Tissue"), tissues, nameOf);
-  measure(table, vtkMRMLTr("SimplexMesher", "Area (mm^2)"), [](const Report& r) { return r.area; });
+  measure(table, vtkMRMLTr("SimplexMesher", "Area (mm²)"), [](const Report& r) { return r.area; });
   count(table, vtkMRMLTr("SimplexMesher", "Triangles"), [](const Report& r) { return r.triangles; });
   count(table, vtkMRMLTr("SimplexMesher", "Components"), [](const Report& r) { return r.topology[0]; });
   count(table, vtkMRMLTr("SimplexMesher", "Tunnels"), [](const Report& r) { return r.topology[1]; });
@@ -237,9 +238,13 @@ void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* node)
   const auto steps = itemsOf(report, { "evolution" }).GetArray();
   const EvolutionColumns names;
   TableFiller table(node);
-  const auto number = [&](const std::string& name, const char* member)
+  const auto distance = [&](const std::string& name, const char* member)
   {
     table.add<vtkDoubleArray>(name, steps, [&](const auto& step) { return numberOf(step, member); });
+  };
+  const auto number = [&](const std::string& name, const char* member)
+  {
+    table.add<vtkIntArray>(name, steps, [&](const auto& step) { return int(numberOf(step, member)); });
   };
   int count = 0;
   table.add<vtkIntArray>(names.step, steps, [&](const auto&) { return count++; });
@@ -251,8 +256,8 @@ void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* node)
                               return std::string(known ? stage->value.GetString() : "");
                             });
   number(names.tetrahedra, "tetrahedra");
-  number(names.meanDistance, "meanDistance");
-  number(names.maximumDistance, "maximumDistance");
+  distance(names.meanDistance, "meanDistance");
+  distance(names.maximumDistance, "maximumDistance");
   number(names.collapses, "collapses");
   number(names.splits, "splits");
   number(names.flips, "flips");

@@ -118,11 +118,10 @@ Check tissueProblem(Node* parameters, const std::vector<TissueRow>& tissues)
     const TissueSetting setting = parameters->GetTissueSetting(tissue.id);
     isAnyMeshed = isAnyMeshed || (setting.role != TissueRole::Leave && tissue.voxels != 0);
     check.problem = lengthProblem(setting);
-    check.tissue = tissue.name;
+    check.tissue = tissue;
     if (check.problem != Problem::None) return check;
   }
   check.problem = isAnyMeshed || tissues.empty() ? Problem::None : Problem::NothingToMesh;
-  check.tissue.clear();
   return check;
 }
 

@@ -46,7 +46,7 @@ public:
   {
     Problem problem = Problem::None;
     surgicalmesher::TissueMapProblem tissueMap = surgicalmesher::TissueMapProblem::None;
-    std::string tissue; ///< name
+    surgicalmesher::TissueRow tissue;
   };
 
   /// `tissues` as surgicalmesher::listTissues gives them for the parameter node's map.
