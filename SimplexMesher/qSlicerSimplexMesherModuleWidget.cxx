@@ -44,6 +44,19 @@ struct Obstacle
   std::function<void()> fix;
 };
 
+namespace
+{
+
+/// An obstacle that another module can remove; without the button if the host lacks that module.
+Obstacle obstacleFor(const QString& module, const QString& fixText, const QString& sentence)
+{
+  qSlicerApplication* application = qSlicerApplication::application();
+  if (!application->moduleManager()->module(module)) return { sentence, {}, {} };
+  return { sentence, fixText, [application, module] { application->layoutManager()->setCurrentModule(module); } };
+}
+
+} // namespace
+
 class qSlicerSimplexMesherModuleWidgetPrivate : public Ui_qSlicerSimplexMesherModuleWidget
 {
   Q_DECLARE_PUBLIC(qSlicerSimplexMesherModuleWidget)
@@ -76,7 +89,6 @@ public:
   Obstacle noTissueMapObstacle();
   Obstacle scaleObstacle(Problem problem);
   Obstacle tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check);
-  void openModule(const QString& name);
 };
 
 void qSlicerSimplexMesherModuleWidgetPrivate::setParameterNode(vtkMRMLSimplexMesherNode* node)
@@ -233,25 +245,24 @@ Obstacle qSlicerSimplexMesherModuleWidgetPrivate::obstacle()
 Obstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueMapObstacle(TissueMapProblem problem)
 {
   vtkMRMLNode* map = this->Parameters->GetTissueMapNode();
-  const QString edit = Widget::tr("Edit segments");
-  const auto editSegments = [this] { this->openModule("SegmentEditor"); };
+  const auto needsEditor = [](const QString& sentence)
+  { return obstacleFor("SegmentEditor", Widget::tr("Edit segments"), sentence); };
   switch (problem)
   {
     case TissueMapProblem::NothingChosen:
     case TissueMapProblem::NotATissueMap:
       return this->noTissueMapObstacle();
-    case TissueMapProblem::NoSegment: return { Widget::tr("The segmentation has no segments."), edit, editSegments };
+    case TissueMapProblem::NoSegment: return needsEditor(Widget::tr("The segmentation has no segments."));
     case TissueMapProblem::NoVoxels: return { Widget::tr("The label map has no voxels; choose another one."), {}, {} };
     case TissueMapProblem::OnlyBackground:
-      if (vtkMRMLSegmentationNode::SafeDownCast(map))
-        return { Widget::tr("All segments are empty."), edit, editSegments };
+      if (vtkMRMLSegmentationNode::SafeDownCast(map)) return needsEditor(Widget::tr("All segments are empty."));
       return { Widget::tr("No voxel of the label map belongs to a tissue; choose another one."), {}, {} };
     case TissueMapProblem::NoReferenceGeometry:
-      return { Widget::tr("The segmentation's voxel size isn't known: set its source geometry in Segment Editor."), edit,
-               editSegments };
+      return needsEditor(
+        Widget::tr("The segmentation's voxel size isn't known: set its source geometry in Segment Editor."));
     case TissueMapProblem::ShearingTransform:
-      return { Widget::tr("The transform of the tissues turns their voxels into rhomboids; choose another one."),
-               Widget::tr("Transforms"), [this] { this->openModule("Transforms"); } };
+      return obstacleFor("Transforms", Widget::tr("Transforms"),
+                         Widget::tr("The transform of the tissues turns their voxels into rhomboids; choose another one."));
     case TissueMapProblem::NegativeLabels:
       return { Widget::tr("Some voxels of the label map are no whole numbers from 0 to 65535."), {}, {} };
     default: return { Widget::tr("The segmentation can't be turned into a label map; see the application's log."), {}, {} };
@@ -277,19 +288,17 @@ Obstacle qSlicerSimplexMesherModuleWidgetPrivate::noTissueMapObstacle()
 
 Obstacle qSlicerSimplexMesherModuleWidgetPrivate::scaleObstacle(Problem problem)
 {
-  const QString makeScale = Widget::tr("Surgical Path Scale");
-  const auto openScale = [this] { this->openModule("SurgicalPathScale"); };
   switch (problem)
   {
     case Problem::NoScale:
       return { Widget::tr("Choose a scale volume, or one edge length for all."), Widget::tr("One edge length"),
                [this] { this->Parameters->UseScaleOff(); } };
     case Problem::ScaleWarped:
-      return { Widget::tr("The scale volume is under a transform that isn't linear; harden or remove it."),
-               Widget::tr("Transforms"), [this] { this->openModule("Transforms"); } };
+      return obstacleFor("Transforms", Widget::tr("Transforms"),
+                         Widget::tr("The scale volume is under a transform that isn't linear; harden or remove it."));
     case Problem::ScaleTooSmall:
-      return { Widget::tr("The scale volume doesn't cover the whole label map; make one for this map."), makeScale,
-               openScale };
+      return obstacleFor("SurgicalPathScale", Widget::tr("Surgical Path Scale"),
+                         Widget::tr("The scale volume doesn't cover the whole label map; make one for this map."));
     default:
       return { Widget::tr("The edge length has to be above 0."), Widget::tr("2 mm"),
                [this] { this->Parameters->SetEdgeLength(2); } };
@@ -314,12 +323,6 @@ Obstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueObstacle(const vtkSlicer
   return { sentence, Widget::tr("Drop the maximum"), dropMaximum };
 }
 
-void qSlicerSimplexMesherModuleWidgetPrivate::openModule(const QString& name)
-{
-  qSlicerApplication* application = qSlicerApplication::application();
-  if (application->moduleManager()->module(name)) application->layoutManager()->setCurrentModule(name);
-}
-
 qSlicerSimplexMesherModuleWidget::qSlicerSimplexMesherModuleWidget(QWidget* parent)
   : Superclass(parent)
   , d_ptr(new qSlicerSimplexMesherModuleWidgetPrivate(*this))
@@ -335,7 +338,6 @@ void qSlicerSimplexMesherModuleWidget::setup()
   this->Superclass::setup();
   d->ReportTableComboBox->addItem(tr("Tissues"), QByteArray(Node::TissueTableRole()));
   d->ReportTableComboBox->addItem(tr("Evolution, step by step"), QByteArray(Node::EvolutionTableRole()));
-  QWidget::setTabOrder(d->ReportCheckBox, d->TissueTable->view());
   d->ListTimer.setSingleShot(true);
   d->ListTimer.setInterval(300);
   connect(&d->ListTimer, SIGNAL(timeout()), this, SLOT(listTissues()));
@@ -471,7 +473,7 @@ void qSlicerSimplexMesherModuleWidget::showReport()
   Q_D(qSlicerSimplexMesherModuleWidget);
   const QByteArray role = d->ReportTableComboBox->currentData().toByteArray();
   vtkMRMLNode* table = d->Parameters ? d->Parameters->GetNodeReference(role.constData()) : nullptr;
-  d->ReportTableView->setMRMLTableNode(table);
+  if (table != d->ReportTableView->mrmlTableNode()) d->ReportTableView->setMRMLTableNode(table);
 }
 
 void qSlicerSimplexMesherModuleWidget::showPlot()
