@@ -440,25 +440,18 @@ void vtkSlicerFuchsTetrahedralizerLogic::PrepareConstitutiveClasses(vtkMRMLFuchs
   this->Run->SetParameter("nullDisplacementPathDistanceAtTarget", rule.nullPathDistanceAtTarget);
 }
 
+/// The host fills nodes of our own, so that whatever becomes of the run, the user's have all of its results or none.
 void vtkSlicerFuchsTetrahedralizerLogic::PrepareOutputs(vtkMRMLFuchsTetrahedralizerNode* parameters)
 {
-  this->Outputs.clear();
-  for (const char* role : kOutputRoles)
+  this->Results.clear();
+  for (const std::string role : kOutputRoles)
   {
-    vtkMRMLModelNode* output = parameters->GetModelNode(role);
-    const bool isNew = !output && role == std::string(Parameters::MeshRole());
-    if (isNew)
-    {
-      const std::string name = std::string(surfacesOf(parameters).front()->GetName()) + " " +
-                               vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "tetrahedra");
-      output = vtkMRMLModelNode::SafeDownCast(
-        this->GetMRMLScene()->AddNewNodeByClass("vtkMRMLModelNode", this->GetMRMLScene()->GenerateUniqueName(name)));
-      parameters->SetNode(role, output);
-    }
-    if (!output) continue;
-    this->Outputs.emplace_back(output);
-    this->Run->AddOutputNode(output, isNew);
-    this->Run->SetParameterNode(role, output);
+    if (role != Parameters::MeshRole() && !parameters->GetModelNode(role.c_str())) continue;
+    const auto result = vtkSmartPointer<vtkMRMLModelNode>::New();
+    result->SetName(role.c_str());
+    this->Run->AddTemporaryNode(result);
+    this->Run->SetParameterNode(role, result);
+    this->Results[role] = result;
   }
   this->ReportFile = this->Run->NewTemporaryFile(".json");
   this->Run->SetParameter("report", this->ReportFile);
@@ -499,22 +492,41 @@ void vtkSlicerFuchsTetrahedralizerLogic::ShowTrianglesAtFault()
 
 void vtkSlicerFuchsTetrahedralizerLogic::FinishRun()
 {
-  if (!this->Parameters || this->Outputs.empty()) return;
-  for (vtkMRMLModelNode* output : this->Outputs)
+  if (!this->Parameters || !this->Parameters->GetScene()) return;
+  for (const char* role : { Parameters::ParentMeshRole(), Parameters::ChildMeshRole(), Parameters::ShellsRole() })
   {
-    if (!output || !output->GetMesh()) continue;
-    output->GetMesh()->GetFieldData()->RemoveArray("SPACE"); // it told of the file, and the host adds it to the next
-    output->SetAndObserveTransformNodeID(nullptr);           // results are in world coordinates
-    output->CreateDefaultDisplayNodes();
+    vtkMRMLModelNode* part = this->TakeResult(role);
+    if (!part) continue;
+    part->GetDisplayNode()->SetVisibility(false); // it is part of the mesh, at the same place
+    part->GetDisplayNode()->SetEdgeVisibility(true);
   }
-  for (std::size_t i = 1; i < this->Outputs.size(); ++i)
+  if (vtkMRMLModelNode* mesh = this->TakeResult(Parameters::MeshRole())) this->FinishMesh(mesh);
+  this->Results.clear();
+}
+
+/// Null if the run had no such result, or nobody wants it any more.
+vtkMRMLModelNode* vtkSlicerFuchsTetrahedralizerLogic::TakeResult(const std::string& role)
+{
+  const auto result = this->Results.find(role);
+  if (result == this->Results.end() || !result->second->GetMesh()) return nullptr;
+  vtkMRMLModelNode* output = this->Parameters->GetModelNode(role.c_str());
+  if (!output && role == Parameters::MeshRole())
   {
-    if (!this->Outputs[i] || !this->Outputs[i]->GetMesh()) continue;
-    this->Outputs[i]->GetDisplayNode()->SetVisibility(false); // it is part of the mesh, at the same place
-    this->Outputs[i]->GetDisplayNode()->SetEdgeVisibility(true);
+    const std::vector<vtkMRMLModelNode*> surfaces = surfacesOf(this->Parameters);
+    const std::string owner = surfaces.empty() ? std::string() : std::string(surfaces.front()->GetName()) + " ";
+    const std::string name = owner + vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "tetrahedra");
+    vtkMRMLScene* scene = this->Parameters->GetScene();
+    output =
+      vtkMRMLModelNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLModelNode", scene->GenerateUniqueName(name)));
+    this->Parameters->SetNode(role.c_str(), output);
   }
-  if (this->Outputs.front() && this->Outputs.front()->GetMesh()) this->FinishMesh(this->Outputs.front());
-  this->Outputs.clear();
+  if (!output) return nullptr;
+  vtkPointSet* mesh = result->second->GetMesh();
+  mesh->GetFieldData()->RemoveArray("SPACE");    // it told of the file, and the host adds it to the next
+  output->SetAndObserveTransformNodeID(nullptr); // results are in world coordinates
+  output->SetAndObserveMesh(mesh);
+  output->CreateDefaultDisplayNodes();
+  return output;
 }
 
 void vtkSlicerFuchsTetrahedralizerLogic::FinishMesh(vtkMRMLModelNode* mesh)

@@ -7,8 +7,10 @@
 #include <vtkSlicerModuleLogic.h>
 
 #include <vtkNew.h>
+#include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -82,8 +84,9 @@ public:
 
   // ---- runs ---------------------------------------------------------------------------------------------------------
 
-  /// Starts a run, unless there is a problem or a run is busy. A mesh node is made if none is chosen; it goes again unless
-  /// the run completes. False if it could not be started: GetRun()->GetErrorText() has the reason.
+  /// Starts a run, unless there is a problem or a run is busy. Its results go to the chosen models when it has completed,
+  /// and only then; a model for the mesh is made if none is chosen. False if it could not be started:
+  /// GetRun()->GetErrorText() has the reason.
   bool Start(vtkMRMLFuchsTetrahedralizerNode* parameters);
   /// The same, waiting for its end in this thread.
   bool StartAndWait(vtkMRMLFuchsTetrahedralizerNode* parameters);
@@ -147,13 +150,14 @@ private:
   void OnRunEvent(unsigned long event);
   void ShowTrianglesAtFault();
   void FinishRun();
+  vtkMRMLModelNode* TakeResult(const std::string& role);
   void FinishMesh(vtkMRMLModelNode* mesh);
 
   vtkNew<vtkSurgicalMesherRun> Run;
   vtkNew<vtkCallbackCommand> RunEvents;
-  vtkWeakPointer<vtkMRMLFuchsTetrahedralizerNode> Parameters; ///< of the run
-  std::vector<vtkWeakPointer<vtkMRMLModelNode>> Outputs;      ///< of the run; the mesh first
-  std::string ReportFile;                                     ///< of the run
+  vtkWeakPointer<vtkMRMLFuchsTetrahedralizerNode> Parameters;       ///< of the run
+  std::map<std::string, vtkSmartPointer<vtkMRMLModelNode>> Results; ///< of the run, by output role
+  std::string ReportFile;                                           ///< of the run
   struct AmbientCheck; ///< the last answer of belongTogether(), which takes its time
   AmbientCheck* const LastAmbientCheck;
 };

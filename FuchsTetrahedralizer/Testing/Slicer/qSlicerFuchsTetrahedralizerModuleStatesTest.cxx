@@ -191,14 +191,24 @@ int testInputDeletedWhileRunning(Panel& panel, const MeshedBalls& balls)
   return EXIT_SUCCESS;
 }
 
+/// The tetrahedra go to a new model then; those of a chosen one stay as they were until a run completes.
 int testOutputDeletedWhileRunning(Panel& panel, vtkMRMLModelNode* surface)
 {
+  vtkMRMLModelNode* mesh = panel.node()->GetModelNode(Node::MeshRole());
+  vtkPointSet* before = mesh->GetMesh();
   panel.node()->SetNode(Node::SurfaceRole(), surface);
-  panel.node()->SetNode(Node::MeshRole(), nullptr);
   panel.button("ApplyButton")->click();
-  panel.host.scene()->RemoveNode(panel.node()->GetModelNode(Node::MeshRole()));
+  panel.host.waitFor(0.05);
+  panel.run()->Cancel();
   CHECK_BOOL(panel.waitForEnd(), true);
-  CHECK_INT(panel.run()->GetStatus(), vtkSurgicalMesherRun::Cancelled);
+  if (panel.run()->GetStatus() == vtkSurgicalMesherRun::Cancelled) CHECK_POINTER(mesh->GetMesh(), before);
+
+  panel.button("ApplyButton")->click();
+  panel.host.scene()->RemoveNode(mesh);
+  CHECK_NULL(panel.node()->GetModelNode(Node::MeshRole())); // not another model that happens to be there
+  CHECK_BOOL(panel.waitForEnd(), true);
+  CHECK_INT(panel.run()->GetStatus(), vtkSurgicalMesherRun::Completed);
+  CHECK_BOOL(Logic::IsMesh(panel.node()->GetModelNode(Node::MeshRole())), true);
   CHECK_PROBLEM(None);
   return EXIT_SUCCESS;
 }
