@@ -31,7 +31,6 @@ using surgicalmesher::PanelObstacle;
 using Node = vtkMRMLSurgicalPathScaleNode;
 using Logic = vtkSlicerSurgicalPathScaleLogic;
 using Problem = Logic::Problem;
-using Widget = qSlicerSurgicalPathScaleModuleWidget;
 
 class qSlicerSurgicalPathScaleModuleWidgetPrivate : public Ui_qSlicerSurgicalPathScaleModuleWidget
 {
@@ -44,8 +43,8 @@ public:
   Logic* logic() const { return Logic::SafeDownCast(q_ptr->logic()); }
 
   vtkWeakPointer<vtkMRMLSurgicalPathScaleNode> Parameters;
-  QTimer PreviewTimer;  ///< a slider being dragged asks for one preview, not for hundreds
-  QTimer EstimateTimer; ///< the estimate takes longer, and waits until the sliders rest
+  QTimer PreviewTimer;     ///< a slider being dragged asks for one preview, not for hundreds
+  QTimer EstimateTimer;    ///< the estimate takes longer, and waits until the sliders rest
   bool IsUpdating = false; ///< controls follow the node, not the other way round
 
   void setParameterNode(vtkMRMLSurgicalPathScaleNode* node);
@@ -77,7 +76,7 @@ QString roundedCount(double count)
 
 QString sizeSentence(const Logic::Estimate& estimate)
 {
-  return Widget::tr("about %1 triangles, %2 tetrahedra")
+  return qSlicerSurgicalPathScaleModuleWidget::tr("about %1 triangles, %2 tetrahedra")
     .arg(roundedCount(estimate.triangles), roundedCount(estimate.tetrahedra));
 }
 
@@ -116,12 +115,12 @@ void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectValue(Control* control,
 
 void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectSelector(qMRMLNodeComboBox* selector, const char* role)
 {
-  QObject::connect(selector, static_cast<void (qMRMLNodeComboBox::*)(vtkMRMLNode*)>(&qMRMLNodeComboBox::currentNodeChanged),
-                   q_ptr,
-                   [this, role](vtkMRMLNode* node)
-                   {
-                     if (this->Parameters && !this->IsUpdating) this->Parameters->SetNode(role, node);
-                   });
+  QObject::connect(
+    selector, static_cast<void (qMRMLNodeComboBox::*)(vtkMRMLNode*)>(&qMRMLNodeComboBox::currentNodeChanged), q_ptr,
+    [this, role](vtkMRMLNode* node)
+    {
+      if (this->Parameters && !this->IsUpdating) this->Parameters->SetNode(role, node);
+    });
 }
 
 void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectControls()
@@ -230,7 +229,10 @@ PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::obstacle()
   {
   case Problem::None: return {};
   case Problem::NoModule:
-    return { Widget::tr("The command-line module SurgicalPathScaleCLI isn't loaded; see the application's log."), {}, {} };
+    return { qSlicerSurgicalPathScaleModuleWidget::tr(
+               "The command-line module SurgicalPathScaleCLI isn't loaded; see the application's log."),
+             {},
+             {} };
   case Problem::TissueMap:
     return surgicalmesher::tissueMapObstacle(check.tissueMap, this->Parameters->GetTissueMapNode(),
                                              this->TissueMapSelector);
@@ -239,7 +241,10 @@ PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::obstacle()
   case Problem::NoTarget:
   case Problem::NoPath: return this->focusObstacle(check);
   case Problem::Refused:
-    return { Widget::tr("The parameters can't be used: %1.").arg(QString::fromStdString(check.name)), {}, {} };
+    return { qSlicerSurgicalPathScaleModuleWidget::tr("The parameters can't be used: %1.")
+               .arg(QString::fromStdString(check.name)),
+             {},
+             {} };
   default: return this->valueObstacle(check);
   }
 }
@@ -252,15 +257,18 @@ PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::focusObstacle(const L
   switch (check.problem)
   {
   case Problem::PathOfOnePoint:
-    return { Widget::tr("%1 has one point; a path needs two or more.").arg(QString::fromStdString(check.name)),
-             Widget::tr("Place points"), placePath };
+    return { qSlicerSurgicalPathScaleModuleWidget::tr("%1 has one point; a path needs two or more.")
+               .arg(QString::fromStdString(check.name)),
+             qSlicerSurgicalPathScaleModuleWidget::tr("Place points"), placePath };
   case Problem::NoTarget:
-    return { Widget::tr("Only targets are to count, and no target is placed."), Widget::tr("Count both"), countBoth };
+    return { qSlicerSurgicalPathScaleModuleWidget::tr("Only targets are to count, and no target is placed."),
+             qSlicerSurgicalPathScaleModuleWidget::tr("Count both"), countBoth };
   case Problem::NoPath:
-    return { Widget::tr("Only paths are to count, and there is no path."), Widget::tr("Count both"), countBoth };
+    return { qSlicerSurgicalPathScaleModuleWidget::tr("Only paths are to count, and there is no path."),
+             qSlicerSurgicalPathScaleModuleWidget::tr("Count both"), countBoth };
   default:
-    return { Widget::tr("Place a target or a path that the mesh has to be fine around."), Widget::tr("Place targets"),
-             placeTargets };
+    return { qSlicerSurgicalPathScaleModuleWidget::tr("Place a target or a path that the mesh has to be fine around."),
+             qSlicerSurgicalPathScaleModuleWidget::tr("Place targets"), placeTargets };
   }
 }
 
@@ -269,7 +277,8 @@ PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::valueObstacle(const L
   switch (check.problem)
   {
   case Problem::LengthsContradict:
-    return { Widget::tr("The minimum edge length is above the maximum."), Widget::tr("Exchange them"),
+    return { qSlicerSurgicalPathScaleModuleWidget::tr("The minimum edge length is above the maximum."),
+             qSlicerSurgicalPathScaleModuleWidget::tr("Exchange them"),
              [this]
              {
                MRMLNodeModifyBlocker blocker(this->Parameters);
@@ -278,14 +287,20 @@ PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::valueObstacle(const L
                this->Parameters->SetMaximumEdgeLength(minimum);
              } };
   case Problem::NoTissueLengths:
-    return { Widget::tr("There is no file %1 with lengths by tissue.").arg(QString::fromStdString(check.name)),
-             Widget::tr("Do without"), [this] { this->Parameters->SetTissueLengths(std::string()); } };
+    return { qSlicerSurgicalPathScaleModuleWidget::tr("There is no file %1 with lengths by tissue.")
+               .arg(QString::fromStdString(check.name)),
+             qSlicerSurgicalPathScaleModuleWidget::tr("Do without"),
+             [this] { this->Parameters->SetTissueLengths(std::string()); } };
   case Problem::NullDisplacementTarget:
-    return { Widget::tr("Null displacement is to begin at a distance from targets, and there is no target."),
-             Widget::tr("Do without"), [this] { this->Parameters->SetNullDisplacementRadius(0); } };
+    return { qSlicerSurgicalPathScaleModuleWidget::tr(
+               "Null displacement is to begin at a distance from targets, and there is no target."),
+             qSlicerSurgicalPathScaleModuleWidget::tr("Do without"),
+             [this] { this->Parameters->SetNullDisplacementRadius(0); } };
   default:
-    return { Widget::tr("Null displacement is to begin at a distance from paths, and there is no path."),
-             Widget::tr("Do without"), [this] { this->Parameters->SetNullDisplacementPathDistance(0); } };
+    return { qSlicerSurgicalPathScaleModuleWidget::tr(
+               "Null displacement is to begin at a distance from paths, and there is no path."),
+             qSlicerSurgicalPathScaleModuleWidget::tr("Do without"),
+             [this] { this->Parameters->SetNullDisplacementPathDistance(0); } };
   }
 }
 
@@ -346,6 +361,7 @@ void qSlicerSurgicalPathScaleModuleWidget::exit()
   d->PreviewTimer.stop();
   d->EstimateTimer.stop();
   d->logic()->HidePreview();
+  d->logic()->ReleaseTissueMap();
   d->TargetsPlaceWidget->setPlaceModeEnabled(false);
   d->PathPlaceWidget->setPlaceModeEnabled(false);
   this->Superclass::exit();
@@ -403,10 +419,7 @@ void qSlicerSurgicalPathScaleModuleWidget::onSaveStarted()
   d->logic()->HidePreview();
 }
 
-void qSlicerSurgicalPathScaleModuleWidget::onSaveEnded()
-{
-  this->updatePreview();
-}
+void qSlicerSurgicalPathScaleModuleWidget::onSaveEnded() { this->updatePreview(); }
 
 void qSlicerSurgicalPathScaleModuleWidget::updateFromNode()
 {
@@ -443,7 +456,8 @@ void qSlicerSurgicalPathScaleModuleWidget::updateEstimate()
   QElapsedTimer timer;
   timer.start();
   const Logic::Estimate estimate = d->logic()->EstimateMesh(d->Parameters);
-  d->EstimateTimer.setInterval(qMax(500, 3 * int(timer.elapsed()))); // a large map's waits longer for the sliders to rest
+  d->EstimateTimer.setInterval(
+    qMax(500, 3 * int(timer.elapsed()))); // a large map's waits longer for the sliders to rest
   d->EstimateLabel->setText(estimate.triangles < 0 ? tr("not known yet") : sizeSentence(estimate));
 }
 

@@ -7,9 +7,10 @@
 class qSlicerSurgicalPathScaleModuleWidgetPrivate;
 class vtkMRMLNode;
 
-/// The panel. It shows the scene's parameter node, and writes to it what the user enters. The preview is the panel's own:
-/// it is there while the panel is open.
-class Q_SLICER_QTMODULES_SURGICALPATHSCALE_EXPORT qSlicerSurgicalPathScaleModuleWidget : public qSlicerAbstractModuleWidget
+/// The panel. It shows the scene's parameter node, and writes to it what the user enters. The preview is the panel's
+/// own: it is there while the panel is open.
+class Q_SLICER_QTMODULES_SURGICALPATHSCALE_EXPORT qSlicerSurgicalPathScaleModuleWidget
+  : public qSlicerAbstractModuleWidget
 {
   Q_OBJECT
 

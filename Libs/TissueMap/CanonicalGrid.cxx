@@ -17,8 +17,9 @@ struct AxisOrder
   std::array<int, 3> sign;
 };
 
-/// The right-handed order whose axes lie nearest to +L, +P, +S: of the 24, the one of largest trace. Where two are equally
-/// near, the choice depends on the directions in space alone, so that permuted and flipped copies of a map end alike.
+/// The right-handed order whose axes lie nearest to +L, +P, +S: of the 24, the one of largest trace. Where two are
+/// equally near, the choice depends on the directions in space alone, so that permuted and flipped copies of a map end
+/// alike.
 AxisOrder canonicalOrder(const std::array<Vec3, 3>& axes)
 {
   constexpr double tolerance = 1e-6;

@@ -15,8 +15,8 @@ bool arePerpendicular(const std::array<Vec3, 3>& axes);
 /// The nearest orthonormal frame.
 std::array<Vec3, 3> orthonormalised(std::array<Vec3, 3> axes);
 
-/// A source's grid with its axes permuted and flipped to run along +L, +P, +S as nearly as they can, and how to walk the
-/// source in that order: its voxel for (i, j, k) is first + i * stride[0] + j * stride[1] + k * stride[2].
+/// A source's grid with its axes permuted and flipped to run along +L, +P, +S as nearly as they can, and how to walk
+/// the source in that order: its voxel for (i, j, k) is first + i * stride[0] + j * stride[1] + k * stride[2].
 struct CanonicalGrid
 {
   Grid grid;

@@ -1,5 +1,6 @@
 #include "ScalePreview.h"
 
+#include "HostDifferences.h"
 #include "ScaleInputs.h"
 #include "TissueColors.h"
 #include "TissueMapInput.h"
@@ -171,7 +172,7 @@ void setScaleColors(vtkMRMLScalarVolumeNode* node, double shortest, double longe
   display->EndModify(wasModifying);
   vtkMRMLColorLegendDisplayNode* legend = vtkSlicerColorLogic::AddDefaultColorLegendDisplayNode(display);
   if (!legend) return;
-  legend->SetTitleText("Edge length (mm)");
+  legend->SetTitleText(vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "Edge length (mm)"));
   legend->SetLabelFormat("%.1f");
   legend->SetHideFromEditors(node->GetHideFromEditors());
   legend->SetSaveWithScene(node->GetSaveWithScene());
@@ -208,7 +209,8 @@ void ScalePreview::showScale(vtkMRMLScene* scene, const ScaleField& scale)
 {
   if (m_Scale && m_Scale->GetScene() != scene) this->hide();
   if (!m_Scale)
-    m_Scale = addHiddenVolume<vtkMRMLScalarVolumeNode, vtkMRMLScalarVolumeDisplayNode>(scene, "Preview of edge lengths");
+    m_Scale =
+      addHiddenVolume<vtkMRMLScalarVolumeNode, vtkMRMLScalarVolumeDisplayNode>(scene, "Preview of edge lengths");
   const int wasModifying = m_Scale->StartModify();
   setGrid(m_Scale, scale.grid);
   m_Scale->SetAndObserveImageData(makeImage<vtkFloatArray>(scale.grid, scale.lengths));

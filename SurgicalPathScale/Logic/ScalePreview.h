@@ -28,8 +28,8 @@ class ScalePreview
 public:
   ~ScalePreview();
 
-  /// Computes the overlays and shows them. The volumes are hidden nodes that are not saved with the scene. Throws an Error
-  /// with a sentence if the parameters cannot be used.
+  /// Computes the overlays and shows them. The volumes are hidden nodes that are not saved with the scene. Throws an
+  /// Error with a sentence if the parameters cannot be used.
   void show(vtkMRMLSurgicalPathScaleNode* parameters);
   /// Takes the overlays away; what the slice views showed before is there again.
   void hide();

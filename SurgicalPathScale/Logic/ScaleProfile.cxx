@@ -24,7 +24,7 @@ namespace surgicalmesher
 namespace
 {
 
-// Columns and axes bear fixed names: they are saved with the scene, whoever reads it.
+// Others look columns up by their names: they aren't translated.
 constexpr const char* distanceColumn = "Distance (mm)";
 constexpr const char* targetColumn = "Around targets (mm)";
 constexpr const char* pathColumn = "Around paths (mm)";
@@ -34,10 +34,7 @@ struct Profile
   LengthRange range;
   Falloff targets;
   Falloff paths;
-  bool areSame() const
-  {
-    return targets.childRadius == paths.childRadius && targets.decayLength == paths.decayLength;
-  }
+  bool areSame() const { return targets.childRadius == paths.childRadius && targets.decayLength == paths.decayLength; }
   /// Where all but a fiftieth of the way to the maximum is gone.
   double reach() const
   {
@@ -78,7 +75,8 @@ vtkSmartPointer<vtkTable> makeTable(const Profile& profile)
   return table;
 }
 
-vtkMRMLPlotSeriesNode* addSeries(vtkMRMLScene* scene, vtkMRMLTableNode* table, const char* column, const double color[3])
+vtkMRMLPlotSeriesNode* addSeries(vtkMRMLScene* scene, vtkMRMLTableNode* table, const char* column,
+                                 const double color[3])
 {
   auto* series = vtkMRMLPlotSeriesNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLPlotSeriesNode", column));
   series->SetAndObserveTableNodeID(table->GetID());
@@ -93,12 +91,12 @@ vtkMRMLPlotSeriesNode* addSeries(vtkMRMLScene* scene, vtkMRMLTableNode* table, c
 
 vtkMRMLPlotChartNode* addChart(vtkMRMLScene* scene)
 {
-  auto* chart =
-    vtkMRMLPlotChartNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLPlotChartNode", "Edge length over distance"));
-  chart->SetTitle("Edge length over distance");
-  chart->SetXAxisTitle("Distance (mm)");
-  chart->SetYAxisTitle("Edge length (mm)");
-  auto* table = vtkMRMLTableNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLTableNode", "Edge length over distance"));
+  const std::string title = vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "Edge length over distance");
+  auto* chart = vtkMRMLPlotChartNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLPlotChartNode", title));
+  chart->SetTitle(title.c_str());
+  chart->SetXAxisTitle(vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "Distance (mm)").c_str());
+  chart->SetYAxisTitle(vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "Edge length (mm)").c_str());
+  auto* table = vtkMRMLTableNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLTableNode", title));
   host::showColumnNames(table);
   const double orange[3] = { 0.90, 0.45, 0.10 };
   const double blue[3] = { 0.15, 0.45, 0.75 };

@@ -11,8 +11,8 @@ namespace surgicalmesher
 
 /// Fills the parameter node's chart, its table and its two series; makes those that are missing in the parameter node's
 /// scene. The series of paths is there if paths have distances of their own.
-VTK_SLICER_SURGICALPATHSCALE_MODULE_LOGIC_EXPORT vtkMRMLPlotChartNode* plotProfile(
-  vtkMRMLSurgicalPathScaleNode* parameters);
+VTK_SLICER_SURGICALPATHSCALE_MODULE_LOGIC_EXPORT vtkMRMLPlotChartNode*
+plotProfile(vtkMRMLSurgicalPathScaleNode* parameters);
 
 /// Removes all of them from the scene.
 VTK_SLICER_SURGICALPATHSCALE_MODULE_LOGIC_EXPORT void removeProfile(vtkMRMLSurgicalPathScaleNode* parameters);

@@ -1,6 +1,7 @@
 #include "vtkSlicerSurgicalPathScaleLogic.h"
 
 #include "Errors.h"
+#include "HostDifferences.h"
 #include "MarkupsInput.h"
 #include "ScaleInputs.h"
 #include "ScalePreview.h"
@@ -30,7 +31,8 @@ using namespace surgicalmesher;
 namespace
 {
 
-constexpr const char* colorOwner = "SurgicalMesher.ColorsOf"; // attribute of a colour table: id of the volume it belongs to
+constexpr const char* colorOwner =
+  "SurgicalMesher.ColorsOf"; // attribute of a colour table: id of the volume it belongs to
 
 vtkMRMLColorTableNode* colorTableOf(vtkMRMLLabelMapVolumeNode* volume)
 {
@@ -84,10 +86,7 @@ vtkSlicerSurgicalPathScaleLogic::vtkSlicerSurgicalPathScaleLogic() : Preview(std
   this->Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, this->RunEnded, 1); // before the panel
 }
 
-vtkSlicerSurgicalPathScaleLogic::~vtkSlicerSurgicalPathScaleLogic()
-{
-  this->Run->RemoveObserver(this->RunEnded);
-}
+vtkSlicerSurgicalPathScaleLogic::~vtkSlicerSurgicalPathScaleLogic() { this->Run->RemoveObserver(this->RunEnded); }
 
 void vtkSlicerSurgicalPathScaleLogic::PrintSelf(ostream& os, vtkIndent indent)
 {
@@ -126,15 +125,16 @@ vtkMRMLSurgicalPathScaleNode* vtkSlicerSurgicalPathScaleLogic::ParameterNode()
 }
 
 //----------------------------------------------------------------------------
-vtkSlicerSurgicalPathScaleLogic::Check vtkSlicerSurgicalPathScaleLogic::FindProblem(
-  vtkMRMLSurgicalPathScaleNode* parameters)
+vtkSlicerSurgicalPathScaleLogic::Check
+vtkSlicerSurgicalPathScaleLogic::FindProblem(vtkMRMLSurgicalPathScaleNode* parameters)
 {
   if (!this->GetModuleLogic("SurgicalPathScaleCLI")) return { Problem::NoModule, TissueMapProblem::None, {} };
   const TissueMapProblem tissueMap = checkTissueMap(parameters->GetTissueMapNode());
   if (tissueMap != TissueMapProblem::None) return { Problem::TissueMap, tissueMap, {} };
 
-  const auto found = [](Problem problem, const std::string& name = {})
-  { return Check{ problem, TissueMapProblem::None, name }; };
+  const auto found = [](Problem problem, const std::string& name = {}) {
+    return Check{ problem, TissueMapProblem::None, name };
+  };
   for (vtkMRMLMarkupsNode* node : parameters->GetPathNodes())
   {
     if (markupsPoints(node).size() == 1) return found(Problem::PathOfOnePoint, node->GetName());
@@ -228,7 +228,8 @@ void vtkSlicerSurgicalPathScaleLogic::PrepareOutputs(vtkMRMLSurgicalPathScaleNod
   this->Run->SetParameterNode("outputLabelMap", this->LabelMapResult);
   this->Run->SetParameter("nullDisplacementRadius", parameters->GetNullDisplacementRadius());
   this->Run->SetParameter("nullDisplacementPathDistance", parameters->GetNullDisplacementPathDistance());
-  this->Run->SetParameter("nullDisplacementPathDistanceAtTarget", parameters->GetNullDisplacementPathDistanceAtTarget());
+  this->Run->SetParameter("nullDisplacementPathDistanceAtTarget",
+                          parameters->GetNullDisplacementPathDistanceAtTarget());
   this->Run->SetParameter("nullDisplacementTissues", parameters->GetNullDisplacementTissues());
 }
 
@@ -248,7 +249,8 @@ void vtkSlicerSurgicalPathScaleLogic::FinishScale(vtkMRMLSurgicalPathScaleNode* 
 {
   vtkMRMLVolumeNode* volume = parameters->GetScaleNode();
   if (!volume)
-    volume = addOutput(parameters, vtkMRMLSurgicalPathScaleNode::ScaleRole(), "vtkMRMLScalarVolumeNode", "edge lengths");
+    volume = addOutput(parameters, vtkMRMLSurgicalPathScaleNode::ScaleRole(), "vtkMRMLScalarVolumeNode",
+                       vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "edge lengths"));
   takeVoxels(volume, this->ScaleResult);
   double range[2];
   volume->GetImageData()->GetScalarRange(range);
@@ -261,7 +263,7 @@ void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNod
   if (!parameters->GetOutputLabelMapNode())
   {
     addOutput(parameters, vtkMRMLSurgicalPathScaleNode::OutputLabelMapRole(), "vtkMRMLLabelMapVolumeNode",
-              "null displacement");
+              vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "null displacement"));
   }
   vtkMRMLLabelMapVolumeNode* labelMap = parameters->GetOutputLabelMapNode();
   takeVoxels(labelMap, this->LabelMapResult);
@@ -299,8 +301,8 @@ vtkSlicerSurgicalPathScaleLogic::Estimate vtkSlicerSurgicalPathScaleLogic::GetEs
            countOf(this->Run->GetReturnedValue("estimatedTetrahedra")) };
 }
 
-vtkSlicerSurgicalPathScaleLogic::Estimate vtkSlicerSurgicalPathScaleLogic::EstimateMesh(
-  vtkMRMLSurgicalPathScaleNode* parameters)
+vtkSlicerSurgicalPathScaleLogic::Estimate
+vtkSlicerSurgicalPathScaleLogic::EstimateMesh(vtkMRMLSurgicalPathScaleNode* parameters)
 {
   if (this->FindProblem(parameters).problem != Problem::None) return {};
   try
@@ -333,6 +335,8 @@ bool vtkSlicerSurgicalPathScaleLogic::ShowPreview(vtkMRMLSurgicalPathScaleNode* 
 }
 
 void vtkSlicerSurgicalPathScaleLogic::HidePreview() { this->Preview->hide(); }
+
+void vtkSlicerSurgicalPathScaleLogic::ReleaseTissueMap() { this->Preview->forgetTissueMap(); }
 
 bool vtkSlicerSurgicalPathScaleLogic::IsPreviewShown() const { return this->Preview->isShown(); }
 

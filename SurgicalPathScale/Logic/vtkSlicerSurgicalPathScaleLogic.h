@@ -1,6 +1,6 @@
 #pragma once
-/// Runs SurgicalPathScaleCLI for a parameter node, shows in the host's own process what the parameters mean, and makes its
-/// results legible.
+/// Runs SurgicalPathScaleCLI for a parameter node, shows in the host's own process what the parameters mean, and makes
+/// its results legible.
 
 #include "TissueMapInput.h"
 #include "vtkSlicerSurgicalPathScaleModuleLogicExport.h"
@@ -59,8 +59,8 @@ public:
   };
   Check FindProblem(vtkMRMLSurgicalPathScaleNode* parameters);
 
-  /// Starts a run, unless there is a problem or a run is busy. The nodes chosen for results keep their contents until the
-  /// run completes; those that are wanted and not chosen are made then. False if it could not be started:
+  /// Starts a run, unless there is a problem or a run is busy. The nodes chosen for results keep their contents until
+  /// the run completes; those that are wanted and not chosen are made then. False if it could not be started:
   /// GetRun()->GetErrorText() may have the reason.
   bool Start(vtkMRMLSurgicalPathScaleNode* parameters);
   /// The same, waiting for its end in this thread.
@@ -89,6 +89,8 @@ public:
   bool ShowPreview(vtkMRMLSurgicalPathScaleNode* parameters);
   void HidePreview();
   bool IsPreviewShown() const;
+  /// Lets go of the voxels that preview and estimate keep from one change to the next.
+  void ReleaseTissueMap();
   /// Hidden nodes; null while the preview isn't shown.
   vtkMRMLScalarVolumeNode* GetPreviewScaleNode() const;
   vtkMRMLLabelMapVolumeNode* GetPreviewNullDisplacementNode() const;

@@ -48,18 +48,18 @@ const char* vtkMRMLSurgicalPathScaleNode::ProfileChartRole() { return "profileCh
 vtkMRMLSurgicalPathScaleNode::vtkMRMLSurgicalPathScaleNode()
 {
   this->SetHideFromEditors(true);
-  this->AddNodeReferenceRole(TissueMapRole(), TissueMapRole(),
-                             makeEvents({ vtkMRMLTransformableNode::TransformModifiedEvent,
-                                          vtkMRMLVolumeNode::ImageDataModifiedEvent, vtkSegmentation::SegmentAdded,
-                                          vtkSegmentation::SegmentRemoved, vtkSegmentation::SegmentModified,
-                                          vtkSegmentation::ContainedRepresentationNamesModified,
-                                          vtkSegmentation::RepresentationModified, vtkSegmentation::SegmentsOrderModified }));
+  this->AddNodeReferenceRole(
+    TissueMapRole(), TissueMapRole(),
+    makeEvents({ vtkMRMLTransformableNode::TransformModifiedEvent, vtkMRMLVolumeNode::ImageDataModifiedEvent,
+                 vtkSegmentation::SegmentAdded, vtkSegmentation::SegmentRemoved, vtkSegmentation::SegmentModified,
+                 vtkSegmentation::ContainedRepresentationNamesModified, vtkSegmentation::RepresentationModified,
+                 vtkSegmentation::SegmentsOrderModified }));
   for (const char* role : { TargetsRole(), PathRole(), FurtherMarkupsRole() })
   {
-    this->AddNodeReferenceRole(role, role,
-                               makeEvents({ vtkMRMLTransformableNode::TransformModifiedEvent,
-                                            vtkMRMLMarkupsNode::PointModifiedEvent, vtkMRMLMarkupsNode::PointAddedEvent,
-                                            vtkMRMLMarkupsNode::PointRemovedEvent }));
+    this->AddNodeReferenceRole(
+      role, role,
+      makeEvents({ vtkMRMLTransformableNode::TransformModifiedEvent, vtkMRMLMarkupsNode::PointModifiedEvent,
+                   vtkMRMLMarkupsNode::PointAddedEvent, vtkMRMLMarkupsNode::PointRemovedEvent }));
   }
   for (const char* role : { ScaleRole(), OutputLabelMapRole(), ProfileChartRole() })
     this->AddNodeReferenceRole(role, role);

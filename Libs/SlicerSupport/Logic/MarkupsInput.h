@@ -15,13 +15,13 @@ namespace surgicalmesher
 /// The placed control points; none for null.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT std::vector<Vec3> markupsPoints(vtkMRMLMarkupsNode* node);
 
-/// A polyline from entry to target: the control points of a line, of a list of points or of a curve of straight pieces; of
-/// a smooth curve the points between which the host draws it. A closed curve ends with its first point again. Empty with
-/// fewer than two points.
+/// A polyline from entry to target: the control points of a line, of a list of points or of a curve of straight pieces;
+/// of a smooth curve the points between which the host draws it. A closed curve ends with its first point again. Empty
+/// with fewer than two points.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT std::vector<Vec3> markupsPath(vtkMRMLMarkupsNode* node);
 
-/// Writes lists of points, one markup each, as a .mrk.json from which readMarkups reads exactly the same lists again. Throws
-/// InputError if the file cannot be written.
+/// Writes lists of points, one markup each, as a .mrk.json from which readMarkups reads exactly the same lists again.
+/// Throws InputError if the file cannot be written.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void writeMarkups(const std::vector<std::vector<Vec3>>& markups,
                                                           const std::string& file);
 

@@ -145,8 +145,8 @@ vtkSmartPointer<vtkOrientedImageData> mergeSegments(vtkSegmentation* source)
     segmentation->DeepCopy(source);
     if (!segmentation->CreateRepresentation(binaryLabelmap())) return nullptr;
   }
-  const std::string geometry = segmentation->DetermineCommonLabelmapGeometry(
-    vtkSegmentation::EXTENT_REFERENCE_GEOMETRY, std::vector<std::string>());
+  const std::string geometry = segmentation->DetermineCommonLabelmapGeometry(vtkSegmentation::EXTENT_REFERENCE_GEOMETRY,
+                                                                             std::vector<std::string>());
   auto merged = vtkSmartPointer<vtkOrientedImageData>::New();
   if (geometry.empty() ||
       !vtkSegmentationConverter::DeserializeImageGeometry(geometry, merged, true, VTK_UNSIGNED_SHORT, 1))
@@ -440,8 +440,8 @@ TissueMap readTissueMap(vtkMRMLNode* input)
   {
     switch (image->GetScalarType())
     {
-      vtkTemplateMacro(
-        areLabels = gatherLabels(static_cast<const VTK_TT*>(image->GetScalarPointer()), order, map.labels));
+      vtkTemplateMacro(areLabels =
+                         gatherLabels(static_cast<const VTK_TT*>(image->GetScalarPointer()), order, map.labels));
     }
   }
   if (!areLabels) throw InputError(sentence(TissueMapProblem::NegativeLabels));

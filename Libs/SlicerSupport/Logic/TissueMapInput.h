@@ -29,14 +29,15 @@ enum class TissueMapProblem
   NotExported          ///< the host could not convert the segmentation
 };
 
-/// What keeps `input` from being meshed; cheap enough for every change in a panel (the range of the voxels is looked for
-/// once and kept with the image).
+/// What keeps `input` from being meshed; cheap enough for every change in a panel (the range of the voxels is looked
+/// for once and kept with the image).
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT TissueMapProblem checkTissueMap(vtkMRMLNode* input);
 
 /// When `input` last changed in what it is meshed from: voxels, segments, transform. 0 for null.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT vtkMTimeType tissueMapTime(vtkMRMLNode* input);
 
-/// A label map for a run, with the tissues' names and colours. Both nodes are in the scene of `input`, hidden, not saved.
+/// A label map for a run, with the tissues' names and colours. Both nodes are in the scene of `input`, hidden, not
+/// saved.
 struct TissueMapNodes
 {
   vtkSmartPointer<vtkMRMLLabelMapVolumeNode> labelMap;
@@ -45,10 +46,10 @@ struct TissueMapNodes
 };
 
 /// Makes them; the caller hands them to a run (vtkSurgicalMesherRun::AddTemporaryNode) or removes them from the scene.
-/// A segmentation is exported in its reference geometry with all its segments: labels 1, 2, 3 ... in the segments' order,
-/// the later segment winning where two overlap. A label map shares its voxels with the input. World positions are those
-/// that the user sees: a linear parent transform moves the copy's grid, another one resamples it. With a problem there are
-/// no nodes.
+/// A segmentation is exported in its reference geometry with all its segments: labels 1, 2, 3 ... in the segments'
+/// order, the later segment winning where two overlap. A label map shares its voxels with the input. World positions
+/// are those that the user sees: a linear parent transform moves the copy's grid, another one resamples it. With a
+/// problem there are no nodes.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT TissueMapNodes makeTissueMapNodes(vtkMRMLNode* input);
 
 /// Names and colours by label as makeTissueMapNodes would give them, without exporting anything: for a segmentation all

@@ -49,8 +49,8 @@ int processId()
 #endif
 }
 
-/// The host's files for nodes are named by the nodes' IDs, with letters for digits, which tells the user nothing: says the
-/// nodes' names instead.
+/// The host's files for nodes are named by the nodes' IDs, with letters for digits, which tells the user nothing: says
+/// the nodes' names instead.
 std::string withNodeNames(std::string text, const std::vector<vtkSmartPointer<vtkMRMLNode>>& nodes,
                           const std::string& folder)
 {
@@ -398,7 +398,10 @@ double vtkSurgicalMesherRun::GetElapsedSeconds() const
   return d.CurrentStatus == Running ? std::chrono::duration<double>(Clock::now() - d.StartTime).count() : d.Elapsed;
 }
 
-vtkMRMLCommandLineModuleNode* vtkSurgicalMesherRun::GetCommandLineNode() const { return this->Private->CommandLineNode; }
+vtkMRMLCommandLineModuleNode* vtkSurgicalMesherRun::GetCommandLineNode() const
+{
+  return this->Private->CommandLineNode;
+}
 
 //----------------------------------------------------------------------------
 void vtkSurgicalMesherRun::Internal::Forget()

@@ -12,10 +12,10 @@
 ///     run->SetParameterNode("surface", model);
 ///     run->Start();                                // later: CompletedEvent, and GetStatus() says how it ended
 ///
-/// The run owns what it was given: temporary nodes leave the scene and temporary files the disk when it ends, however it
-/// ends, and new output nodes leave the scene unless it completes. Closing the scene, or removing a node that the run
-/// reads or writes, cancels it; deleting the run itself does too. Inputs should be hidden copies all the same, because
-/// the host writes them to files from another thread.
+/// The run owns what it was given: temporary nodes leave the scene and temporary files the disk when it ends, however
+/// it ends, and new output nodes leave the scene unless it completes. Closing the scene, or removing a node that the
+/// run reads or writes, cancels it; deleting the run itself does too. Inputs should be hidden copies all the same,
+/// because the host writes them to files from another thread.
 ///
 /// Everything is called from, and every event comes on, the main thread.
 
@@ -52,8 +52,8 @@ public:
     CompletedEvent ///< the run ended, well or not; after the last StatusChangedEvent, outputs loaded, temporaries gone
   };
 
-  /// The logic of the module's CLI, as vtkSlicerModuleLogic::GetModuleLogic returns it; null if the host doesn't have the
-  /// module. Parameters, nodes and files of an earlier run are forgotten. Ignored while running.
+  /// The logic of the module's CLI, as vtkSlicerModuleLogic::GetModuleLogic returns it; null if the host doesn't have
+  /// the module. Parameters, nodes and files of an earlier run are forgotten. Ignored while running.
   void SetCommandLineLogic(vtkMRMLAbstractLogic* logic);
   bool HasCommandLineLogic() const;
 
@@ -66,7 +66,8 @@ public:
   /// For image, geometry and table parameters; the node is in the scene. Input nodes are written to files by the host.
   void SetParameterNode(const std::string& name, vtkMRMLNode* node);
 
-  /// A node that only this run needs. Added to the scene if it isn't in one, hidden from the user and from saved scenes.
+  /// A node that only this run needs. Added to the scene if it isn't in one, hidden from the user and from saved
+  /// scenes.
   void AddTemporaryNode(vtkMRMLNode* node);
   /// A node that the run fills. `isNew`: made for this run, and removed again unless it completes.
   void AddOutputNode(vtkMRMLNode* node, bool isNew);
@@ -83,7 +84,8 @@ public:
 
   Status GetStatus() const;
   bool IsBusy() const { return this->GetStatus() == Running; }
-  /// Why the run failed: the module's own line on stderr, with the names of nodes for the host's files; empty otherwise.
+  /// Why the run failed: the module's own line on stderr, with the names of nodes for the host's files; empty
+  /// otherwise.
   std::string GetErrorText() const;
   /// For an observer of StatusChangedEvent, with a priority over 0, that can say more.
   void SetErrorText(const std::string& text);

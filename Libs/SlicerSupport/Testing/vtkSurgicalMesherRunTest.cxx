@@ -176,7 +176,7 @@ int checkCancelled(HostApplication& host)
   host.scene()->GetNodesByClass("vtkMRMLScalarVolumeNode", volumes);
   CHECK_BOOL(std::count(volumes.begin(), volumes.end(), kept) == 1, true);
   CHECK_INT(int(volumes.size()), 2); // with the balls
-  fill(run, host); // and once more, to the end
+  fill(run, host);                   // and once more, to the end
   CHECK_BOOL(run->Start(), true);
   CHECK_BOOL(host.waitUntil([&] { return !run->IsBusy(); }), true);
   CHECK_INT(run->GetStatus(), Run::Completed);

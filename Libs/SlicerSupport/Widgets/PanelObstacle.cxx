@@ -18,20 +18,18 @@ namespace surgicalmesher
 namespace
 {
 
-using Panel = qSurgicalMesherRunWidget; // whose translations these are
-
 PanelObstacle nothingChosen(qMRMLNodeComboBox* selector)
 {
   vtkMRMLNode* first = selector->nodeCount() > 0 ? selector->nodeFromIndex(0) : nullptr;
   if (!first)
   {
-    return { Panel::tr("There is no segmentation or label map to mesh."),
-             Panel::tr("Add data..."),
+    return { qSurgicalMesherRunWidget::tr("There is no segmentation or label map to mesh."),
+             qSurgicalMesherRunWidget::tr("Add data..."),
              [] { qSlicerApplication::application()->ioManager()->openAddDataDialog(); } };
   }
   const QPointer<qMRMLNodeComboBox> where(selector);
-  return { Panel::tr("Choose a segmentation or a label map."),
-           Panel::tr("Choose %1").arg(first->GetName()),
+  return { qSurgicalMesherRunWidget::tr("Choose a segmentation or a label map."),
+           qSurgicalMesherRunWidget::tr("Choose %1").arg(first->GetName()),
            [where]
            {
              if (where) where->setCurrentNodeIndex(0);
@@ -42,29 +40,41 @@ PanelObstacle nothingChosen(qMRMLNodeComboBox* selector)
 
 PanelObstacle tissueMapObstacle(TissueMapProblem problem, vtkMRMLNode* map, qMRMLNodeComboBox* selector)
 {
-  const PanelObstacle edit{ QString(), Panel::tr("Edit segments"), [] { openModule("SegmentEditor"); } };
+  const PanelObstacle edit{ QString(), qSurgicalMesherRunWidget::tr("Edit segments"),
+                            [] { openModule("SegmentEditor"); } };
   switch (problem)
   {
   case TissueMapProblem::None: return {};
   case TissueMapProblem::NothingChosen:
   case TissueMapProblem::NotATissueMap: return nothingChosen(selector);
-  case TissueMapProblem::NoSegment: return { Panel::tr("The segmentation has no segments."), edit.fixText, edit.fix };
-  case TissueMapProblem::NoVoxels: return { Panel::tr("The label map has no voxels; choose another one."), {}, {} };
+  case TissueMapProblem::NoSegment:
+    return { qSurgicalMesherRunWidget::tr("The segmentation has no segments."), edit.fixText, edit.fix };
+  case TissueMapProblem::NoVoxels:
+    return { qSurgicalMesherRunWidget::tr("The label map has no voxels; choose another one."), {}, {} };
   case TissueMapProblem::OnlyBackground:
     if (map && map->IsA("vtkMRMLSegmentationNode"))
-      return { Panel::tr("All segments are empty."), edit.fixText, edit.fix };
-    return { Panel::tr("No voxel of the label map belongs to a tissue; choose another one."), {}, {} };
+      return { qSurgicalMesherRunWidget::tr("All segments are empty."), edit.fixText, edit.fix };
+    return { qSurgicalMesherRunWidget::tr("No voxel of the label map belongs to a tissue; choose another one."),
+             {},
+             {} };
   case TissueMapProblem::NoReferenceGeometry:
-    return { Panel::tr("The segmentation's voxel size isn't known: set its source geometry in Segment Editor."),
+    return { qSurgicalMesherRunWidget::tr(
+               "The segmentation's voxel size isn't known: set its source geometry in Segment Editor."),
              edit.fixText, edit.fix };
   case TissueMapProblem::ShearingTransform:
-    return { Panel::tr("The transform of the tissues turns their voxels into rhomboids; choose another one."),
-             Panel::tr("Transforms"), [] { openModule("Transforms"); } };
+    return { qSurgicalMesherRunWidget::tr(
+               "The transform of the tissues turns their voxels into rhomboids; choose another one."),
+             qSurgicalMesherRunWidget::tr("Transforms"), [] { openModule("Transforms"); } };
   case TissueMapProblem::NegativeLabels:
-    return { Panel::tr("Some voxels of the label map are no whole numbers from 0 to 65535."), {}, {} };
+    return { qSurgicalMesherRunWidget::tr("Some voxels of the label map are no whole numbers from 0 to 65535."),
+             {},
+             {} };
   case TissueMapProblem::NotExported: break;
   }
-  return { Panel::tr("The segmentation can't be turned into a label map; see the application's log."), {}, {} };
+  return { qSurgicalMesherRunWidget::tr(
+             "The segmentation can't be turned into a label map; see the application's log."),
+           {},
+           {} };
 }
 
 void openModule(const QString& name)

@@ -152,9 +152,8 @@ void qSurgicalMesherRunWidgetPrivate::update()
 void qSurgicalMesherRunWidgetPrivate::updateElapsedTime()
 {
   const int seconds = this->Run ? int(this->Run->GetElapsedSeconds()) : 0;
-  this->ElapsedTime->setText(qSurgicalMesherRunWidget::tr("Running for %1:%2")
-                               .arg(seconds / 60)
-                               .arg(seconds % 60, 2, 10, QLatin1Char('0')));
+  this->ElapsedTime->setText(
+    qSurgicalMesherRunWidget::tr("Running for %1:%2").arg(seconds / 60).arg(seconds % 60, 2, 10, QLatin1Char('0')));
 }
 
 //-----------------------------------------------------------------------------
@@ -166,10 +165,7 @@ qSurgicalMesherRunWidget::qSurgicalMesherRunWidget(QWidget* parent)
   d->update();
 }
 
-qSurgicalMesherRunWidget::~qSurgicalMesherRunWidget()
-{
-  this->qvtkDisconnectAll();
-}
+qSurgicalMesherRunWidget::~qSurgicalMesherRunWidget() { this->qvtkDisconnectAll(); }
 
 void qSurgicalMesherRunWidget::setProblem(const QString& sentence, const QString& fixText, std::function<void()> fix)
 {
@@ -180,10 +176,7 @@ void qSurgicalMesherRunWidget::setProblem(const QString& sentence, const QString
   d->update();
 }
 
-void qSurgicalMesherRunWidget::clearProblem()
-{
-  this->setProblem(QString());
-}
+void qSurgicalMesherRunWidget::clearProblem() { this->setProblem(QString()); }
 
 QString qSurgicalMesherRunWidget::problem() const
 {

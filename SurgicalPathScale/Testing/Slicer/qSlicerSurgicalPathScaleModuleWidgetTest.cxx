@@ -52,10 +52,8 @@ namespace
 struct Panel
 {
   explicit Panel(HostApplication& application)
-    : host(application)
-    , widget(application.enterPanel("SurgicalPathScale"))
-    , logic(vtkSlicerSurgicalPathScaleLogic::SafeDownCast(application.logic("SurgicalPathScale")))
-    , run(logic->GetRun())
+    : host(application), widget(application.enterPanel("SurgicalPathScale")),
+      logic(vtkSlicerSurgicalPathScaleLogic::SafeDownCast(application.logic("SurgicalPathScale"))), run(logic->GetRun())
   {
   }
 
@@ -155,9 +153,18 @@ ScaleField runFromFiles(const Panel& panel, const std::string& folder, const std
   writeTissueMap(map, folder + "/map.nrrd");
   writeMarkups({ markupsPoints(node->GetTargetNodes()[0]) }, folder + "/targets.mrk.json");
   writeMarkups({ markupsPath(node->GetPathNodes()[0]) }, folder + "/path.mrk.json");
-  std::vector<std::string> arguments{ "--minimumEdgeLength", "0.5", "--maximumEdgeLength", "3",
-                                      "--childRadius", "2", "--decayLength", "5",
-                                      "--targets", folder + "/targets.mrk.json", "--path", folder + "/path.mrk.json" };
+  std::vector<std::string> arguments{ "--minimumEdgeLength",
+                                      "0.5",
+                                      "--maximumEdgeLength",
+                                      "3",
+                                      "--childRadius",
+                                      "2",
+                                      "--decayLength",
+                                      "5",
+                                      "--targets",
+                                      folder + "/targets.mrk.json",
+                                      "--path",
+                                      folder + "/path.mrk.json" };
   arguments.insert(arguments.end(), more.begin(), more.end());
   arguments.push_back(folder + "/map.nrrd");
   arguments.push_back(folder + "/scale.nrrd");
@@ -197,10 +204,10 @@ int checkApply(const Panel& panel)
   CHECK_STRING(colors->GetColorName(1), "tumour");
   CHECK_STRING(colors->GetColorName(3), "null displacement");
   CHECK_BOOL(panel.sentence().find("triangles") != std::string::npos, true);
-  CHECK_STD_STRING(nodes.leftovers({ "vtkMRMLScalarVolumeNode", "vtkMRMLScalarVolumeDisplayNode",
-                                     "vtkMRMLLabelMapVolumeNode", "vtkMRMLLabelMapVolumeDisplayNode",
-                                     "vtkMRMLColorTableNode", "vtkMRMLColorLegendDisplayNode" }),
-                   "");
+  CHECK_STD_STRING(
+    nodes.leftovers({ "vtkMRMLScalarVolumeNode", "vtkMRMLScalarVolumeDisplayNode", "vtkMRMLLabelMapVolumeNode",
+                      "vtkMRMLLabelMapVolumeDisplayNode", "vtkMRMLColorTableNode", "vtkMRMLColorLegendDisplayNode" }),
+    "");
 
   // The same outputs once more: filled again, none is added.
   const LeftoverCheck second(panel.host.scene());
@@ -507,8 +514,8 @@ int qSlicerSurgicalPathScaleModuleWidgetTest(int, char*[])
 {
   HostApplication host;
   const Panel panel(host);
-  for (const auto check : { checkSentences, checkApply, checkSegmentation, checkPreview, checkPlotAndEstimate, checkPlacing,
-                            checkCancel, checkSecondApply, checkDeletions, checkSceneClosed })
+  for (const auto check : { checkSentences, checkApply, checkSegmentation, checkPreview, checkPlotAndEstimate,
+                            checkPlacing, checkCancel, checkSecondApply, checkDeletions, checkSceneClosed })
   {
     CHECK_EXIT_SUCCESS(check(panel));
     CHECK_STD_STRING(host.complaints(), "");
