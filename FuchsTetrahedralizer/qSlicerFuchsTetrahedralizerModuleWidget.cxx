@@ -1,6 +1,7 @@
 #include "qSlicerFuchsTetrahedralizerModuleWidget.h"
 #include "ui_qSlicerFuchsTetrahedralizerModuleWidget.h"
 
+#include "PanelObstacle.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 #include "vtkSlicerFuchsTetrahedralizerLogic.h"
 #include "vtkSurgicalMesherRun.h"
@@ -430,7 +431,8 @@ Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceOnInput(const Logic
   {
     const std::vector<vtkMRMLModelNode*> surfaces = this->logic()->LabelledSurfaces();
     if (surfaces.empty())
-      return { q->tr("Choose a surface: make one with Simplex Mesher, or load closed models."), {}, {} };
+      return { q->tr("There is no surface: make one with Simplex Mesher, or load closed models."),
+               q->tr("Simplex Mesher"), [](Node*) { surgicalmesher::openModule("SimplexMesher"); } };
     vtkWeakPointer<vtkMRMLNode> latest = surfaces.back();
     return { q->tr("Choose a surface."), q->tr("Take %1").arg(QString::fromUtf8(latest->GetName())),
              [latest](Node* p) { p->SetNode(Node::SurfaceRole(), latest); } };
