@@ -38,7 +38,7 @@ void sheetFaces(const TetComplex& complex, std::int32_t v, const std::vector<std
     }
 }
 
-Fit fitOf(const TetComplex& complex, std::int32_t v, const std::vector<SheetFace>& faces)
+Fit fitOf(const TetComplex& complex, std::int32_t v, const std::vector<SheetFace>& faces, double robust)
 {
   Fit fit;
   const Vec3 p = complex.points[v];
@@ -56,8 +56,9 @@ Fit fitOf(const TetComplex& complex, std::int32_t v, const std::vector<SheetFace
     {
       const Vec3 d = complex.evidence[e].position - p;
       const double b = std::clamp(1 + dot(slope, d), 0.0, 1.0);
-      weight += b * b;
-      fit.g += (b * dot(unit, d)) * unit;
+      const double height = dot(unit, d), w = robust > 0 ? robust / (robust + std::abs(height)) : 1;
+      weight += w * b * b;
+      fit.g += (w * b * height) * unit;
     }
     fit.m[0] += weight * unit.x * unit.x, fit.m[1] += weight * unit.x * unit.y, fit.m[2] += weight * unit.x * unit.z;
     fit.m[3] += weight * unit.y * unit.y, fit.m[4] += weight * unit.y * unit.z, fit.m[5] += weight * unit.z * unit.z;

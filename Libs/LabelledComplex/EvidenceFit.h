@@ -30,7 +30,9 @@ struct Fit
   Vec3 solve(const Vec3& right) const; ///< zero if m is singular
 };
 
-/// Least squares for the step of v that brings `faces` nearest to their evidence: m step = g, mm.
-Fit fitOf(const TetComplex& complex, std::int32_t v, const std::vector<SheetFace>& faces);
+/// Least squares for the step of v that brings `faces` nearest to their evidence: m step = g, mm. With `robust` (mm) > 0,
+/// evidence at distance d weighs 1 / (1 + d / robust), one round of iteratively reweighted least squares for the mean
+/// distance, and so for the volume between surface and map, instead of its square.
+Fit fitOf(const TetComplex& complex, std::int32_t v, const std::vector<SheetFace>& faces, double robust = 0);
 
 } // namespace surgicalmesher

@@ -406,33 +406,57 @@ bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, 
 
 // --- vertex move ----------------------------------------------------------------------------------------------------
 
+/// The interface faces at v as they are and, with v at p, as they would be; false without any.
+bool GuardedOperations::gatherFacesAt(std::int32_t v, const Vec3& p)
+{
+  if (singleLabel(star(v))) return false;
+  clearEvidence();
+  const auto& c = m_Complex;
+  for (std::int32_t t : m_Star)
+    for (int i = 0; i < 4; ++i)
+    {
+      const std::int32_t n = c.neighbours[t][i];
+      if (c.tets[t][i] == v || n < t || c.labels[n] == c.labels[t]) continue;
+      gather(t, i);
+      const std::array<std::int32_t, 3> ids{ c.tets[t][(i + 1) & 3], c.tets[t][(i + 2) & 3], c.tets[t][(i + 3) & 3] };
+      const auto at = [&](std::int32_t id) { return id == v ? p : c.points[id]; };
+      addNewFace(at(ids[0]), at(ids[1]), at(ids[2]), ids, c.labels[t], c.labels[n]);
+    }
+  return true;
+}
+
 bool GuardedOperations::move(std::int32_t v, const Vec3& p, double minimumQuality)
 {
   if (m_Complex.locked[v]) return false;
   for (std::int32_t t : star(v))
     if (lenient(t, m_Complex.qualityWith(t, v, p)) < minimumQuality) return false;
-  if (!singleLabel(m_Star))
+  if (gatherFacesAt(v, p))
   {
-    clearEvidence();
-    const auto& c = m_Complex;
-    for (std::int32_t t : m_Star)
-      for (int i = 0; i < 4; ++i)
-      {
-        const std::int32_t n = c.neighbours[t][i];
-        if (c.tets[t][i] == v || n < t || c.labels[n] == c.labels[t]) continue;
-        gather(t, i);
-        const std::array<std::int32_t, 3> ids{ c.tets[t][(i + 1) & 3], c.tets[t][(i + 2) & 3], c.tets[t][(i + 3) & 3] };
-        const auto at = [&](std::int32_t id) { return id == v ? p : c.points[id]; };
-        addNewFace(at(ids[0]), at(ids[1]), at(ids[2]), ids, c.labels[t], c.labels[n]);
-      }
     if (!evidenceStays()) return false;
     detachEvidence();
     attachEvidence(m_Star);
   }
-  m_Complex.points[v] = p;
-  m_Complex.lengths[v] = m_Scale(p);
+  place(v, p);
   ++counts.moves;
   return true;
+}
+
+void GuardedOperations::moveBack(std::int32_t v, const Vec3& p)
+{
+  if (gatherFacesAt(v, p))
+  {
+    for (Gathered& g : m_Gathered) nearestFace(g);
+    detachEvidence();
+    attachEvidence(m_Star);
+  }
+  place(v, p);
+  --counts.moves;
+}
+
+void GuardedOperations::place(std::int32_t v, const Vec3& p)
+{
+  m_Complex.points[v] = p;
+  m_Complex.lengths[v] = m_Scale(p);
 }
 
 // --- edge removal ---------------------------------------------------------------------------------------------------

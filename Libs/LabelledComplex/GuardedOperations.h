@@ -49,6 +49,9 @@ public:
   /// Moves v to p, if every tetrahedron at v reaches `minimumQuality`.
   bool move(std::int32_t v, const Vec3& p, double minimumQuality);
 
+  /// Takes back a move of v from p, the latest first where there were several: nothing is asked of what was so before.
+  void moveBack(std::int32_t v, const Vec3& p);
+
   /// Replaces the tetrahedra around edge ab by the best ones without it (Klincsek 1980, as Shewchuk uses it); an edge
   /// inside the sheet between two labels becomes the other diagonal of its two triangles.
   bool removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double minimumQuality);
@@ -92,6 +95,8 @@ private:
   bool singleLabel(const std::vector<std::int32_t>& star) const;
   bool keepsLengths(std::int32_t u, std::int32_t v, const Vec3& p, double maximumRatio) const;
   bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
+  bool gatherFacesAt(std::int32_t v, const Vec3& p);
+  void place(std::int32_t v, const Vec3& p);
   void gather(std::int32_t t, int face);
   void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x,
                   Label y);

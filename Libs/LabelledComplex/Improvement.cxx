@@ -64,7 +64,7 @@ private:
   /// Least squares over the evidence of the faces at v, held by a spring to the middle of the neighbours on the interface.
   Vec3 onInterface(std::int32_t v)
   {
-    Fit fit = fitOf(m_Complex, v, m_Faces);
+    Fit fit = fitOf(m_Complex, v, m_Faces, m_Options.robust);
     if (!(fit.trace() > 0)) return {};
     const double spring = 0.05 * fit.trace() / m_Options.fit;
     fit.addToDiagonal(spring);
@@ -134,7 +134,7 @@ public:
 private:
   void moveToEvidence(std::int32_t v)
   {
-    Fit fit = fitOf(m_Complex, v, m_Faces);
+    Fit fit = fitOf(m_Complex, v, m_Faces, m_Options.robust);
     fit.addToDiagonal(0.05 * fit.trace() / m_Options.fit);
     const Vec3 step = fit.solve(fit.g);
     const double before = m_Operations.starQuality(m_Operations.star(v));
@@ -255,7 +255,8 @@ private:
   {
     for (int round = 0; round < 4; ++round)
     {
-      const bool done = removeAnEdge(t) || moveAVertex(t) || collapseAnEdge(t) || (m_Options.split && splitAnEdge(t));
+      const bool done = removeAnEdge(t) || moveAVertex(t) || collapseAnEdge(t) || (m_Options.split && splitAnEdge(t)) ||
+                        (m_Options.together > 0 && moveTogether(t));
       if (!done || !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target) return;
     }
   }
@@ -360,6 +361,103 @@ private:
     }
     const double n = norm(sum);
     return n > 0 ? sum / n : Vec3{ 1, 0, 0 };
+  }
+
+  /// Where no vertex alone can move without making another tetrahedron the worst: descends the sum of the squares of what
+  /// all tetrahedra around t lack, vertex by vertex, and keeps the result if the worst of them has become better.
+  bool moveTogether(std::int32_t t)
+  {
+    struct Reach
+    {
+      double near; ///< tetrahedra up to this many times as good as t take part
+      double dip;  ///< share of t's quality that they may fall to on the way
+    };
+    for (const Reach& reach : { Reach{ 1.3, 0.8 }, Reach{ 2, 0.6 } })
+      if (moveTogether(neighbourhood(t, reach.near), reach.dip)) return true;
+    return false;
+  }
+
+  bool moveTogether(const std::vector<std::int32_t>& vertices, double dip)
+  {
+    const double before = worstAt(vertices);
+    if (!(before > 0)) return false;
+    std::vector<std::pair<std::int32_t, Vec3>> moves;
+    double after = before;
+    for (int round = 0; round < m_Options.together && after < m_Target; ++round)
+    {
+      for (std::int32_t v : vertices)
+        if (const Vec3 p = m_Complex.points[v]; descend(v, dip * before)) moves.push_back({ v, p });
+      after = worstAt(vertices);
+    }
+    if (after > before * (1 + 1e-3))
+    {
+      for (std::int32_t v : vertices) touchStar(v);
+      return true;
+    }
+    for (auto m = moves.rbegin(); m != moves.rend(); ++m) m_Operations.moveBack(m->first, m->second);
+    return false;
+  }
+
+  /// The free vertices of the tetrahedra that share a vertex with t and are at most `near` times as good.
+  std::vector<std::int32_t> neighbourhood(std::int32_t t, double near)
+  {
+    const double limit = near * m_Operations.quality(t);
+    std::vector<std::int32_t> result;
+    for (std::int32_t v : m_Complex.tets[t])
+      for (std::int32_t s : m_Operations.star(v))
+        if (m_Operations.quality(s) <= limit)
+          for (std::int32_t x : m_Complex.tets[s])
+            if (!m_Complex.locked[x]) result.push_back(x);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  double worstAt(const std::vector<std::int32_t>& vertices)
+  {
+    double worst = std::numeric_limits<double>::max();
+    for (std::int32_t v : vertices) worst = std::min(worst, m_Operations.starQuality(m_Operations.star(v)));
+    return worst;
+  }
+
+  /// Sum over the star of v, were it at p, of the squares of what the sines lack to somewhat more than the target.
+  double lack(std::int32_t v, const Vec3& p)
+  {
+    const double wanted = std::sqrt(1.15 * m_Target);
+    double sum = 0;
+    for (std::int32_t t : m_Operations.star(v))
+    {
+      double q = m_Complex.qualityWith(t, v, p);
+      if (m_Complex.labels[t] == 0) q *= backgroundLeniency;
+      const double missing = wanted - std::sqrt(std::max(0.0, q));
+      if (missing > 0) sum += missing * missing;
+    }
+    return sum;
+  }
+
+  /// A step of v down the gradient of what its tetrahedra lack, along the interface rather than across.
+  bool descend(std::int32_t v, double floor)
+  {
+    const Vec3 p = m_Complex.points[v];
+    const double now = lack(v, p), size = m_Complex.lengths[v], h = 1e-4 * size;
+    if (!(now > 0)) return false;
+    Vec3 direction;
+    for (int a = 0; a < 3; ++a)
+    {
+      Vec3 q = p;
+      q[a] += h;
+      direction[a] = now - lack(v, q);
+    }
+    sheetFaces(m_Complex, v, m_Operations.star(v), m_Faces);
+    Fit held = fitOf(m_Complex, v, m_Faces);
+    held.addToDiagonal(m_Faces.empty() ? 1 : m_Options.ease * held.trace());
+    direction = easiest(held, direction);
+    for (double step : { 0.1, 0.03, 0.01, 0.003 })
+    {
+      const Vec3 q = p + step * size * direction;
+      if (lack(v, q) < now && m_Operations.move(v, q, floor)) return true;
+    }
+    return false;
   }
 
   bool collapseAnEdge(std::int32_t t)

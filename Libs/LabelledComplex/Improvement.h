@@ -12,6 +12,7 @@ struct RelaxationOptions
   double goodAngle = 25; ///< degrees; a move that lowers the worst angle at its vertex is taken only above this
   double spread = 0.8;   ///< weight of the target lengths against the mere middle of the neighbours
   double fit = 1;        ///< weight of the evidence against an even spacing of the vertices
+  double robust = 0;     ///< mm, see fitOf
 };
 
 /// Moves every free vertex once: inside a tissue towards the middle of its neighbours; on a sheet or curve of the interface
@@ -22,6 +23,7 @@ struct PolishOptions
 {
   double goodAngle = 29.5; ///< degrees; as in RelaxationOptions
   double fit = 1;          ///< weight of the evidence against staying
+  double robust = 0;       ///< mm, see fitOf
   double ease = 0.02;      ///< how easily a vertex leaves its evidence for better angles: 0 not at all, 1 freely
 };
 
@@ -39,10 +41,12 @@ struct ImprovementOptions
   double splitEdge = 1.0; ///< splits are tried on edges from this share of the target on
   double ease = 0.02;     ///< as in PolishOptions
   int trials = 12;        ///< positions tried for each vertex
+  int together = 0;       ///< rounds in which the vertices around what resists all else move together
   int passes = 3;         ///< later passes work only where something has changed
 };
 
-/// Worst first: edge removal, vertex optimisation, collapse, split of the tetrahedra below the target, until nothing helps.
+/// Worst first: edge removal, vertex optimisation, collapse, split, and moves of several vertices together, of the
+/// tetrahedra below the target, until nothing helps.
 void improveBlock(GuardedOperations& operations, const ImprovementOptions& options = {});
 
 } // namespace surgicalmesher

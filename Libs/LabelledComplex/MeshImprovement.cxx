@@ -69,6 +69,7 @@ void work(GuardedOperations& operations, const Step& step, double targetAngle)
   improvement.passes = step.passes;
   improvement.split = step.splitEdge > 0;
   improvement.splitEdge = step.splitEdge;
+  if (step.whole) improvement.together = 20;
   improveBlock(operations, improvement);
 }
 

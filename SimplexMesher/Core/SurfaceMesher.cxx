@@ -5,6 +5,7 @@
 #include "FaceNeighbours.h"
 #include "Improvement.h"
 #include "ReferenceSurface.h"
+#include "TissueScale.h"
 
 #include <vtkSMPTools.h>
 
@@ -20,7 +21,8 @@ namespace
 {
 
 constexpr double mostSlack = 2.4;        // times the tolerance, where an angle can't be mended otherwise
-constexpr double mostBalance = 0.25;     // voxels
+constexpr double mostBalance = 0.5;      // voxels
+constexpr double balanceGain = 1.5;      // angles hold vertices back from where the evidence goes
 constexpr std::size_t blockSize = 40000; // tetrahedra: a few megabytes, and enough blocks for the threads
 
 class Evolution
@@ -82,33 +84,7 @@ private:
   OperationCounts m_Counts;
 };
 
-/// Mean thickness of each tissue, 2 V / A, mm. The staircase of voxel faces is half as large again as a smooth boundary.
-std::map<Label, double> thicknesses(const TissueMap& map)
-{
-  constexpr double staircase = 1.5;
-  const Grid& grid = map.grid;
-  const Vec3 h = grid.spacing;
-  const double area[3] = { h.y * h.z / staircase, h.z * h.x / staircase, h.x * h.y / staircase };
-  std::map<Label, double> volume, surface;
-  for (int k = 0; k < grid.size[2]; ++k)
-    for (int j = 0; j < grid.size[1]; ++j)
-      for (int i = 0; i < grid.size[0]; ++i)
-      {
-        const Label here = map.labels[grid.index(i, j, k)];
-        if (here == 0) continue;
-        volume[here] += h.x * h.y * h.z;
-        for (int a = 0; a < 3; ++a)
-          for (const int step : { -1, 1 })
-          {
-            const int n[3] = { i + (a == 0) * step, j + (a == 1) * step, k + (a == 2) * step };
-            if (!grid.contains(n[0], n[1], n[2]) || map.labels[grid.index(n[0], n[1], n[2])] != here)
-              surface[here] += area[a];
-          }
-      }
-  std::map<Label, double> result;
-  for (const auto& [label, v] : volume) result[label] = 2 * v / surface[label];
-  return result;
-}
+double shortestSpacing(const Grid& grid) { return std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z }); }
 
 /// The two voxels whose common face has its centre at p.
 std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
@@ -127,49 +103,72 @@ std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
 
 /// `ambient` as the lattice made it: with its evidence at the centres of voxel faces. The same drift that nobody sees on a
 /// thick tissue takes a third of a thin one's volume.
-void setTolerances(AmbientMesh& ambient, const TissueMap& map, const ScaleFunction& scale, double bound)
+void setTolerances(AmbientMesh& ambient, const TissueMap& map, const std::map<Label, double>& thickness,
+                   const ScaleFunction& scale, double bound)
 {
   const double voxel = std::max({ map.grid.spacing.x, map.grid.spacing.y, map.grid.spacing.z });
-  const std::map<Label, double> thickness = thicknesses(map);
   for (auto& e : ambient.evidence)
   {
-    double tolerance = 0.45 * voxel + 0.0725 * scale(e.position);
+    double tolerance = 0.4 * voxel + 0.088 * scale(e.position);
     for (const Label label : labelsBeside(map, e.position))
       if (label != 0) tolerance = std::min(tolerance, std::max(0.6 * voxel, 0.28 * thickness.at(label)));
     e.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
   }
 }
 
-/// Moves the evidence of every tissue that has gained or lost volume along its boundary's normals, by what would make up for
-/// it, a quarter of a voxel at most: smoothing and least squares cut corners, which takes from whatever is convex.
-void balanceVolumes(AmbientMesh& ambient, const TissueMap& map)
+/// Moves the evidence of every tissue that has gained or lost volume along its boundary's normals: smoothing and least
+/// squares cut corners, which takes from whatever is convex.
+class VolumeBalance
 {
-  const TetraMesh& mesh = ambient.mesh;
-  const auto neighbours = faceNeighbours(mesh);
-  const Vec3 h = map.grid.spacing;
-  std::map<Label, double> missing, area;
-  for (const Label label : map.labels) missing[label] += h.x * h.y * h.z;
-  const auto corner = [&](std::int32_t t, int i, int k) { return mesh.points[mesh.tetrahedra[t][(i + k) & 3]]; };
-  const auto normal = [&](std::int32_t t, int i)
-  { return cross(corner(t, i, 2) - corner(t, i, 1), corner(t, i, 3) - corner(t, i, 1)); };
-  for (std::int32_t t = 0; t < std::int32_t(mesh.tetrahedra.size()); ++t)
+public:
+  explicit VolumeBalance(const TissueMap& map) : m_Most(mostBalance * shortestSpacing(map.grid))
   {
-    const Label label = mesh.labels[t];
-    missing[label] -= orient(corner(t, 0, 0), corner(t, 0, 1), corner(t, 0, 2), corner(t, 0, 3)) / 6;
-    for (int i = 0; i < 4; ++i)
-      if (const std::int32_t n = neighbours.across[t][i]; n >= 0 && mesh.labels[n] != label)
-        area[label] += 0.5 * norm(normal(t, i));
+    const Vec3 h = map.grid.spacing;
+    for (const Label label : map.labels) m_Volumes[label] += h.x * h.y * h.z;
   }
-  const double most = mostBalance * std::min({ h.x, h.y, h.z });
-  const auto offset = [&](Label label) { return label == 0 ? 0.0 : missing[label] / area[label]; };
-  for (auto& e : ambient.evidence)
+
+  /// By what would make up for the volume and half as much again; half a voxel in all at most, a voxel between two tissues.
+  void apply(AmbientMesh& ambient)
   {
-    Vec3 outward = normal(e.tetrahedron, e.face);
-    if (dot(outward, corner(e.tetrahedron, e.face, 0) - corner(e.tetrahedron, e.face, 1)) > 0) outward = -1.0 * outward;
-    const Label inside = mesh.labels[e.tetrahedron], beyond = mesh.labels[neighbours.across[e.tetrahedron][e.face]];
-    e.position += std::clamp(offset(inside) - offset(beyond), -most, most) / norm(outward) * outward;
+    const TetraMesh& mesh = ambient.mesh;
+    const auto neighbours = faceNeighbours(mesh);
+    const auto corner = [&](std::int32_t t, int i, int k) { return mesh.points[mesh.tetrahedra[t][(i + k) & 3]]; };
+    const auto normal = [&](std::int32_t t, int i)
+    { return cross(corner(t, i, 2) - corner(t, i, 1), corner(t, i, 3) - corner(t, i, 1)); };
+    std::map<Label, double> missing = m_Volumes, area;
+    for (std::int32_t t = 0; t < std::int32_t(mesh.tetrahedra.size()); ++t)
+    {
+      const Label label = mesh.labels[t];
+      missing[label] -= orient(corner(t, 0, 0), corner(t, 0, 1), corner(t, 0, 2), corner(t, 0, 3)) / 6;
+      for (int i = 0; i < 4; ++i)
+        if (const std::int32_t n = neighbours.across[t][i]; n >= 0 && mesh.labels[n] != label)
+          area[label] += 0.5 * norm(normal(t, i));
+    }
+    std::map<Label, double> steps;
+    for (const auto& [label, volume] : missing)
+      if (label != 0 && area[label] > 0) steps[label] = stepOf(label, volume / area[label]);
+    for (auto& e : ambient.evidence)
+    {
+      Vec3 outward = normal(e.tetrahedron, e.face);
+      if (dot(outward, corner(e.tetrahedron, e.face, 0) - corner(e.tetrahedron, e.face, 1)) > 0)
+        outward = -1.0 * outward;
+      const Label inside = mesh.labels[e.tetrahedron], beyond = mesh.labels[neighbours.across[e.tetrahedron][e.face]];
+      e.position += (steps[inside] - steps[beyond]) / norm(outward) * outward;
+    }
   }
-}
+
+private:
+  double stepOf(Label label, double lacking)
+  {
+    double& moved = m_Moved[label];
+    const double before = moved;
+    moved = std::clamp(moved + balanceGain * lacking, -m_Most, m_Most);
+    return moved - before;
+  }
+
+  double m_Most;
+  std::map<Label, double> m_Volumes, m_Moved;
+};
 
 /// What one sweep over the blocks does, in this order.
 struct Step
@@ -179,6 +178,7 @@ struct Step
   double slack = 1;       ///< see GuardedOperations
   double level = 0;       ///< mm, size that short edges are collapsed to; 0: none
   bool fitCollapses = true;
+  double collapseAngle = 5; ///< degrees, least that a collapse leaves
   int relaxations = 0;
   RelaxationOptions relaxation;
   int polishes = 0;
@@ -204,7 +204,7 @@ struct Step
 /// first levels hold most of the tetrahedra, in a lattice that is still regular: fitting and repair pay later.
 std::vector<Step> coarseningSteps(const Grid& grid, double longest)
 {
-  const double least = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+  const double least = shortestSpacing(grid);
   Step step;
   step.name = "coarsening";
   step.level = 1.6 * least;
@@ -227,7 +227,7 @@ std::vector<Step> coarseningSteps(const Grid& grid, double longest)
 /// The angle aimed at rises from step to step: sizes suffer less than from one step straight to the end. Only what is still
 /// bad afterwards may stray farther from the evidence, or be split; and in the end all go back towards it as far as the
 /// angles allow.
-std::vector<Step> improvementSteps(double longest)
+std::vector<Step> improvementSteps(double voxel, double longest)
 {
   constexpr double aim = 28.8, kept = 28.5; // degrees
   std::vector<Step> steps;
@@ -255,21 +255,22 @@ std::vector<Step> improvementSteps(double longest)
     Step& step = steps.back();
     step.improvement.ease = ease;
     step.slack = slack;
+    step.improvement.together = 20;
     step.whole = true;
   };
   repair(aim, 1.6, 0, 0.02);
-  repair(aim, 1.6, 0.6, 0.02);
-  repair(aim, 1.6, 0.4, 0.3);
   repair(kept, mostSlack, 0.3, 1);
-  for (const double rmsLimit : { 0.3, 0.25 })
+  for (const double rmsLimit : { 0.3, 0.25, 0.25, 0.25, 0.25, 0.25 })
   {
-    add(rmsLimit, 0, 1, Step::improvementTo(0, 0, 0));
+    add(rmsLimit, longest, 1, Step::improvementTo(0, 0, 0));
     Step& step = steps.back();
     step.balance = true;
+    step.collapseAngle = kept;
     step.relaxations = 3;
     step.relaxation.goodAngle = step.polishing.goodAngle = kept;
     step.relaxation.fit = 5;
     step.polishing.fit = 20;
+    step.relaxation.robust = step.polishing.robust = 0.1 * voxel;
   }
   repair(kept, mostSlack, 0.4, 0.1); // what resisted may have got room
   repair(kept, mostSlack, 0.3, 1);
@@ -279,7 +280,7 @@ std::vector<Step> improvementSteps(double longest)
 void work(GuardedOperations& operations, const Step& step)
 {
   CoarseningOptions coarsening;
-  coarsening.minimumAngle = 5;
+  coarsening.minimumAngle = step.collapseAngle;
   coarsening.fit = step.fitCollapses;
   if (step.level > 0) coarsenBlock(operations, step.level, coarsening);
   for (int i = 0; i < step.relaxations; ++i) relaxBlock(operations, step.relaxation);
@@ -290,26 +291,29 @@ void work(GuardedOperations& operations, const Step& step)
 
 } // namespace
 
-SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& scale, const SurfaceMesherOptions& options,
+SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const SurfaceMesherOptions& options,
                         const Progress& progress)
 {
   SurfaceMesh result;
+  const std::map<Label, double> thickness = meanThickness(map);
+  const ScaleField scale = followFlatTissues(wanted, map, thickness);
   const ScaleFunction lengthAt = [&](const Vec3& p) { return float(scale(map.grid.gridToWorld(p))); };
   AmbientLattice lattice = ambientLattice(map, scale, {}, subProgress(progress, 0, 0.06));
-  setTolerances(lattice.ambient, map, lengthAt, options.maximumDistance);
+  setTolerances(lattice.ambient, map, thickness, lengthAt, options.maximumDistance);
   smoothInterface(lattice, map.grid.spacing);
   result.ambient = std::move(lattice.ambient);
 
+  VolumeBalance balance(map);
   Evolution evolution(result.ambient, result.evolution);
   evolution.record("lattice");
   std::vector<Step> steps = coarseningSteps(map.grid, *std::max_element(scale.lengths.begin(), scale.lengths.end()));
-  const std::vector<Step> improving = improvementSteps(steps.back().level);
+  const std::vector<Step> improving = improvementSteps(shortestSpacing(map.grid), steps.back().level);
   steps.insert(steps.end(), improving.begin(), improving.end());
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
     const Step& step = steps[i];
     const bool bounded = options.maximumDistance > 0;
-    if (step.balance && !bounded) balanceVolumes(result.ambient, map);
+    if (step.balance && !bounded) balance.apply(result.ambient);
     const Progress part = subProgress(progress, 0.1 + 0.9 * double(i) / double(steps.size()),
                                       0.1 + 0.9 * double(i + 1) / double(steps.size()));
     sweepBlocks(

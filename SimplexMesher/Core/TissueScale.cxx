@@ -195,4 +195,52 @@ ScaleField followThickness(const ScaleField& scale, const TissueMap& map, const 
   return result;
 }
 
+std::map<Label, double> meanThickness(const TissueMap& map)
+{
+  constexpr double staircase = 1.5;
+  const Grid& grid = map.grid;
+  const Vec3 h = grid.spacing;
+  const double area[3] = { h.y * h.z / staircase, h.z * h.x / staircase, h.x * h.y / staircase };
+  std::map<Label, double> volume, surface;
+  for (int k = 0; k < grid.size[2]; ++k)
+    for (int j = 0; j < grid.size[1]; ++j)
+      for (int i = 0; i < grid.size[0]; ++i)
+      {
+        const Label here = map.labels[grid.index(i, j, k)];
+        if (here == 0) continue;
+        volume[here] += h.x * h.y * h.z;
+        for (int a = 0; a < 3; ++a)
+          for (const int step : { -1, 1 })
+          {
+            const int n[3] = { i + (a == 0) * step, j + (a == 1) * step, k + (a == 2) * step };
+            if (!grid.contains(n[0], n[1], n[2]) || map.labels[grid.index(n[0], n[1], n[2])] != here)
+              surface[here] += area[a];
+          }
+      }
+  std::map<Label, double> result;
+  for (const auto& [label, v] : volume) result[label] = 2 * v / surface[label];
+  return result;
+}
+
+ScaleField followFlatTissues(const ScaleField& scale, const TissueMap& map, const std::map<Label, double>& thickness)
+{
+  constexpr double flattest = 0.32, flatness = 0.5;
+  const Vec3& h = map.grid.spacing;
+  std::map<Label, std::pair<double, std::size_t>> lengths; // sum and number
+  for (int k = 0; k < map.grid.size[2]; ++k)
+    for (int j = 0; j < map.grid.size[1]; ++j)
+      for (int i = 0; i < map.grid.size[0]; ++i)
+        if (const Label label = map.labels[map.grid.index(i, j, k)]; label != 0)
+        {
+          auto& [sum, number] = lengths[label];
+          sum += scale(map.grid.gridToWorld({ i * h.x, j * h.y, k * h.z }));
+          ++number;
+        }
+  TissueSettings flat;
+  for (const auto& [label, t] : thickness)
+    if (const auto& [sum, number] = lengths.at(label); t < flattest * sum / double(number))
+      flat[label].maximumEdgeLength = t / flatness;
+  return followTissues(scale, map, flat, 0);
+}
+
 } // namespace surgicalmesher

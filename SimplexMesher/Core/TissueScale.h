@@ -5,6 +5,8 @@
 #include "ScaleField.h"
 #include "TissueSettings.h"
 
+#include <map>
+
 namespace surgicalmesher
 {
 
@@ -31,5 +33,13 @@ ScaleField followTissues(const ScaleField& scale, const TissueMap& map, const Ti
 /// from there by at most `gradation` per mm. A volume (scaleVolume).
 ScaleField followThickness(const ScaleField& scale, const TissueMap& map, const std::vector<ThinVoxel>& thinVoxels,
                            double gradation);
+
+/// Mean thickness of each tissue but the background, 2 V / A, mm. The staircase of voxel faces counts as half as large
+/// again as a smooth boundary.
+std::map<Label, double> meanThickness(const TissueMap& map);
+
+/// The scale that tissues flatter than near-regular tetrahedra can be (`thickness`, as of meanThickness, under 0.32 times
+/// their mean L) need to keep their volume: at most twice the thickness within them. `scale` itself if there are none.
+ScaleField followFlatTissues(const ScaleField& scale, const TissueMap& map, const std::map<Label, double>& thickness);
 
 } // namespace surgicalmesher
