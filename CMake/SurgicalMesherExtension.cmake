@@ -10,9 +10,9 @@ set(EXTENSION_HOMEPAGE "https://github.com/SurgicalMesher/SurgicalMesher")
 set(published_files "https://raw.githubusercontent.com/SurgicalMesher/SurgicalMesher/main")
 set(EXTENSION_ICONURL "${published_files}/SurgicalMesher.png")
 string(CONCAT EXTENSION_SCREENSHOTURLS # one space between two
-  "${published_files}/Docs/images/slicer-scale.png "
-  "${published_files}/Docs/images/slicer-surface.png "
-  "${published_files}/Docs/images/slicer-tetrahedra.png")
+  "${published_files}/Docs/images/tutorial-2-scale.png "
+  "${published_files}/Docs/images/tutorial-6-surface.png "
+  "${published_files}/Docs/images/tutorial-8-tetrahedra.png")
 set(EXTENSION_DEPENDS "NA")
 set(EXTENSION_README_FILE ${PROJECT_SOURCE_DIR}/README.md)
 set(EXTENSION_LICENSE_FILE ${PROJECT_SOURCE_DIR}/LICENSE)

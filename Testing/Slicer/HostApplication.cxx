@@ -12,13 +12,11 @@
 #include <qSlicerModuleManager.h>
 #include <qSlicerStyle.h>
 
-#include <ctkErrorLogAbstractModel.h>
-
 #include <vtkMRMLAbstractLogic.h>
 #include <vtkMRMLLayoutNode.h>
 #include <vtkMRMLScene.h>
+#include <vtkSlicerApplicationLogic.h>
 
-#include <QRegularExpression>
 #include <QScopedPointer>
 #include <QSplashScreen>
 #include <QVBoxLayout>
@@ -57,11 +55,6 @@ qSlicerAbstractCoreModule* moduleNamed(const qSlicerApplication& application, co
   return module;
 }
 
-bool isComplaint(const QString& level)
-{
-  return level == "Warning" || level == "Error" || level == "Critical" || level == "Fatal";
-}
-
 } // namespace
 
 HostApplication::HostApplication()
@@ -71,7 +64,8 @@ HostApplication::HostApplication()
 {
   qSlicerApplicationHelper::preInitializeApplication(m_ArgumentPointers.front(), new qSlicerStyle);
   m_Application = std::make_unique<qSlicerApplication>(m_ArgumentCount, m_ArgumentPointers.data());
-  m_Application->setTemporaryPath(m_TemporaryFolder.path());
+  // Not by the application's setting: hosts that run at the same time share their settings.
+  m_Application->applicationLogic()->SetTemporaryPath(m_TemporaryFolder.path().toUtf8());
   makeViews();
   loadModules();
 }
@@ -147,18 +141,7 @@ void HostApplication::waitFor(double seconds)
 
 std::string HostApplication::complaints()
 {
-  waitFor(0.1); // messages of other threads reach the log as events
-  const ctkErrorLogAbstractModel& log = *m_Application->errorLogModel();
-  const bool isStart = m_LogEntriesSeen == 0;
-  static const QRegularExpression ours("SurgicalPathScale|SimplexMesher|FuchsTetrahedralizer|SurgicalMesher");
-  QString lines;
-  for (; m_LogEntriesSeen < log.logEntryCount(); ++m_LogEntriesSeen)
-  {
-    const QString level = log.logEntryData(m_LogEntriesSeen, ctkErrorLogAbstractModel::LogLevelColumn).toString();
-    const QString text = log.logEntryDescription(m_LogEntriesSeen);
-    if (isComplaint(level) && (!isStart || text.contains(ours))) lines += level + ": " + text + "\n";
-  }
-  return lines.toStdString();
+  return m_Log.complaints();
 }
 
 void throwMissingChild(QObject* parent, const char* name)

@@ -15,6 +15,8 @@
 /// One per process, as for any QApplication. Settings are fresh and thrown away. The views are drawn by OpenGL, so a
 /// display must exist; on a machine without one run ctest by xvfb-run.
 
+#include "HostLog.h"
+
 #include <functional>
 #include <memory>
 #include <string>
@@ -61,8 +63,7 @@ public:
   /// Handles events for so many seconds, for instance to let a debounced preview settle.
   void waitFor(double seconds);
 
-  /// The warnings and errors in the host's log since the last call, one per line; empty if there are none. Of those from
-  /// the host's start, only the ones that name a module or class of ours.
+  /// As HostLog tells them.
   std::string complaints();
 
 private:
@@ -76,7 +77,7 @@ private:
   std::unique_ptr<qSlicerApplication> m_Application;
   std::unique_ptr<QWidget> m_Viewport;
   qSlicerAbstractModuleWidget* m_Panel = nullptr;
-  int m_LogEntriesSeen = 0;
+  HostLog m_Log;
 };
 
 /// The child of this type and object name, which is its name in the .ui file. Throws std::runtime_error if there is none.

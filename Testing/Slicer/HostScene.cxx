@@ -14,6 +14,7 @@
 #include <vtkMRMLScene.h>
 #include <vtkMRMLScalarVolumeNode.h>
 #include <vtkMRMLSegmentationNode.h>
+#include <vtkSlicerApplicationLogic.h>
 #include <vtkSlicerSegmentationsModuleLogic.h>
 #include <vtkSlicerVolumesLogic.h>
 
@@ -147,6 +148,17 @@ std::string brainImageFile()
   return ifExists("/usr/share/mricron/templates/ch2better.nii.gz");
 }
 
+vtkMRMLLabelMapVolumeNode* loadJhuAtlas(vtkMRMLScene* scene)
+{
+  vtkMRMLLabelMapVolumeNode* atlas = loadLabelMap(scene, jhuAtlasFile());
+  if (!atlas) return nullptr;
+  const double sform[16] = { -1, 0, 0, 78, 0, 1, 0, -112, 0, 0, 1, -50, 0, 0, 0, 1 }; // the file's qform is the identity
+  vtkNew<vtkMatrix4x4> voxelsToWorld;
+  voxelsToWorld->DeepCopy(sform);
+  atlas->SetIJKToRASMatrix(voxelsToWorld);
+  return atlas;
+}
+
 vtkMRMLMarkupsNode* addMarkups(vtkMRMLScene* scene, const char* className, const std::vector<Point>& points)
 {
   auto* markups = vtkMRMLMarkupsNode::SafeDownCast(scene->AddNewNodeByClass(className));
@@ -183,7 +195,7 @@ std::string LeftoverCheck::leftovers(const std::set<std::string>& expectedClasse
 
 std::set<std::string> temporaryFiles()
 {
-  const QDir folder(qSlicerApplication::application()->temporaryPath());
+  const QDir folder(qSlicerApplication::application()->applicationLogic()->GetTemporaryPath());
   std::set<std::string> names;
   for (const QString& name : folder.entryList(QDir::AllEntries | QDir::Hidden | QDir::NoDotAndDotDot))
   {

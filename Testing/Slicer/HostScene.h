@@ -48,6 +48,9 @@ vtkMRMLScalarVolumeNode* loadVolume(vtkMRMLScene* scene, const std::string& file
 std::string jhuAtlasFile();
 std::string brainImageFile();
 
+/// The atlas in its place. Of the two places that its file gives, the host takes the wrong one.
+vtkMRMLLabelMapVolumeNode* loadJhuAtlas(vtkMRMLScene* scene);
+
 /// A markups node of a class such as "vtkMRMLMarkupsFiducialNode" or "vtkMRMLMarkupsCurveNode".
 vtkMRMLMarkupsNode* addMarkups(vtkMRMLScene* scene, const char* className, const std::vector<Point>& points);
 

@@ -1,7 +1,9 @@
 #include "Tutorial.h"
 
 #include "HostApplication.h"
+#include "HostLog.h"
 #include "HostScene.h"
+#include "MeshComparison.h"
 #include "TutorialViews.h"
 #include "Waiting.h"
 
@@ -32,9 +34,12 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDialog>
 #include <QDir>
 #include <QDoubleSpinBox>
-#include <QFileDialog>
+#include <QFileInfo>
+#include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QRadioButton>
 #include <QTimer>
@@ -48,7 +53,7 @@ namespace
 
 constexpr Point SELLA{ 0, 0, -10 }; ///< near the pituitary gland, RAS
 const std::vector<Point> TRANSNASAL_PATH{ { 0, 78, -34 }, { 0, 52, -26 }, { 0, 26, -17 }, SELLA };
-constexpr double RUN_LIMIT = 300; ///< s
+constexpr double RUN_LIMIT = 900; ///< s
 
 void require(bool condition, const std::string& expectation)
 {
@@ -72,13 +77,11 @@ void waitForRun(qSlicerAbstractModuleWidget* panel)
   waitFor(1);
 }
 
-/// A new node for an output, as the selector's own menu makes it.
-vtkMRMLNode* addNode(qSlicerAbstractModuleWidget* panel, const char* selector)
+vtkMRMLNode* chosen(qSlicerAbstractModuleWidget* panel, const char* selector)
 {
-  auto* box = findChild<qMRMLNodeComboBox>(panel, selector);
-  box->addNode();
-  require(box->currentNode() != nullptr, std::string("a new node in ") + selector);
-  return box->currentNode();
+  vtkMRMLNode* node = findChild<qMRMLNodeComboBox>(panel, selector)->currentNode();
+  require(node != nullptr, std::string("a node in ") + selector);
+  return node;
 }
 
 void choose(qSlicerAbstractModuleWidget* panel, const char* selector, vtkMRMLNode* node)
@@ -107,6 +110,7 @@ public:
   void walk()
   {
     arrangeMainWindow();
+    m_Log.complaints(); // of the start, which is not the tutorial's business
     loadSegmentation();
     setScale();
     holdFarTissueStill();
@@ -117,6 +121,8 @@ public:
     makeTetrahedra();
     lookAtQuality();
     exportMesh();
+    const std::string complaints = m_Log.complaints();
+    require(complaints.empty(), "no warning and no error in the host's log, found:\n" + complaints);
   }
 
 private:
@@ -131,7 +137,7 @@ private:
     qSlicerApplication* application = qSlicerApplication::application();
     application->applicationLogic()->GetSelectionNode()->SetActiveVolumeID(image->GetID());
     application->applicationLogic()->PropagateVolumeSelection();
-    vtkMRMLLabelMapVolumeNode* atlas = loadLabelMap(scene(), jhuAtlasFile());
+    vtkMRMLLabelMapVolumeNode* atlas = loadJhuAtlas(scene());
     m_Segmentation = addSegmentation(scene(), atlas, "Brain");
     scene()->RemoveNode(atlas);
     vtkMRMLSegmentationDisplayNode::SafeDownCast(m_Segmentation->GetDisplayNode())->SetOpacity2DFill(0.6);
@@ -154,11 +160,12 @@ private:
       display->SetPointLabelsVisibility(false);
       display->SetPropertiesLabelVisibility(false);
     }
-    vtkMRMLSegmentationDisplayNode::SafeDownCast(m_Segmentation->GetDisplayNode())->SetOpacity2DFill(0);
+    m_Segmentation->SetDisplayVisibility(false);
     m_ScalePanel = openModule("SurgicalPathScale");
     choose(m_ScalePanel, "TissueMapSelector", m_Segmentation);
     choose(m_ScalePanel, "TargetsSelector", target);
     choose(m_ScalePanel, "PathSelector", path);
+    findChild<ctkSliderWidget>(m_ScalePanel, "MinimumEdgeLengthSlider")->setValue(1.5);
     findChild<QCheckBox>(m_ScalePanel, "PreviewCheckBox")->setChecked(true);
     findChild<QCheckBox>(m_ScalePanel, "ProfileCheckBox")->setChecked(true);
     showSlicesAt(SELLA, 190);
@@ -182,21 +189,19 @@ private:
   {
     collapse(m_ScalePanel, "NullDisplacementCollapsibleButton");
     expand(m_ScalePanel, "EdgeLengthCollapsibleButton");
-    m_Scale = addNode(m_ScalePanel, "ScaleSelector");
     apply(m_ScalePanel);
     waitForRun(m_ScalePanel);
-    showSlicesAt(SELLA, 190);
-    take("slicer-scale");
   }
 
   void setSurface()
   {
     m_SurfacePanel = openModule("SimplexMesher");
     showLayout(vtkMRMLLayoutNode::SlicerLayoutFourUpView);
+    hideForeground();
+    m_Segmentation->SetDisplayVisibility(true);
     choose(m_SurfacePanel, "TissueMapSelector", m_Segmentation);
     findChild<QRadioButton>(m_SurfacePanel, "ScaleRadioButton")->setChecked(true);
-    choose(m_SurfacePanel, "ScaleSelector", m_Scale);
-    m_Surface = addNode(m_SurfacePanel, "SurfaceSelector");
+    choose(m_SurfacePanel, "ScaleSelector", chosen(m_ScalePanel, "ScaleSelector"));
     findChild<QDoubleSpinBox>(m_SurfacePanel, "MinimumIslandVolumeSpinBox")->setValue(30);
     findChild<QCheckBox>(m_SurfacePanel, "TissueModelsCheckBox")->setChecked(true);
     waitFor(1);
@@ -211,10 +216,10 @@ private:
     take("tutorial-5-running");
     waitForRun(m_SurfacePanel);
     collapse(m_SurfacePanel, "TissuesCollapsibleButton");
-    auto* surface = vtkMRMLModelNode::SafeDownCast(m_Surface);
+    auto* surface = vtkMRMLModelNode::SafeDownCast(chosen(m_SurfacePanel, "SurfaceSelector"));
     require(surface && surface->GetMesh() && surface->GetMesh()->GetNumberOfCells() > 10000, "a surface");
     showLayout(vtkMRMLLayoutNode::SlicerLayoutOneUp3DView);
-    lookAt(SELLA, { 0.25, -0.75, 0.6 }, 120);
+    lookAt(SELLA, { 0.25, -0.75, 0.6 }, 100);
     scrollTo(findChild<QWidget>(m_SurfacePanel, "RunWidget"));
     take("tutorial-6-surface");
   }
@@ -234,13 +239,13 @@ private:
     m_MeshPanel = openModule("FuchsTetrahedralizer");
     showLayout(vtkMRMLLayoutNode::SlicerLayoutConventionalWidescreenView);
     auto* surfaces = findChild<qMRMLCheckableNodeComboBox>(m_MeshPanel, "SurfaceComboBox");
-    surfaces->setCheckState(m_Surface, Qt::Checked);
-    addNode(m_MeshPanel, "MeshComboBox");
+    surfaces->setCheckState(chosen(m_SurfacePanel, "SurfaceSelector"), Qt::Checked);
     apply(m_MeshPanel);
     waitForRun(m_MeshPanel);
-    showOnly(findChild<qMRMLNodeComboBox>(m_MeshPanel, "MeshComboBox")->currentNode());
+    showOnly(chosen(m_MeshPanel, "MeshComboBox"));
     showSlicesAt(SELLA, 190);
-    lookAt(SELLA, { -1, -0.25, -0.2 }, 150);
+    lookAt({ 0, 0, 8 }, { -0.4, -0.9, -0.2 }, 150);
+    collapse(m_MeshPanel, "OutputsCollapsibleButton");
     take("tutorial-8-tetrahedra");
   }
 
@@ -256,28 +261,25 @@ private:
     take("tutorial-9-quality");
   }
 
-  /// The dialogue of the panel's button, which is shown, then answered as a user would.
+  /// Through the dialogue of the panel's button, answered as a user would.
   void exportMesh()
   {
-    const QString folder = m_Folder + "/export";
-    QDir(folder).removeRecursively();
-    QDir().mkpath(folder);
-    QTimer::singleShot(1500,
-                       [this, folder]
-                       {
-                         auto* dialog = qobject_cast<QFileDialog*>(QApplication::activeModalWidget());
-                         if (!dialog) return;
-                         dialog->setDirectory(folder);
-                         dialog->resize(760, 480);
-                         dialog->move(560, 200);
-                         take("tutorial-10-export");
-                         dialog->selectFile("brain.inp");
-                         QMetaObject::invokeMethod(dialog, "accept", Qt::QueuedConnection);
-                       });
+    const QString file = QString::fromStdString(newFolder("TutorialExport")) + "/brain.inp";
+    const auto answer = [file]
+    {
+      auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
+      if (!dialog) return;
+      findChild<QLineEdit>(dialog, "fileNameEdit")->setText(file);
+      dialog->accept();
+    };
+    QTimer::singleShot(1500, qApp, answer);
     findChild<QPushButton>(m_MeshPanel, "ExportButton")->click();
     waitFor(1);
-    require(QDir(folder).exists("brain.inp"), "an exported mesh");
-    QDir(folder).removeRecursively();
+    require(QFileInfo::exists(file), "an exported mesh, found: " +
+                                       findChild<QLabel>(m_MeshPanel, "MeshInfoLabel")->text().toStdString());
+    showLayout(vtkMRMLLayoutNode::SlicerLayoutOneUp3DView);
+    lookAt(SELLA, { -0.4, -0.9, -0.2 }, 70);
+    take("tutorial-10-export");
   }
 
   /// As a user picks an entry, which is more than setting it.
@@ -300,12 +302,11 @@ private:
   }
 
   QString m_Folder;
+  HostLog m_Log;
   qSlicerAbstractModuleWidget* m_ScalePanel = nullptr;
   qSlicerAbstractModuleWidget* m_SurfacePanel = nullptr;
   qSlicerAbstractModuleWidget* m_MeshPanel = nullptr;
   vtkMRMLSegmentationNode* m_Segmentation = nullptr;
-  vtkMRMLNode* m_Scale = nullptr;
-  vtkMRMLNode* m_Surface = nullptr;
 };
 
 } // namespace

@@ -2,6 +2,8 @@
 
 #include "Waiting.h"
 
+#include <qMRMLPlotView.h>
+#include <qMRMLPlotWidget.h>
 #include <qMRMLSliceWidget.h>
 #include <qMRMLThreeDView.h>
 #include <qMRMLThreeDWidget.h>
@@ -12,13 +14,12 @@
 #include <qSlicerMainWindow.h>
 #include <qSlicerModuleManager.h>
 
-#include <vtkMRMLCameraNode.h>
-#include <vtkMRMLSliceLogic.h>
+#include <vtkMRMLSliceCompositeNode.h>
 #include <vtkMRMLSliceNode.h>
 #include <vtkMRMLViewNode.h>
 
 #include <vtkCamera.h>
-#include <vtkCollection.h>
+#include <vtkContextScene.h>
 #include <vtkMRMLScene.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -48,10 +49,22 @@ QMainWindow* mainWindow()
   return qSlicerApplication::application()->mainWindow();
 }
 
+/// The plot views' smoothing of edges blackens the axes where OpenGL is emulated, as on a virtual display.
+void keepAxesVisible()
+{
+  for (int i = 0; i < layoutManager()->plotViewCount(); ++i)
+  {
+    qMRMLPlotView* view = layoutManager()->plotWidget(i)->plotView();
+    view->scene()->GetRenderer()->SetUseFXAA(false);
+    view->renderWindow()->Render();
+  }
+}
+
 /// Views are drawn when the host finds time; a picture waits for that.
 void drawAllViews()
 {
   waitFor(0.5);
+  keepAxesVisible();
   for (int i = 0; i < layoutManager()->threeDViewCount(); ++i)
   {
     layoutManager()->threeDWidget(i)->threeDView()->forceRender();
@@ -101,6 +114,14 @@ void showSlicesAt(const std::array<double, 3>& point, double width)
     slice->JumpSliceByCentering(point[0], point[1], point[2]);
   }
   waitFor(0.3);
+}
+
+void hideForeground()
+{
+  for (const QString& name : layoutManager()->sliceViewNames())
+  {
+    layoutManager()->sliceWidget(name)->mrmlSliceCompositeNode()->SetForegroundVolumeID(nullptr);
+  }
 }
 
 void lookAt(const std::array<double, 3>& point, const std::array<double, 3>& direction, double height)

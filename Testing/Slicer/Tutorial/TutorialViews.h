@@ -23,6 +23,9 @@ void showLayout(int layout);
 /// Slice views to this point (RAS, mm), with so many mm across the width of each.
 void showSlicesAt(const std::array<double, 3>& point, double width);
 
+/// Takes the foreground out of the slice views, and its legend with it.
+void hideForeground();
+
 /// The first three-dimensional view: camera on `point`, looking along `direction`, so many mm from top to bottom.
 void lookAt(const std::array<double, 3>& point, const std::array<double, 3>& direction, double height);
 

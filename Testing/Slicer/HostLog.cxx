@@ -1,0 +1,39 @@
+#include "HostLog.h"
+
+#include "Waiting.h"
+
+#include <qSlicerApplication.h>
+
+#include <ctkErrorLogAbstractModel.h>
+
+#include <QRegularExpression>
+
+namespace surgicalmesher::test
+{
+namespace
+{
+
+bool isComplaint(const QString& level)
+{
+  return level == "Warning" || level == "Error" || level == "Critical" || level == "Fatal";
+}
+
+} // namespace
+
+std::string HostLog::complaints()
+{
+  waitFor(0.1); // messages of other threads reach the log as events
+  const ctkErrorLogAbstractModel& log = *qSlicerApplication::application()->errorLogModel();
+  const bool isStart = m_EntriesSeen == 0;
+  static const QRegularExpression ours("SurgicalPathScale|SimplexMesher|FuchsTetrahedralizer|SurgicalMesher");
+  QString lines;
+  for (; m_EntriesSeen < log.logEntryCount(); ++m_EntriesSeen)
+  {
+    const QString level = log.logEntryData(m_EntriesSeen, ctkErrorLogAbstractModel::LogLevelColumn).toString();
+    const QString text = log.logEntryDescription(m_EntriesSeen);
+    if (isComplaint(level) && (!isStart || text.contains(ours))) lines += level + ": " + text + "\n";
+  }
+  return lines.toStdString();
+}
+
+} // namespace surgicalmesher::test
