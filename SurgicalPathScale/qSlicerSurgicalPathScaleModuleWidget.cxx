@@ -209,8 +209,6 @@ void qSlicerSurgicalPathScaleModuleWidgetPrivate::showValues()
 
 void qSlicerSurgicalPathScaleModuleWidgetPrivate::scheduleUpdates()
 {
-  Q_Q(qSlicerSurgicalPathScaleModuleWidget);
-  if (!q->isEntered()) return;
   if (this->PreviewCheckBox->isChecked()) this->PreviewTimer.start();
   this->EstimateTimer.start();
 }
@@ -436,7 +434,7 @@ void qSlicerSurgicalPathScaleModuleWidget::updateFromNode()
 void qSlicerSurgicalPathScaleModuleWidget::onInputChanged()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
-  if (!d->Parameters) return;
+  if (!d->Parameters || !this->isEntered()) return; // enter() catches up
   d->showObstacle();
   d->scheduleUpdates();
 }
