@@ -1,14 +1,10 @@
 #include "qSlicerSimplexMesherModuleWidget.h"
 
+#include "PanelObstacle.h"
 #include "ui_qSlicerSimplexMesherModuleWidget.h"
 #include "vtkMRMLSimplexMesherNode.h"
 #include "vtkSlicerSimplexMesherLogic.h"
 #include "vtkSurgicalMesherRun.h"
-
-#include <qSlicerApplication.h>
-#include <qSlicerIOManager.h>
-#include <qSlicerLayoutManager.h>
-#include <qSlicerModuleManager.h>
 
 #include <vtkMRMLDisplayableNode.h>
 #include <vtkMRMLLabelMapVolumeNode.h>
@@ -27,35 +23,9 @@
 #include <vtkPolyData.h>
 #include <vtkWeakPointer.h>
 
-#include <algorithm>
-#include <functional>
-#include <vector>
-
-using surgicalmesher::TissueMapProblem;
+using surgicalmesher::PanelObstacle;
 using Node = vtkMRMLSimplexMesherNode;
 using Problem = vtkSlicerSimplexMesherLogic::Problem;
-using Widget = qSlicerSimplexMesherModuleWidget;
-
-/// What is in the way, and what a click can do about it.
-struct Obstacle
-{
-  QString sentence;
-  QString fixText;
-  std::function<void()> fix;
-};
-
-namespace
-{
-
-/// An obstacle that another module can remove; without the button if the host lacks that module.
-Obstacle obstacleFor(const QString& module, const QString& fixText, const QString& sentence)
-{
-  qSlicerApplication* application = qSlicerApplication::application();
-  if (!application->moduleManager()->module(module)) return { sentence, {}, {} };
-  return { sentence, fixText, [application, module] { application->layoutManager()->setCurrentModule(module); } };
-}
-
-} // namespace
 
 class qSlicerSimplexMesherModuleWidgetPrivate : public Ui_qSlicerSimplexMesherModuleWidget
 {
@@ -84,11 +54,9 @@ public:
   void showReports();
   void showObstacle();
 
-  Obstacle obstacle();
-  Obstacle tissueMapObstacle(TissueMapProblem problem);
-  Obstacle noTissueMapObstacle();
-  Obstacle scaleObstacle(Problem problem);
-  Obstacle tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check);
+  PanelObstacle obstacle();
+  PanelObstacle scaleObstacle(Problem problem);
+  PanelObstacle tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check);
 };
 
 void qSlicerSimplexMesherModuleWidgetPrivate::setParameterNode(vtkMRMLSimplexMesherNode* node)
@@ -106,9 +74,10 @@ void qSlicerSimplexMesherModuleWidgetPrivate::observeTissueMap(vtkMRMLNode* node
   for (const unsigned long event :
        { (unsigned long)vtkCommand::ModifiedEvent, (unsigned long)vtkMRMLDisplayableNode::DisplayModifiedEvent,
          (unsigned long)vtkMRMLTransformableNode::TransformModifiedEvent,
-         (unsigned long)vtkMRMLVolumeNode::ImageDataModifiedEvent, (unsigned long)vtkSegmentation::RepresentationModified,
-         (unsigned long)vtkSegmentation::SegmentAdded, (unsigned long)vtkSegmentation::SegmentRemoved,
-         (unsigned long)vtkSegmentation::SegmentModified, (unsigned long)vtkSegmentation::SegmentsOrderModified })
+         (unsigned long)vtkMRMLVolumeNode::ImageDataModifiedEvent,
+         (unsigned long)vtkSegmentation::RepresentationModified, (unsigned long)vtkSegmentation::SegmentAdded,
+         (unsigned long)vtkSegmentation::SegmentRemoved, (unsigned long)vtkSegmentation::SegmentModified,
+         (unsigned long)vtkSegmentation::SegmentsOrderModified })
   {
     q->qvtkReconnect(this->TissueMap, node, event, q, SLOT(onTissueMapChanged()));
   }
@@ -142,12 +111,12 @@ void qSlicerSimplexMesherModuleWidgetPrivate::connectValue(Control* control, Sig
 
 void qSlicerSimplexMesherModuleWidgetPrivate::connectSelector(qMRMLNodeComboBox* selector, const char* role)
 {
-  QObject::connect(selector, static_cast<void (qMRMLNodeComboBox::*)(vtkMRMLNode*)>(&qMRMLNodeComboBox::currentNodeChanged),
-                   q_ptr,
-                   [this, role](vtkMRMLNode* node)
-                   {
-                     if (this->Parameters && !this->IsUpdating) this->Parameters->SetNode(role, node);
-                   });
+  QObject::connect(
+    selector, static_cast<void (qMRMLNodeComboBox::*)(vtkMRMLNode*)>(&qMRMLNodeComboBox::currentNodeChanged), q_ptr,
+    [this, role](vtkMRMLNode* node)
+    {
+      if (this->Parameters && !this->IsUpdating) this->Parameters->SetNode(role, node);
+    });
 }
 
 void qSlicerSimplexMesherModuleWidgetPrivate::connectControls()
@@ -220,96 +189,60 @@ void qSlicerSimplexMesherModuleWidgetPrivate::showReports()
 
 void qSlicerSimplexMesherModuleWidgetPrivate::showObstacle()
 {
-  const Obstacle found = this->obstacle();
+  const PanelObstacle found = this->obstacle();
   if (found.sentence.isEmpty()) this->RunWidget->clearProblem();
   else this->RunWidget->setProblem(found.sentence, found.fixText, found.fix);
 }
 
-Obstacle qSlicerSimplexMesherModuleWidgetPrivate::obstacle()
+PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::obstacle()
 {
   const vtkSlicerSimplexMesherLogic::Check check =
     this->logic()->FindProblem(this->Parameters, this->TissueTable->tissues());
   switch (check.problem)
   {
-    case Problem::None: return {};
-    case Problem::NoModule:
-      return { Widget::tr("The command-line module SimplexMesherCLI isn't loaded; see the application's log."), {}, {} };
-    case Problem::TissueMap: return this->tissueMapObstacle(check.tissueMap);
-    case Problem::NothingToMesh:
-    case Problem::LengthsContradict:
-    case Problem::LengthsOfShellDiffer: return this->tissueObstacle(check);
-    default: return this->scaleObstacle(check.problem);
+  case Problem::None: return {};
+  case Problem::NoModule:
+    return { qSlicerSimplexMesherModuleWidget::tr(
+               "The command-line module SimplexMesherCLI isn't loaded; see the application's log."),
+             {},
+             {} };
+  case Problem::TissueMap:
+    return surgicalmesher::tissueMapObstacle(check.tissueMap, this->Parameters->GetTissueMapNode(),
+                                             this->TissueMapSelector);
+  case Problem::NothingToMesh:
+  case Problem::LengthsContradict:
+  case Problem::LengthsOfShellDiffer: return this->tissueObstacle(check);
+  default: return this->scaleObstacle(check.problem);
   }
 }
 
-Obstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueMapObstacle(TissueMapProblem problem)
-{
-  vtkMRMLNode* map = this->Parameters->GetTissueMapNode();
-  const auto needsEditor = [](const QString& sentence)
-  { return obstacleFor("SegmentEditor", Widget::tr("Edit segments"), sentence); };
-  switch (problem)
-  {
-    case TissueMapProblem::NothingChosen:
-    case TissueMapProblem::NotATissueMap:
-      return this->noTissueMapObstacle();
-    case TissueMapProblem::NoSegment: return needsEditor(Widget::tr("The segmentation has no segments."));
-    case TissueMapProblem::NoVoxels: return { Widget::tr("The label map has no voxels; choose another one."), {}, {} };
-    case TissueMapProblem::OnlyBackground:
-      if (vtkMRMLSegmentationNode::SafeDownCast(map)) return needsEditor(Widget::tr("All segments are empty."));
-      return { Widget::tr("No voxel of the label map belongs to a tissue; choose another one."), {}, {} };
-    case TissueMapProblem::NoReferenceGeometry:
-      return needsEditor(
-        Widget::tr("The segmentation's voxel size isn't known: set its source geometry in Segment Editor."));
-    case TissueMapProblem::ShearingTransform:
-      return obstacleFor("Transforms", Widget::tr("Transforms"),
-                         Widget::tr("The transform of the tissues turns their voxels into rhomboids; choose another one."));
-    case TissueMapProblem::NegativeLabels:
-      return { Widget::tr("Some voxels of the label map are no whole numbers from 0 to 65535."), {}, {} };
-    default: return { Widget::tr("The segmentation can't be turned into a label map; see the application's log."), {}, {} };
-  }
-}
-
-Obstacle qSlicerSimplexMesherModuleWidgetPrivate::noTissueMapObstacle()
-{
-  std::vector<vtkMRMLNode*> nodes, labelMaps;
-  q_ptr->mrmlScene()->GetNodesByClass("vtkMRMLSegmentationNode", nodes);
-  q_ptr->mrmlScene()->GetNodesByClass("vtkMRMLLabelMapVolumeNode", labelMaps);
-  nodes.insert(nodes.end(), labelMaps.begin(), labelMaps.end());
-  const auto shown = [](vtkMRMLNode* node) { return !node->GetHideFromEditors(); };
-  const auto first = std::find_if(nodes.begin(), nodes.end(), shown);
-  if (first == nodes.end())
-    return { Widget::tr("There is no segmentation or label map to mesh."), Widget::tr("Add data..."),
-             [] { qSlicerApplication::application()->ioManager()->openAddDataDialog(); } };
-  const vtkWeakPointer<vtkMRMLNode> candidate(*first);
-  return { Widget::tr("Choose a segmentation or a label map."),
-           Widget::tr("Choose %1").arg(QString::fromUtf8(candidate->GetName())),
-           [this, candidate] { this->Parameters->SetNode(Node::TissueMapRole(), candidate); } };
-}
-
-Obstacle qSlicerSimplexMesherModuleWidgetPrivate::scaleObstacle(Problem problem)
+PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::scaleObstacle(Problem problem)
 {
   switch (problem)
   {
-    case Problem::NoScale:
-      return { Widget::tr("Choose a scale volume, or one edge length for all."), Widget::tr("One edge length"),
-               [this] { this->Parameters->UseScaleOff(); } };
-    case Problem::ScaleWarped:
-      return obstacleFor("Transforms", Widget::tr("Transforms"),
-                         Widget::tr("The scale volume is under a transform that isn't linear; harden or remove it."));
-    case Problem::ScaleTooSmall:
-      return obstacleFor("SurgicalPathScale", Widget::tr("Surgical Path Scale"),
-                         Widget::tr("The scale volume doesn't cover the whole label map; make one for this map."));
-    default:
-      return { Widget::tr("The edge length has to be above 0."), Widget::tr("2 mm"),
-               [this] { this->Parameters->SetEdgeLength(2); } };
+  case Problem::NoScale:
+    return { qSlicerSimplexMesherModuleWidget::tr("Choose a scale volume, or one edge length for all."),
+             qSlicerSimplexMesherModuleWidget::tr("One edge length"), [this] { this->Parameters->UseScaleOff(); } };
+  case Problem::ScaleWarped:
+    return { qSlicerSimplexMesherModuleWidget::tr(
+               "The scale volume is under a transform that isn't linear; harden or remove it."),
+             qSlicerSimplexMesherModuleWidget::tr("Transforms"), [] { surgicalmesher::openModule("Transforms"); } };
+  case Problem::ScaleTooSmall:
+    return { qSlicerSimplexMesherModuleWidget::tr(
+               "The scale volume doesn't cover the whole label map; make one for this map."),
+             qSlicerSimplexMesherModuleWidget::tr("Surgical Path Scale"),
+             [] { surgicalmesher::openModule("SurgicalPathScale"); } };
+  default:
+    return { qSlicerSimplexMesherModuleWidget::tr("The edge length has to be above 0."),
+             qSlicerSimplexMesherModuleWidget::tr("2 mm"), [this] { this->Parameters->SetEdgeLength(2); } };
   }
 }
 
-Obstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check)
+PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check)
 {
   if (check.problem == Problem::NothingToMesh)
-    return { Widget::tr("All tissues are left out."), Widget::tr("Mesh all"),
-             [this] { this->Parameters->SetTissueSettings({}); } };
+    return { qSlicerSimplexMesherModuleWidget::tr("All tissues are left out."),
+             qSlicerSimplexMesherModuleWidget::tr("Mesh all"), [this] { this->Parameters->SetTissueSettings({}); } };
   const auto dropMaximum = [this, id = check.tissue.id]
   {
     surgicalmesher::TissueSetting setting = this->Parameters->GetTissueSetting(id);
@@ -317,15 +250,15 @@ Obstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueObstacle(const vtkSlicer
     this->Parameters->SetTissueSetting(id, setting);
   };
   const QString tissue = QString::fromStdString(check.tissue.name);
-  const QString sentence = check.problem == Problem::LengthsContradict
-                             ? Widget::tr("The minimum edge length of %1 is above its maximum.").arg(tissue)
-                             : Widget::tr("%1 is a shell, which has one edge length, not two.").arg(tissue);
-  return { sentence, Widget::tr("Drop the maximum"), dropMaximum };
+  const QString sentence =
+    check.problem == Problem::LengthsContradict
+      ? qSlicerSimplexMesherModuleWidget::tr("The minimum edge length of %1 is above its maximum.").arg(tissue)
+      : qSlicerSimplexMesherModuleWidget::tr("%1 is a shell, which has one edge length, not two.").arg(tissue);
+  return { sentence, qSlicerSimplexMesherModuleWidget::tr("Drop the maximum"), dropMaximum };
 }
 
 qSlicerSimplexMesherModuleWidget::qSlicerSimplexMesherModuleWidget(QWidget* parent)
-  : Superclass(parent)
-  , d_ptr(new qSlicerSimplexMesherModuleWidgetPrivate(*this))
+  : Superclass(parent), d_ptr(new qSlicerSimplexMesherModuleWidgetPrivate(*this))
 {
 }
 

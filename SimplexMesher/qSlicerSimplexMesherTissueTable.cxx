@@ -37,9 +37,9 @@ QString roleName(TissueRole role)
 {
   switch (role)
   {
-    case TissueRole::Shell: return Table::tr("Shell");
-    case TissueRole::Leave: return Table::tr("Leave out");
-    default: return Table::tr("Mesh");
+  case TissueRole::Shell: return qSlicerSimplexMesherTissueTable::tr("Shell");
+  case TissueRole::Leave: return qSlicerSimplexMesherTissueTable::tr("Leave out");
+  default: return qSlicerSimplexMesherTissueTable::tr("Mesh");
   }
 }
 
@@ -82,14 +82,64 @@ double openValue(int column) { return isLength(column) ? 0 : -1; }
 
 QString volumeText(double volume)
 {
-  if (volume < 0) return Table::tr("unknown");
-  return volume < 1000 ? Table::tr("%L1 mm³").arg(volume, 0, 'f', 0) : Table::tr("%L1 ml").arg(volume / 1000, 0, 'f', 1);
+  if (volume < 0) return qSlicerSimplexMesherTissueTable::tr("unknown");
+  return volume < 1000 ? qSlicerSimplexMesherTissueTable::tr("%L1 mm³").arg(volume, 0, 'f', 0)
+                       : qSlicerSimplexMesherTissueTable::tr("%L1 ml").arg(volume / 1000, 0, 'f', 1);
 }
 
 QString tooltip(const TissueRow& tissue)
 {
-  const QString text = Table::tr("%1: label %2").arg(QString::fromStdString(tissue.name).toHtmlEscaped()).arg(tissue.label);
-  return tissue.voxels < 0 ? text : Table::tr("%1, %L2 voxels").arg(text).arg(qlonglong(tissue.voxels));
+  const QString text = qSlicerSimplexMesherTissueTable::tr("%1: label %2")
+                         .arg(QString::fromStdString(tissue.name).toHtmlEscaped())
+                         .arg(tissue.label);
+  return tissue.voxels < 0
+           ? text
+           : qSlicerSimplexMesherTissueTable::tr("%1, %L2 voxels").arg(text).arg(qlonglong(tissue.voxels));
+}
+
+struct ColumnText
+{
+  QString title, tip;
+};
+
+ColumnText columnText(int column)
+{
+  switch (column)
+  {
+  case Table::NameColumn:
+    return { qSlicerSimplexMesherTissueTable::tr("Tissue"),
+             qSlicerSimplexMesherTissueTable::tr("Name and colour of the tissue") };
+  case Table::LabelColumn:
+    return { qSlicerSimplexMesherTissueTable::tr("Label"),
+             qSlicerSimplexMesherTissueTable::tr("Value of the tissue's voxels") };
+  case Table::VolumeColumn:
+    return { qSlicerSimplexMesherTissueTable::tr("Volume"),
+             qSlicerSimplexMesherTissueTable::tr("Volume of the tissue's voxels") };
+  case Table::RoleColumn:
+    return { qSlicerSimplexMesherTissueTable::tr("Role"),
+             qSlicerSimplexMesherTissueTable::tr(
+               "Mesh: a tissue of its own. Shell: a surface of one edge length, such as a vessel or the dura. "
+               "Leave out: background. Any other text names a group, whose members become one tissue") };
+  case Table::MinimumColumn:
+    return { qSlicerSimplexMesherTissueTable::tr("Min."),
+             qSlicerSimplexMesherTissueTable::tr(
+               "Smallest edge length within the tissue and on its surface (mm); empty: no limit") };
+  case Table::MaximumColumn:
+    return { qSlicerSimplexMesherTissueTable::tr("Max."),
+             qSlicerSimplexMesherTissueTable::tr(
+               "Largest edge length within the tissue and on its surface (mm); empty: no limit") };
+  case Table::ProtectedColumn:
+    return { qSlicerSimplexMesherTissueTable::tr("Protect"),
+             qSlicerSimplexMesherTissueTable::tr("Spare the tissue from simplification by the feature scale") };
+  case Table::IslandsColumn:
+    return { qSlicerSimplexMesherTissueTable::tr("Islands"),
+             qSlicerSimplexMesherTissueTable::tr(
+               "Pieces of the tissue below this volume (mm³) are removed; empty: as for all tissues") };
+  default:
+    return { qSlicerSimplexMesherTissueTable::tr("Cavities"),
+             qSlicerSimplexMesherTissueTable::tr(
+               "Background enclosed by the tissue, below this volume (mm³), is filled; empty: as for all tissues") };
+  }
 }
 
 class TissueModel : public QAbstractTableModel
@@ -109,10 +159,14 @@ public:
 
   void showChanges()
   {
-    if (!this->Tissues.empty()) emit this->dataChanged(this->index(0, 0), this->index(this->rowCount() - 1, Table::ColumnCount - 1));
+    if (!this->Tissues.empty())
+      emit this->dataChanged(this->index(0, 0), this->index(this->rowCount() - 1, Table::ColumnCount - 1));
   }
 
-  int rowCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : int(this->Tissues.size()); }
+  int rowCount(const QModelIndex& parent = {}) const override
+  {
+    return parent.isValid() ? 0 : int(this->Tissues.size());
+  }
   int columnCount(const QModelIndex& = {}) const override { return Table::ColumnCount; }
 
   TissueSetting setting(int row) const
@@ -148,16 +202,16 @@ QString TissueModel::text(const TissueRow& tissue, TissueSetting setting, int co
 {
   switch (column)
   {
-    case Table::NameColumn: return QString::fromStdString(tissue.name);
-    case Table::LabelColumn: return QString::number(tissue.label);
-    case Table::VolumeColumn: return volumeText(tissue.volume);
-    case Table::RoleColumn: return roleText(setting);
-    case Table::ProtectedColumn: return QString();
-    default:
-    {
-      const double value = numberAt(setting, column);
-      return value == openValue(column) ? QString() : QString("%L1").arg(value);
-    }
+  case Table::NameColumn: return QString::fromStdString(tissue.name);
+  case Table::LabelColumn: return QString::number(tissue.label);
+  case Table::VolumeColumn: return volumeText(tissue.volume);
+  case Table::RoleColumn: return roleText(setting);
+  case Table::ProtectedColumn: return QString();
+  default:
+  {
+    const double value = numberAt(setting, column);
+    return value == openValue(column) ? QString() : QString("%L1").arg(value);
+  }
   }
 }
 
@@ -176,54 +230,32 @@ QVariant TissueModel::data(const QModelIndex& index, int role) const
   TissueSetting setting = this->setting(index.row());
   switch (role)
   {
-    case Qt::DisplayRole: return this->text(tissue, setting, column);
-    case SortRole: return this->sortKey(tissue, setting, column);
-    case Qt::EditRole: return isNumber(column) ? QVariant(numberAt(setting, column)) : QVariant(this->text(tissue, setting, column));
-    case Qt::DecorationRole:
-      if (column != Table::NameColumn) return {};
-      return QColor::fromRgbF(tissue.color[0], tissue.color[1], tissue.color[2]);
-    case Qt::CheckStateRole:
-      if (column != Table::ProtectedColumn) return {};
-      return int(setting.isProtected ? Qt::Checked : Qt::Unchecked);
-    case Qt::TextAlignmentRole:
-      return int(Qt::AlignVCenter | (column == Table::NameColumn || column == Table::RoleColumn ? Qt::AlignLeft : Qt::AlignRight));
-    case Qt::ForegroundRole:
-      return setting.role == TissueRole::Leave ? QVariant(QColor(Qt::gray)) : QVariant();
-    case Qt::ToolTipRole:
-      if (column != Table::NameColumn) return this->headerData(column, Qt::Horizontal, Qt::ToolTipRole);
-      return tooltip(tissue);
-    default: return {};
+  case Qt::DisplayRole: return this->text(tissue, setting, column);
+  case SortRole: return this->sortKey(tissue, setting, column);
+  case Qt::EditRole:
+    return isNumber(column) ? QVariant(numberAt(setting, column)) : QVariant(this->text(tissue, setting, column));
+  case Qt::DecorationRole:
+    if (column != Table::NameColumn) return {};
+    return QColor::fromRgbF(tissue.color[0], tissue.color[1], tissue.color[2]);
+  case Qt::CheckStateRole:
+    if (column != Table::ProtectedColumn) return {};
+    return int(setting.isProtected ? Qt::Checked : Qt::Unchecked);
+  case Qt::TextAlignmentRole:
+    return int(Qt::AlignVCenter |
+               (column == Table::NameColumn || column == Table::RoleColumn ? Qt::AlignLeft : Qt::AlignRight));
+  case Qt::ForegroundRole: return setting.role == TissueRole::Leave ? QVariant(QColor(Qt::gray)) : QVariant();
+  case Qt::ToolTipRole:
+    if (column != Table::NameColumn) return this->headerData(column, Qt::Horizontal, Qt::ToolTipRole);
+    return tooltip(tissue);
+  default: return {};
   }
 }
 
 QVariant TissueModel::headerData(int section, Qt::Orientation orientation, int role) const
 {
-  if (orientation != Qt::Horizontal || (role != Qt::DisplayRole && role != Qt::ToolTipRole)) return {};
-  const bool tip = role == Qt::ToolTipRole;
-  switch (section)
-  {
-    case Table::NameColumn: return tip ? Table::tr("Name and colour of the tissue") : Table::tr("Tissue");
-    case Table::LabelColumn: return tip ? Table::tr("Value of the tissue's voxels") : Table::tr("Label");
-    case Table::VolumeColumn: return tip ? Table::tr("Volume of the tissue's voxels") : Table::tr("Volume");
-    case Table::RoleColumn:
-      return tip ? Table::tr("Mesh: a tissue of its own. Shell: a surface of one edge length, such as a vessel or the dura. "
-                             "Leave out: background. Any other text is the name of a group, whose members become one tissue")
-                 : Table::tr("Role");
-    case Table::MinimumColumn:
-      return tip ? Table::tr("Smallest edge length within the tissue and on its surface (mm); empty: no limit")
-                 : Table::tr("Min.");
-    case Table::MaximumColumn:
-      return tip ? Table::tr("Largest edge length within the tissue and on its surface (mm); empty: no limit")
-                 : Table::tr("Max.");
-    case Table::ProtectedColumn:
-      return tip ? Table::tr("Spare the tissue from simplification by the feature scale") : Table::tr("Protect");
-    case Table::IslandsColumn:
-      return tip ? Table::tr("Pieces of the tissue below this volume (mm³) are removed; empty: as for all tissues")
-                 : Table::tr("Islands");
-    default:
-      return tip ? Table::tr("Background enclosed by the tissue, below this volume (mm³), is filled; empty: as for all tissues")
-                 : Table::tr("Cavities");
-  }
+  if (orientation != Qt::Horizontal) return {};
+  const ColumnText text = columnText(section);
+  return role == Qt::DisplayRole ? QVariant(text.title) : role == Qt::ToolTipRole ? QVariant(text.tip) : QVariant();
 }
 
 /// Filters by name, and passes an edit on to all selected rows.
@@ -241,7 +273,8 @@ public:
   std::set<int> selectedRows() const
   {
     std::set<int> rows;
-    for (const QModelIndex& index : this->View->selectionModel()->selectedRows()) rows.insert(this->mapToSource(index).row());
+    for (const QModelIndex& index : this->View->selectionModel()->selectedRows())
+      rows.insert(this->mapToSource(index).row());
     return rows;
   }
 
@@ -296,7 +329,8 @@ private:
     auto* box = new QComboBox(parent);
     box->setEditable(true);
     box->setInsertPolicy(QComboBox::NoInsert);
-    for (const TissueRole role : { TissueRole::Mesh, TissueRole::Shell, TissueRole::Leave }) box->addItem(roleName(role));
+    for (const TissueRole role : { TissueRole::Mesh, TissueRole::Shell, TissueRole::Leave })
+      box->addItem(roleName(role));
     QSet<QString> groups;
     for (int row = 0; row < this->Model->rowCount(); ++row)
     {
@@ -315,7 +349,7 @@ private:
     spin->setDecimals(isLength(column) ? 2 : 0);
     spin->setSingleStep(isLength(column) ? 0.1 : 1);
     spin->setRange(openValue(column), isLength(column) ? 100 : 1e6);
-    spin->setSpecialValueText(Table::tr("none"));
+    spin->setSpecialValueText(qSlicerSimplexMesherTissueTable::tr("none"));
     spin->setFrame(false);
     return spin;
   }
@@ -362,7 +396,7 @@ void qSlicerSimplexMesherTissueTablePrivate::makeView(QWidget* parent)
 {
   this->View = new TissueView(parent);
   this->View->setObjectName("TissueView");
-  this->View->setAccessibleName(Table::tr("Tissues"));
+  this->View->setAccessibleName(qSlicerSimplexMesherTissueTable::tr("Tissues"));
   this->Model = new TissueModel(parent);
   this->Proxy = new TissueFilter(this->Model, this->View);
   this->View->setModel(this->Proxy);
@@ -417,8 +451,7 @@ QPushButton* qSlicerSimplexMesherTissueTablePrivate::addButton(QHBoxLayout* layo
 }
 
 qSlicerSimplexMesherTissueTable::qSlicerSimplexMesherTissueTable(QWidget* parent)
-  : QWidget(parent)
-  , d_ptr(new qSlicerSimplexMesherTissueTablePrivate)
+  : QWidget(parent), d_ptr(new qSlicerSimplexMesherTissueTablePrivate)
 {
   Q_D(qSlicerSimplexMesherTissueTable);
   auto* layout = new QVBoxLayout(this);
@@ -436,7 +469,8 @@ qSlicerSimplexMesherTissueTable::qSlicerSimplexMesherTissueTable(QWidget* parent
   layout->addLayout(buttons);
   auto* mesh = d->addButton(buttons, "MeshButton", tr("Mesh"), tr("Mesh each selected tissue as one of its own"));
   auto* group = d->addButton(buttons, "GroupButton", tr("Group..."), tr("Mesh the selected tissues as one"));
-  auto* shell = d->addButton(buttons, "ShellButton", tr("Shell"), tr("Mesh the selected tissues as surfaces of one edge length"));
+  auto* shell =
+    d->addButton(buttons, "ShellButton", tr("Shell"), tr("Mesh the selected tissues as surfaces of one edge length"));
   auto* leave = d->addButton(buttons, "LeaveOutButton", tr("Leave out"), tr("Make background of the selected tissues"));
   auto* reset = d->addButton(buttons, "ResetButton", tr("Reset"), tr("Forget what is asked of the selected tissues"));
 
@@ -493,7 +527,8 @@ void qSlicerSimplexMesherTissueTable::groupSelected(const QString& name)
 {
   Q_D(qSlicerSimplexMesherTissueTable);
   if (name.simplified().isEmpty()) return;
-  d->Model->change(d->Proxy->selectedRows(), [&](TissueSetting& setting) { setRole(setting, TissueRole::Group, name); });
+  d->Model->change(d->Proxy->selectedRows(),
+                   [&](TissueSetting& setting) { setRole(setting, TissueRole::Group, name); });
 }
 
 void qSlicerSimplexMesherTissueTable::resetSelected()

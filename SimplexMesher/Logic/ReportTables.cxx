@@ -239,13 +239,9 @@ void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* node)
   const EvolutionColumns names;
   TableFiller table(node);
   const auto distance = [&](const std::string& name, const char* member)
-  {
-    table.add<vtkDoubleArray>(name, steps, [&](const auto& step) { return numberOf(step, member); });
-  };
+  { table.add<vtkDoubleArray>(name, steps, [&](const auto& step) { return numberOf(step, member); }); };
   const auto number = [&](const std::string& name, const char* member)
-  {
-    table.add<vtkIntArray>(name, steps, [&](const auto& step) { return int(numberOf(step, member)); });
-  };
+  { table.add<vtkIntArray>(name, steps, [&](const auto& step) { return int(numberOf(step, member)); }); };
   int count = 0;
   table.add<vtkIntArray>(names.step, steps, [&](const auto&) { return count++; });
   table.add<vtkStringArray>(names.stage, steps,
@@ -268,13 +264,13 @@ std::vector<vtkMRMLPlotChartNode*> plotEvolution(vtkMRMLTableNode* table,
                                                  const std::vector<vtkMRMLPlotChartNode*>& charts)
 {
   const EvolutionColumns names;
-  const std::array<Plot, 3> plots{
-    { { names.tetrahedra, names.tetrahedra, { names.tetrahedra } },
-      { vtkMRMLTr("SimplexMesher", "Distance to the tissue boundary"), vtkMRMLTr("SimplexMesher", "Distance (mm)"),
-        { names.meanDistance, names.maximumDistance } },
-      { vtkMRMLTr("SimplexMesher", "Operations"), vtkMRMLTr("SimplexMesher", "Operations per step"),
-        { names.collapses, names.splits, names.flips } } }
-  };
+  const std::array<Plot, 3> plots{ { { names.tetrahedra, names.tetrahedra, { names.tetrahedra } },
+                                     { vtkMRMLTr("SimplexMesher", "Distance to the tissue boundary"),
+                                       vtkMRMLTr("SimplexMesher", "Distance (mm)"),
+                                       { names.meanDistance, names.maximumDistance } },
+                                     { vtkMRMLTr("SimplexMesher", "Operations"),
+                                       vtkMRMLTr("SimplexMesher", "Operations per step"),
+                                       { names.collapses, names.splits, names.flips } } } };
   std::vector<vtkMRMLPlotChartNode*> result = charts;
   for (std::size_t i = 0; i < plots.size(); ++i)
   {

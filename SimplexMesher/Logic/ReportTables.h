@@ -11,14 +11,14 @@ class vtkMRMLTableNode;
 namespace surgicalmesher
 {
 
-/// One row per tissue of `surface`: label, name, area (mm^2), triangles, components, tunnels and cavities of the prepared
-/// map, islands removed, voxels lost and gained while contacts were resolved, share of the surface thinner than the edge
-/// length (%) and its smallest thickness (mm; 0 where nothing is thinner). `reportFile` is the JSON file of
-/// SimplexMesherCLI; throws InputError if it isn't one.
+/// One row per tissue of `surface`: label, name, area (mm^2), triangles, components, tunnels and cavities of the
+/// prepared map, islands removed, voxels lost and gained while contacts were resolved, share of the surface thinner
+/// than the edge length (%) and its smallest thickness (mm; 0 where nothing is thinner). `reportFile` is the JSON file
+/// of SimplexMesherCLI; throws InputError if it isn't one.
 void fillTissueTable(const std::string& reportFile, vtkMRMLModelNode* surface, vtkMRMLTableNode* table);
 
-/// One row per step: number, stage, tetrahedra, mean and maximum distance to the tissue boundary (mm), and the operations
-/// by their names in the simplex mesh. Throws InputError likewise.
+/// One row per step: number, stage, tetrahedra, mean and maximum distance to the tissue boundary (mm), and the
+/// operations by their names in the simplex mesh. Throws InputError likewise.
 void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* table);
 
 /// Plots of the evolution table: tetrahedra, distance, operations. `charts` are those of an earlier run, to be filled

@@ -6,8 +6,9 @@ class vtkMRMLModelNode;
 namespace surgicalmesher
 {
 
-/// Makes a model of every tissue of `surface` (cell array BoundaryLabels), with the tissue's name and colour, in a folder
-/// named after the surface. Models made for the same surface before are filled again, or removed with their tissue.
+/// Makes a model of every tissue of `surface` (cell array BoundaryLabels), with the tissue's name and colour, in a
+/// folder named after the surface. Models made for the same surface before are filled again, or removed with their
+/// tissue.
 void makeTissueModels(vtkMRMLModelNode* surface);
 
 /// Removes them and their folder.

@@ -25,8 +25,8 @@ struct TissueRow
   double volume = -1;                           ///< mm^3; -1: not known
 };
 
-/// All segments in their order, or the labels that the map has voxels of, ascending. Looks at every voxel. Segments that
-/// overlap are counted whole, although the mesh gives their common voxels to the later one.
+/// All segments in their order, or the labels that the map has voxels of, ascending. Looks at every voxel. Segments
+/// that overlap are counted whole, although the mesh gives their common voxels to the later one.
 VTK_SLICER_SIMPLEXMESHER_MODULE_LOGIC_EXPORT std::vector<TissueRow> listTissues(vtkMRMLNode* tissueMap);
 
 /// Voxels by label from 1 to 65535; values beyond, and what is no integer, don't count.

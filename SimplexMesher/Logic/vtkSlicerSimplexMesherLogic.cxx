@@ -86,12 +86,11 @@ bool covers(vtkMRMLVolumeNode* scale, vtkMRMLVolumeNode* map)
   return true;
 }
 
-/// Of a segmentation, or a map to be resampled, the voxel grid is known only once it is exported: SimplexMesherCLI looks
-/// at it then.
+/// Of a segmentation, or a map to be resampled, the voxel grid is known only once it is exported: SimplexMesherCLI
+/// looks at it then.
 Problem scaleProblem(Node* parameters)
 {
-  if (!parameters->GetUseScale())
-    return parameters->GetEdgeLength() > 0 ? Problem::None : Problem::NoEdgeLength;
+  if (!parameters->GetUseScale()) return parameters->GetEdgeLength() > 0 ? Problem::None : Problem::NoEdgeLength;
   vtkMRMLScalarVolumeNode* scale = parameters->GetScaleNode();
   if (!scale || !scale->GetImageData()) return Problem::NoScale;
   if (isUnderWarp(scale)) return Problem::ScaleWarped;
@@ -136,10 +135,10 @@ std::string roleText(const TissueSetting& setting)
 {
   switch (setting.role)
   {
-    case TissueRole::Group: return "group " + withoutQuotes(setting.group);
-    case TissueRole::Shell: return "shell";
-    case TissueRole::Leave: return "leave";
-    default: return "mesh";
+  case TissueRole::Group: return "group " + withoutQuotes(setting.group);
+  case TissueRole::Shell: return "shell";
+  case TissueRole::Leave: return "leave";
+  default: return "mesh";
   }
 }
 
@@ -194,6 +193,12 @@ vtkSmartPointer<vtkMRMLScalarVolumeNode> copyForRun(vtkMRMLScalarVolumeNode* vol
   return copy;
 }
 
+/// The host's own unique names count those of nodes that are gone, as after a cancelled run.
+std::string unusedName(vtkMRMLScene* scene, const std::string& name)
+{
+  return scene->GetFirstNodeByName(name.c_str()) ? scene->GenerateUniqueName(name) : name;
+}
+
 /// `chosen`, or a new node in its place, as an output of `run`, in the world's frame.
 vtkMRMLModelNode* outputModel(vtkMRMLModelNode* chosen, vtkMRMLScene* scene, const std::string& name,
                               vtkSurgicalMesherRun* run)
@@ -201,7 +206,7 @@ vtkMRMLModelNode* outputModel(vtkMRMLModelNode* chosen, vtkMRMLScene* scene, con
   vtkMRMLModelNode* node = chosen;
   if (!node)
   {
-    node = vtkMRMLModelNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLModelNode", scene->GenerateUniqueName(name)));
+    node = vtkMRMLModelNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLModelNode", unusedName(scene, name)));
   }
   run->AddOutputNode(node, !chosen);
   node->SetAndObserveTransformNodeID(nullptr);
@@ -234,7 +239,7 @@ Wanted* ownNode(Node* parameters, const char* role, const std::string& name)
   if (node) return node;
   vtkNew<Wanted> fresh;
   vtkMRMLScene* scene = parameters->GetScene();
-  node = Wanted::SafeDownCast(scene->AddNewNodeByClass(fresh->GetClassName(), scene->GenerateUniqueName(name)));
+  node = Wanted::SafeDownCast(scene->AddNewNodeByClass(fresh->GetClassName(), unusedName(scene, name)));
   parameters->SetNode(role, node);
   return node;
 }

@@ -52,8 +52,9 @@ public:
   /// `tissues` as surgicalmesher::listTissues gives them for the parameter node's map.
   Check FindProblem(vtkMRMLSimplexMesherNode* parameters, const std::vector<surgicalmesher::TissueRow>& tissues);
 
-  /// Starts a run, unless there is a problem or a run is busy. A surface that isn't chosen is made for it, and put into the
-  /// parameter node once the run completes. False if it could not be started: GetRun()->GetErrorText() has the reason.
+  /// Starts a run, unless there is a problem or a run is busy. A surface that isn't chosen is made for it, and put into
+  /// the parameter node once the run completes. False if it could not be started: GetRun()->GetErrorText() has the
+  /// reason.
   bool Start(vtkMRMLSimplexMesherNode* parameters);
   /// The same, waiting for its end in this thread.
   bool StartAndWait(vtkMRMLSimplexMesherNode* parameters);

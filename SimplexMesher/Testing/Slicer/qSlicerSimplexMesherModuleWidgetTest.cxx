@@ -1,5 +1,5 @@
-// The panel as a user meets it: it says what is missing, lists the tissues, and its runs leave the nodes that they should,
-// with the very mesh that the command line writes.
+// The panel as a user meets it: it says what is missing, lists the tissues, and its runs leave the nodes that they
+// should, with the very mesh that the command line writes.
 
 #include "ComplexIO.h"
 #include "MeshComparison.h"
@@ -176,7 +176,9 @@ int testTissueModels(Panel& panel)
   CHECK_INT(surface->GetDisplayVisibility(), 0);
   vtkIdType triangles = 0;
   for (int i = 0; i < 2; ++i)
-    triangles += vtkMRMLModelNode::SafeDownCast(surface->GetNthNodeReference("tissueModels", i))->GetPolyData()->GetNumberOfCells();
+    triangles += vtkMRMLModelNode::SafeDownCast(surface->GetNthNodeReference("tissueModels", i))
+                   ->GetPolyData()
+                   ->GetNumberOfCells();
   CHECK_BOOL(triangles == surface->GetPolyData()->GetNumberOfCells() + tumour->GetPolyData()->GetNumberOfCells(), true);
 
   panel.child<QCheckBox>("TissueModelsCheckBox")->setChecked(false);

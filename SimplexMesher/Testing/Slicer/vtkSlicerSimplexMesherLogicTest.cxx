@@ -1,10 +1,10 @@
 // The logic without its panel: the tissues it lists, what it makes of settings by tissue, and its waiting run.
 
+#include "vtkSlicerSimplexMesherLogic.h"
 #include "HostApplication.h"
 #include "HostScene.h"
 #include "TissueRows.h"
 #include "vtkMRMLSimplexMesherNode.h"
-#include "vtkSlicerSimplexMesherLogic.h"
 #include "vtkSurgicalMesherRun.h"
 
 #include <vtkMRMLCoreTestingMacros.h>
