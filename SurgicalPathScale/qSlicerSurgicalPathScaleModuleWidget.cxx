@@ -388,14 +388,11 @@ bool qSlicerSurgicalPathScaleModuleWidget::setEditedNode(vtkMRMLNode* node, QStr
 
 void qSlicerSurgicalPathScaleModuleWidget::setMRMLScene(vtkMRMLScene* scene)
 {
-  vtkMRMLScene* old = this->mrmlScene();
   for (const unsigned long event : { vtkMRMLScene::EndImportEvent, vtkMRMLScene::EndBatchProcessEvent,
                                      vtkMRMLScene::EndCloseEvent, vtkMRMLScene::EndRestoreEvent })
   {
-    this->qvtkReconnect(old, scene, event, this, SLOT(onSceneReplaced()));
+    this->qvtkReconnect(this->mrmlScene(), scene, event, this, SLOT(onSceneReplaced()));
   }
-  this->qvtkReconnect(old, scene, vtkMRMLScene::StartSaveEvent, this, SLOT(onSaveStarted()));
-  this->qvtkReconnect(old, scene, vtkMRMLScene::EndSaveEvent, this, SLOT(onSaveEnded()));
   this->Superclass::setMRMLScene(scene);
   this->onSceneReplaced();
 }
@@ -409,15 +406,6 @@ void qSlicerSurgicalPathScaleModuleWidget::onSceneReplaced()
   if (!node && scene && this->isEntered()) node = d->logic()->ParameterNode();
   d->setParameterNode(vtkMRMLSurgicalPathScaleNode::SafeDownCast(node));
 }
-
-/// A saved scene must not refer to the preview's volumes, which are not saved.
-void qSlicerSurgicalPathScaleModuleWidget::onSaveStarted()
-{
-  Q_D(qSlicerSurgicalPathScaleModuleWidget);
-  d->logic()->HidePreview();
-}
-
-void qSlicerSurgicalPathScaleModuleWidget::onSaveEnded() { this->updatePreview(); }
 
 void qSlicerSurgicalPathScaleModuleWidget::updateFromNode()
 {

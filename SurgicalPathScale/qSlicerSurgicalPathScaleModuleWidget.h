@@ -33,8 +33,6 @@ protected slots:
   void updateFromNode();
   void onInputChanged();
   void onSceneReplaced();
-  void onSaveStarted();
-  void onSaveEnded();
   void updatePreview();
   void updateEstimate();
   void showProfile(bool isWanted);

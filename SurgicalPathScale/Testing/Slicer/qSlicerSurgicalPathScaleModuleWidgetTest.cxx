@@ -280,7 +280,12 @@ int checkPreview(const Panel& panel)
     CHECK_STRING(slice->GetForegroundVolumeID(), preview->GetID());
     CHECK_STRING(slice->GetLabelVolumeID(), panel.logic->GetPreviewNullDisplacementNode()->GetID());
   }
-  CHECK_BOOL(preview->GetSaveWithScene(), false);
+  panel.host.scene()->SetSaveToXMLString(1);
+  panel.host.scene()->Commit();
+  const std::string saved = panel.host.scene()->GetSceneXMLString();
+  panel.host.scene()->SetSaveToXMLString(0);
+  CHECK_BOOL(saved.find(panel.node()->GetID()) != std::string::npos, true);
+  CHECK_BOOL(saved.find(preview->GetName()) == std::string::npos, true);
   CHECK_BOOL(std::abs(preview->GetImageData()->GetScalarRange()[0] - 0.5) < 0.05, true);
   panel.slide("MinimumEdgeLengthSlider", 1.5); // followed, a moment later
   CHECK_BOOL(panel.host.waitUntil([&] { return preview->GetImageData()->GetScalarRange()[0] >= 1.5; }, 5), true);
