@@ -296,9 +296,10 @@ void vtkSlicerSimplexMesherLogic::SetMRMLSceneInternal(vtkMRMLScene* scene)
   this->SetAndObserveMRMLSceneEventsInternal(scene, events);
 }
 
-/// Nobody else could remove what is hidden.
+/// Nobody else could remove what is hidden, and nobody would finish the results of a run without its parameters.
 void vtkSlicerSimplexMesherLogic::OnMRMLSceneNodeRemoved(vtkMRMLNode* node)
 {
+  if (node == this->Parameters) this->Run->Cancel();
   if (!node->IsA("vtkMRMLModelNode") || this->GetMRMLScene()->IsClosing()) return;
   const char* ambient = node->GetNodeReferenceID(Node::AmbientTetrahedraRole());
   removeNode(ambient ? this->GetMRMLScene()->GetNodeByID(ambient) : nullptr);

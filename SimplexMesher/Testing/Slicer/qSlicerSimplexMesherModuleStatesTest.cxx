@@ -171,6 +171,7 @@ int testNodesThatLeave(Panel& panel)
   CHECK_BOOL(beginRun(panel, slow), true);
   scene->RemoveNode(panel.node());
   CHECK_BOOL(panel.waitForEnd(), true);
+  CHECK_INT(panel.run->GetStatus(), vtkSurgicalMesherRun::Cancelled);
   CHECK_NOT_NULL(panel.node());
   return EXIT_SUCCESS;
 }
