@@ -56,10 +56,10 @@ public:
   void connectTexts();
   void showValues();
   void scheduleUpdates();
-  void showObstacle();
+  void showObstacle(const Logic::Check& check);
   void placePoints(qMRMLNodeComboBox* selector, qSlicerMarkupsPlaceWidget* place);
 
-  PanelObstacle obstacle();
+  PanelObstacle obstacle(const Logic::Check& check);
   PanelObstacle focusObstacle(const Logic::Check& check);
   PanelObstacle valueObstacle(const Logic::Check& check);
 };
@@ -213,16 +213,15 @@ void qSlicerSurgicalPathScaleModuleWidgetPrivate::scheduleUpdates()
   this->EstimateTimer.start();
 }
 
-void qSlicerSurgicalPathScaleModuleWidgetPrivate::showObstacle()
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::showObstacle(const Logic::Check& check)
 {
-  const PanelObstacle found = this->obstacle();
+  const PanelObstacle found = this->obstacle(check);
   if (found.sentence.isEmpty()) this->RunWidget->clearProblem();
   else this->RunWidget->setProblem(found.sentence, found.fixText, found.fix);
 }
 
-PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::obstacle()
+PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::obstacle(const Logic::Check& check)
 {
-  const Logic::Check check = this->logic()->FindProblem(this->Parameters);
   switch (check.problem)
   {
   case Problem::None: return {};
@@ -415,7 +414,9 @@ void qSlicerSurgicalPathScaleModuleWidget::updateFromNode()
   d->IsUpdating = true;
   d->showValues();
   d->IsUpdating = false;
-  if (d->Parameters->GetProfileChartNode()) surgicalmesher::plotProfile(d->Parameters);
+  // While a scene is being read, a part of the plot may be there without the others.
+  const bool isReading = this->mrmlScene()->IsBatchProcessing();
+  if (d->Parameters->GetProfileChartNode() && !isReading) surgicalmesher::plotProfile(d->Parameters);
   this->onInputChanged();
 }
 
@@ -423,7 +424,7 @@ void qSlicerSurgicalPathScaleModuleWidget::onInputChanged()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
   if (!d->Parameters || !this->isEntered()) return; // enter() catches up
-  d->showObstacle();
+  d->showObstacle(d->logic()->FindProblem(d->Parameters));
   d->scheduleUpdates();
 }
 
@@ -461,8 +462,7 @@ void qSlicerSurgicalPathScaleModuleWidget::apply()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
   if (!d->Parameters) return;
-  d->showObstacle(); // what changed a moment ago
-  if (d->RunWidget->problem().isEmpty()) d->logic()->Start(d->Parameters);
+  if (!d->logic()->Start(d->Parameters)) d->showObstacle(d->logic()->GetStartProblem());
 }
 
 void qSlicerSurgicalPathScaleModuleWidget::onRunEnded()

@@ -166,21 +166,32 @@ vtkSlicerSurgicalPathScaleLogic::FindProblem(vtkMRMLSurgicalPathScaleNode* param
 
 bool vtkSlicerSurgicalPathScaleLogic::Start(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  return this->Prepare(parameters) && this->Run->Start();
+  return this->Prepare(parameters) && this->HasStarted(this->Run->Start());
 }
 
 bool vtkSlicerSurgicalPathScaleLogic::StartAndWait(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  return this->Prepare(parameters) && this->Run->StartAndWait();
+  return this->Prepare(parameters) && this->HasStarted(this->Run->StartAndWait());
+}
+
+bool vtkSlicerSurgicalPathScaleLogic::HasStarted(bool isStarted)
+{
+  if (!isStarted) this->StartProblem = { Problem::Refused, TissueMapProblem::None, this->Run->GetErrorText() };
+  return isStarted;
 }
 
 bool vtkSlicerSurgicalPathScaleLogic::Prepare(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  if (this->Run->IsBusy() || this->FindProblem(parameters).problem != Problem::None) return false;
+  this->StartProblem = this->FindProblem(parameters);
+  if (this->Run->IsBusy() || this->StartProblem.problem != Problem::None) return false;
   vtkSurgicalMesherRun* run = this->Run;
-  const TissueMapNodes map = makeTissueMapNodes(parameters->GetTissueMapNode());
-  if (!map.labelMap) return false;
   run->SetCommandLineLogic(this->GetModuleLogic("SurgicalPathScaleCLI"));
+  const TissueMapNodes map = makeTissueMapNodes(parameters->GetTissueMapNode());
+  if (!map.labelMap)
+  {
+    this->StartProblem = { Problem::TissueMap, map.problem, {} };
+    return false;
+  }
   run->AddTemporaryNode(map.labelMap);
   run->SetParameterNode("labelMap", map.labelMap);
   if (map.colors)
@@ -188,18 +199,15 @@ bool vtkSlicerSurgicalPathScaleLogic::Prepare(vtkMRMLSurgicalPathScaleNode* para
     run->AddTemporaryNode(map.colors);
     run->SetParameterNode("names", map.colors);
   }
-  const Focus focus = focusOf(parameters);
-  if (!focus.targets.empty())
+  try
   {
-    const std::string file = run->NewTemporaryFile(".mrk.json");
-    writeMarkups({ focus.targets }, file);
-    run->SetParameter("targets", file);
+    this->PrepareFocus(parameters);
   }
-  if (!focus.paths.empty())
+  catch (const Error& error)
   {
-    const std::string file = run->NewTemporaryFile(".mrk.json");
-    writeMarkups(focus.paths, file);
-    run->SetParameter("path", file);
+    this->StartProblem = { Problem::Refused, TissueMapProblem::None, error.what() };
+    run->SetCommandLineLogic(nullptr); // lets go of the nodes
+    return false;
   }
   run->SetParameter("minimumEdgeLength", parameters->GetMinimumEdgeLength());
   run->SetParameter("maximumEdgeLength", parameters->GetMaximumEdgeLength());
@@ -214,6 +222,20 @@ bool vtkSlicerSurgicalPathScaleLogic::Prepare(vtkMRMLSurgicalPathScaleNode* para
   this->PrepareOutputs(parameters);
   this->Parameters = parameters;
   return true;
+}
+
+/// Throws InputError if there is no room for the files.
+void vtkSlicerSurgicalPathScaleLogic::PrepareFocus(vtkMRMLSurgicalPathScaleNode* parameters)
+{
+  const auto hand = [this](const char* parameter, const std::vector<std::vector<Vec3>>& markups)
+  {
+    const std::string file = this->Run->NewTemporaryFile(".mrk.json");
+    writeMarkups(markups, file);
+    this->Run->SetParameter(parameter, file);
+  };
+  const Focus focus = focusOf(parameters);
+  if (!focus.targets.empty()) hand("targets", { focus.targets });
+  if (!focus.paths.empty()) hand("path", focus.paths);
 }
 
 void vtkSlicerSurgicalPathScaleLogic::PrepareOutputs(vtkMRMLSurgicalPathScaleNode* parameters)

@@ -61,10 +61,13 @@ public:
 
   /// Starts a run, unless there is a problem or a run is busy. The nodes chosen for results keep their contents until
   /// the run completes; those that are wanted and not chosen are made then. False if it could not be started:
-  /// GetRun()->GetErrorText() may have the reason.
+  /// GetStartProblem() has the reason.
   bool Start(vtkMRMLSurgicalPathScaleNode* parameters);
   /// The same, waiting for its end in this thread.
   bool StartAndWait(vtkMRMLSurgicalPathScaleNode* parameters);
+
+  /// What kept the last Start from starting; more is found out then than FindProblem looks for.
+  const Check& GetStartProblem() const { return this->StartProblem; }
 
   /// The one run of this logic. By the time that others see its CompletedEvent, if they observe it with the default
   /// priority, the results have been finished.
@@ -107,11 +110,14 @@ protected:
 
 private:
   bool Prepare(vtkMRMLSurgicalPathScaleNode* parameters);
+  void PrepareFocus(vtkMRMLSurgicalPathScaleNode* parameters);
+  bool HasStarted(bool isStarted);
   void PrepareOutputs(vtkMRMLSurgicalPathScaleNode* parameters);
   void FinishRun();
   void FinishScale(vtkMRMLSurgicalPathScaleNode* parameters);
   void FinishLabelMap(vtkMRMLSurgicalPathScaleNode* parameters);
 
+  Check StartProblem;
   vtkNew<vtkSurgicalMesherRun> Run;
   vtkNew<vtkCallbackCommand> RunEnded;
   vtkWeakPointer<vtkMRMLSurgicalPathScaleNode> Parameters; ///< of the run

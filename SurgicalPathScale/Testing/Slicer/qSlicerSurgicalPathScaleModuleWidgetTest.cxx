@@ -31,6 +31,8 @@
 #include <vtkMRMLTransformNode.h>
 
 #include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
 #include <vtkTable.h>
 
 #include <QCheckBox>
@@ -396,6 +398,21 @@ int checkSentences(const Panel& panel)
   CHECK_BOOL(isRefused(), true);
   panel.fix();
   CHECK_BOOL(panel.applyButton()->isEnabled(), true);
+  // The grid of a segmentation is looked at when it is needed.
+  vtkMRMLTransformNode* turn = addTransform(panel.host.scene());
+  vtkMRMLSegmentationNode* turned = addSegmentation(panel.host.scene(), inputs.labelMap);
+  turned->SetAndObserveTransformNodeID(turn->GetID());
+  turned->HardenTransform();
+  vtkMRMLTransformNode* stretch = addTransform(panel.host.scene());
+  vtkNew<vtkMatrix4x4> matrix;
+  matrix->SetElement(0, 0, 2);
+  stretch->SetMatrixTransformToParent(matrix);
+  turned->SetAndObserveTransformNodeID(stretch->GetID());
+  panel.choose("TissueMapSelector", turned);
+  panel.applyButton()->click();
+  CHECK_BOOL(isRefused(), true);
+  CHECK_BOOL(panel.run->IsBusy(), false);
+  panel.choose("TissueMapSelector", inputs.labelMap);
   panel.spin("NullDisplacementRadiusSpinBox", 5);
   panel.node()->SetNullDisplacementTissues("no such tissue");
   CHECK_BOOL(isRefused(), true);
