@@ -28,8 +28,11 @@
 #include <vtkPolyData.h>
 #include <vtkTable.h>
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QKeyEvent>
 #include <QRadioButton>
 
 #include <fstream>
@@ -56,6 +59,43 @@ int testSentencesAndFixes(Panel& panel)
   CHECK_BOOL(panel.child<QRadioButton>("EdgeLengthRadioButton")->isChecked(), true);
   CHECK_STD_STRING(panel.problem(), "");
   CHECK_BOOL(panel.child<QPushButton>("ApplyButton")->isEnabled(), true);
+  return EXIT_SUCCESS;
+}
+
+/// Opens the editor of a cell, as a double click does, types into it, and presses Return.
+template <class Editor, class Type>
+void type(Panel& panel, int row, int column, const Type& typeInto)
+{
+  QTableView* view = panel.table()->view();
+  view->setCurrentIndex(view->model()->index(row, column));
+  view->edit(view->currentIndex());
+  auto* editor = qobject_cast<Editor*>(view->indexWidget(view->currentIndex()));
+  if (!editor) return;
+  typeInto(editor);
+  QKeyEvent enter(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier);
+  QApplication::sendEvent(editor, &enter);
+  panel.host.waitFor(0.1); // the editor commits after the event
+}
+
+int testEditors(Panel& panel)
+{
+  type<QComboBox>(panel, 1, Table::RoleColumn, [](QComboBox* box) { box->setEditText("vessels"); });
+  CHECK_STD_STRING(panel.node()->GetTissueSetting("2").group, "vessels");
+  int choices = 0;
+  type<QComboBox>(panel, 0, Table::RoleColumn,
+                  [&](QComboBox* box)
+                  {
+                    choices = box->count();
+                    box->setCurrentIndex(choices - 1);
+                  });
+  CHECK_INT(choices, 4); // three roles and the group
+  CHECK_STD_STRING(panel.node()->GetTissueSetting("1").group, "vessels");
+  panel.table()->view()->selectAll();
+  type<QDoubleSpinBox>(panel, 1, Table::MinimumColumn, [](QDoubleSpinBox* spin) { spin->setValue(1.5); });
+  CHECK_DOUBLE(panel.node()->GetTissueSetting("2").minimumEdgeLength, 1.5);
+  panel.table()->view()->selectAll();
+  panel.table()->resetSelected();
+  panel.table()->view()->clearSelection();
   return EXIT_SUCCESS;
 }
 
@@ -246,6 +286,7 @@ int qSlicerSimplexMesherModuleWidgetTest(int, char*[])
   Panel panel{ host };
   CHECK_EXIT_SUCCESS(testSentencesAndFixes(panel));
   CHECK_EXIT_SUCCESS(testTissueTable(panel));
+  CHECK_EXIT_SUCCESS(testEditors(panel));
   CHECK_EXIT_SUCCESS(testSameMesh(panel));
   CHECK_EXIT_SUCCESS(testNodesOfRun(panel));
   CHECK_EXIT_SUCCESS(testTissueModels(panel));
