@@ -164,6 +164,7 @@ void showLegend(vtkMRMLModelNode* mesh, const std::string& title, bool byName)
   legend->SetLabelFormat(byName ? legend->GetDefaultTextLabelFormat() : legend->GetDefaultNumericLabelFormat());
   legend->SetVisibility(!byName || colors->GetNumberOfColors() <= legible);
   legend->SetVisibility2D(false);
+  legend->SetNumberOfLabels(6); // numbers: 0, 0.2 ... 1
   legend->SetSize(0.08, 0.35);
   legend->GetLabelTextProperty()->SetFontFamilyToArial();
   legend->EndModify(wasModifying);

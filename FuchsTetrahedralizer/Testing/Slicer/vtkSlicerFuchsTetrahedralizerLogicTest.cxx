@@ -64,6 +64,25 @@ std::map<Label, double> volumesOf(const MeshFile& content)
   return volumes;
 }
 
+/// A host without the command-line module: the problem says so, and nothing starts.
+int testWithoutModule()
+{
+  vtkNew<vtkMRMLScene> scene;
+  vtkNew<Logic> logic;
+  logic->SetMRMLScene(scene);
+  Node* node = logic->ParameterNode();
+  CHECK_INT(int(logic->FindProblem(node).problem), int(Logic::Problem::NoSurface));
+  node->SetNode(Node::SurfaceRole(), addClosedBall(scene, "ball", 5));
+  node->SetEdgeLengthSource(Node::Uniform);
+  CHECK_INT(int(logic->FindProblem(node).problem), int(Logic::Problem::NoModule));
+  CHECK_BOOL(logic->Start(node), false);
+  node->SetEdgeLength(0);
+  CHECK_INT(int(logic->FindProblem(node).problem), int(Logic::Problem::NoEdgeLength));
+  CHECK_NULL(logic->GetClipSlice(node));
+  CHECK_BOOL(logic->UpdateDisplay(node), false);
+  return EXIT_SUCCESS;
+}
+
 /// Each closed model is a tissue of its name, the inner one within the outer.
 int testClosedModels(Logic* logic, vtkMRMLScene* scene)
 {
@@ -213,6 +232,7 @@ int testLogic()
   auto* logic = Logic::SafeDownCast(host.logic("FuchsTetrahedralizer"));
   vtkMRMLScene* scene = host.scene();
   const MeshedBalls balls = meshBalls(scene, "vtkSlicerFuchsTetrahedralizerLogicTest");
+  CHECK_EXIT_SUCCESS(testWithoutModule());
   CHECK_EXIT_SUCCESS(testClosedModels(logic, scene));
   CHECK_EXIT_SUCCESS(testTransforms(logic, scene, balls));
   CHECK_EXIT_SUCCESS(testConstitutiveClasses(logic, scene, balls));
