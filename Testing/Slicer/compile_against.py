@@ -78,7 +78,6 @@ def write_stand_ins(folder, sources):
 
 
 def include_options(build, sources, includes, stand_ins):
-    # Not Libs/CommandLine, which the host's libraries don't use: a header there has the name of one of the host's.
     parts = ["Libs/Foundation", "Libs/TissueMap", "Libs/LabelledComplex", "Libs/SlicerSupport", "Testing", *MODULES]
     own = [f for part in parts for f in folders_with(HEADER, os.path.join(ROOT, part))]
     system = [*folders_with(re.compile(r"^ui_.*\.h$"), build), stand_ins]
@@ -87,7 +86,9 @@ def include_options(build, sources, includes, stand_ins):
         system.append(folder)
         if os.path.isdir(os.path.join(folder, "QtCore")):
             system += [os.path.join(folder, module) for module in os.listdir(folder)]
-    return [f"-I{f}" for f in own] + [f"-isystem{f}" for f in system]
+    # Last, as a header there has the name of one of the host's.
+    last = os.path.join(ROOT, "Libs", "CommandLine")
+    return [f"-I{f}" for f in own] + [f"-isystem{f}" for f in system] + [f"-idirafter{last}"]
 
 
 def compiled(path, options):
