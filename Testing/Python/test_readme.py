@@ -9,7 +9,8 @@ import xml.etree.ElementTree as xml
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MODULES = ("SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer")
 PAGES = (["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{module}.md" for module in MODULES]
-         + ["Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/Multirate.md", "Docs/Fitness.md", "Docs/Solvers.md"])
+         + ["Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/Multirate.md", "Docs/Fitness.md", "Docs/Solvers.md",
+            "Docs/Slicer.md", "Docs/Tutorial.md"])
 
 
 def text_of(*path):

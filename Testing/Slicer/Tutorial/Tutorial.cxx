@@ -277,7 +277,7 @@ private:
     waitFor(1);
     require(QFileInfo::exists(file), "an exported mesh, found: " +
                                        findChild<QLabel>(m_MeshPanel, "MeshInfoLabel")->text().toStdString());
-    showLayout(vtkMRMLLayoutNode::SlicerLayoutOneUp3DView);
+    showLayout(vtkMRMLLayoutNode::SlicerLayoutConventionalWidescreenView);
     lookAt(SELLA, { -0.4, -0.9, -0.2 }, 70);
     take("tutorial-10-export");
   }
