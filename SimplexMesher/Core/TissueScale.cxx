@@ -238,8 +238,11 @@ ScaleField followFlatTissues(const ScaleField& scale, const TissueMap& map, cons
         }
   TissueSettings flat;
   for (const auto& [label, t] : thickness)
-    if (const auto& [sum, number] = lengths.at(label); t < flattest * sum / double(number))
-      flat[label].maximumEdgeLength = t / flatness;
+  {
+    const auto& [sum, number] = lengths.at(label);
+    const double length = sum / double(number), extent = std::cbrt(double(number) * h.x * h.y * h.z);
+    if (t < flattest * length && extent > 0.9 * length) flat[label].maximumEdgeLength = t / flatness;
+  }
   return followTissues(scale, map, flat, 0);
 }
 

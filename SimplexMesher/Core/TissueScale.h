@@ -38,8 +38,9 @@ ScaleField followThickness(const ScaleField& scale, const TissueMap& map, const 
 /// again as a smooth boundary.
 std::map<Label, double> meanThickness(const TissueMap& map);
 
-/// The scale that tissues flatter than near-regular tetrahedra can be (`thickness`, as of meanThickness, under 0.32 times
-/// their mean L) need to keep their volume: at most twice the thickness within them. `scale` itself if there are none.
+/// The scale that tissues flatter than near-regular tetrahedra can be need to keep their volume: at most twice their
+/// thickness (as of meanThickness) within those that are thinner than 0.32 times their mean L, and whose volume's cube
+/// root is yet above 0.9 times it: what is small all round is no sheet. `scale` itself if there are none.
 ScaleField followFlatTissues(const ScaleField& scale, const TissueMap& map, const std::map<Label, double>& thickness);
 
 } // namespace surgicalmesher

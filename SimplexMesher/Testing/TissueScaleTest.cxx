@@ -171,6 +171,26 @@ TEST(TissueScale, ThinTissueBringsItsThickness)
   }
 }
 
+TEST(TissueScale, FlatTissueGetsEdgesOfTwiceItsThickness)
+{
+  const TissueMap map = sheetOf(2);
+  const auto thickness = meanThickness(map);
+  EXPECT_NEAR(thickness.at(1), 2, 1.0) << "the staircase allowance is half the thickness of an even sheet";
+  EXPECT_GT(thickness.at(2), 5);
+  const ScaleField coarse = uniformScale(9), fine = uniformScale(4);
+  const ScaleField limited = followFlatTissues(coarse, map, thickness);
+  visitPlaces(map,
+              [&](Label label, const Vec3& p)
+              {
+                if (label != 1) return;
+                EXPECT_LE(limited(p), 2 * thickness.at(1) + 1e-4);
+              });
+  EXPECT_FLOAT_EQ(limited({ 15, 15, 22 }), 9) << "thick tissue";
+  EXPECT_EQ(followFlatTissues(fine, map, thickness).lengths, fine.lengths) << "not flat for its edges";
+  const ScaleField huge = uniformScale(40);
+  EXPECT_EQ(followFlatTissues(huge, map, thickness).lengths, huge.lengths) << "small all round for its edges";
+}
+
 TEST(TissueScale, VolumeOfAUniformScaleCoversTheMap)
 {
   for (const int size : { 1, 2, 5, 8 })

@@ -555,6 +555,32 @@ TEST(Move, MayComeCloserFromBeyondTheTolerance)
   EXPECT_TRUE(operations.move(v, { 0, 0, 0.3 }, anyQuality));
 }
 
+TEST(Move, TakenBackLeavesPlaceAndDistancesAsTheyWere)
+{
+  TetComplex complex = octahedron({ 1, 1, 0, 0 }, 0.5f);
+  GuardedOperations operations(complex, unitScale, anyDistance);
+  ASSERT_TRUE(operations.split(0, 1, 0, {}, anyQuality));
+  const std::int32_t v = operations.lastSplitVertex;
+  ASSERT_TRUE(operations.move(v, { 0, 0, 0.1 }, anyQuality));
+  const auto before = evidencePlaces(complex);
+  const long moves = operations.counts.moves;
+  ASSERT_TRUE(operations.move(v, { 0.2, 0, 0.2 }, anyQuality));
+  ASSERT_TRUE(operations.move(v, { 0.2, 0.1, 0.3 }, anyQuality));
+  for (Evidence& e : complex.evidence) e.tolerance = 0.001f; // nothing is asked of the way back
+  operations.moveBack(v, { 0.2, 0, 0.2 });
+  operations.moveBack(v, { 0, 0, 0.1 });
+  EXPECT_TRUE(complex.points[v] == (Vec3{ 0, 0, 0.1 }));
+  EXPECT_EQ(operations.counts.moves, moves);
+  ASSERT_TRUE(isConsistent(complex));
+  const auto after = evidencePlaces(complex);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t e = 0; e < before.size(); ++e)
+  {
+    EXPECT_EQ(after[e].pair, before[e].pair);
+    EXPECT_LE(after[e].distance, before[e].distance * (1 + 1e-9));
+  }
+}
+
 TEST(LockedVertices, NeverMoveOrGo)
 {
   TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 3, 3, 3 }, [](int i, int, int) { return i < 2; })));

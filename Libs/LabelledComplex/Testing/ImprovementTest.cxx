@@ -105,6 +105,25 @@ TEST(Improvement, KeepsEveryPromiseAndRaisesTheWorstAngle)
   expectPromisesKept(1, true, [](GuardedOperations& operations) { improveBlock(operations); });
 }
 
+TEST(Improvement, MovingTogetherKeepsEveryPromiseAndGetsFarther)
+{
+  const auto sumOfWorst = [](int together)
+  {
+    double sum = 0;
+    expectPromisesKept(1, true,
+                       [&](GuardedOperations& operations)
+                       {
+                         ImprovementOptions options;
+                         options.split = false;
+                         options.together = together;
+                         improveBlock(operations, options);
+                         sum += worstOf(operations, operations.complex());
+                       });
+    return sum;
+  };
+  EXPECT_GT(sumOfWorst(20), sumOfWorst(0));
+}
+
 TEST(Improvement, WithoutSplitsAddsNoVertex)
 {
   ImprovementOptions options;
