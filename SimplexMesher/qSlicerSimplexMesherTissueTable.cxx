@@ -329,6 +329,7 @@ private:
     auto* box = new QComboBox(parent);
     box->setEditable(true);
     box->setInsertPolicy(QComboBox::NoInsert);
+    box->setMinimumWidth(box->fontMetrics().averageCharWidth() * 24); // cells may be narrower than names of groups
     for (const TissueRole role : { TissueRole::Mesh, TissueRole::Shell, TissueRole::Leave })
       box->addItem(roleName(role));
     QSet<QString> groups;
@@ -357,13 +358,29 @@ private:
   const TissueModel* Model;
 };
 
-/// A click into a cell that can be edited leaves the selection as it is.
+/// A click into a cell that can be edited leaves the selection as it is. Names have the room that the other columns
+/// leave, but never too little to be read.
 class TissueView : public QTableView
 {
 public:
   using QTableView::QTableView;
 
+  void fitNames()
+  {
+    int others = 0;
+    for (int column = Table::NameColumn + 1; column < Table::ColumnCount; ++column)
+      others += this->isColumnHidden(column) ? 0 : this->columnWidth(column);
+    const int legible = this->fontMetrics().averageCharWidth() * 20;
+    this->setColumnWidth(Table::NameColumn, qMax(legible, this->viewport()->width() - others));
+  }
+
 protected:
+  void resizeEvent(QResizeEvent* event) override
+  {
+    QTableView::resizeEvent(event);
+    this->fitNames();
+  }
+
   QItemSelectionModel::SelectionFlags selectionCommand(const QModelIndex& index, const QEvent* event) const override
   {
     const bool isRelease = event && event->type() == QEvent::MouseButtonRelease;
@@ -415,7 +432,12 @@ void qSlicerSimplexMesherTissueTablePrivate::makeView(QWidget* parent)
   this->View->setMinimumHeight(160);
   QHeaderView* header = this->View->horizontalHeader();
   header->setSectionResizeMode(QHeaderView::ResizeToContents);
-  header->setSectionResizeMode(Table::NameColumn, QHeaderView::Stretch);
+  header->setSectionResizeMode(Table::NameColumn, QHeaderView::Interactive);
+  QObject::connect(header, &QHeaderView::sectionResized, this->View,
+                   [view = this->View](int column)
+                   {
+                     if (column != Table::NameColumn) view->fitNames();
+                   });
   header->setHighlightSections(false);
   this->View->hideColumn(Table::LabelColumn);
   this->View->hideColumn(Table::IslandsColumn);
