@@ -1,6 +1,5 @@
 #include "vtkSlicerFuchsTetrahedralizerLogic.h"
 
-#include "ConstitutiveTags.h"
 #include "Errors.h"
 #include "Export.h"
 #include "HostDifferences.h"
@@ -10,11 +9,12 @@
 #include "MeshReport.h"
 #include "ModelMesh.h"
 #include "OutputFiles.h"
+#include "RunCheck.h"
+#include "RunInputs.h"
 #include "ShellChoices.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 #include "vtkSurgicalMesherRun.h"
 
-#include <vtkMRMLMarkupsNode.h>
 #include <vtkMRMLModelDisplayNode.h>
 #include <vtkMRMLModelNode.h>
 #include <vtkMRMLPlotChartNode.h>
@@ -29,7 +29,6 @@
 #include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtksys/SystemTools.hxx>
@@ -47,62 +46,6 @@ using Check = vtkSlicerFuchsTetrahedralizerLogic::Check;
 namespace
 {
 
-constexpr const char* kOutputRoles[] = { "mesh", "parentMesh", "childMesh", "shells" }; // also the CLI's parameters
-
-std::vector<vtkMRMLModelNode*> surfacesOf(Parameters* parameters)
-{
-  std::vector<vtkMRMLModelNode*> surfaces;
-  for (vtkMRMLNode* node : parameters->GetNodes(Parameters::SurfaceRole()))
-  {
-    if (auto* model = vtkMRMLModelNode::SafeDownCast(node)) surfaces.push_back(model);
-  }
-  return surfaces;
-}
-
-vtkMRMLModelNode* ambientOf(const std::vector<vtkMRMLModelNode*>& surfaces)
-{
-  if (surfaces.size() != 1 || !isLabelledSurface(surfaces.front())) return nullptr;
-  auto* ambient =
-    vtkMRMLModelNode::SafeDownCast(surfaces.front()->GetNodeReference(Parameters::AmbientTetrahedraRole()));
-  return ambient && ambient->GetUnstructuredGrid() ? ambient : nullptr;
-}
-
-vtkMRMLScalarVolumeNode* scaleOf(Parameters* parameters)
-{
-  return vtkMRMLScalarVolumeNode::SafeDownCast(parameters->GetNodeReference(Parameters::ScaleRole()));
-}
-
-ConstitutiveRule ruleOf(Parameters* parameters)
-{
-  ConstitutiveRule rule;
-  for (vtkMRMLNode* node : parameters->GetNodes(Parameters::TargetRole()))
-  {
-    const std::vector<Vec3> points = markupsPoints(vtkMRMLMarkupsNode::SafeDownCast(node));
-    rule.targets.insert(rule.targets.end(), points.begin(), points.end());
-  }
-  for (vtkMRMLNode* node : parameters->GetNodes(Parameters::PathRole()))
-    rule.paths.push_back(markupsPath(vtkMRMLMarkupsNode::SafeDownCast(node)));
-  rule.nonlinearDistance = parameters->GetNonlinearDistance();
-  rule.nullTargetRadius = parameters->GetNullDisplacementRadius();
-  rule.nullPathDistance = parameters->GetNullDisplacementPathDistance();
-  rule.nullPathDistanceAtTarget = parameters->GetNullDisplacementPathDistanceAtTarget();
-  return rule;
-}
-
-std::vector<std::string> shellTextsOf(Parameters* parameters)
-{
-  const std::string& text = parameters->GetShellTissues();
-  if (text.find_first_not_of(" \t") == text.npos) return {};
-  return { text };
-}
-
-std::set<Label> labelsOf(const TissueTable& tissues)
-{
-  std::set<Label> labels;
-  for (const auto& [label, tissue] : tissues) labels.insert(label);
-  return labels;
-}
-
 FiniteElementOptions optionsOf(Parameters* parameters, const TissueTable& tissues, const std::set<Label>& present)
 {
   FiniteElementOptions options;
@@ -110,101 +53,6 @@ FiniteElementOptions optionsOf(Parameters* parameters, const TissueTable& tissue
     options.materials = readMaterialTable(parameters->GetMaterialsFile(), tissues, present);
   options.shells = shellChoices(shellTextsOf(parameters), tissues, present, parameters->GetShellThickness());
   return options;
-}
-
-// ---- what keeps a run from starting ---------------------------------------------------------------------------------
-
-Check checkSurfaces(const std::vector<vtkMRMLModelNode*>& surfaces)
-{
-  if (surfaces.empty()) return { Problem::NoSurface, nullptr, {} };
-  for (vtkMRMLModelNode* surface : surfaces)
-  {
-    vtkPolyData* triangles = surface->GetPolyData();
-    if (!triangles || triangles->GetNumberOfPolys() + triangles->GetNumberOfStrips() == 0)
-      return { Problem::NotASurface, surface, {} };
-    if (surfaces.size() > 1 && isLabelledSurface(surface)) return { Problem::LabelledAmongOthers, surface, {} };
-  }
-  return {};
-}
-
-bool hasTargetLengths(const std::vector<vtkMRMLModelNode*>& surfaces)
-{
-  return surfaces.size() == 1 && surfaces.front()->GetPolyData() &&
-         surfaces.front()->GetPolyData()->GetPointData()->GetArray("TargetEdgeLength");
-}
-
-Check checkLengths(Parameters* parameters, const std::vector<vtkMRMLModelNode*>& surfaces)
-{
-  vtkMRMLScalarVolumeNode* scale = scaleOf(parameters);
-  switch (parameters->GetEdgeLengthSource())
-  {
-  case Parameters::FromSurface:
-    return { hasTargetLengths(surfaces) ? Problem::None : Problem::NoTargetLengths, nullptr, {} };
-  case Parameters::FromScale:
-    if (!scale || !scale->GetImageData()) return { Problem::NoScale, scale, {} };
-    if (scale->GetParentTransformNode() && !scale->GetParentTransformNode()->IsTransformToWorldLinear())
-      return { Problem::ScaleWarped, scale, {} };
-    return {};
-  default: return { parameters->GetEdgeLength() > 0 ? Problem::None : Problem::NoEdgeLength, nullptr, {} };
-  }
-}
-
-Check checkOutputs(Parameters* parameters)
-{
-  std::set<vtkMRMLNode*> taken;
-  for (vtkMRMLModelNode* surface : surfacesOf(parameters)) taken.insert(surface);
-  if (vtkMRMLModelNode* ambient = ambientOf(surfacesOf(parameters))) taken.insert(ambient);
-  for (const char* role : kOutputRoles)
-  {
-    vtkMRMLModelNode* output = parameters->GetModelNode(role);
-    if (output && !taken.insert(output).second) return { Problem::OutputIsInput, output, {} };
-  }
-  return {};
-}
-
-Check checkConstitutiveClasses(Parameters* parameters)
-{
-  for (vtkMRMLNode* node : parameters->GetNodes(Parameters::PathRole()))
-  {
-    if (markupsPath(vtkMRMLMarkupsNode::SafeDownCast(node)).empty()) return { Problem::NotAPath, node, {} };
-  }
-  const ConstitutiveRule rule = ruleOf(parameters);
-  const bool hasPlace = !rule.targets.empty() || !rule.paths.empty();
-  const bool hasDistance = rule.nonlinearDistance > 0 || rule.nullTargetRadius > 0 || rule.nullPathDistance > 0;
-  if (rule.nonlinearDistance > 0 && !hasPlace) return { Problem::NoPlaces, nullptr, {} };
-  if (rule.nullTargetRadius > 0 && rule.targets.empty()) return { Problem::NoTargets, nullptr, {} };
-  if (rule.nullPathDistance > 0 && rule.paths.empty()) return { Problem::NoPaths, nullptr, {} };
-  if (rule.nullPathDistanceAtTarget > 0 && rule.nullPathDistance == 0) return { Problem::NoEntryDistance, nullptr, {} };
-  if (hasPlace && !hasDistance) return { Problem::NoDistance, nullptr, {} };
-  return {};
-}
-
-/// Only a labelled surface tells its tissues before it is meshed.
-Check checkFiniteElements(Parameters* parameters, const std::vector<vtkMRMLModelNode*>& surfaces)
-{
-  if (!isLabelledSurface(surfaces.front())) return {};
-  const TissueTable tissues = tissuesOfSurface(surfaces.front());
-  std::vector<ShellChoice> shells;
-  try
-  {
-    shells = shellChoices(shellTextsOf(parameters), tissues, labelsOf(tissues), parameters->GetShellThickness());
-  }
-  catch (const Error&)
-  {
-    return { Problem::UnknownShell, nullptr, parameters->GetShellTissues() };
-  }
-  vtkMRMLModelNode* output = parameters->GetModelNode(Parameters::ShellsRole());
-  if (output && shells.empty()) return { Problem::ShellsUnused, output, {} };
-  if (parameters->GetMaterialsFile().empty()) return {};
-  try
-  {
-    readMaterialTable(parameters->GetMaterialsFile(), tissues, labelsOf(tissues));
-  }
-  catch (const Error& error)
-  {
-    return { Problem::BadMaterials, nullptr, error.what() };
-  }
-  return {};
 }
 
 // ---- nodes for a run ------------------------------------------------------------------------------------------------
@@ -324,20 +172,9 @@ vtkMRMLFuchsTetrahedralizerNode* vtkSlicerFuchsTetrahedralizerLogic::ParameterNo
 
 Check vtkSlicerFuchsTetrahedralizerLogic::FindProblem(vtkMRMLFuchsTetrahedralizerNode* parameters)
 {
-  const std::vector<vtkMRMLModelNode*> surfaces = surfacesOf(parameters);
-  Check check = checkSurfaces(surfaces);
-  if (check.problem == Problem::None) check = checkLengths(parameters, surfaces);
-  if (check.problem == Problem::None && parameters->GetUseAmbient())
-  {
-    vtkMRMLModelNode* ambient = ambientOf(surfaces);
-    if (ambient && !(*this->LastAmbientCheck)(surfaces.front(), ambient))
-      check = { Problem::AmbientChanged, surfaces.front(), {} };
-  }
-  if (check.problem == Problem::None) check = checkOutputs(parameters);
-  if (check.problem == Problem::None) check = checkConstitutiveClasses(parameters);
-  if (check.problem == Problem::None) check = checkFiniteElements(parameters, surfaces);
+  const Check check = findProblem(parameters, *this->LastAmbientCheck);
   if (check.problem == Problem::None && !this->GetModuleLogic("FuchsTetrahedralizerCLI"))
-    check = { Problem::NoModule, nullptr, {} };
+    return { Problem::NoModule, nullptr, {} };
   return check;
 }
 
@@ -444,7 +281,7 @@ void vtkSlicerFuchsTetrahedralizerLogic::PrepareConstitutiveClasses(vtkMRMLFuchs
 void vtkSlicerFuchsTetrahedralizerLogic::PrepareOutputs(vtkMRMLFuchsTetrahedralizerNode* parameters)
 {
   this->Results.clear();
-  for (const std::string role : kOutputRoles)
+  for (const std::string role : outputRoles)
   {
     if (role != Parameters::MeshRole() && !parameters->GetModelNode(role.c_str())) continue;
     const auto result = vtkSmartPointer<vtkMRMLModelNode>::New();
