@@ -32,7 +32,7 @@ namespace
 std::vector<std::string> commandLine()
 {
   return { "SlicerApp-real", // the name that the host's settings of libraries and plugins go by
-           "--testing", // settings of its own, thrown away
+           "--testing",      // settings of its own, thrown away
            "--no-main-window",
            "--no-splash",
            "--additional-module-paths",
@@ -58,9 +58,8 @@ qSlicerAbstractCoreModule* moduleNamed(const qSlicerApplication& application, co
 } // namespace
 
 HostApplication::HostApplication()
-  : m_Arguments(commandLine())
-  , m_ArgumentPointers(pointersTo(m_Arguments))
-  , m_ArgumentCount(static_cast<int>(m_Arguments.size()))
+  : m_Arguments(commandLine()), m_ArgumentPointers(pointersTo(m_Arguments)),
+    m_ArgumentCount(static_cast<int>(m_Arguments.size()))
 {
   qSlicerApplicationHelper::preInitializeApplication(m_ArgumentPointers.front(), new qSlicerStyle);
   m_Application = std::make_unique<qSlicerApplication>(m_ArgumentCount, m_ArgumentPointers.data());
@@ -96,15 +95,9 @@ void HostApplication::loadModules()
   qSlicerApplicationHelper::postInitializeApplication<qSlicerMainWindow>(*m_Application, noSplash, noWindow);
 }
 
-vtkMRMLScene* HostApplication::scene() const
-{
-  return m_Application->mrmlScene();
-}
+vtkMRMLScene* HostApplication::scene() const { return m_Application->mrmlScene(); }
 
-qSlicerLayoutManager* HostApplication::layoutManager() const
-{
-  return m_Application->layoutManager();
-}
+qSlicerLayoutManager* HostApplication::layoutManager() const { return m_Application->layoutManager(); }
 
 qSlicerAbstractModuleWidget* HostApplication::enterPanel(const QString& moduleName)
 {
@@ -134,15 +127,9 @@ bool HostApplication::waitUntil(const std::function<bool()>& condition, double s
   return test::waitUntil(condition, seconds);
 }
 
-void HostApplication::waitFor(double seconds)
-{
-  test::waitFor(seconds);
-}
+void HostApplication::waitFor(double seconds) { test::waitFor(seconds); }
 
-std::string HostApplication::complaints()
-{
-  return m_Log.complaints();
-}
+std::string HostApplication::complaints() { return m_Log.complaints(); }
 
 void throwMissingChild(QObject* parent, const char* name)
 {

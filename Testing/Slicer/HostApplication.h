@@ -80,7 +80,7 @@ private:
   HostLog m_Log;
 };
 
-/// The child of this type and object name, which is its name in the .ui file. Throws std::runtime_error if there is none.
+/// The child of this type and object name, as in the .ui file. Throws std::runtime_error if there is none.
 template <typename Widget>
 Widget* findChild(QObject* parent, const char* name);
 

@@ -9,8 +9,8 @@ namespace surgicalmesher::test
 class HostLog
 {
 public:
-  /// The warnings and errors in the host's log since the last call, one per line; empty if there are none. Of those from
-  /// before the first call, which the host's start may bring, only the ones that name a module or class of ours.
+  /// The warnings and errors in the host's log since the last call, one per line; empty if there are none. Of those
+  /// from before the first call, which the host's start may bring, only the ones that name a module or class of ours.
   std::string complaints();
 
 private:

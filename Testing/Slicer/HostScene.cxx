@@ -11,8 +11,8 @@
 #include <vtkMRMLLabelMapVolumeNode.h>
 #include <vtkMRMLLinearTransformNode.h>
 #include <vtkMRMLMarkupsNode.h>
-#include <vtkMRMLScene.h>
 #include <vtkMRMLScalarVolumeNode.h>
+#include <vtkMRMLScene.h>
 #include <vtkMRMLSegmentationNode.h>
 #include <vtkSlicerApplicationLogic.h>
 #include <vtkSlicerSegmentationsModuleLogic.h>
@@ -59,10 +59,7 @@ vtkMRMLVolumeNode* loadAnyVolume(vtkMRMLScene* scene, const std::string& fileNam
                                                  : nullptr;
 }
 
-std::string ifExists(const QString& file)
-{
-  return QFileInfo::exists(file) ? file.toStdString() : std::string();
-}
+std::string ifExists(const QString& file) { return QFileInfo::exists(file) ? file.toStdString() : std::string(); }
 
 std::string described(vtkMRMLNode* node)
 {
@@ -86,8 +83,7 @@ vtkMRMLLabelMapVolumeNode* addLabelMap(vtkMRMLScene* scene, const char* name, in
     {
       for (int i = 0; i < voxelsPerSide; ++i)
       {
-        *voxel++ =
-          static_cast<short>(labelAt({ first + i * spacing, first + j * spacing, first + k * spacing }));
+        *voxel++ = static_cast<short>(labelAt({ first + i * spacing, first + j * spacing, first + k * spacing }));
       }
     }
   }
@@ -121,8 +117,7 @@ vtkMRMLSegmentationNode* addSegmentation(vtkMRMLScene* scene, vtkMRMLLabelMapVol
 
 vtkMRMLSegmentationNode* addEmptySegmentation(vtkMRMLScene* scene, const char* name)
 {
-  auto* segmentation =
-    vtkMRMLSegmentationNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLSegmentationNode", name));
+  auto* segmentation = vtkMRMLSegmentationNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLSegmentationNode", name));
   segmentation->CreateDefaultDisplayNodes();
   return segmentation;
 }
@@ -138,21 +133,17 @@ vtkMRMLScalarVolumeNode* loadVolume(vtkMRMLScene* scene, const std::string& file
   return vtkMRMLScalarVolumeNode::SafeDownCast(loadAnyVolume(scene, fileName, 0));
 }
 
-std::string jhuAtlasFile()
-{
-  return ifExists("/usr/share/mricron/templates/jhu189.nii.gz");
-}
+std::string jhuAtlasFile() { return ifExists("/usr/share/mricron/templates/jhu189.nii.gz"); }
 
-std::string brainImageFile()
-{
-  return ifExists("/usr/share/mricron/templates/ch2better.nii.gz");
-}
+std::string brainImageFile() { return ifExists("/usr/share/mricron/templates/ch2better.nii.gz"); }
 
 vtkMRMLLabelMapVolumeNode* loadJhuAtlas(vtkMRMLScene* scene)
 {
   vtkMRMLLabelMapVolumeNode* atlas = loadLabelMap(scene, jhuAtlasFile());
   if (!atlas) return nullptr;
-  const double sform[16] = { -1, 0, 0, 78, 0, 1, 0, -112, 0, 0, 1, -50, 0, 0, 0, 1 }; // the file's qform is the identity
+  const double sform[16] = {
+    -1, 0, 0, 78, 0, 1, 0, -112, 0, 0, 1, -50, 0, 0, 0, 1
+  }; // the file's qform is the identity
   vtkNew<vtkMatrix4x4> voxelsToWorld;
   voxelsToWorld->DeepCopy(sform);
   atlas->SetIJKToRASMatrix(voxelsToWorld);

@@ -26,8 +26,8 @@ using Point = std::array<double, 3>;
 vtkMRMLLabelMapVolumeNode* addLabelMap(vtkMRMLScene* scene, const char* name, int voxelsPerSide, double spacing,
                                        const std::function<int(const Point&)>& labelAt);
 
-/// A ball of label 1 (radius 6 mm) within a shell of label 2 (radius 10 mm), in voxels of 1 mm: meshed in about a second
-/// at lengths of 3 mm. Named and coloured by a colour table node: 1 tumour, red; 2 brain, grey.
+/// A ball of label 1 (radius 6 mm) within a shell of label 2 (radius 10 mm), in voxels of 1 mm: meshed in about a
+/// second at lengths of 3 mm. Named and coloured by a colour table node: 1 tumour, red; 2 brain, grey.
 vtkMRMLLabelMapVolumeNode* addNestedBalls(vtkMRMLScene* scene, const char* name = "NestedBalls");
 
 /// The label map's tissues as segments, with its names, colours and geometry. The label map stays.
@@ -43,8 +43,8 @@ vtkMRMLLabelMapVolumeNode* loadLabelMap(vtkMRMLScene* scene, const std::string& 
 /// An image of a file, in the same way.
 vtkMRMLScalarVolumeNode* loadVolume(vtkMRMLScene* scene, const std::string& fileName);
 
-/// The JHU atlas of 189 brain tissues, and a T1 image in its space, where Debian's mricron-data has put them; empty if it
-/// is not installed.
+/// The JHU atlas of 189 brain tissues, and a T1 image in its space, where Debian's mricron-data has put them; empty if
+/// it is not installed.
 std::string jhuAtlasFile();
 std::string brainImageFile();
 

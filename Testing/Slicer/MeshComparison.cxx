@@ -32,10 +32,7 @@ namespace surgicalmesher::test
 namespace
 {
 
-std::string number(vtkIdType n)
-{
-  return std::to_string(n);
-}
+std::string number(vtkIdType n) { return std::to_string(n); }
 
 std::string pointDifference(vtkPointSet* a, vtkPointSet* b)
 {

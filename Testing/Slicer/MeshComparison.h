@@ -20,8 +20,8 @@ std::string differenceOf(const std::string& file, vtkMRMLModelNode* model);
 /// Whether both files can be read and have the same bytes.
 bool sameBytes(const std::string& fileA, const std::string& fileB);
 
-/// Runs one of our executables from the build tree, such as "SimplexMesherCLI", to its end. Throws std::runtime_error with
-/// what it says on stderr unless it exits with 0.
+/// Runs one of our executables from the build tree, such as "SimplexMesherCLI", to its end. Throws std::runtime_error
+/// with what it says on stderr unless it exits with 0.
 void runCommandLine(const std::string& executable, const std::vector<std::string>& arguments);
 
 /// A folder for a test's files, new and empty; the test leaves its contents there for a look after it failed.

@@ -9,11 +9,12 @@ usage: compile_against.py --build BUILD --sources FOLDER... --include FOLDER... 
 --define   a macro, such as CTK_USE_QVTKOPENGLWIDGET
 FILE       instead of all
 
-Headers that the other host's build would generate get stand-ins: *Export.h with every macro empty, other ones the text of
-their template. Nothing is linked or run. Exit status 1 if a file does not compile; warnings count.
+Headers that the other host's build would generate get stand-ins: *Export.h with every macro empty, other ones the text
+of their template. Nothing is linked or run. Exit status 1 if a file does not compile; warnings count.
 """
 import argparse
 import concurrent.futures
+import glob
 import os
 import re
 import subprocess
@@ -39,7 +40,7 @@ def own_sources():
     files = [os.path.join(folder, f) for part in parts
              for folder in folders_with(re.compile(r"\.cxx$"), os.path.join(ROOT, part))
              for f in os.listdir(folder) if f.endswith(".cxx")]
-    files += [os.path.join(ROOT, m, f) for m in MODULES for f in os.listdir(os.path.join(ROOT, m)) if f.endswith(".cxx")]
+    files += [path for m in MODULES for path in glob.glob(os.path.join(ROOT, m, "*.cxx"))]
     return sorted(set(files))
 
 

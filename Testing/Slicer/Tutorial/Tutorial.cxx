@@ -97,10 +97,7 @@ void collapse(qSlicerAbstractModuleWidget* panel, const char* section, bool coll
   waitFor(0.2);
 }
 
-void expand(qSlicerAbstractModuleWidget* panel, const char* section)
-{
-  collapse(panel, section, false);
-}
+void expand(qSlicerAbstractModuleWidget* panel, const char* section) { collapse(panel, section, false); }
 
 class Tutorial
 {
@@ -275,8 +272,8 @@ private:
     QTimer::singleShot(1500, qApp, answer);
     findChild<QPushButton>(m_MeshPanel, "ExportButton")->click();
     waitFor(1);
-    require(QFileInfo::exists(file), "an exported mesh, found: " +
-                                       findChild<QLabel>(m_MeshPanel, "MeshInfoLabel")->text().toStdString());
+    require(QFileInfo::exists(file),
+            "an exported mesh, found: " + findChild<QLabel>(m_MeshPanel, "MeshInfoLabel")->text().toStdString());
     showLayout(vtkMRMLLayoutNode::SlicerLayoutConventionalWidescreenView);
     lookAt(SELLA, { -0.4, -0.9, -0.2 }, 70);
     take("tutorial-10-export");

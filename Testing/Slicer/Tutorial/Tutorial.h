@@ -9,8 +9,8 @@ namespace surgicalmesher::test
 /// The host's exit status for a test that can't be made here, as CTest knows it.
 constexpr int SKIPPED = 77;
 
-/// From the atlas to files for a solver; a picture of the application into the folder at each step. Returns 0, or SKIPPED
-/// if the atlas is not installed. Throws std::runtime_error if a step does not do what the tutorial says.
+/// From the atlas to files for a solver; a picture of the application into the folder at each step. Returns 0, or
+/// SKIPPED if the atlas is not installed. Throws std::runtime_error if a step does not do what the tutorial says.
 int walkTutorial(const QString& pictureFolder);
 
 } // namespace surgicalmesher::test

@@ -39,15 +39,9 @@ namespace
 
 constexpr int WINDOW_WIDTH = 1440, WINDOW_HEIGHT = 900, PANEL_WIDTH = 500;
 
-qSlicerLayoutManager* layoutManager()
-{
-  return qSlicerApplication::application()->layoutManager();
-}
+qSlicerLayoutManager* layoutManager() { return qSlicerApplication::application()->layoutManager(); }
 
-QMainWindow* mainWindow()
-{
-  return qSlicerApplication::application()->mainWindow();
-}
+QMainWindow* mainWindow() { return qSlicerApplication::application()->mainWindow(); }
 
 /// The plot views' smoothing of edges blackens the axes where OpenGL is emulated, as on a virtual display.
 void keepAxesVisible()
@@ -159,8 +153,7 @@ void takePictureOf(QWidget* window, const QString& file)
 {
   waitFor(0.3);
   const QRect frame = window->frameGeometry();
-  const QPixmap picture =
-    window->screen()->grabWindow(0, frame.x(), frame.y(), frame.width(), frame.height());
+  const QPixmap picture = window->screen()->grabWindow(0, frame.x(), frame.y(), frame.width(), frame.height());
   constexpr int SMALLEST_FILE = 0;
   if (!picture.save(file, "PNG", SMALLEST_FILE)) throw std::runtime_error(file.toStdString() + ": can't be written");
 }

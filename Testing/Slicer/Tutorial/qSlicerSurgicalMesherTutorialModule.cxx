@@ -14,15 +14,9 @@ qSlicerSurgicalMesherTutorialModule::qSlicerSurgicalMesherTutorialModule(QObject
 {
 }
 
-QString qSlicerSurgicalMesherTutorialModule::title() const
-{
-  return tr("Surgical Mesher Tutorial");
-}
+QString qSlicerSurgicalMesherTutorialModule::title() const { return tr("Surgical Mesher Tutorial"); }
 
-bool qSlicerSurgicalMesherTutorialModule::isHidden() const
-{
-  return true;
-}
+bool qSlicerSurgicalMesherTutorialModule::isHidden() const { return true; }
 
 QStringList qSlicerSurgicalMesherTutorialModule::dependencies() const
 {
@@ -56,7 +50,4 @@ qSlicerAbstractModuleRepresentation* qSlicerSurgicalMesherTutorialModule::create
   return nullptr;
 }
 
-vtkMRMLAbstractLogic* qSlicerSurgicalMesherTutorialModule::createLogic()
-{
-  return nullptr;
-}
+vtkMRMLAbstractLogic* qSlicerSurgicalMesherTutorialModule::createLogic() { return nullptr; }
