@@ -1,6 +1,6 @@
 # The superbuild: fetches and builds what the project needs and Slicer doesn't bring (TetGen; CGAL, with Boost's
-# headers), then configures and builds the project itself in the subfolder inner-build. Asked for by SurgicalMesher_SUPERBUILD,
-# which Slicer's extension factory turns on. Archives are pinned by their SHA-256.
+# headers), then configures and builds the project itself in the subfolder inner-build. Asked for by
+# SurgicalMesher_SUPERBUILD, which Slicer's extension factory turns on. Archives are pinned by their SHA-256.
 #
 # To take an archive from somewhere else, set for example inner_TetGen_URL (a URL or a file) and inner_TetGen_SHA256.
 
