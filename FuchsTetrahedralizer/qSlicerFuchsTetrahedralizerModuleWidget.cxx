@@ -1,7 +1,7 @@
 #include "qSlicerFuchsTetrahedralizerModuleWidget.h"
 #include "ui_qSlicerFuchsTetrahedralizerModuleWidget.h"
 
-#include "PanelObstacle.h"
+#include "RunAdvice.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 #include "vtkSlicerFuchsTetrahedralizerLogic.h"
 #include "vtkSurgicalMesherRun.h"
@@ -39,43 +39,6 @@
 
 using Node = vtkMRMLFuchsTetrahedralizerNode;
 using Logic = vtkSlicerFuchsTetrahedralizerLogic;
-using Problem = Logic::Problem;
-
-namespace
-{
-
-/// What the panel says of a problem, and what its button does about it; without a text there is no button.
-struct Advice
-{
-  QString sentence;
-  QString fixText;
-  std::function<void(Node*)> fix;
-};
-
-std::function<void(Node*)> leaveOut(const char* role, vtkMRMLNode* node)
-{
-  vtkWeakPointer<vtkMRMLNode> unwanted = node;
-  return [role, unwanted](Node* parameters)
-  {
-    std::vector<vtkMRMLNode*> kept;
-    for (vtkMRMLNode* each : parameters->GetNodes(role))
-      if (each != unwanted) kept.push_back(each);
-    parameters->SetNodes(role, kept);
-  };
-}
-
-/// The first output that is this node.
-void forgetOutput(Node* parameters, vtkMRMLNode* node)
-{
-  for (const char* role : { Node::ShellsRole(), Node::ChildMeshRole(), Node::ParentMeshRole(), Node::MeshRole() })
-  {
-    if (!node || parameters->GetNodeReference(role) != node) continue;
-    parameters->SetNode(role, nullptr);
-    return;
-  }
-}
-
-} // namespace
 
 class qSlicerFuchsTetrahedralizerModuleWidgetPrivate : public Ui_qSlicerFuchsTetrahedralizerModuleWidget
 {
@@ -111,10 +74,6 @@ public:
   void updateMarkups();
   void updateMesh();
   void updateProblem();
-  Advice adviceFor(const Logic::Check& check) const;
-  Advice adviceOnInput(const Logic::Check& check) const;
-  Advice adviceOnClasses(const Logic::Check& check) const;
-  Advice adviceOnElements(const Logic::Check& check) const;
   QString summaryOfMesh() const;
   void say(const QString& sentence, bool isError = false);
 
@@ -400,130 +359,15 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateMesh()
   q->updateClipSlider();
 }
 
-Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceFor(const Logic::Check& check) const
-{
-  Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
-  switch (check.problem)
-  {
-  case Problem::NoModule: return { q->tr("The command-line module FuchsTetrahedralizerCLI is not installed."), {}, {} };
-  case Problem::NotAPath:
-  case Problem::NoTargets:
-  case Problem::NoPaths:
-  case Problem::NoPlaces:
-  case Problem::NoDistance:
-  case Problem::NoEntryDistance: return this->adviceOnClasses(check);
-  case Problem::OutputIsInput:
-  case Problem::UnknownShell:
-  case Problem::ShellsUnused:
-  case Problem::BadMaterials: return this->adviceOnElements(check);
-  default: return this->adviceOnInput(check);
-  }
-}
-
-Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceOnInput(const Logic::Check& check) const
-{
-  Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
-  const QString name = check.node ? QString::fromUtf8(check.node->GetName()) : QString();
-  vtkWeakPointer<vtkMRMLNode> node = check.node;
-  switch (check.problem)
-  {
-  case Problem::NoSurface:
-  {
-    const std::vector<vtkMRMLModelNode*> surfaces = this->logic()->LabelledSurfaces();
-    if (surfaces.empty())
-      return { q->tr("There is no surface: make one with Simplex Mesher, or load closed models."),
-               q->tr("Simplex Mesher"), [](Node*) { surgicalmesher::openModule("SimplexMesher"); } };
-    vtkWeakPointer<vtkMRMLNode> latest = surfaces.back();
-    return { q->tr("Choose a surface."), q->tr("Take %1").arg(QString::fromUtf8(latest->GetName())),
-             [latest](Node* p) { p->SetNode(Node::SurfaceRole(), latest); } };
-  }
-  case Problem::NotASurface:
-    return { q->tr("%1 has no triangles.").arg(name), q->tr("Leave it out"), leaveOut(Node::SurfaceRole(), node) };
-  case Problem::LabelledAmongOthers:
-    return { q->tr("%1 is a surface of several tissues, which can't be meshed along with other models.").arg(name),
-             q->tr("Take it alone"), [node](Node* p) { p->SetNode(Node::SurfaceRole(), node); } };
-  case Problem::NoTargetLengths:
-    return { q->tr("The surface has no edge lengths of its own."), q->tr("Take one length"),
-             [](Node* p) { p->SetEdgeLengthSource(Node::Uniform); } };
-  case Problem::NoScale:
-    return { q->tr("Choose a scale volume, as Surgical Path Scale makes it."), q->tr("Take one length"),
-             [](Node* p) { p->SetEdgeLengthSource(Node::Uniform); } };
-  case Problem::ScaleWarped:
-    return { q->tr("%1 is under a transform that isn't linear.").arg(name), q->tr("Harden the transform"),
-             [node](Node*)
-             {
-               if (auto* scale = vtkMRMLTransformableNode::SafeDownCast(node)) scale->HardenTransform();
-             } };
-  case Problem::NoEdgeLength:
-    return { q->tr("The edge length has to be over 0 mm."), q->tr("Take 2 mm"), [](Node* p) { p->SetEdgeLength(2); } };
-  case Problem::AmbientChanged:
-    return { q->tr("%1 was edited after Simplex Mesher had made it with its tetrahedra.").arg(name),
-             q->tr("Begin from the surface alone"), [](Node* p) { p->UseAmbientOff(); } };
-  default: return {};
-  }
-}
-
-Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceOnClasses(const Logic::Check& check) const
-{
-  Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
-  switch (check.problem)
-  {
-  case Problem::NotAPath:
-    return { q->tr("%1 has fewer than two points, so it is no path.").arg(QString::fromUtf8(check.node->GetName())),
-             q->tr("Leave it out"), leaveOut(Node::PathRole(), check.node) };
-  case Problem::NoTargets:
-    return { q->tr("Choose targets with points, as tissue is to be still beyond a distance from them."),
-             q->tr("No distance from targets"), [](Node* p) { p->SetNullDisplacementRadius(0); } };
-  case Problem::NoPaths:
-    return { q->tr("Choose paths, as tissue is to be still beyond a distance from them."),
-             q->tr("No distance from paths"), [](Node* p) { p->SetNullDisplacementPathDistance(0); } };
-  case Problem::NoPlaces:
-    return { q->tr("Choose targets or paths, as tissue is to be nonlinear up to a distance from them."),
-             q->tr("No such distance"), [](Node* p) { p->SetNonlinearDistance(0); } };
-  case Problem::NoDistance:
-    return { q->tr("Targets and paths need a distance that goes with them."), q->tr("Nonlinear up to 25 mm"),
-             [](Node* p) { p->SetNonlinearDistance(25); } };
-  case Problem::NoEntryDistance:
-    return { q->tr("There is a distance at the target end of paths, but none at their entry."),
-             q->tr("The same at the entry"),
-             [](Node* p) { p->SetNullDisplacementPathDistance(p->GetNullDisplacementPathDistanceAtTarget()); } };
-  default: return {};
-  }
-}
-
-Advice qSlicerFuchsTetrahedralizerModuleWidgetPrivate::adviceOnElements(const Logic::Check& check) const
-{
-  Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);
-  const QString name = check.node ? QString::fromUtf8(check.node->GetName()) : QString();
-  const QString text = QString::fromStdString(check.text);
-  vtkWeakPointer<vtkMRMLNode> node = check.node;
-  switch (check.problem)
-  {
-  case Problem::OutputIsInput:
-    return { q->tr("%1 is chosen twice; an output has to be a model of its own.").arg(name), q->tr("Don't write it"),
-             [node](Node* p) { forgetOutput(p, node); } };
-  case Problem::UnknownShell:
-    return { q->tr("\"%1\" are not tissues of the surface.").arg(text), q->tr("No shells"),
-             [](Node* p) { p->SetShellTissues(""); } };
-  case Problem::ShellsUnused:
-    return { q->tr("Name the tissues that become shells, as %1 is to take them.").arg(name), q->tr("No shells"),
-             [](Node* p) { p->SetNode(Node::ShellsRole(), nullptr); } };
-  case Problem::BadMaterials:
-    return { q->tr("The materials can't be used: %1").arg(text), q->tr("Without materials"),
-             [](Node* p) { p->SetMaterialsFile(""); } };
-  default: return {};
-  }
-}
-
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateProblem()
 {
   const Logic::Check check = this->logic()->FindProblem(this->Parameters);
-  if (check.problem == Problem::None)
+  if (check.problem == Logic::Problem::None)
   {
     this->RunWidget->clearProblem();
     return;
   }
-  const Advice advice = this->adviceFor(check);
+  const Advice advice = adviceOn(check, this->logic());
   this->RunWidget->setProblem(advice.sentence, advice.fixText,
                               [this, fix = advice.fix]
                               {
