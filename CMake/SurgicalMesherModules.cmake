@@ -62,7 +62,7 @@ function(surgicalmesher_add_module name)
   set(sources qSlicer${name}Module qSlicer${name}ModuleWidget ${ARG_SOURCES})
   surgicalmesher_source_files(files ${sources})
   set(headers ${files})
-  list(FILTER headers INCLUDE REGEX "\\.h$")
+  list(FILTER headers INCLUDE REGEX "^q.*\\.h$") # Qt classes, by their name
   slicerMacroBuildLoadableModule(
     NAME ${name}
     NO_TITLE
