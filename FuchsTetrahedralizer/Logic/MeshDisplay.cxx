@@ -43,7 +43,8 @@ namespace
 using Parameters = vtkMRMLFuchsTetrahedralizerNode;
 using Color = std::array<double, 3>;
 
-/// The mesh refers to it by a role of the scalars' name, so that it is found again whatever colours are shown meanwhile.
+/// The mesh refers to it by a role of the scalars' name, so that it is found again whatever colours are shown
+/// meanwhile.
 vtkMRMLColorTableNode* colorsFor(vtkMRMLModelNode* mesh, const char* scalars)
 {
   const std::string role = std::string("colors") + scalars;
@@ -149,7 +150,8 @@ void show(vtkMRMLModelNode* mesh, const char* scalars, vtkMRMLColorTableNode* co
   display->EndModify(wasModifying);
 }
 
-/// Beside the mesh: colours with their names, or a scale of numbers. Many names could not be read, so there are none then.
+/// Beside the mesh: colours with their names, or a scale of numbers. Many names could not be read, so there are none
+/// then.
 void showLegend(vtkMRMLModelNode* mesh, const std::string& title, bool byName)
 {
   constexpr int legible = 12;

@@ -8,9 +8,9 @@ class vtkMRMLSliceNode;
 namespace surgicalmesher
 {
 
-/// Colours by one of vtkMRMLFuchsTetrahedralizerNode::ColorByType, with a colour table that is the mesh's own. Angles and
-/// ratios become cell arrays of the mesh ("MinimumDihedralAngle", degrees; "RadiusRatio") when they are first asked for.
-/// False if the mesh lacks what the colours tell.
+/// Colours by one of vtkMRMLFuchsTetrahedralizerNode::ColorByType, with a colour table that is the mesh's own. Angles
+/// and ratios become cell arrays of the mesh ("MinimumDihedralAngle", degrees; "RadiusRatio") when they are first asked
+/// for. False if the mesh lacks what the colours tell.
 bool colorMesh(vtkMRMLModelNode* mesh, int colorBy);
 
 /// Keeps whole cells on one side of the plane of a slice view (vtkMRMLFuchsTetrahedralizerNode::ClipPlaneType): below,

@@ -84,16 +84,16 @@ public:
 
   // ---- runs ---------------------------------------------------------------------------------------------------------
 
-  /// Starts a run, unless there is a problem or a run is busy. Its results go to the chosen models when it has completed,
-  /// and only then; a model for the mesh is made if none is chosen. False if it could not be started:
+  /// Starts a run, unless there is a problem or a run is busy. Its results go to the chosen models when it has
+  /// completed, and only then; a model for the mesh is made if none is chosen. False if it could not be started:
   /// GetRun()->GetErrorText() has the reason.
   bool Start(vtkMRMLFuchsTetrahedralizerNode* parameters);
   /// The same, waiting for its end in this thread.
   bool StartAndWait(vtkMRMLFuchsTetrahedralizerNode* parameters);
 
   /// The one run of this logic: its status, its error, its end. By the time that others see its CompletedEvent, if they
-  /// observe it with the default priority, the results have been finished: coloured, cut open, measured. Where a surface
-  /// was refused for some of its triangles, a new model shows these.
+  /// observe it with the default priority, the results have been finished: coloured, cut open, measured. Where a
+  /// surface was refused for some of its triangles, a new model shows these.
   vtkSurgicalMesherRun* GetRun() const { return this->Run; }
 
   // ---- any tetrahedra -----------------------------------------------------------------------------------------------
@@ -128,9 +128,9 @@ public:
     std::string description;
   };
   static std::vector<Format> GetExportFormats();
-  /// Writes the parameter node's mesh, in world coordinates, with its materials and shells, in the format that the file's
-  /// ending says: the file that FuchsTetrahedralizerCLI --export writes. Empty, or a sentence on what went wrong; files
-  /// appear whole or not at all.
+  /// Writes the parameter node's mesh, in world coordinates, with its materials and shells, in the format that the
+  /// file's ending says: the file that FuchsTetrahedralizerCLI --export writes. Empty, or a sentence on what went
+  /// wrong; files appear whole or not at all.
   std::string Export(vtkMRMLFuchsTetrahedralizerNode* parameters, const std::string& file);
 
 protected:

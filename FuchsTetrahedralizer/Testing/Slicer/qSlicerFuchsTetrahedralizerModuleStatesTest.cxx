@@ -50,8 +50,8 @@ struct Panel
   }
 };
 
-/// What the host and the runs of this process left in the folder for temporary files, which other processes use too. The
-/// host writes its process number in letters.
+/// What the host and the runs of this process left in the folder for temporary files, which other processes use too.
+/// The host writes its process number in letters.
 std::string filesOfRuns()
 {
   std::string number = std::to_string(QCoreApplication::applicationPid()), letters;
