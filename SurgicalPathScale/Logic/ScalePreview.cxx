@@ -22,6 +22,7 @@
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
@@ -170,10 +171,12 @@ void setScaleColors(vtkMRMLScalarVolumeNode* node, double shortest, double longe
   display->SetWindowLevelMinMax(lower, longest);
   display->SetInterpolate(true);
   display->EndModify(wasModifying);
+  if (!node->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // the host's module is missing
   vtkMRMLColorLegendDisplayNode* legend = vtkSlicerColorLogic::AddDefaultColorLegendDisplayNode(display);
-  if (!legend) return;
   legend->SetTitleText(vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "Edge length (mm)"));
   legend->SetLabelFormat("%.1f");
+  legend->GetLabelTextProperty()->SetFontFamilyToArial();
+  legend->SetSize(0.08, 0.4);
   legend->SetHideFromEditors(node->GetHideFromEditors());
   legend->SetSaveWithScene(node->GetSaveWithScene());
 }
