@@ -23,6 +23,7 @@
 #include <QWidget>
 
 #include <stdexcept>
+#include <utility>
 
 namespace surgicalmesher::test
 {
@@ -67,6 +68,7 @@ HostApplication::HostApplication()
   m_Application->applicationLogic()->SetTemporaryPath(m_TemporaryFolder.path().toUtf8());
   makeViews();
   loadModules();
+  m_Complaints = m_Log.complaints();
 }
 
 HostApplication::~HostApplication()
@@ -129,7 +131,7 @@ bool HostApplication::waitUntil(const std::function<bool()>& condition, double s
 
 void HostApplication::waitFor(double seconds) { test::waitFor(seconds); }
 
-std::string HostApplication::complaints() { return m_Log.complaints(); }
+std::string HostApplication::complaints() { return std::exchange(m_Complaints, {}) + m_Log.complaints(); }
 
 void throwMissingChild(QObject* parent, const char* name)
 {

@@ -63,7 +63,8 @@ public:
   /// Handles events for so many seconds, for instance to let a debounced preview settle.
   void waitFor(double seconds);
 
-  /// As HostLog tells them.
+  /// The warnings and errors in the host's log since the last call, one per line; empty if there are none. Of those from
+  /// the host's start, only the ones that name a module or class of ours.
   std::string complaints();
 
 private:
@@ -78,6 +79,7 @@ private:
   std::unique_ptr<QWidget> m_Viewport;
   qSlicerAbstractModuleWidget* m_Panel = nullptr;
   HostLog m_Log;
+  std::string m_Complaints; ///< of the start
 };
 
 /// The child of this type and object name, as in the .ui file. Throws std::runtime_error if there is none.
