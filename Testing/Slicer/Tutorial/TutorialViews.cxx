@@ -37,7 +37,7 @@ namespace surgicalmesher::test
 namespace
 {
 
-constexpr int WINDOW_WIDTH = 1440, WINDOW_HEIGHT = 900, PANEL_WIDTH = 500;
+constexpr int WINDOW_WIDTH = 1440, WINDOW_HEIGHT = 900, PANEL_WIDTH = 560;
 
 qSlicerLayoutManager* layoutManager() { return qSlicerApplication::application()->layoutManager(); }
 
