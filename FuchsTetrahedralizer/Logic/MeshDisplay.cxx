@@ -150,6 +150,21 @@ void show(vtkMRMLModelNode* mesh, const char* scalars, vtkMRMLColorTableNode* co
   display->EndModify(wasModifying);
 }
 
+bool comesBefore(vtkMRMLNode* a, vtkMRMLNode* b)
+{
+  vtkMRMLScene* scene = a->GetScene();
+  int i = 0;
+  while (scene->GetNthNode(i) != a && scene->GetNthNode(i) != b) ++i;
+  return scene->GetNthNode(i) == a;
+}
+
+/// The host asks for a legend's colours as soon as it loads the legend, so it has to come after them in the scene.
+void removeEarlyLegend(vtkMRMLDisplayNode* display)
+{
+  vtkMRMLNode* legend = vtkSlicerColorLogic::GetColorLegendDisplayNode(display);
+  if (legend && comesBefore(legend, display->GetColorNode())) display->GetScene()->RemoveNode(legend);
+}
+
 /// Beside the mesh: colours with their names, or a scale of numbers. Many names could not be read, so there are none
 /// then.
 void showLegend(vtkMRMLModelNode* mesh, const std::string& title, bool byName)
@@ -158,6 +173,7 @@ void showLegend(vtkMRMLModelNode* mesh, const std::string& title, bool byName)
   if (!mesh->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // the host's module is missing
   vtkMRMLDisplayNode* display = mesh->GetModelDisplayNode();
   auto* colors = vtkMRMLColorTableNode::SafeDownCast(display->GetColorNode());
+  removeEarlyLegend(display);
   vtkMRMLColorLegendDisplayNode* legend = vtkSlicerColorLogic::AddDefaultColorLegendDisplayNode(display);
   const int wasModifying = legend->StartModify();
   legend->SetTitleText(title);
