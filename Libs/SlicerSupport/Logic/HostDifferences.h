@@ -6,7 +6,7 @@
 #if __has_include(<vtkMRMLI18N.h>)
 #include <vtkMRMLI18N.h>
 #else
-/// `text` in the user's language, in code without Qt. Slicer has it since 5.3, and its tools collect texts by this name;
+/// `text` in the user's language, in code without Qt. Slicer has it since 5.6, and its tools collect texts by this name;
 /// before, text stays as it is.
 inline std::string vtkMRMLTr(const char*, const char* text)
 {
