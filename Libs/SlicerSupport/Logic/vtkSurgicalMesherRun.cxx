@@ -234,6 +234,7 @@ public:
   void StopObserving();
   void SetStatus(Status status);
   void RequestCancel();
+  void AskAgain();
   void EndNow();
   void FinishIfOver();
   void Finish(vtkMRMLNode* leaving = nullptr);
@@ -491,6 +492,15 @@ void vtkSurgicalMesherRun::Internal::RequestCancel()
   this->CommandLineNode->Cancel();
 }
 
+/// A request to cancel that comes while the host writes the inputs is forgotten when the process starts: the thread
+/// resets the status and the flag that it looks at, one after the other.
+void vtkSurgicalMesherRun::Internal::AskAgain()
+{
+  if (this->NodeStatus() == vtkMRMLCommandLineModuleNode::Running) this->CommandLineNode->Cancel();
+  if (this->NodeStatus() == vtkMRMLCommandLineModuleNode::Cancelling)
+    this->CommandLineNode->GetModuleDescription().GetProcessInformation()->Abort = 1;
+}
+
 /// Ends the process and everything that the host still has to do for it, now. The host would dereference null on
 /// reading a result into a node that is gone, and works on the inputs' nodes in its thread.
 void vtkSurgicalMesherRun::Internal::EndNow()
@@ -503,8 +513,7 @@ void vtkSurgicalMesherRun::Internal::EndNow()
   const Clock::time_point start = Clock::now();
   while (this->Fence->Begun && !this->Fence->Ended && Clock::now() - start < patience)
   {
-    // The thread resets the request when the process starts.
-    if (this->NodeStatus() == vtkMRMLCommandLineModuleNode::Running) this->CommandLineNode->Cancel();
+    this->AskAgain();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   while (this->ApplicationLogic && this->ApplicationLogic->GetReadDataQueueSize() > 0)
@@ -541,8 +550,7 @@ void vtkSurgicalMesherRun::Internal::OnEvent(vtkObject* caller, unsigned long ev
 void vtkSurgicalMesherRun::Internal::FinishIfOver()
 {
   const int status = this->NodeStatus();
-  // A request that came while the host wrote the inputs is forgotten when the process starts: ask again.
-  if (this->IsCancelRequested && status == vtkMRMLCommandLineModuleNode::Running) this->CommandLineNode->Cancel();
+  if (this->IsCancelRequested) this->AskAgain();
   const bool isReading =
     status == vtkMRMLCommandLineModuleNode::Completing || this->ApplicationLogic->GetReadDataQueueSize() > 0;
   if (this->Fence->Ended && !isReading) this->Finish();
