@@ -509,7 +509,7 @@ void vtkSurgicalMesherRun::Internal::EndNow()
   this->StopObserving();
   this->IsCancelRequested = true;
   this->CommandLineNode->Cancel();
-  const auto patience = std::chrono::seconds(30);
+  const auto patience = std::chrono::minutes(5); // a busy machine may take its time, a broken host must not hang
   const Clock::time_point start = Clock::now();
   while (this->Fence->Begun && !this->Fence->Ended && Clock::now() - start < patience)
   {
