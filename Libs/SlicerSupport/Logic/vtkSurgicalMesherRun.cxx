@@ -516,10 +516,12 @@ void vtkSurgicalMesherRun::Internal::EndNow()
     this->AskAgain();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  while (this->ApplicationLogic && this->ApplicationLogic->GetReadDataQueueSize() > 0)
-  {
-    this->ApplicationLogic->ProcessReadData();
-  }
+  const auto hasResults = [this]
+  { return this->ApplicationLogic && this->ApplicationLogic->GetReadDataQueueSize() > 0; };
+  // The process may have ended well before it was asked to end; while results wait, the host insists on this status.
+  if (hasResults() && this->NodeStatus() == vtkMRMLCommandLineModuleNode::Cancelling)
+    this->CommandLineNode->SetStatus(vtkMRMLCommandLineModuleNode::Completing, false);
+  while (hasResults()) this->ApplicationLogic->ProcessReadData();
 }
 
 bool vtkSurgicalMesherRun::Internal::Uses(vtkMRMLNode* node) const

@@ -9,6 +9,7 @@
 
 #include <vtkMRMLAbstractLogic.h>
 #include <vtkMRMLColorTableNode.h>
+#include <vtkMRMLCommandLineModuleNode.h>
 #include <vtkMRMLCoreTestingMacros.h>
 #include <vtkMRMLLabelMapVolumeNode.h>
 #include <vtkMRMLScalarVolumeNode.h>
@@ -20,6 +21,8 @@
 #include <vtkTestingOutputWindow.h>
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 using namespace surgicalmesher;
 using namespace surgicalmesher::test;
@@ -157,6 +160,25 @@ int checkDeletedWhileRunning(HostApplication& host)
   return EXIT_SUCCESS;
 }
 
+/// The process is done, and the host has yet to read what it wrote.
+int checkDeletedWhileResultsWait(HostApplication& host)
+{
+  auto run = vtkSmartPointer<Run>::New();
+  const std::string id = fill(run, host)->GetID();
+  CHECK_BOOL(run->Start(), true);
+  const auto isCompleting = [&]
+  { return run->GetCommandLineNode()->GetStatus() == vtkMRMLCommandLineModuleNode::Completing; };
+  for (int n = 0; n < 6000 && !isCompleting(); ++n) // no events: they would let the host read
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  CHECK_BOOL(isCompleting(), true);
+  run = nullptr;
+  CHECK_NULL(host.scene()->GetNodeByID(id));
+  host.waitFor(0.5);
+  host.scene()->Clear(0);
+  CHECK_STD_STRING(host.complaints(), "");
+  return EXIT_SUCCESS;
+}
+
 /// An output that is there already stays, cancelled or not.
 int checkCancelled(HostApplication& host)
 {
@@ -190,7 +212,8 @@ int checkCancelled(HostApplication& host)
 int vtkSurgicalMesherRunTest(int, char*[])
 {
   HostApplication host;
-  for (const auto check : { checkWaiting, checkSuccess, checkFailure, checkCancelled, checkDeletedWhileRunning })
+  for (const auto check : { checkWaiting, checkSuccess, checkFailure, checkCancelled, checkDeletedWhileRunning,
+                            checkDeletedWhileResultsWait })
     CHECK_EXIT_SUCCESS(check(host));
   return EXIT_SUCCESS;
 }
