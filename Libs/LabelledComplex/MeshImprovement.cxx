@@ -69,7 +69,7 @@ void work(GuardedOperations& operations, const Step& step, double targetAngle)
   improvement.passes = step.passes;
   improvement.split = step.splitEdge > 0;
   improvement.splitEdge = step.splitEdge;
-  if (step.whole) improvement.together = 20;
+  if (step.splitEdge > 0) improvement.together = 20; // where many are bad, it costs more than all the rest
   improveBlock(operations, improvement);
 }
 
