@@ -89,6 +89,7 @@ void vtkMRMLFuchsTetrahedralizerNode::ReadXMLAttributes(const char** atts)
 void vtkMRMLFuchsTetrahedralizerNode::WriteXML(ostream& of, int indent)
 {
   Superclass::WriteXML(of, indent);
+  const std::streamsize precision = of.precision(15); // lengths come back as they were
   vtkMRMLWriteXMLBeginMacro(of);
   vtkMRMLWriteXMLEnumMacro(edgeLengthSource, EdgeLengthSource);
   vtkMRMLWriteXMLFloatMacro(edgeLength, EdgeLength);
@@ -107,6 +108,7 @@ void vtkMRMLFuchsTetrahedralizerNode::WriteXML(ostream& of, int indent)
   vtkMRMLWriteXMLBooleanMacro(clipFlipped, ClipFlipped);
   vtkMRMLWriteXMLBooleanMacro(showEdges, ShowEdges);
   vtkMRMLWriteXMLEndMacro();
+  of.precision(precision);
 }
 
 void vtkMRMLFuchsTetrahedralizerNode::CopyContent(vtkMRMLNode* node, bool deepCopy)

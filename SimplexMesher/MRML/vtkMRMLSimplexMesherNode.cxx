@@ -131,6 +131,7 @@ void vtkMRMLSimplexMesherNode::ReadXMLAttributes(const char** atts)
 void vtkMRMLSimplexMesherNode::WriteXML(ostream& of, int indent)
 {
   Superclass::WriteXML(of, indent);
+  const std::streamsize precision = of.precision(15); // lengths come back as they were
   vtkMRMLWriteXMLBeginMacro(of);
   vtkMRMLWriteXMLBooleanMacro(useScale, UseScale);
   vtkMRMLWriteXMLFloatMacro(edgeLength, EdgeLength);
@@ -146,6 +147,7 @@ void vtkMRMLSimplexMesherNode::WriteXML(ostream& of, int indent)
   vtkMRMLWriteXMLBooleanMacro(report, Report);
   vtkMRMLWriteXMLStdStringMacro(tissues, Tissues);
   vtkMRMLWriteXMLEndMacro();
+  of.precision(precision);
 }
 
 void vtkMRMLSimplexMesherNode::CopyContent(vtkMRMLNode* node, bool deepCopy)

@@ -18,7 +18,7 @@ using Node = vtkMRMLFuchsTetrahedralizerNode;
 void fill(Node* node)
 {
   node->SetEdgeLengthSource(Node::Uniform);
-  node->SetEdgeLength(3.25);
+  node->SetEdgeLength(3.123456789);
   node->UseAmbientOff();
   node->SetShellTissues("dura mater, \"falx\" & <tentorium>:outside");
   node->SetShellThickness(0.5);
@@ -38,7 +38,7 @@ void fill(Node* node)
 int checkFilled(Node* node)
 {
   CHECK_INT(node->GetEdgeLengthSource(), Node::Uniform);
-  CHECK_DOUBLE(node->GetEdgeLength(), 3.25);
+  CHECK_DOUBLE(node->GetEdgeLength(), 3.123456789);
   CHECK_BOOL(node->GetUseAmbient(), false);
   CHECK_STD_STRING(node->GetShellTissues(), "dura mater, \"falx\" & <tentorium>:outside");
   CHECK_DOUBLE(node->GetShellThickness(), 0.5);

@@ -33,7 +33,7 @@ TissueSetting groupSetting()
 void fill(vtkMRMLSimplexMesherNode* node)
 {
   node->UseScaleOff();
-  node->SetEdgeLength(3.5);
+  node->SetEdgeLength(3.123456789);
   node->SetMinimumIslandVolume(30);
   node->SetMinimumCavityVolume(5);
   node->SetFeatureScale(0.5);
@@ -54,7 +54,7 @@ void fill(vtkMRMLSimplexMesherNode* node)
 int checkFilled(vtkMRMLSimplexMesherNode* node)
 {
   CHECK_BOOL(node->GetUseScale(), false);
-  CHECK_DOUBLE(node->GetEdgeLength(), 3.5);
+  CHECK_DOUBLE(node->GetEdgeLength(), 3.123456789);
   CHECK_DOUBLE(node->GetMinimumIslandVolume(), 30);
   CHECK_DOUBLE(node->GetMinimumCavityVolume(), 5);
   CHECK_DOUBLE(node->GetFeatureScale(), 0.5);
