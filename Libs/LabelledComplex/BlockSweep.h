@@ -5,6 +5,7 @@
 #include "TetComplex.h"
 
 #include <functional>
+#include <limits>
 #include <vector>
 
 namespace surgicalmesher
@@ -25,6 +26,8 @@ struct AmbientMesh
   std::vector<float> lengths; ///< target edge length at each point, mm
   std::vector<Place> evidence;
 };
+
+constexpr std::size_t oneBlock = std::numeric_limits<std::size_t>::max();
 
 /// Cuts the mesh into blocks of at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs `work` on
 /// each as a TetComplex whose border is locked, and puts the results together in the order of the blocks. `round` shifts

@@ -33,10 +33,11 @@ private:
   std::array<std::deque<std::int32_t>, 32> m_Buckets;
 };
 
-struct Neighbour
+struct Near
 {
   double ratio; ///< edge length over min(level, L)
   std::int32_t vertex;
+  bool alongInterface;
 };
 
 class BlockCoarsening
@@ -45,7 +46,7 @@ public:
   BlockCoarsening(GuardedOperations& operations, double level, const CoarseningOptions& options)
     : m_Operations(operations), m_Complex(operations.complex()), m_Level(level), m_Options(options),
       m_Low(sine2OfDegrees(options.minimumAngle)), m_Good(sine2OfDegrees(options.goodAngle)),
-      m_Queued(m_Complex.points.size(), 0), m_Tries(m_Complex.points.size(), 0), m_Seen(m_Complex.points.size(), 0)
+      m_Queued(m_Complex.points.size(), 0), m_Tries(m_Complex.points.size(), 0)
   {
   }
 
@@ -59,7 +60,7 @@ public:
       for (int i = 0; i < 4; ++i)
         for (int j = i + 1; j < 4; ++j)
         {
-          const float r = float(ratio(x[i], x[j]));
+          const float r = float(ratio(x[i], x[j], m_Options.shortEdge));
           shortest[x[i]] = std::min(shortest[x[i]], r);
           shortest[x[j]] = std::min(shortest[x[j]], r);
         }
@@ -74,10 +75,12 @@ public:
   }
 
 private:
-  double ratio(std::int32_t a, std::int32_t b) const
+  /// Length of ab over its target; anything from `enough` on if it is that long.
+  double ratio(std::int32_t a, std::int32_t b, double enough) const
   {
     const double target = std::min(m_Level, 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b]));
-    return norm(m_Complex.points[a] - m_Complex.points[b]) / target;
+    const double length2 = squaredNorm(m_Complex.points[a] - m_Complex.points[b]), limit = enough * target;
+    return length2 < limit * limit ? std::sqrt(length2) / target : enough;
   }
 
   void push(std::int32_t v, double r)
@@ -91,20 +94,20 @@ private:
   /// Neighbours of v nearer than shortEdge, nearest first.
   void shortNeighbours(std::int32_t v)
   {
-    ++m_Stamp;
-    m_Seen[v] = m_Stamp;
     m_Near.clear();
-    for (std::int32_t t : m_Operations.star(v))
-      for (std::int32_t x : m_Complex.tets[t])
-      {
-        if (m_Seen[x] == m_Stamp) continue;
-        m_Seen[x] = m_Stamp;
-        const double r = ratio(v, x);
-        if (r < m_Options.shortEdge) m_Near.push_back({ r, x });
-      }
+    for (const auto& n : m_Operations.neighbours(v))
+      if (const double r = ratio(v, n.vertex, m_Options.shortEdge); r < m_Options.shortEdge)
+        m_Near.push_back({ r, n.vertex, n.alongInterface });
     std::sort(m_Near.begin(), m_Near.end(),
-              [](const Neighbour& a, const Neighbour& b)
+              [](const Near& a, const Near& b)
               { return a.ratio != b.ratio ? a.ratio < b.ratio : a.vertex < b.vertex; });
+  }
+
+  /// Of the near neighbours, those that the vertex may go into if it lies on the interface.
+  void keepOnlyAlongInterface()
+  {
+    m_Near.erase(std::remove_if(m_Near.begin(), m_Near.end(), [](const Near& n) { return !n.alongInterface; }),
+                 m_Near.end());
   }
 
   struct Candidate
@@ -119,21 +122,27 @@ private:
   {
     ++m_Tries[u];
     shortNeighbours(u);
+    if (m_Complex.onInterface[u]) keepOnlyAlongInterface();
     const Vec3 from = m_Complex.points[u];
     m_Candidates.clear();
-    const bool fits = m_Options.fit && quadricAt(u, m_Operations.star(u), m_QuadricOfU);
+    bool fits = false;
     for (double share : { 1.0, 0.5, 0.0 })
-      for (const Neighbour& n : m_Near)
+    {
+      if (share == 0 && !m_Options.thorough) break;
+      if (share == 0.5) fits = m_Options.fit && quadricAt(u, m_Operations.star(u), m_QuadricOfU);
+      for (const Near& n : m_Near)
       {
-        if (share < 1 && m_Complex.locked[n.vertex]) continue;
+        if (!m_Operations.mayCollapse(u, n.vertex, share < 1)) continue;
         const Vec3 to = m_Complex.points[n.vertex];
         Vec3 p = share == 1 ? to : from + share * (to - from);
         if (share == 0.5 && fits) p = fitted(n.vertex, p);
+        if (!m_Operations.keepsLengths(u, n.vertex, p, m_Options.longEdge)) continue;
         const double q = m_Operations.qualityAfterCollapse(u, n.vertex, p, m_Low);
         if (q < m_Low) continue;
         if (q >= m_Good && collapse(u, { q, n.vertex, p })) return;
         if (q < m_Good) m_Candidates.push_back({ q, n.vertex, p });
       }
+    }
     std::stable_sort(m_Candidates.begin(), m_Candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; });
     for (const Candidate& c : m_Candidates)
@@ -153,8 +162,7 @@ private:
   Vec3 fitted(std::int32_t v, const Vec3& middle)
   {
     Fit both;
-    m_Complex.star(v, m_Star);
-    if (!quadricAt(v, m_Star, both)) return middle;
+    if (!quadricAt(v, m_Operations.starOfTarget(v), both)) return middle;
     for (int k = 0; k < 6; ++k) both.m[k] += m_QuadricOfU.m[k];
     both.g += m_QuadricOfU.g;
     const double spring = 0.02 * both.trace();
@@ -165,18 +173,34 @@ private:
 
   bool collapse(std::int32_t u, const Candidate& c)
   {
-    if (!m_Operations.collapse(u, c.vertex, c.position, m_Low, m_Options.longEdge)) return false;
-    wake(c.vertex);
+    if (!m_Options.thorough) m_Around = m_Operations.neighbours(u);
+    if (!m_Operations.collapseWithin(u, c.vertex, c.position)) return false;
+    if (m_Options.thorough) wakeAll(c.vertex);
+    else wakeChanged(c.vertex);
     return true;
   }
 
-  /// After a collapse onto v: v and its neighbours may have become short or removable.
-  void wake(std::int32_t v)
+  /// After a collapse onto v: the ends of the edges that it changed, m_Around, may have become short or removable.
+  void wakeChanged(std::int32_t v)
+  {
+    double least = m_Options.shortEdge;
+    for (const auto& n : m_Around)
+    {
+      if (n.vertex == v) continue;
+      const double r = ratio(v, n.vertex, m_Options.shortEdge);
+      if (r < m_Options.shortEdge) push(n.vertex, r);
+      least = std::min(least, r);
+    }
+    push(v, least);
+  }
+
+  /// The same for v and all of its neighbours.
+  void wakeAll(std::int32_t v)
   {
     shortNeighbours(v);
     if (m_Near.empty()) return;
     push(v, m_Near[0].ratio);
-    for (const Neighbour& n : m_Near) push(n.vertex, n.ratio);
+    for (const Near& n : m_Near) push(n.vertex, n.ratio);
   }
 
   GuardedOperations& m_Operations;
@@ -186,13 +210,11 @@ private:
   const double m_Low, m_Good;
   std::vector<std::uint8_t> m_Queued, m_Tries;
   LengthQueue m_Queue;
-  std::vector<Neighbour> m_Near;
+  std::vector<Near> m_Near;
+  std::vector<GuardedOperations::Neighbour> m_Around;
   std::vector<Candidate> m_Candidates;
   Fit m_QuadricOfU;
   std::vector<SheetFace> m_Faces;
-  std::vector<std::int32_t> m_Star;
-  std::vector<std::uint32_t> m_Seen;
-  std::uint32_t m_Stamp = 0;
 };
 
 } // namespace

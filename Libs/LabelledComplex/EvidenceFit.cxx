@@ -25,6 +25,7 @@ void sheetFaces(const TetComplex& complex, std::int32_t v, const std::vector<std
                 std::vector<SheetFace>& faces)
 {
   faces.clear();
+  if (!complex.onInterface[v]) return;
   for (std::int32_t t : star)
     for (int i = 0; i < 4; ++i)
     {

@@ -14,21 +14,36 @@ struct Face
   std::int32_t local;
 };
 
+/// Ascending, those of the same points in the order of their tetrahedra. Sorted into the places of their first points by
+/// counting, and there by their other two: some twenty at a place.
 std::vector<Face> sortedFaces(const TetraMesh& mesh)
 {
-  std::vector<Face> faces;
-  faces.reserve(4 * mesh.tetrahedra.size());
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  const auto face = [&](std::size_t t, int f)
   {
+    Face result{ {}, static_cast<std::int32_t>(t), f };
+    for (int c = 0; c < 3; ++c) result.points[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
+    std::sort(result.points.begin(), result.points.end());
+    return result;
+  };
+  std::vector<std::size_t> end(mesh.points.size() + 1, 0);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    for (int f = 0; f < 4; ++f) ++end[face(t, f).points[0] + 1];
+  for (std::size_t v = 0; v < mesh.points.size(); ++v) end[v + 1] += end[v];
+  std::vector<Face> faces(4 * mesh.tetrahedra.size());
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
     for (int f = 0; f < 4; ++f)
     {
-      Face face{ {}, static_cast<std::int32_t>(t), f };
-      for (int c = 0; c < 3; ++c) face.points[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
-      std::sort(face.points.begin(), face.points.end());
-      faces.push_back(face);
+      const Face next = face(t, f);
+      faces[end[next.points[0]]++] = next;
     }
-  }
-  std::stable_sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.points < b.points; });
+  const auto before = [](const Face& a, const Face& b)
+  {
+    if (a.points[1] != b.points[1]) return a.points[1] < b.points[1];
+    if (a.points[2] != b.points[2]) return a.points[2] < b.points[2];
+    return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.local < b.local;
+  };
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    std::sort(faces.begin() + std::ptrdiff_t(v ? end[v - 1] : 0), faces.begin() + std::ptrdiff_t(end[v]), before);
   return faces;
 }
 

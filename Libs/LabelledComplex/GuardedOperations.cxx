@@ -61,17 +61,42 @@ const std::vector<std::int32_t>& GuardedOperations::cachedStar(std::int32_t v, s
   return star;
 }
 
+const std::vector<GuardedOperations::Neighbour>& GuardedOperations::neighbours(std::int32_t v)
+{
+  if (m_NeighboursVertex == v) return m_Neighbours;
+  m_NeighboursVertex = v;
+  m_Neighbours.clear();
+  m_Seen.resize(m_Complex.points.size());
+  ++m_Search;
+  for (std::int32_t t : star(v))
+    for (std::int32_t x : m_Complex.tets[t])
+    {
+      if (x == v) continue;
+      Seen& seen = m_Seen[x];
+      const Label label = m_Complex.labels[t];
+      if (seen.search == m_Search)
+      {
+        if (label != seen.label) m_Neighbours[seen.at].alongInterface = true;
+        continue;
+      }
+      seen = { m_Search, std::int32_t(m_Neighbours.size()), label };
+      m_Neighbours.push_back({ x, false });
+    }
+  return m_Neighbours;
+}
+
+StarQuality& GuardedOperations::measured(std::int32_t v)
+{
+  if (m_MeasuredVertex != v) m_Measured.gather(m_Complex, v, star(v));
+  m_MeasuredVertex = v;
+  return m_Measured;
+}
+
 double GuardedOperations::starQuality(const std::vector<std::int32_t>& tetrahedra) const
 {
   double worst = std::numeric_limits<double>::max();
   for (std::int32_t t : tetrahedra) worst = std::min(worst, quality(t));
   return worst;
-}
-
-bool GuardedOperations::singleLabel(const std::vector<std::int32_t>& star) const
-{
-  return std::all_of(star.begin(), star.end(),
-                     [&](std::int32_t t) { return m_Complex.labels[t] == m_Complex.labels[star[0]]; });
 }
 
 // --- evidence -------------------------------------------------------------------------------------------------------
@@ -93,16 +118,16 @@ void GuardedOperations::gather(std::int32_t t, int face)
   const std::array<std::int32_t, 3> ids{ v[(face + 1) & 3], v[(face + 2) & 3], v[(face + 3) & 3] };
   const auto& p = m_Complex.points;
   const Pair pair = pairOf(m_Complex.labels[t], m_Complex.labels[m_Complex.neighbours[t][face]]);
-  m_OldFaces.push_back({ { p[ids[0]], p[ids[1]], p[ids[2]] }, pair, ids, {}, {}, {} });
+  m_OldFaces.push_back({ { p[ids[0]], p[ids[1]], p[ids[2]] }, pair, ids, {}, {}, {}, t, face });
   m_Holders.push_back(holder);
   for (std::int32_t e = m_Complex.evidenceHeads[holder.first][holder.second]; e >= 0; e = m_Complex.evidence[e].next)
     m_Gathered.push_back({ e, pair, std::int32_t(m_OldFaces.size()) - 1, -1, 0 });
 }
 
 void GuardedOperations::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids,
-                                   Label x, Label y)
+                                   Label x, Label y, std::int32_t tet, int face)
 {
-  Face f{ { a, b, c }, pairOf(x, y), ids, {}, {}, {} };
+  Face f{ { a, b, c }, pairOf(x, y), ids, {}, {}, {}, tet, face };
   const Vec3 n = cross(b - a, c - a);
   const double area2 = squaredNorm(n); // positive, as the tetrahedra on both sides are
   f.normal = n / std::sqrt(area2);
@@ -119,13 +144,16 @@ double GuardedOperations::squaredDistanceNow(const Gathered& g)
   return e.distance2;
 }
 
-/// Finds g the nearest new face of its pair; false if there is none. Beyond the line of a side, the distance to that line
-/// bounds the distance to the face from below, which spares most faces the full test.
+/// Finds g the nearest new face of its pair; false if there is none. Begins with the face that takes the place of its own,
+/// if there is one, and beyond the line of a side the distance to that line bounds the distance to the face from below: both
+/// spare most faces the full test.
 bool GuardedOperations::nearestFace(Gathered& g) const
 {
   g.distance2 = std::numeric_limits<double>::max();
   const Vec3& p = m_Complex.evidence[g.id].position;
-  for (std::size_t k = 0; k < m_NewFaces.size(); ++k)
+  const std::size_t count = m_NewFaces.size();
+  std::size_t k = std::size_t(g.from) < count ? std::size_t(g.from) : 0;
+  for (std::size_t n = 0; n < count; ++n, k = k + 1 < count ? k + 1 : 0)
   {
     const Face& f = m_NewFaces[k];
     if (f.pair != g.pair) continue;
@@ -198,6 +226,8 @@ void GuardedOperations::attachEvidence(const std::vector<std::int32_t>& around)
 {
   if (m_Gathered.empty()) return;
   std::vector<std::pair<std::int32_t, int>> holders(m_NewFaces.size(), { -1, 0 });
+  for (std::size_t k = 0; k < m_NewFaces.size(); ++k)
+    if (m_NewFaces[k].tet >= 0) holders[k] = m_Complex.holder(m_NewFaces[k].tet, m_NewFaces[k].face);
   for (std::int32_t t : around)
   {
     if (!m_Complex.alive(t)) continue;
@@ -285,23 +315,23 @@ bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v, const std::
   return true;
 }
 
-/// Edge lengths at the merged vertex, over the neighbours of u and, if v moves, of v.
-bool GuardedOperations::keepsLengths(std::int32_t u, std::int32_t v, const Vec3& p, double maximumRatio) const
+bool GuardedOperations::keepsLengths(std::int32_t u, std::int32_t v, const Vec3& p, double maximumRatio)
 {
   const auto& c = m_Complex;
-  const auto check = [&](std::int32_t end, const std::vector<std::int32_t>& star)
+  const auto check = [&](std::int32_t end, std::int32_t x)
   {
-    for (std::int32_t t : star)
-      for (std::int32_t x : c.tets[t])
-      {
-        if (x == u || x == v) continue;
-        const double limit = maximumRatio * 0.5 * (c.lengths[x] + c.lengths[v]);
-        const double length2 = squaredNorm(c.points[x] - p);
-        if (length2 > limit * limit && length2 > squaredNorm(c.points[x] - c.points[end])) return false;
-      }
-    return true;
+    if (x == u || x == v) return true;
+    const double limit = maximumRatio * 0.5 * (c.lengths[x] + c.lengths[v]);
+    const double length2 = squaredNorm(c.points[x] - p);
+    return length2 <= limit * limit || length2 <= squaredNorm(c.points[x] - c.points[end]);
   };
-  return check(u, m_Star) && (p == c.points[v] || check(v, m_StarOfV));
+  for (const Neighbour& n : neighbours(u))
+    if (!check(u, n.vertex)) return false;
+  if (p == c.points[v]) return true;
+  for (std::int32_t t : starOfTarget(v))
+    for (std::int32_t x : c.tets[t])
+      if (!check(v, x)) return false;
+  return true;
 }
 
 /// Gathers the evidence of the interface faces at u and at v and finds it new faces; false if one point is left too far.
@@ -309,7 +339,8 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
 {
   const auto& c = m_Complex;
   clearEvidence();
-  const auto addMoved = [&](std::int32_t t, int face, Label x, Label y)
+  // Each face as it will be in a tetrahedron that stays: `stays`, opposite its vertex number `opposite`.
+  const auto addMoved = [&](std::int32_t t, int face, Label x, Label y, std::int32_t stays, int opposite)
   {
     std::array<std::int32_t, 3> ids{ c.tets[t][(face + 1) & 3], c.tets[t][(face + 2) & 3], c.tets[t][(face + 3) & 3] };
     Vec3 corners[3];
@@ -318,7 +349,7 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
       if (ids[k] == u) ids[k] = v;
       corners[k] = ids[k] == v ? p : c.points[ids[k]];
     }
-    addNewFace(corners[0], corners[1], corners[2], ids, x, y);
+    addNewFace(corners[0], corners[1], corners[2], ids, x, y, stays, opposite);
   };
   const auto facesAt = [&](std::int32_t end, std::int32_t other, const std::vector<std::int32_t>& star, bool changing)
   {
@@ -332,7 +363,7 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
         if (c.contains(n, other)) continue; // dealt with from the ring
         if (n < t) continue;
         if (changing) gather(t, i);
-        addMoved(t, i, c.labels[t], c.labels[n]);
+        addMoved(t, i, c.labels[t], c.labels[n], t, i);
       }
     }
   };
@@ -346,49 +377,56 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
       if (c.neighbours[t][i] >= 0 && c.isInterface(t, i)) gather(t, i);
     const std::int32_t nu = c.neighbours[t][iv], nv = c.neighbours[t][iu];
     if (nu < 0 || nv < 0) return false;
-    if (c.labels[nu] != c.labels[nv]) addMoved(t, iu, c.labels[nu], c.labels[nv]);
+    if (c.labels[nu] == c.labels[nv]) continue;
+    int opposite = 0;
+    while (c.neighbours[nu][opposite] != t) ++opposite;
+    addMoved(t, iu, c.labels[nu], c.labels[nv], nu, opposite);
   }
   return evidenceStays();
 }
 
 double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast)
 {
+  const double worst = measured(u).worst(p, atLeast, v);
+  if (worst < atLeast || p == m_Complex.points[v]) return worst;
+  if (m_MeasuredVVertex != v) m_MeasuredV.gather(m_Complex, v, starOfTarget(v));
+  m_MeasuredVVertex = v;
+  return std::min(worst, m_MeasuredV.worst(p, atLeast, u));
+}
+
+bool GuardedOperations::mayCollapse(std::int32_t u, std::int32_t v, bool moves) const
+{
   const auto& c = m_Complex;
-  double worst = std::numeric_limits<double>::max();
-  for (std::int32_t t : star(u))
-    if (!c.contains(t, v))
-    {
-      worst = std::min(worst, lenient(t, c.qualityWith(t, u, p)));
-      if (worst < atLeast) return worst;
-    }
-  if (p == c.points[v]) return worst;
-  for (std::int32_t t : cachedStar(v, m_StarOfV, m_StarOfVVertex))
-    if (!c.contains(t, u))
-    {
-      worst = std::min(worst, lenient(t, c.qualityWith(t, v, p)));
-      if (worst < atLeast) return worst;
-    }
-  return worst;
+  if (c.locked[u]) return false;
+  // The star of a locked vertex may show only some of its labels.
+  return c.onInterface[u] ? c.onInterface[v] && !c.locked[v] : !moves || (!c.onInterface[v] && !c.locked[v]);
 }
 
 bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality,
                                  double maximumRatio)
 {
+  return mayCollapse(u, v, !(p == m_Complex.points[v])) && keepsLengths(u, v, p, maximumRatio) &&
+         qualityAfterCollapse(u, v, p, minimumQuality) >= minimumQuality && collapseWithin(u, v, p);
+}
+
+bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec3& p)
+{
   auto& c = m_Complex;
-  const bool moves = !(p == c.points[v]);
-  if (c.locked[u] || (moves && c.locked[v])) return false;
-  const bool inside = singleLabel(star(u));
-  // An interface vertex keeps an inner one away from it; its star, if locked, may show only some of its labels.
-  if (!inside && c.locked[v]) return false;
-  if (moves && inside && !singleLabel(cachedStar(v, m_StarOfV, m_StarOfVVertex))) return false;
-  if (qualityAfterCollapse(u, v, p, minimumQuality) < minimumQuality) return false;
-  if (!keepsLengths(u, v, p, maximumRatio)) return false;
+  const bool moves = !(p == c.points[v]), inside = !c.onInterface[u];
+  star(u);
   if (!inside)
   {
-    cachedStar(v, m_StarOfV, m_StarOfVVertex);
+    if (m_RefusedVertex != u) m_Refused.clear();
+    m_RefusedVertex = u;
+    if (std::find(m_Refused.begin(), m_Refused.end(), v) != m_Refused.end()) return false;
+    starOfTarget(v);
     const auto seed = std::find_if(m_Star.begin(), m_Star.end(), [&](std::int32_t t) { return c.contains(t, v); });
-    if (seed == m_Star.end() || !c.ring(u, v, *seed, m_Ring, m_RingVertices)) return false;
-    if (!keepsTissues(u, v, m_Star, m_Ring, m_RingVertices)) return false;
+    if (seed == m_Star.end() || !c.ring(u, v, *seed, m_Ring, m_RingVertices) ||
+        !keepsTissues(u, v, m_Star, m_Ring, m_RingVertices))
+    {
+      m_Refused.push_back(v);
+      return false;
+    }
     if (!collapseKeepsEvidence(u, v, p)) return false;
     detachEvidence();
   }
@@ -399,7 +437,7 @@ bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, 
     c.points[v] = p;
     c.lengths[v] = m_Scale(p);
   }
-  if (!inside) attachEvidence(star(v));
+  if (!inside) attachEvidence();
   ++counts.collapses;
   return true;
 }
@@ -409,10 +447,10 @@ bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, 
 /// The interface faces at v as they are and, with v at p, as they would be; false without any.
 bool GuardedOperations::gatherFacesAt(std::int32_t v, const Vec3& p)
 {
-  if (singleLabel(star(v))) return false;
-  clearEvidence();
   const auto& c = m_Complex;
-  for (std::int32_t t : m_Star)
+  if (!c.onInterface[v]) return false;
+  clearEvidence();
+  for (std::int32_t t : star(v))
     for (int i = 0; i < 4; ++i)
     {
       const std::int32_t n = c.neighbours[t][i];
@@ -420,7 +458,7 @@ bool GuardedOperations::gatherFacesAt(std::int32_t v, const Vec3& p)
       gather(t, i);
       const std::array<std::int32_t, 3> ids{ c.tets[t][(i + 1) & 3], c.tets[t][(i + 2) & 3], c.tets[t][(i + 3) & 3] };
       const auto at = [&](std::int32_t id) { return id == v ? p : c.points[id]; };
-      addNewFace(at(ids[0]), at(ids[1]), at(ids[2]), ids, c.labels[t], c.labels[n]);
+      addNewFace(at(ids[0]), at(ids[1]), at(ids[2]), ids, c.labels[t], c.labels[n], t, i);
     }
   return true;
 }
@@ -428,13 +466,12 @@ bool GuardedOperations::gatherFacesAt(std::int32_t v, const Vec3& p)
 bool GuardedOperations::move(std::int32_t v, const Vec3& p, double minimumQuality)
 {
   if (m_Complex.locked[v]) return false;
-  for (std::int32_t t : star(v))
-    if (lenient(t, m_Complex.qualityWith(t, v, p)) < minimumQuality) return false;
+  if (qualityAt(v, p, minimumQuality) < minimumQuality) return false;
   if (gatherFacesAt(v, p))
   {
     if (!evidenceStays()) return false;
     detachEvidence();
-    attachEvidence(m_Star);
+    attachEvidence();
   }
   place(v, p);
   ++counts.moves;
@@ -447,7 +484,7 @@ void GuardedOperations::moveBack(std::int32_t v, const Vec3& p)
   {
     for (Gathered& g : m_Gathered) nearestFace(g);
     detachEvidence();
-    attachEvidence(m_Star);
+    attachEvidence();
   }
   place(v, p);
   --counts.moves;
@@ -457,6 +494,8 @@ void GuardedOperations::place(std::int32_t v, const Vec3& p)
 {
   m_Complex.points[v] = p;
   m_Complex.lengths[v] = m_Scale(p);
+  if (m_MeasuredVertex != v) m_MeasuredVertex = -1;
+  if (m_MeasuredVVertex != v) m_MeasuredVVertex = -1;
 }
 
 // --- edge removal ---------------------------------------------------------------------------------------------------
@@ -573,7 +612,7 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
   }
   if (!evidenceStays()) return false;
   detachEvidence();
-  c.addVertex(p, m_Scale(p));
+  c.addVertex(p, m_Scale(p), !m_NewFaces.empty());
   std::vector<TetComplex::Tet> fresh;
   std::vector<Label> labels;
   for (std::int32_t t : m_Ring)

@@ -6,6 +6,7 @@
 /// An operation that returns false has changed nothing. *Quality* is worstSine2 (TetQuality.h); tetrahedra of label 0 are
 /// thrown away in the end and are let off with a smaller one: theirs is multiplied by backgroundLeniency.
 
+#include "StarQuality.h"
 #include "TetComplex.h"
 
 #include <functional>
@@ -13,8 +14,6 @@
 
 namespace surgicalmesher
 {
-
-constexpr double backgroundLeniency = 20; ///< worst angles of 32 degrees inside weigh as 6.8 degrees outside
 
 using ScaleFunction = std::function<float(const Vec3&)>; ///< target edge length, mm, at a position
 
@@ -32,18 +31,48 @@ public:
   GuardedOperations(TetComplex& complex, ScaleFunction scale, double rmsLimit = 0.5, double slack = 1);
 
   double quality(std::int32_t t) const { return lenient(t, m_Complex.quality(t)); }
+
+  /// The worst quality of `tetrahedra`.
   double starQuality(const std::vector<std::int32_t>& tetrahedra) const;
 
   /// Tetrahedra at v; kept until the next operation that changes anything, so asking again costs nothing.
   const std::vector<std::int32_t>& star(std::int32_t v) { return cachedStar(v, m_Star, m_StarVertex); }
 
+  /// The same, kept apart, for the vertex that another one may go into.
+  const std::vector<std::int32_t>& starOfTarget(std::int32_t v) { return cachedStar(v, m_StarOfV, m_StarOfVVertex); }
+
+  struct Neighbour
+  {
+    std::int32_t vertex;
+    bool alongInterface; ///< tetrahedra of different labels at the edge
+  };
+  /// The ends of the edges at v; kept likewise.
+  const std::vector<Neighbour>& neighbours(std::int32_t v);
+
+  /// To measure star(v) with v anywhere; kept likewise, and while only v moves.
+  StarQuality& measured(std::int32_t v);
+
+  /// The worst quality at v, were it at p, or some value below `atLeast` if it is less than that.
+  double qualityAt(std::int32_t v, const Vec3& p, double atLeast) { return measured(v).worst(p, atLeast); }
+  double qualityAt(std::int32_t v) { return qualityAt(v, m_Complex.points[v], -1); }
+
   /// The worst quality that merging u into v at p would leave among the changed tetrahedra, or some value below
   /// `atLeast` if it is less than that.
   double qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast);
 
-  /// Merges u into its neighbour v, which moves to p, if every changed tetrahedron reaches `minimumQuality` and no edge at
-  /// v becomes longer than maximumRatio times the target (one that is longer may stay, but not grow). A vertex of the
-  /// interface collapses only along it.
+  /// Whether locks and labels let u go into its neighbour v at all, v staying or moving: one of the interface, only along it
+  /// and wholly seen; one beside it, only without moving it.
+  bool mayCollapse(std::int32_t u, std::int32_t v, bool moves) const;
+
+  /// Whether no edge at v becomes longer than maximumRatio times the target if u merges into v at p (one that is longer may
+  /// stay, but not grow).
+  bool keepsLengths(std::int32_t u, std::int32_t v, const Vec3& p, double maximumRatio);
+
+  /// Merges u into v at p if topology and evidence allow: the rest of collapse(), once the others have been asked.
+  bool collapseWithin(std::int32_t u, std::int32_t v, const Vec3& p);
+
+  /// Merges u into its neighbour v, which moves to p, if every changed tetrahedron reaches `minimumQuality` and all of the
+  /// above allow it.
   bool collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality, double maximumRatio);
 
   /// Moves v to p, if every tetrahedron at v reaches `minimumQuality`.
@@ -76,6 +105,8 @@ private:
     Vec3 normal;                   ///< unit
     std::array<Vec3, 3> slopes;    ///< gradients of the barycentric coordinates
     std::array<double, 3> heights; ///< squared, over the side opposite each corner
+    std::int32_t tet;              ///< that has it as its `face` already; -1: not known yet
+    int face;
   };
   struct Gathered
   {
@@ -87,26 +118,27 @@ private:
   };
 
   const std::vector<std::int32_t>& cachedStar(std::int32_t v, std::vector<std::int32_t>& star, std::int32_t& of);
-  void changed() { m_StarVertex = m_StarOfVVertex = -1; }
+  void changed()
+  {
+    m_StarVertex = m_StarOfVVertex = m_NeighboursVertex = m_MeasuredVertex = m_MeasuredVVertex = m_RefusedVertex = -1;
+  }
   double lenient(std::int32_t t, double q) const { return m_Complex.labels[t] == 0 ? q * backgroundLeniency : q; }
   double lenient(Label label, double q) const { return label == 0 ? q * backgroundLeniency : q; }
   bool keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
                     const std::vector<std::int32_t>& ring, const std::vector<std::int32_t>& ringVertices);
-  bool singleLabel(const std::vector<std::int32_t>& star) const;
-  bool keepsLengths(std::int32_t u, std::int32_t v, const Vec3& p, double maximumRatio) const;
   bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
   bool gatherFacesAt(std::int32_t v, const Vec3& p);
   void place(std::int32_t v, const Vec3& p);
   void gather(std::int32_t t, int face);
-  void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x,
-                  Label y);
+  void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x, Label y,
+                  std::int32_t tet = -1, int face = 0);
   double squaredDistanceNow(const Gathered& g);
   bool nearestFace(Gathered& g) const;
   bool tissuesStayNear(const Gathered& g) const;
   double squaredTolerance(const Gathered& g) const;
   bool evidenceStays();
   void detachEvidence();
-  void attachEvidence(const std::vector<std::int32_t>& around);
+  void attachEvidence(const std::vector<std::int32_t>& around = {});
   void clearEvidence();
   static Pair pairOf(Label a, Label b) { return a < b ? Pair(b) << 16 | a : Pair(a) << 16 | b; }
   static bool has(Pair pair, Label label) { return (pair & 0xffff) == label || pair >> 16 == label; }
@@ -116,6 +148,20 @@ private:
   ScaleFunction m_Scale;
   double m_MeanSquareLimit, m_SquaredSlack;
   std::int32_t m_StarVertex = -1, m_StarOfVVertex = -1; ///< whose stars the next two are; -1: nobody's
+  std::int32_t m_NeighboursVertex = -1;
+  std::vector<Neighbour> m_Neighbours;
+  struct Seen
+  {
+    std::uint32_t search = 0;
+    std::int32_t at = 0; ///< in m_Neighbours
+    Label label = 0;
+  };
+  std::vector<Seen> m_Seen; ///< per vertex, by the search for neighbours of that number
+  std::uint32_t m_Search = 0;
+  std::int32_t m_MeasuredVertex = -1, m_MeasuredVVertex = -1;
+  StarQuality m_Measured, m_MeasuredV;
+  std::int32_t m_RefusedVertex = -1; ///< whose collapses onto m_Refused would change a tissue's topology; -1: nobody's
+  std::vector<std::int32_t> m_Refused;
   std::vector<std::int32_t> m_Star, m_StarOfV, m_Ring, m_RingVertices, m_EdgeRing, m_EdgeRingVertices;
   std::vector<Face> m_OldFaces, m_NewFaces;
   std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of m_OldFaces

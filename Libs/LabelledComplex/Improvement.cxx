@@ -32,7 +32,7 @@ private:
   {
     sheetFaces(m_Complex, v, m_Operations.star(v), m_Faces);
     const Vec3 step = m_Faces.empty() ? towardsMiddle(v) : onInterface(v);
-    const double before = m_Operations.starQuality(m_Operations.star(v));
+    const double before = m_Operations.qualityAt(v);
     const double floor = std::min(m_Good, before);
     for (double share : { 1.0, 0.5, 0.25 })
       if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : floor)) return;
@@ -42,14 +42,10 @@ private:
   /// direction of v. A descent step of the sum of (|vx| - L)^2.
   Vec3 towardsMiddle(std::int32_t v)
   {
-    m_Degree.clear();
-    for (std::int32_t t : m_Operations.star(v))
-      for (std::int32_t x : m_Complex.tets[t])
-        if (x != v && std::none_of(m_Degree.begin(), m_Degree.end(), [&](const auto& d) { return d.first == x; }))
-          m_Degree.push_back({ x, 0 });
+    const auto& neighbours = m_Operations.neighbours(v);
     Vec3 sum;
-    for (const auto& [x, unused] : m_Degree) sum += wish(v, x);
-    return sum / double(m_Degree.size());
+    for (const auto& n : neighbours) sum += wish(v, n.vertex);
+    return sum / double(neighbours.size());
   }
 
   /// The way of v towards (for x too far) or from (for x too near) its target distance to x, and half the way to x itself,
@@ -137,7 +133,7 @@ private:
     Fit fit = fitOf(m_Complex, v, m_Faces, m_Options.robust);
     fit.addToDiagonal(0.05 * fit.trace() / m_Options.fit);
     const Vec3 step = fit.solve(fit.g);
-    const double before = m_Operations.starQuality(m_Operations.star(v));
+    const double before = m_Operations.qualityAt(v);
     for (double share : { 1.0, 0.5, 0.25 })
       if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : std::min(m_Good, before)))
         return;
@@ -147,12 +143,12 @@ private:
   double sumOfSines(std::int32_t v, const Vec3& p, double floor)
   {
     double sum = 0;
-    for (std::int32_t t : m_Operations.star(v))
+    StarQuality& star = m_Operations.measured(v);
+    const std::vector<double>& qualities = star.each(p);
+    for (std::size_t i = 0; i < star.size(); ++i)
     {
-      const double q = m_Complex.qualityWith(t, v, p);
-      const bool outside = m_Complex.labels[t] == 0;
-      if ((outside ? backgroundLeniency * q : q) < floor) return -1;
-      if (!outside) sum += std::sqrt(std::max(0.0, q));
+      if (qualities[i] < floor) return -1;
+      if (!star.isBackground(i)) sum += std::sqrt(std::max(0.0, qualities[i]));
     }
     return sum;
   }
@@ -161,7 +157,7 @@ private:
   {
     const Vec3 p = m_Complex.points[v];
     const double size = m_Complex.lengths[v], h = 1e-4 * size;
-    const double floor = std::min(m_Good, m_Operations.starQuality(m_Operations.star(v)));
+    const double floor = std::min(m_Good, m_Operations.qualityAt(v));
     const double now = sumOfSines(v, p, -1);
     Vec3 direction;
     for (int a = 0; a < 3; ++a)
@@ -299,24 +295,11 @@ private:
     return any;
   }
 
-  double starWith(std::int32_t v, const Vec3& p, double atLeast) const
-  {
-    double worst = std::numeric_limits<double>::max();
-    for (std::int32_t t : m_Operations.star(v))
-    {
-      double q = m_Complex.qualityWith(t, v, p);
-      if (m_Complex.labels[t] == 0) q *= backgroundLeniency;
-      worst = std::min(worst, q);
-      if (worst <= atLeast) return worst;
-    }
-    return worst;
-  }
-
   /// Climbs the worst quality at v along the gradient of its worst tetrahedron and along trial directions.
   bool optimise(std::int32_t v)
   {
     if (m_Complex.locked[v]) return false;
-    double best = m_Operations.starQuality(m_Operations.star(v));
+    double best = m_Operations.qualityAt(v);
     const double start = best;
     const double size = m_Complex.lengths[v];
     double step = 0.12 * size;
@@ -328,9 +311,9 @@ private:
       const Vec3 p = m_Complex.points[v];
       const Vec3 direction = easiest(held, trial % 3 != 2 ? gradient(v, p, best, 1e-4 * size) : m_Directions.next());
       const Vec3 q = p + step * direction;
-      if (starWith(v, q, best) > best && m_Operations.move(v, q, best))
+      if (m_Operations.qualityAt(v, q, best) > best && m_Operations.move(v, q, best))
       {
-        best = m_Operations.starQuality(m_Operations.star(v));
+        best = m_Operations.qualityAt(v);
         step *= 1.3;
       }
       else step *= 0.8;
@@ -342,23 +325,21 @@ private:
 
   /// Unit direction that lifts the worst tetrahedra at v: the sum of the unit gradients of all that are nearly as bad as
   /// the worst.
-  Vec3 gradient(std::int32_t v, const Vec3& p, double worst, double h) const
+  Vec3 gradient(std::int32_t v, const Vec3& p, double worst, double h)
   {
-    Vec3 sum;
-    for (std::int32_t t : m_Operations.star(v))
+    StarQuality& star = m_Operations.measured(v);
+    m_Now = star.each(p);
+    m_Gradients.assign(star.size(), {});
+    for (int a = 0; a < 3; ++a)
     {
-      const double q = m_Operations.quality(t);
-      if (q > 1.15 * worst) continue;
-      Vec3 g;
-      for (int a = 0; a < 3; ++a)
-      {
-        Vec3 up = p;
-        up[a] += h;
-        g[a] = m_Complex.qualityWith(t, v, up) - m_Complex.quality(t);
-      }
-      const double n = norm(g);
-      if (n > 0) sum += g / n;
+      Vec3 up = p;
+      up[a] += h;
+      const std::vector<double>& moved = star.each(up);
+      for (std::size_t i = 0; i < star.size(); ++i) m_Gradients[i][a] = moved[i] - m_Now[i];
     }
+    Vec3 sum;
+    for (std::size_t i = 0; i < star.size(); ++i)
+      if (const double n = norm(m_Gradients[i]); n > 0 && m_Now[i] <= 1.15 * worst) sum += m_Gradients[i] / n;
     const double n = norm(sum);
     return n > 0 ? sum / n : Vec3{ 1, 0, 0 };
   }
@@ -385,8 +366,10 @@ private:
     double after = before;
     for (int round = 0; round < m_Options.together && after < m_Target; ++round)
     {
+      const std::size_t soFar = moves.size();
       for (std::int32_t v : vertices)
         if (const Vec3 p = m_Complex.points[v]; descend(v, dip * before)) moves.push_back({ v, p });
+      if (moves.size() == soFar) break;
       after = worstAt(vertices);
     }
     if (after > before * (1 + 1e-3))
@@ -416,7 +399,7 @@ private:
   double worstAt(const std::vector<std::int32_t>& vertices)
   {
     double worst = std::numeric_limits<double>::max();
-    for (std::int32_t v : vertices) worst = std::min(worst, m_Operations.starQuality(m_Operations.star(v)));
+    for (std::int32_t v : vertices) worst = std::min(worst, m_Operations.qualityAt(v));
     return worst;
   }
 
@@ -425,11 +408,11 @@ private:
   {
     const double wanted = std::sqrt(1.15 * m_Target);
     double sum = 0;
-    for (std::int32_t t : m_Operations.star(v))
+    StarQuality& star = m_Operations.measured(v);
+    const std::vector<double>& qualities = star.each(p);
+    for (std::size_t i = 0; i < star.size(); ++i)
     {
-      double q = m_Complex.qualityWith(t, v, p);
-      if (m_Complex.labels[t] == 0) q *= backgroundLeniency;
-      const double missing = wanted - std::sqrt(std::max(0.0, q));
+      const double missing = wanted - std::sqrt(std::max(0.0, qualities[i]));
       if (missing > 0) sum += missing * missing;
     }
     return sum;
@@ -471,7 +454,7 @@ private:
                          for (const auto& [u, v] : { std::pair(a, b), std::pair(b, a) })
                          {
                            if (m_Complex.locked[u]) continue;
-                           const double before = m_Operations.starQuality(m_Operations.star(u)) * 1.0001 + 1e-9;
+                           const double before = m_Operations.qualityAt(u) * 1.0001 + 1e-9;
                            const Vec3 from = m_Complex.points[u], to = m_Complex.points[v];
                            for (double share : { 1.0, 0.5 })
                              if (m_Operations.collapse(u, v, from + share * (to - from), before, m_Options.longEdge))
@@ -535,6 +518,8 @@ private:
   std::vector<std::uint8_t> m_Touched; ///< per vertex
   std::vector<std::int32_t> m_Ring, m_RingVertices;
   std::vector<SheetFace> m_Faces;
+  std::vector<double> m_Now;
+  std::vector<Vec3> m_Gradients;
 };
 
 } // namespace

@@ -28,12 +28,16 @@ std::array<std::int32_t, 3> sortedFace(const Tet& t, int i)
 
 TetComplex::TetComplex(std::vector<Vec3> points_, std::vector<float> lengths_, std::vector<Tet> tets_,
                        std::vector<Label> labels_)
-  : points(std::move(points_)), lengths(std::move(lengths_)), locked(points.size(), 0), vertexTet(points.size(), -1),
-    tets(std::move(tets_)), neighbours(tets.size(), Tet{ -1, -1, -1, -1 }), labels(std::move(labels_)),
-    evidenceHeads(tets.size(), { -1, -1, -1, -1 }), m_Mark(tets.size(), 0)
+  : points(std::move(points_)), lengths(std::move(lengths_)), locked(points.size(), 0), onInterface(points.size(), 0),
+    vertexTet(points.size(), -1), tets(std::move(tets_)), neighbours(tets.size(), Tet{ -1, -1, -1, -1 }),
+    labels(std::move(labels_)), evidenceHeads(tets.size(), { -1, -1, -1, -1 }), m_Mark(tets.size(), 0)
 {
   for (std::size_t t = 0; t < tets.size(); ++t)
-    for (std::int32_t v : tets[t]) vertexTet[v] = std::int32_t(t);
+    for (std::int32_t v : tets[t])
+    {
+      if (vertexTet[v] >= 0 && labels[vertexTet[v]] != labels[t]) onInterface[v] = 1;
+      vertexTet[v] = std::int32_t(t);
+    }
   matchFaces();
   for (std::size_t t = 0; t < tets.size(); ++t)
     for (int i = 0; i < 4; ++i)
@@ -94,19 +98,25 @@ double TetComplex::qualityWith(std::int32_t t, std::int32_t v, const Vec3& p) co
 
 void TetComplex::star(std::int32_t v, std::vector<std::int32_t>& out)
 {
-  ++m_Stamp;
-  out.clear();
-  out.push_back(vertexTet[v]);
-  m_Mark[out[0]] = m_Stamp;
-  for (std::size_t i = 0; i < out.size(); ++i)
+  const std::uint32_t stamp = ++m_Stamp;
+  if (out.size() < 32) out.resize(32);
+  std::size_t n = 1, room = out.size();
+  out[0] = vertexTet[v];
+  m_Mark[out[0]] = stamp;
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    if (n + 4 > room) out.resize(room *= 2);
+    const Tet& x = tets[out[i]];
+    const Tet& across = neighbours[out[i]];
     for (int k = 0; k < 4; ++k)
     {
-      if (tets[out[i]][k] == v) continue;
-      const std::int32_t n = neighbours[out[i]][k];
-      if (n < 0 || m_Mark[n] == m_Stamp) continue;
-      m_Mark[n] = m_Stamp;
-      out.push_back(n);
+      const std::int32_t t = across[k];
+      if (x[k] == v || t < 0 || m_Mark[t] == stamp) continue;
+      m_Mark[t] = stamp;
+      out[n++] = t;
     }
+  }
+  out.resize(n);
 }
 
 bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::vector<std::int32_t>& tetrahedra,
@@ -211,11 +221,12 @@ std::int32_t TetComplex::allocate()
   return std::int32_t(tets.size()) - 1;
 }
 
-std::int32_t TetComplex::addVertex(const Vec3& p, float length)
+std::int32_t TetComplex::addVertex(const Vec3& p, float length, bool isOnInterface)
 {
   points.push_back(p);
   lengths.push_back(length);
   locked.push_back(0);
+  onInterface.push_back(isOnInterface);
   vertexTet.push_back(-1);
   return std::int32_t(points.size()) - 1;
 }

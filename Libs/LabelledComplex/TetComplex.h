@@ -42,6 +42,8 @@ public:
   std::vector<Vec3> points;
   std::vector<float> lengths;
   std::vector<std::uint8_t> locked;
+  std::vector<std::uint8_t>
+    onInterface; ///< per vertex: tetrahedra of different labels meet there; no operation changes it
   std::vector<std::int32_t> vertexTet; ///< some tetrahedron at each vertex
   std::vector<Tet> tets;               ///< vertices
   std::vector<Tet> neighbours;         ///< [i] across the face opposite vertex i; -1 beyond a block
@@ -88,7 +90,7 @@ public:
   /// pair persists, its evidence. Evidence of inner interface faces must have been taken before. Returns the new ids.
   std::vector<std::int32_t> replace(const std::vector<std::int32_t>& old, const std::vector<Tet>& tetrahedra,
                                     const std::vector<Label>& newLabels);
-  std::int32_t addVertex(const Vec3& p, float length);
+  std::int32_t addVertex(const Vec3& p, float length, bool isOnInterface);
 
 private:
   void matchFaces();

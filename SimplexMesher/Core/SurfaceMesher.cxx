@@ -178,6 +178,7 @@ struct Step
   double slack = 1;       ///< see GuardedOperations
   double level = 0;       ///< mm, size that short edges are collapsed to; 0: none
   bool fitCollapses = true;
+  bool thoroughCollapses = true;
   double collapseAngle = 5; ///< degrees, least that a collapse leaves
   int relaxations = 0;
   RelaxationOptions relaxation;
@@ -185,7 +186,6 @@ struct Step
   PolishOptions polishing;
   ImprovementOptions improvement = improvementTo(0, 0, 0);
   bool balance = false; ///< tissues' volumes first; not under a bound on the distance to the boundary as it is
-  bool again = false;   ///< collapses once more after the rest has made room
   bool whole = false;   ///< in one block: borders are locked, and what is still bad lies at them
 
   static ImprovementOptions improvementTo(double angle, int trials, int passes, double splitEdge = 0)
@@ -201,24 +201,27 @@ struct Step
 };
 
 /// Levels of size, each about 1.5 times the one before: a single pass to the final lengths would leave a ragged mesh. The
-/// first levels hold most of the tetrahedra, in a lattice that is still regular: fitting and repair pay later.
+/// first levels hold most of the tetrahedra, in a lattice that is still regular: fitting, thoroughness and repair pay later,
+/// and relaxation there costs regular sizes in the end.
 std::vector<Step> coarseningSteps(const Grid& grid, double longest)
 {
   const double least = shortestSpacing(grid);
   Step step;
   step.name = "coarsening";
   step.level = 1.6 * least;
-  step.fitCollapses = false;
+  step.fitCollapses = step.thoroughCollapses = false;
   std::vector<Step> steps{ step };
   step.fitCollapses = true;
-  step.relaxations = 1;
-  step.again = true;
   for (step.level *= 1.48; step.level < longest; step.level *= 1.48)
   {
     if (step.level > 3 * least) step.improvement = Step::improvementTo(15, 8, 1);
+    if (step.level > 5 * least) step.relaxations = 1;
+    step.thoroughCollapses = step.level > 7 * least;
     steps.push_back(step);
   }
   step.level = longest;
+  step.relaxations = 1;
+  step.thoroughCollapses = true;
   step.improvement = Step::improvementTo(15, 8, 1);
   steps.insert(steps.end(), 3, step);
   return steps;
@@ -241,10 +244,10 @@ std::vector<Step> improvementSteps(double voxel, double longest)
     step.improvement = improvement;
     steps.push_back(step);
   };
-  add(0.4, longest, 2, Step::improvementTo(25, 8, 2));
-  add(0.35, longest, 2, Step::improvementTo(aim, 8, 2));
+  add(0.4, longest, 1, Step::improvementTo(25, 8, 2));
+  add(0.35, longest, 1, Step::improvementTo(aim, 8, 2));
   steps.back().balance = true;
-  add(0.35, longest, 2, Step::improvementTo(aim, 8, 1));
+  add(0.35, longest, 1, Step::improvementTo(aim, 8, 1));
   steps.back().balance = true;
   add(0.5, 0, 1, Step::improvementTo(aim, 16, 2));
   add(0.8, 0, 0, Step::improvementTo(aim, 16, 2));
@@ -259,17 +262,21 @@ std::vector<Step> improvementSteps(double voxel, double longest)
     step.whole = true;
   };
   repair(aim, 1.6, 0, 0.02);
+  steps.back().improvement.together = 0;
+  steps.back().whole = false;
+  repair(kept, 1.6, 0, 0.02);
   repair(kept, mostSlack, 0.3, 1);
-  for (const double rmsLimit : { 0.3, 0.25, 0.25, 0.25, 0.25, 0.25 })
+  for (const double rmsLimit : { 0.3, 0.25, 0.25, 0.25 })
   {
     add(rmsLimit, longest, 1, Step::improvementTo(0, 0, 0));
     Step& step = steps.back();
     step.balance = true;
     step.collapseAngle = kept;
-    step.relaxations = 3;
+    step.relaxations = 1;
     step.relaxation.goodAngle = step.polishing.goodAngle = kept;
-    step.relaxation.fit = 5;
-    step.polishing.fit = 20;
+    step.relaxation.fit = 2;
+    step.relaxation.spread = 0.9;
+    step.polishing.fit = 10;
     step.relaxation.robust = step.polishing.robust = 0.1 * voxel;
   }
   repair(kept, mostSlack, 0.4, 0.1); // what resisted may have got room
@@ -282,11 +289,11 @@ void work(GuardedOperations& operations, const Step& step)
   CoarseningOptions coarsening;
   coarsening.minimumAngle = step.collapseAngle;
   coarsening.fit = step.fitCollapses;
+  coarsening.thorough = step.thoroughCollapses;
   if (step.level > 0) coarsenBlock(operations, step.level, coarsening);
   for (int i = 0; i < step.relaxations; ++i) relaxBlock(operations, step.relaxation);
   for (int i = 0; i < step.polishes; ++i) polishBlock(operations, step.polishing);
   if (step.improvement.targetAngle > 0) improveBlock(operations, step.improvement);
-  if (step.again) coarsenBlock(operations, step.level, coarsening);
 }
 
 } // namespace
@@ -317,7 +324,7 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
     const Progress part = subProgress(progress, 0.1 + 0.9 * double(i) / double(steps.size()),
                                       0.1 + 0.9 * double(i + 1) / double(steps.size()));
     sweepBlocks(
-      result.ambient, int(i), step.whole ? result.ambient.mesh.tetrahedra.size() : blockSize,
+      result.ambient, int(i), step.whole ? oneBlock : blockSize,
       [&](TetComplex& block)
       {
         GuardedOperations operations(block, lengthAt, step.rmsLimit, bounded ? 1 : step.slack);

@@ -131,14 +131,37 @@ inline std::size_t attachedEvidence(const TetComplex& complex)
   return std::size_t(std::count_if(places.begin(), places.end(), [](const EvidencePlace& p) { return p.tet >= 0; }));
 }
 
+/// Whether tetrahedra of different labels meet at each vertex.
+inline std::vector<bool> meetingLabels(const TetComplex& c)
+{
+  std::vector<bool> result(c.points.size(), false);
+  std::vector<int> label(c.points.size(), -1);
+  for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
+  {
+    if (!c.alive(t)) continue;
+    for (std::int32_t v : c.tets[t])
+    {
+      if (label[v] >= 0 && label[v] != c.labels[t]) result[v] = true;
+      label[v] = c.labels[t];
+    }
+  }
+  return result;
+}
+
 /// Neighbours mutual and across the same three vertices; every used vertex knows one of its tetrahedra; every tetrahedron
-/// positive; evidence only at interface faces, on the side of the larger label, and at faces on a block's border; no
+/// positive; the vertices on the interface are known as such; evidence only at interface faces, on the side of the larger label, and at faces on a block's border; no
 /// point in two lists or twice in one.
 inline ::testing::AssertionResult isConsistent(const TetComplex& c)
 {
   const auto failure = [] { return ::testing::AssertionFailure(); };
   std::vector<bool> used(c.points.size(), false), listed(c.evidence.size(), false);
   std::map<std::array<std::int32_t, 3>, int> faces;
+  const std::vector<bool> onInterface = meetingLabels(c);
+  for (std::size_t v = 0; v < c.points.size(); ++v)
+  {
+    if (c.vertexTet[v] >= 0 && !c.locked[v] && bool(c.onInterface[v]) != onInterface[v])
+      return failure() << "vertex " << v << " is wrong about the interface";
+  }
   for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
   {
     if (!c.alive(t)) continue;

@@ -55,6 +55,26 @@ TEST(TetrahedronQuality, DoesNotDependOnSizePlaceOrCornerOrder)
   EXPECT_EQ(radiusRatio(a, b, c, a), 0);
 }
 
+TEST(Distribution, HasThePercentilesOfTheSortedValues)
+{
+  for (int count : { 1, 2, 3, 20, 1001 })
+  {
+    std::vector<double> values;
+    for (int i = 0; i < count; ++i) values.push_back(i * 617 % count);
+    const Distribution d = distributionOf(values);
+    const auto nearest = [&](double share) { return std::floor(share * (count - 1) + 0.5); };
+    EXPECT_EQ(d.count, std::size_t(count));
+    EXPECT_EQ(d.minimum, 0);
+    EXPECT_EQ(d.percentile1, nearest(0.01));
+    EXPECT_EQ(d.percentile5, nearest(0.05));
+    EXPECT_EQ(d.median, nearest(0.5));
+    EXPECT_EQ(d.percentile95, nearest(0.95));
+    EXPECT_EQ(d.percentile99, nearest(0.99));
+    EXPECT_EQ(d.maximum, count - 1);
+    EXPECT_NEAR(d.mean, 0.5 * (count - 1), 1e-9);
+  }
+}
+
 TEST(AssessQuality, GroupsAddUp)
 {
   const TetraMesh mesh = withoutOutside(test::tetrahedraOf(

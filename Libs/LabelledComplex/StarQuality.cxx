@@ -1,0 +1,100 @@
+#include "StarQuality.h"
+
+#include <limits>
+
+// A copy of the loops for processors that handle four doubles at once, chosen when the program starts. Without fused
+// operations both copies give the same bits. Sanitisers are not ready yet at that moment.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) &&                           \
+  !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define WITH_WIDE_COPY __attribute__((target_clones("avx2", "default")))
+#else
+#define WITH_WIDE_COPY
+#endif
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+double lesser(double a, double b) { return a < b ? a : b; }
+
+} // namespace
+
+void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star)
+{
+  // With v first, an even permutation of the tetrahedron.
+  static constexpr int others[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 3, 0, 1 }, { 2, 1, 0 } };
+  m_Size = star.size();
+  m_Groups.resize((m_Size + lanes - 1) / lanes);
+  for (std::size_t i = 0; i < m_Groups.size() * lanes; ++i)
+  {
+    Group& group = m_Groups[i / lanes];
+    const std::size_t lane = i % lanes;
+    const std::int32_t t = star[i < m_Size ? i : i - lane];
+    const auto& x = complex.tets[t];
+    const int* order = others[complex.indexOf(t, v)];
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t id = x[order[k]];
+      const Vec3& p = complex.points[id];
+      group.corners[k][0][lane] = p.x;
+      group.corners[k][1][lane] = p.y;
+      group.corners[k][2][lane] = p.z;
+      group.ids[k][lane] = id;
+    }
+    group.weight[lane] = complex.labels[t] == 0 ? backgroundLeniency : 1;
+  }
+}
+
+/// worstSine2 (TetQuality.h) without a branch and with one division.
+inline void StarQuality::measure(const Group& g, const Vec3& p, double* quality)
+{
+  for (std::size_t k = 0; k < lanes; ++k)
+  {
+    const auto edgeTo = [&](int corner) {
+      return Vec3{ g.corners[corner][0][k], g.corners[corner][1][k], g.corners[corner][2][k] } - p;
+    };
+    const Vec3 b = edgeTo(0), c = edgeTo(1), d = edgeTo(2);
+    const Vec3 nd = cross(b, c), nb = cross(c, d), nc = cross(d, b);
+    const double v6 = dot(nd, d);
+    const double na2 = squaredNorm(nb + nc + nd), nb2 = squaredNorm(nb), nc2 = squaredNorm(nc), nd2 = squaredNorm(nd);
+    const double ab = na2 * nb2, cd = nc2 * nd2;
+    const double least = lesser(lesser(lesser(squaredNorm(b) * ab, squaredNorm(c) * (na2 * nc2)),
+                                       lesser(squaredNorm(d) * (na2 * nd2), squaredNorm(c - b) * (nb2 * nc2))),
+                                lesser(squaredNorm(d - b) * (nb2 * nd2), squaredNorm(d - c) * cd));
+    const double q = g.weight[k] * (v6 * v6 * least / (ab * cd));
+    quality[k] = v6 > 0 ? q : -1;
+  }
+}
+
+WITH_WIDE_COPY
+double StarQuality::worst(const Vec3& p, double atLeast, std::int32_t without) const
+{
+  const double none = without;
+  double result = std::numeric_limits<double>::max();
+  for (const Group& g : m_Groups)
+  {
+    double q[lanes];
+    measure(g, p, q);
+    for (std::size_t k = 0; k < lanes; ++k)
+    {
+      q[k] = g.ids[0][k] == none ? std::numeric_limits<double>::max() : q[k];
+      q[k] = g.ids[1][k] == none ? std::numeric_limits<double>::max() : q[k];
+      q[k] = g.ids[2][k] == none ? std::numeric_limits<double>::max() : q[k];
+    }
+    result = lesser(result, lesser(lesser(q[0], q[1]), lesser(q[2], q[3])));
+    if (result < atLeast) break;
+  }
+  return result;
+}
+
+WITH_WIDE_COPY
+const std::vector<double>& StarQuality::each(const Vec3& p)
+{
+  m_Each.resize(m_Groups.size() * lanes);
+  for (std::size_t i = 0; i < m_Groups.size(); ++i) measure(m_Groups[i], p, m_Each.data() + i * lanes);
+  return m_Each;
+}
+
+} // namespace surgicalmesher

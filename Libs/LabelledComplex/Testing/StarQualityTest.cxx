@@ -1,0 +1,84 @@
+#include "StarQuality.h"
+#include "TetQuality.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+/// `count` tetrahedra at vertex 0, which takes each of their four places in turn; every third one is background.
+TetComplex starOf(std::size_t count, std::mt19937& random)
+{
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  std::vector<Vec3> points{ {} };
+  std::vector<TetComplex::Tet> tets;
+  std::vector<Label> labels;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const auto first = std::int32_t(points.size());
+    for (int k = 0; k < 3; ++k) points.push_back({ uniform(random), uniform(random), uniform(random) });
+    TetComplex::Tet t{ first, first + 1, first + 2, first };
+    std::swap(t[3], t[i % 4]);
+    t[i % 4] = 0;
+    const auto p = [&](int k) { return points[t[k]]; };
+    if (orient(p(0), p(1), p(2), p(3)) < 0) std::swap(t[(i + 1) % 4], t[(i + 2) % 4]);
+    tets.push_back(t);
+    labels.push_back(Label(i % 3));
+  }
+  const std::vector<float> lengths(points.size(), 1);
+  return TetComplex(points, lengths, tets, labels);
+}
+
+double expected(const TetComplex& complex, std::int32_t t, const Vec3& p)
+{
+  const double q = complex.qualityWith(t, 0, p);
+  return q > 0 && complex.labels[t] == 0 ? backgroundLeniency * q : q;
+}
+
+class Stars : public ::testing::TestWithParam<std::size_t>
+{
+};
+
+} // namespace
+
+TEST_P(Stars, AreMeasuredAsTheirTetrahedraOneByOne)
+{
+  std::mt19937 random(1);
+  const TetComplex complex = starOf(GetParam(), random);
+  std::vector<std::int32_t> star(GetParam());
+  for (std::size_t i = 0; i < star.size(); ++i) star[i] = std::int32_t(i);
+  StarQuality quality;
+  quality.gather(complex, 0, star);
+  ASSERT_EQ(quality.size(), star.size());
+  std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    const Vec3 p{ uniform(random), uniform(random), uniform(random) };
+    const std::vector<double> each = quality.each(p);
+    const std::int32_t without = complex.tets[0][1] ? complex.tets[0][1] : complex.tets[0][2];
+    double worst = std::numeric_limits<double>::max(), worstWithout = worst;
+    for (const std::int32_t t : star)
+    {
+      const double q = expected(complex, t, p);
+      EXPECT_NEAR(each[t], q, 1e-12) << "tetrahedron " << t;
+      EXPECT_EQ(quality.isBackground(t), complex.labels[t] == 0);
+      worst = std::min(worst, q);
+      if (!complex.contains(t, without)) worstWithout = std::min(worstWithout, q);
+    }
+    EXPECT_NEAR(quality.worst(p, -1), worst, 1e-12);
+    if (star.size() > 1)
+    {
+      EXPECT_NEAR(quality.worst(p, -1, without), worstWithout, 1e-12);
+    }
+    EXPECT_LT(quality.worst(p, worst + 1), worst + 1) << "may stop early, but below what was asked";
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEverySize, Stars, ::testing::Values(1, 3, 4, 5, 24));
+
+} // namespace surgicalmesher
