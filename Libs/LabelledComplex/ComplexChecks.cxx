@@ -4,7 +4,11 @@
 #include "FaceNeighbours.h"
 #include "UnionFind.h"
 
+#include <vtkSMPTools.h>
+
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -323,8 +327,18 @@ MeshDefects checkMesh(const TetraMesh& mesh)
 std::map<Label, Betti> meshTopology(const TetraMesh& mesh)
 {
   const FaceNeighbours neighbours = faceNeighbours(mesh);
-  const std::vector<std::int32_t> region =
-    faceRegions(neighbours, [&](std::int32_t t, int f) { return passable(mesh, neighbours, t, f); });
+  std::vector<std::int32_t> region;
+  std::map<Label, int> surfaces, euler;
+  const std::array<std::function<void()>, 3> parts{
+    [&] { region = faceRegions(neighbours, [&](std::int32_t t, int f) { return passable(mesh, neighbours, t, f); }); },
+    [&] { surfaces = boundarySurfaces(mesh, neighbours); },
+    [&] { euler = InteriorCells(mesh, neighbours).euler(); },
+  };
+  vtkSMPTools::For(0, vtkIdType(parts.size()), 1,
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (vtkIdType i = begin; i < end; ++i) parts[i]();
+                   });
   std::map<Label, Betti> result;
   std::int32_t regionsSeen = 0;
   for (std::size_t t = 0; t < region.size(); ++t)
@@ -333,8 +347,6 @@ std::map<Label, Betti> meshTopology(const TetraMesh& mesh)
     ++regionsSeen;
     ++result[mesh.labels[t]].components;
   }
-  const std::map<Label, int> surfaces = boundarySurfaces(mesh, neighbours);
-  const std::map<Label, int> euler = InteriorCells(mesh, neighbours).euler();
   result.erase(0);
   for (auto& [label, betti] : result)
   {

@@ -1,6 +1,10 @@
 #include "FaceNeighbours.h"
 
+#include <vtkSMPTools.h>
+
 #include <algorithm>
+#include <mutex>
+#include <numeric>
 
 namespace surgicalmesher
 {
@@ -14,37 +18,35 @@ struct Face
   std::int32_t local;
 };
 
-/// Ascending, those of the same points in the order of their tetrahedra. Sorted into the places of their first points by
-/// counting, and there by their other two: some twenty at a place.
-std::vector<Face> sortedFaces(const TetraMesh& mesh)
+Face faceOf(const TetraMesh& mesh, std::size_t t, int f)
 {
-  const auto face = [&](std::size_t t, int f)
+  Face face{ {}, static_cast<std::int32_t>(t), f };
+  for (int c = 0; c < 3; ++c) face.points[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
+  std::sort(face.points.begin(), face.points.end());
+  return face;
+}
+
+bool operator<(const Face& a, const Face& b)
+{
+  if (a.points[1] != b.points[1]) return a.points[1] < b.points[1];
+  if (a.points[2] != b.points[2]) return a.points[2] < b.points[2];
+  return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.local < b.local;
+}
+
+/// Pairs the faces from `begin` to `end`, all with the same first point.
+void pairFaces(Face* begin, Face* end, FaceNeighbours& result, std::vector<std::int32_t>& overused)
+{
+  std::sort(begin, end);
+  for (Face* next; begin != end; begin = next)
   {
-    Face result{ {}, static_cast<std::int32_t>(t), f };
-    for (int c = 0; c < 3; ++c) result.points[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
-    std::sort(result.points.begin(), result.points.end());
-    return result;
-  };
-  std::vector<std::size_t> end(mesh.points.size() + 1, 0);
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    for (int f = 0; f < 4; ++f) ++end[face(t, f).points[0] + 1];
-  for (std::size_t v = 0; v < mesh.points.size(); ++v) end[v + 1] += end[v];
-  std::vector<Face> faces(4 * mesh.tetrahedra.size());
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    for (int f = 0; f < 4; ++f)
+    for (next = begin + 1; next != end && next->points == begin->points;) ++next;
+    if (next - begin == 2)
     {
-      const Face next = face(t, f);
-      faces[end[next.points[0]]++] = next;
+      result.across[begin[0].tetrahedron][begin[0].local] = begin[1].tetrahedron;
+      result.across[begin[1].tetrahedron][begin[1].local] = begin[0].tetrahedron;
     }
-  const auto before = [](const Face& a, const Face& b)
-  {
-    if (a.points[1] != b.points[1]) return a.points[1] < b.points[1];
-    if (a.points[2] != b.points[2]) return a.points[2] < b.points[2];
-    return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.local < b.local;
-  };
-  for (std::size_t v = 0; v < mesh.points.size(); ++v)
-    std::sort(faces.begin() + std::ptrdiff_t(v ? end[v - 1] : 0), faces.begin() + std::ptrdiff_t(end[v]), before);
-  return faces;
+    for (const Face* face = begin; next - begin > 2 && face != next; ++face) overused.push_back(face->tetrahedron);
+  }
 }
 
 } // namespace
@@ -53,17 +55,28 @@ FaceNeighbours faceNeighbours(const TetraMesh& mesh)
 {
   FaceNeighbours result;
   result.across.assign(mesh.tetrahedra.size(), { -1, -1, -1, -1 });
-  const std::vector<Face> faces = sortedFaces(mesh);
-  for (std::size_t begin = 0, end; begin < faces.size(); begin = end)
-  {
-    for (end = begin + 1; end < faces.size() && faces[end].points == faces[begin].points;) ++end;
-    if (end - begin == 2)
+  // Sorted by their first points by counting: some twenty of each are left to compare.
+  std::vector<std::size_t> end(mesh.points.size() + 1, 0);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    for (int f = 0; f < 4; ++f) ++end[faceOf(mesh, t, f).points[0] + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<Face> faces(4 * mesh.tetrahedra.size());
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    for (int f = 0; f < 4; ++f)
     {
-      result.across[faces[begin].tetrahedron][faces[begin].local] = faces[begin + 1].tetrahedron;
-      result.across[faces[begin + 1].tetrahedron][faces[begin + 1].local] = faces[begin].tetrahedron;
+      const Face face = faceOf(mesh, t, f);
+      faces[end[face.points[0]]++] = face;
     }
-    for (std::size_t i = begin; end - begin > 2 && i < end; ++i) result.overused.push_back(faces[i].tetrahedron);
-  }
+  std::mutex mutex;
+  vtkSMPTools::For(0, vtkIdType(mesh.points.size()),
+                   [&](vtkIdType first, vtkIdType last)
+                   {
+                     std::vector<std::int32_t> overused;
+                     for (vtkIdType v = first; v < last; ++v)
+                       pairFaces(faces.data() + (v ? end[v - 1] : 0), faces.data() + end[v], result, overused);
+                     const std::lock_guard<std::mutex> lock(mutex);
+                     result.overused.insert(result.overused.end(), overused.begin(), overused.end());
+                   });
   std::sort(result.overused.begin(), result.overused.end());
   result.overused.erase(std::unique(result.overused.begin(), result.overused.end()), result.overused.end());
   return result;

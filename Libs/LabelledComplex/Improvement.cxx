@@ -227,6 +227,9 @@ public:
       if (bad.empty()) break;
       std::sort(bad.begin(), bad.end());
       m_Touched.assign(m_Complex.points.size(), 0);
+      m_TogetherLeft = 0;
+      if (m_Options.together > 0)
+        m_TogetherLeft = std::max(100L, long(m_Options.togetherShare * double(m_Complex.tets.size())));
       for (const auto& [q, t] : bad)
         if (m_Complex.alive(t) && m_Operations.quality(t) < m_Target) improve(t);
     }
@@ -252,7 +255,7 @@ private:
     for (int round = 0; round < 4; ++round)
     {
       const bool done = removeAnEdge(t) || moveAVertex(t) || collapseAnEdge(t) || (m_Options.split && splitAnEdge(t)) ||
-                        (m_Options.together > 0 && moveTogether(t));
+                        moveTogether(t);
       if (!done || !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target) return;
     }
   }
@@ -353,6 +356,8 @@ private:
       double near; ///< tetrahedra up to this many times as good as t take part
       double dip;  ///< share of t's quality that they may fall to on the way
     };
+    if (m_TogetherLeft <= 0) return false;
+    --m_TogetherLeft;
     for (const Reach& reach : { Reach{ 1.3, 0.8 }, Reach{ 2, 0.6 } })
       if (moveTogether(neighbourhood(t, reach.near), reach.dip)) return true;
     return false;
@@ -516,6 +521,7 @@ private:
   const double m_Target;
   Directions m_Directions;
   std::vector<std::uint8_t> m_Touched; ///< per vertex
+  long m_TogetherLeft = 0;             ///< in this pass
   std::vector<std::int32_t> m_Ring, m_RingVertices;
   std::vector<SheetFace> m_Faces;
   std::vector<double> m_Now;

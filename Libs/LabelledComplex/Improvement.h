@@ -42,7 +42,9 @@ struct ImprovementOptions
   double ease = 0.02;     ///< as in PolishOptions
   int trials = 12;        ///< positions tried for each vertex
   int together = 0;       ///< rounds in which the vertices around what resists all else move together
-  int passes = 3;         ///< later passes work only where something has changed
+  double togetherShare =
+    0.001;        ///< of the tetrahedra, the worst, for which that is tried in one pass; of a hundred at least
+  int passes = 3; ///< later passes work only where something has changed
 };
 
 /// Worst first: edge removal, vertex optimisation, collapse, split, and moves of several vertices together, of the

@@ -252,20 +252,18 @@ std::vector<Step> improvementSteps(double voxel, double longest)
   add(0.5, 0, 1, Step::improvementTo(aim, 16, 2));
   add(0.8, 0, 0, Step::improvementTo(aim, 16, 2));
   steps.back().slack = 1.3;
-  const auto repair = [&](double angle, double slack, double splitEdge, double ease)
+  const auto repair = [&](double angle, double slack, double splitEdge, double ease, int together, bool whole)
   {
     add(1, 0, 0, Step::improvementTo(angle, 20, 3, splitEdge));
     Step& step = steps.back();
     step.improvement.ease = ease;
     step.slack = slack;
-    step.improvement.together = 20;
-    step.whole = true;
+    step.improvement.together = together;
+    step.whole = whole;
   };
-  repair(aim, 1.6, 0, 0.02);
-  steps.back().improvement.together = 0;
-  steps.back().whole = false;
-  repair(kept, 1.6, 0, 0.02);
-  repair(kept, mostSlack, 0.3, 1);
+  repair(aim, 1.6, 0, 0.02, 0, false);
+  repair(kept, 1.6, 0, 0.02, 20, false);
+  repair(kept, mostSlack, 0.3, 1, 20, true);
   for (const double rmsLimit : { 0.3, 0.25, 0.25, 0.25 })
   {
     add(rmsLimit, longest, 1, Step::improvementTo(0, 0, 0));
@@ -279,8 +277,8 @@ std::vector<Step> improvementSteps(double voxel, double longest)
     step.polishing.fit = 10;
     step.relaxation.robust = step.polishing.robust = 0.1 * voxel;
   }
-  repair(kept, mostSlack, 0.4, 0.1); // what resisted may have got room
-  repair(kept, mostSlack, 0.3, 1);
+  repair(kept, mostSlack, 0.4, 0.1, 20, true); // what resisted may have got room
+  repair(kept, mostSlack, 0.3, 1, 20, true);
   return steps;
 }
 
