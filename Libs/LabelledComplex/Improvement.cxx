@@ -226,16 +226,20 @@ public:
           if (const double q = m_Operations.quality(t); q < m_Target) bad.push_back({ q, t });
       if (bad.empty()) break;
       std::sort(bad.begin(), bad.end());
+      bad.resize(std::min(bad.size(), shareOf(m_Options.worstShare)));
       m_Touched.assign(m_Complex.points.size(), 0);
-      m_TogetherLeft = 0;
-      if (m_Options.together > 0)
-        m_TogetherLeft = std::max(100L, long(m_Options.togetherShare * double(m_Complex.tets.size())));
+      m_TogetherLeft = m_Options.together > 0 ? shareOf(m_Options.togetherShare) : 0;
       for (const auto& [q, t] : bad)
         if (m_Complex.alive(t) && m_Operations.quality(t) < m_Target) improve(t);
     }
   }
 
 private:
+  std::size_t shareOf(double share) const
+  {
+    return std::max<std::size_t>(100, std::size_t(share * double(m_Complex.tets.size())));
+  }
+
   /// Whether anything near t has changed since it was last tried.
   bool isTouched(std::int32_t t) const
   {
@@ -356,7 +360,7 @@ private:
       double near; ///< tetrahedra up to this many times as good as t take part
       double dip;  ///< share of t's quality that they may fall to on the way
     };
-    if (m_TogetherLeft <= 0) return false;
+    if (m_TogetherLeft == 0) return false;
     --m_TogetherLeft;
     for (const Reach& reach : { Reach{ 1.3, 0.8 }, Reach{ 2, 0.6 } })
       if (moveTogether(neighbourhood(t, reach.near), reach.dip)) return true;
@@ -521,7 +525,7 @@ private:
   const double m_Target;
   Directions m_Directions;
   std::vector<std::uint8_t> m_Touched; ///< per vertex
-  long m_TogetherLeft = 0;             ///< in this pass
+  std::size_t m_TogetherLeft = 0;      ///< in this pass
   std::vector<std::int32_t> m_Ring, m_RingVertices;
   std::vector<SheetFace> m_Faces;
   std::vector<double> m_Now;

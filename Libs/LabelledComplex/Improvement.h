@@ -42,6 +42,7 @@ struct ImprovementOptions
   double ease = 0.02;     ///< as in PolishOptions
   int trials = 12;        ///< positions tried for each vertex
   int together = 0;       ///< rounds in which the vertices around what resists all else move together
+  double worstShare = 1;  ///< of the tetrahedra, the worst, that are worked on in one pass; a hundred at least
   double togetherShare =
     0.001;        ///< of the tetrahedra, the worst, for which that is tried in one pass; of a hundred at least
   int passes = 3; ///< later passes work only where something has changed

@@ -25,7 +25,6 @@ constexpr std::size_t blockSize = 40000; // tetrahedra
 /// allow.
 struct Step
 {
-  bool forAll;            ///< or only for a mesh that has not been improved before
   double rmsLimit, slack; ///< see GuardedOperations
   double collapseAngle;   ///< degrees, least that the collapse of a short edge leaves; 0: no collapses
   int relaxations;
@@ -39,19 +38,13 @@ struct Step
 };
 constexpr double most = 90;
 constexpr Step steps[] = {
-  { false, 0.3, 1.0, 15, 3, 15, 2, 29.5, 1, 20, 8, 2, 0, false },
-  { false, 0.3, 1.0, 20, 1, 20, 2, 29.5, 1, 25, 8, 2, 0, false },
-  { false, 0.4, 1.0, 20, 1, 25, 3, 29.5, 1, most, 8, 2, 0, false },
-  { false, 0.4, 1.0, 20, 1, 25, 4, 29.5, 1, most, 8, 2, 0, false },
-  { true, 0.3, 1.0, 0, 1, 25, 4, 29.5, 1, most, 8, 2, 0, false },
-  { false, 0.5, 1.0, 0, 1, 25, 4, 29.5, 1, most, 12, 2, 0, false },
-  { true, 0.8, 1.5, 0, 0, 0, 5, 29.5, 1, most, 16, 2, 0, false },
-  { true, 1.0, 2.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },
-  { true, 1.0, 3.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },
-  { true, 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },
-  { true, 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0.6, true },
-  { true, 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 30, 4, 0.4, true },
-  { true, 0.4, 1.0, 0, 0, 0, 2, 28.4, 3, 0, 0, 0, 0, false },
+  { 0.3, 1.0, 15, 3, 15, 2, 29.5, 1, 20, 8, 2, 0, false },   { 0.3, 1.0, 20, 1, 20, 2, 29.5, 1, 25, 8, 2, 0, false },
+  { 0.4, 1.0, 20, 1, 25, 3, 29.5, 1, most, 8, 2, 0, false }, { 0.4, 1.0, 20, 1, 25, 4, 29.5, 1, most, 8, 2, 0, false },
+  { 0.3, 1.0, 0, 1, 25, 4, 29.5, 1, most, 8, 2, 0, false },  { 0.5, 1.0, 0, 1, 25, 4, 29.5, 1, most, 12, 2, 0, false },
+  { 0.8, 1.5, 0, 0, 0, 5, 29.5, 1, most, 16, 2, 0, false },  { 1.0, 2.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },
+  { 1.0, 3.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },      { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0, true },
+  { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 20, 3, 0.6, true },    { 1.0, 4.0, 0, 0, 0, 0, 0, 1, most, 30, 4, 0.4, true },
+  { 0.4, 1.0, 0, 0, 0, 2, 28.4, 3, 0, 0, 0, 0, false },
 };
 
 void work(GuardedOperations& operations, const Step& step, double targetAngle)
@@ -149,7 +142,7 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
   for (std::size_t i = 0; i < sweeps; ++i)
   {
     const Step& step = steps[i];
-    if ((good && !step.forAll) || (step.whole && reaches(ambient.mesh, options.targetAngle))) continue;
+    if ((good && step.collapseAngle > 0) || (step.whole && reaches(ambient.mesh, options.targetAngle))) continue;
     sweepBlocks(
       ambient, int(i), step.whole ? oneBlock : blockSize,
       [&](TetComplex& block)

@@ -260,9 +260,11 @@ std::vector<Step> improvementSteps(double voxel, double longest)
     step.slack = slack;
     step.improvement.together = together;
     step.whole = whole;
+    if (whole) step.improvement.worstShare = 0.002; // on one thread
   };
   repair(aim, 1.6, 0, 0.02, 0, false);
   repair(kept, 1.6, 0, 0.02, 20, false);
+  repair(kept, mostSlack, 0.3, 1, 20, false);
   repair(kept, mostSlack, 0.3, 1, 20, true);
   for (const double rmsLimit : { 0.3, 0.25, 0.25, 0.25 })
   {
@@ -277,7 +279,7 @@ std::vector<Step> improvementSteps(double voxel, double longest)
     step.polishing.fit = 10;
     step.relaxation.robust = step.polishing.robust = 0.1 * voxel;
   }
-  repair(kept, mostSlack, 0.4, 0.1, 20, true); // what resisted may have got room
+  repair(kept, mostSlack, 0.4, 0.1, 20, false); // what resisted may have got room
   repair(kept, mostSlack, 0.3, 1, 20, true);
   return steps;
 }
