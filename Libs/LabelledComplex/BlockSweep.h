@@ -27,6 +27,7 @@ struct AmbientMesh
   std::vector<Place> evidence;
 };
 
+constexpr std::size_t fairBlock = 40000; ///< tetrahedra: a few megabytes, and enough blocks for the threads
 constexpr std::size_t oneBlock = std::numeric_limits<std::size_t>::max();
 
 /// Cuts the mesh into blocks of at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs `work` on

@@ -60,7 +60,7 @@ public:
       for (int i = 0; i < 4; ++i)
         for (int j = i + 1; j < 4; ++j)
         {
-          const float r = float(ratio(x[i], x[j], m_Options.shortEdge));
+          const float r = float(ratio(x[i], x[j]));
           shortest[x[i]] = std::min(shortest[x[i]], r);
           shortest[x[j]] = std::min(shortest[x[j]], r);
         }
@@ -75,12 +75,12 @@ public:
   }
 
 private:
-  /// Length of ab over its target; anything from `enough` on if it is that long.
-  double ratio(std::int32_t a, std::int32_t b, double enough) const
+  /// Length of ab over its target if that is short, else shortEdge.
+  double ratio(std::int32_t a, std::int32_t b) const
   {
     const double target = std::min(m_Level, 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b]));
-    const double length2 = squaredNorm(m_Complex.points[a] - m_Complex.points[b]), limit = enough * target;
-    return length2 < limit * limit ? std::sqrt(length2) / target : enough;
+    const double length2 = squaredNorm(m_Complex.points[a] - m_Complex.points[b]), limit = m_Options.shortEdge * target;
+    return length2 < limit * limit ? std::sqrt(length2) / target : m_Options.shortEdge;
   }
 
   void push(std::int32_t v, double r)
@@ -96,7 +96,7 @@ private:
   {
     m_Near.clear();
     for (const auto& n : m_Operations.neighbours(v))
-      if (const double r = ratio(v, n.vertex, m_Options.shortEdge); r < m_Options.shortEdge)
+      if (const double r = ratio(v, n.vertex); r < m_Options.shortEdge)
         m_Near.push_back({ r, n.vertex, n.alongInterface });
     std::sort(m_Near.begin(), m_Near.end(),
               [](const Near& a, const Near& b)
@@ -187,7 +187,7 @@ private:
     for (const auto& n : m_Around)
     {
       if (n.vertex == v) continue;
-      const double r = ratio(v, n.vertex, m_Options.shortEdge);
+      const double r = ratio(v, n.vertex);
       if (r < m_Options.shortEdge) push(n.vertex, r);
       least = std::min(least, r);
     }

@@ -2,13 +2,10 @@
 
 #include "Errors.h"
 #include "FaceNeighbours.h"
+#include "ParallelTasks.h"
 #include "UnionFind.h"
 
-#include <vtkSMPTools.h>
-
 #include <algorithm>
-#include <array>
-#include <functional>
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -329,16 +326,11 @@ std::map<Label, Betti> meshTopology(const TetraMesh& mesh)
   const FaceNeighbours neighbours = faceNeighbours(mesh);
   std::vector<std::int32_t> region;
   std::map<Label, int> surfaces, euler;
-  const std::array<std::function<void()>, 3> parts{
+  runInParallel({
     [&] { region = faceRegions(neighbours, [&](std::int32_t t, int f) { return passable(mesh, neighbours, t, f); }); },
     [&] { surfaces = boundarySurfaces(mesh, neighbours); },
     [&] { euler = InteriorCells(mesh, neighbours).euler(); },
-  };
-  vtkSMPTools::For(0, vtkIdType(parts.size()), 1,
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (vtkIdType i = begin; i < end; ++i) parts[i]();
-                   });
+  });
   std::map<Label, Betti> result;
   std::int32_t regionsSeen = 0;
   for (std::size_t t = 0; t < region.size(); ++t)

@@ -50,15 +50,23 @@ GuardedOperations::GuardedOperations(TetComplex& complex, ScaleFunction scale, d
 {
 }
 
-const std::vector<std::int32_t>& GuardedOperations::cachedStar(std::int32_t v, std::vector<std::int32_t>& star,
-                                                               std::int32_t& of)
+const std::vector<std::int32_t>& GuardedOperations::starOf(std::int32_t v, Star& star)
 {
-  if (of != v)
+  if (star.vertex != v)
   {
-    m_Complex.star(v, star);
-    of = v;
+    m_Complex.star(v, star.tets);
+    star.vertex = v;
+    star.isMeasured = false;
   }
-  return star;
+  return star.tets;
+}
+
+StarQuality& GuardedOperations::measured(std::int32_t v, Star& star)
+{
+  starOf(v, star);
+  if (!star.isMeasured) star.quality.gather(m_Complex, v, star.tets);
+  star.isMeasured = true;
+  return star.quality;
 }
 
 const std::vector<GuardedOperations::Neighbour>& GuardedOperations::neighbours(std::int32_t v)
@@ -85,14 +93,7 @@ const std::vector<GuardedOperations::Neighbour>& GuardedOperations::neighbours(s
   return m_Neighbours;
 }
 
-StarQuality& GuardedOperations::measured(std::int32_t v)
-{
-  if (m_MeasuredVertex != v) m_Measured.gather(m_Complex, v, star(v));
-  m_MeasuredVertex = v;
-  return m_Measured;
-}
-
-double GuardedOperations::starQuality(const std::vector<std::int32_t>& tetrahedra) const
+double GuardedOperations::worstQuality(const std::vector<std::int32_t>& tetrahedra) const
 {
   double worst = std::numeric_limits<double>::max();
   for (std::int32_t t : tetrahedra) worst = std::min(worst, quality(t));
@@ -283,7 +284,7 @@ bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v, const std::
   };
   const std::uint32_t atU = bits(star), onEdge = bits(ring);
   if (bitCount(onEdge) < 2) return false;
-  const std::uint32_t atV = bits(m_StarOfV);
+  const std::uint32_t atV = bits(m_StarOfV.tets);
   if (m_LocalLabels.size() > 30) return false;
   if (atU & atV & ~onEdge) return false;
 
@@ -367,9 +368,9 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
       }
     }
   };
-  facesAt(u, v, m_Star, true);
+  facesAt(u, v, m_Star.tets, true);
   // Faces at v that stay as they are keep their points, and may take others.
-  facesAt(v, u, m_StarOfV, !(p == c.points[v]));
+  facesAt(v, u, m_StarOfV.tets, !(p == c.points[v]));
   for (std::int32_t t : m_Ring)
   {
     const int iu = c.indexOf(t, u), iv = c.indexOf(t, v);
@@ -389,9 +390,7 @@ double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, c
 {
   const double worst = measured(u).worst(p, atLeast, v);
   if (worst < atLeast || p == m_Complex.points[v]) return worst;
-  if (m_MeasuredVVertex != v) m_MeasuredV.gather(m_Complex, v, starOfTarget(v));
-  m_MeasuredVVertex = v;
-  return std::min(worst, m_MeasuredV.worst(p, atLeast, u));
+  return std::min(worst, measured(v, m_StarOfV).worst(p, atLeast, u));
 }
 
 bool GuardedOperations::mayCollapse(std::int32_t u, std::int32_t v, bool moves) const
@@ -413,16 +412,16 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
 {
   auto& c = m_Complex;
   const bool moves = !(p == c.points[v]), inside = !c.onInterface[u];
-  star(u);
+  const std::vector<std::int32_t>& star = this->star(u);
   if (!inside)
   {
     if (m_RefusedVertex != u) m_Refused.clear();
     m_RefusedVertex = u;
     if (std::find(m_Refused.begin(), m_Refused.end(), v) != m_Refused.end()) return false;
     starOfTarget(v);
-    const auto seed = std::find_if(m_Star.begin(), m_Star.end(), [&](std::int32_t t) { return c.contains(t, v); });
-    if (seed == m_Star.end() || !c.ring(u, v, *seed, m_Ring, m_RingVertices) ||
-        !keepsTissues(u, v, m_Star, m_Ring, m_RingVertices))
+    const auto seed = std::find_if(star.begin(), star.end(), [&](std::int32_t t) { return c.contains(t, v); });
+    if (seed == star.end() || !c.ring(u, v, *seed, m_Ring, m_RingVertices) ||
+        !keepsTissues(u, v, star, m_Ring, m_RingVertices))
     {
       m_Refused.push_back(v);
       return false;
@@ -430,7 +429,7 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
     if (!collapseKeepsEvidence(u, v, p)) return false;
     detachEvidence();
   }
-  c.collapse(u, v, m_Star);
+  c.collapse(u, v, star);
   changed();
   if (moves)
   {
@@ -463,10 +462,8 @@ bool GuardedOperations::gatherFacesAt(std::int32_t v, const Vec3& p)
   return true;
 }
 
-bool GuardedOperations::move(std::int32_t v, const Vec3& p, double minimumQuality)
+bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
 {
-  if (m_Complex.locked[v]) return false;
-  if (qualityAt(v, p, minimumQuality) < minimumQuality) return false;
   if (gatherFacesAt(v, p))
   {
     if (!evidenceStays()) return false;
@@ -494,8 +491,8 @@ void GuardedOperations::place(std::int32_t v, const Vec3& p)
 {
   m_Complex.points[v] = p;
   m_Complex.lengths[v] = m_Scale(p);
-  if (m_MeasuredVertex != v) m_MeasuredVertex = -1;
-  if (m_MeasuredVVertex != v) m_MeasuredVVertex = -1;
+  for (Star* star : { &m_Star, &m_StarOfV })
+    if (star->vertex != v) star->isMeasured = false;
 }
 
 // --- edge removal ---------------------------------------------------------------------------------------------------

@@ -33,13 +33,13 @@ public:
   double quality(std::int32_t t) const { return lenient(t, m_Complex.quality(t)); }
 
   /// The worst quality of `tetrahedra`.
-  double starQuality(const std::vector<std::int32_t>& tetrahedra) const;
+  double worstQuality(const std::vector<std::int32_t>& tetrahedra) const;
 
   /// Tetrahedra at v; kept until the next operation that changes anything, so asking again costs nothing.
-  const std::vector<std::int32_t>& star(std::int32_t v) { return cachedStar(v, m_Star, m_StarVertex); }
+  const std::vector<std::int32_t>& star(std::int32_t v) { return starOf(v, m_Star); }
 
   /// The same, kept apart, for the vertex that another one may go into.
-  const std::vector<std::int32_t>& starOfTarget(std::int32_t v) { return cachedStar(v, m_StarOfV, m_StarOfVVertex); }
+  const std::vector<std::int32_t>& starOfTarget(std::int32_t v) { return starOf(v, m_StarOfV); }
 
   struct Neighbour
   {
@@ -50,7 +50,7 @@ public:
   const std::vector<Neighbour>& neighbours(std::int32_t v);
 
   /// To measure star(v) with v anywhere; kept likewise, and while only v moves.
-  StarQuality& measured(std::int32_t v);
+  StarQuality& measured(std::int32_t v) { return measured(v, m_Star); }
 
   /// The worst quality at v, were it at p, or some value below `atLeast` if it is less than that.
   double qualityAt(std::int32_t v, const Vec3& p, double atLeast) { return measured(v).worst(p, atLeast); }
@@ -75,8 +75,14 @@ public:
   /// above allow it.
   bool collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality, double maximumRatio);
 
-  /// Moves v to p, if every tetrahedron at v reaches `minimumQuality`.
-  bool move(std::int32_t v, const Vec3& p, double minimumQuality);
+  /// Moves v to p, if every tetrahedron at v reaches `minimumQuality` and the evidence allows it.
+  bool move(std::int32_t v, const Vec3& p, double minimumQuality)
+  {
+    return !m_Complex.locked[v] && qualityAt(v, p, minimumQuality) >= minimumQuality && moveWithin(v, p);
+  }
+
+  /// The rest of move(), once locks and quality have been asked.
+  bool moveWithin(std::int32_t v, const Vec3& p);
 
   /// Takes back a move of v from p, the latest first where there were several: nothing is asked of what was so before.
   void moveBack(std::int32_t v, const Vec3& p);
@@ -117,11 +123,17 @@ private:
     double distance2;  ///< to m_NewFaces[to]
   };
 
-  const std::vector<std::int32_t>& cachedStar(std::int32_t v, std::vector<std::int32_t>& star, std::int32_t& of);
-  void changed()
+  struct Star
   {
-    m_StarVertex = m_StarOfVVertex = m_NeighboursVertex = m_MeasuredVertex = m_MeasuredVVertex = m_RefusedVertex = -1;
-  }
+    std::int32_t vertex = -1; ///< -1: nobody's
+    std::vector<std::int32_t> tets;
+    bool isMeasured = false;
+    StarQuality quality;
+  };
+
+  const std::vector<std::int32_t>& starOf(std::int32_t v, Star& star);
+  StarQuality& measured(std::int32_t v, Star& star);
+  void changed() { m_Star.vertex = m_StarOfV.vertex = m_NeighboursVertex = m_RefusedVertex = -1; }
   double lenient(std::int32_t t, double q) const { return m_Complex.labels[t] == 0 ? q * backgroundLeniency : q; }
   double lenient(Label label, double q) const { return label == 0 ? q * backgroundLeniency : q; }
   bool keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
@@ -147,8 +159,8 @@ private:
   TetComplex& m_Complex;
   ScaleFunction m_Scale;
   double m_MeanSquareLimit, m_SquaredSlack;
-  std::int32_t m_StarVertex = -1, m_StarOfVVertex = -1; ///< whose stars the next two are; -1: nobody's
-  std::int32_t m_NeighboursVertex = -1;
+  Star m_Star, m_StarOfV;               ///< of the vertex worked on, and of the one it may go into
+  std::int32_t m_NeighboursVertex = -1; ///< whose m_Neighbours are; -1: nobody's
   std::vector<Neighbour> m_Neighbours;
   struct Seen
   {
@@ -158,11 +170,9 @@ private:
   };
   std::vector<Seen> m_Seen; ///< per vertex, by the search for neighbours of that number
   std::uint32_t m_Search = 0;
-  std::int32_t m_MeasuredVertex = -1, m_MeasuredVVertex = -1;
-  StarQuality m_Measured, m_MeasuredV;
   std::int32_t m_RefusedVertex = -1; ///< whose collapses onto m_Refused would change a tissue's topology; -1: nobody's
   std::vector<std::int32_t> m_Refused;
-  std::vector<std::int32_t> m_Star, m_StarOfV, m_Ring, m_RingVertices, m_EdgeRing, m_EdgeRingVertices;
+  std::vector<std::int32_t> m_Ring, m_RingVertices, m_EdgeRing, m_EdgeRingVertices;
   std::vector<Face> m_OldFaces, m_NewFaces;
   std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of m_OldFaces
   std::vector<Gathered> m_Gathered;

@@ -172,7 +172,7 @@ private:
     for (double step : { 0.12, 0.06, 0.03 })
     {
       const Vec3 q = p + step * size * direction;
-      if (sumOfSines(v, q, floor) > now && m_Operations.move(v, q, floor)) return;
+      if (sumOfSines(v, q, floor) > now && m_Operations.moveWithin(v, q)) return;
     }
   }
 
@@ -281,7 +281,7 @@ private:
                        {
                          if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
                          if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
-                         if (!m_Operations.removeEdge(a, b, t, m_Operations.starQuality(m_Ring) * 1.0001 + 1e-9))
+                         if (!m_Operations.removeEdge(a, b, t, m_Operations.worstQuality(m_Ring) * 1.0001 + 1e-9))
                            return false;
                          m_Touched.resize(m_Complex.points.size(), 1);
                          m_Touched[a] = m_Touched[b] = 1;
@@ -318,7 +318,7 @@ private:
       const Vec3 p = m_Complex.points[v];
       const Vec3 direction = easiest(held, trial % 3 != 2 ? gradient(v, p, best, 1e-4 * size) : m_Directions.next());
       const Vec3 q = p + step * direction;
-      if (m_Operations.qualityAt(v, q, best) > best && m_Operations.move(v, q, best))
+      if (m_Operations.qualityAt(v, q, best) > best && m_Operations.moveWithin(v, q))
       {
         best = m_Operations.qualityAt(v);
         step *= 1.3;
@@ -493,7 +493,7 @@ private:
   /// Splits ab where the halves of its ring are best, if that beats the ring as it is.
   bool splitAtBest(std::int32_t a, std::int32_t b, std::int32_t seed)
   {
-    const double before = m_Operations.starQuality(m_Ring);
+    const double before = m_Operations.worstQuality(m_Ring);
     const auto halves = [&](const Vec3& p)
     {
       double worst = std::numeric_limits<double>::max();

@@ -16,8 +16,6 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr std::size_t blockSize = 40000; // tetrahedra
-
 /// What one sweep over the blocks does, in this order. The angle that vertices may fall to while they move rises with what
 /// has been reached, and the angle aimed at with it: sizes suffer less than from one step straight to the end. Then only
 /// what is still bad may stray farther from the surface, in one block, as borders are locked and what is still bad lies at
@@ -144,7 +142,7 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
     const Step& step = steps[i];
     if ((good && step.collapseAngle > 0) || (step.whole && reaches(ambient.mesh, options.targetAngle))) continue;
     sweepBlocks(
-      ambient, int(i), step.whole ? oneBlock : blockSize,
+      ambient, int(i), step.whole ? oneBlock : fairBlock,
       [&](TetComplex& block)
       {
         GuardedOperations operations(block, scale, step.rmsLimit, step.slack);

@@ -2,10 +2,10 @@
 
 #include "FaceNeighbours.h"
 #include "JsonMember.h"
+#include "ParallelTasks.h"
 
 #include <rapidjson/prettywriter.h>
 #include <rapidjson/stringbuffer.h>
-#include <vtkSMPTools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -328,11 +328,7 @@ MeshQuality assessQuality(const TetraMesh& mesh, const std::vector<std::int32_t>
   { tasks.push_back([&] { group = groupOf(context, tetrahedra, samplesOf(context, tetrahedra)); }); };
   for (const auto& [id, tetrahedra] : bySubMesh) add(result.subMeshes[id], tetrahedra);
   for (const auto& [label, tetrahedra] : byTissue) add(result.tissues[label], tetrahedra);
-  vtkSMPTools::For(0, vtkIdType(tasks.size()), 1,
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (vtkIdType i = begin; i < end; ++i) tasks[i]();
-                   });
+  runInParallel(tasks);
   return result;
 }
 

@@ -20,10 +20,9 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double mostSlack = 2.4;        // times the tolerance, where an angle can't be mended otherwise
-constexpr double mostBalance = 0.5;      // voxels
-constexpr double balanceGain = 1.5;      // angles hold vertices back from where the evidence goes
-constexpr std::size_t blockSize = 40000; // tetrahedra: a few megabytes, and enough blocks for the threads
+constexpr double mostSlack = 2.4;   // times the tolerance, where an angle can't be mended otherwise
+constexpr double mostBalance = 0.5; // voxels
+constexpr double balanceGain = 1.5; // angles hold vertices back from where the evidence goes
 
 class Evolution
 {
@@ -324,7 +323,7 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
     const Progress part = subProgress(progress, 0.1 + 0.9 * double(i) / double(steps.size()),
                                       0.1 + 0.9 * double(i + 1) / double(steps.size()));
     sweepBlocks(
-      result.ambient, int(i), step.whole ? oneBlock : blockSize,
+      result.ambient, int(i), step.whole ? oneBlock : fairBlock,
       [&](TetComplex& block)
       {
         GuardedOperations operations(block, lengthAt, step.rmsLimit, bounded ? 1 : step.slack);

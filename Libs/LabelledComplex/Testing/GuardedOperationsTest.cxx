@@ -605,7 +605,7 @@ TEST(Quality, OfBackgroundIsTakenLeniently)
   GuardedOperations operations(complex, unitScale);
   EXPECT_EQ(operations.quality(0), complex.quality(0));
   EXPECT_EQ(operations.quality(2), backgroundLeniency * complex.quality(2));
-  EXPECT_EQ(operations.starQuality({ 0, 2 }), std::min(operations.quality(0), operations.quality(2)));
+  EXPECT_EQ(operations.worstQuality({ 0, 2 }), std::min(operations.quality(0), operations.quality(2)));
 }
 
 TEST(DistanceToTriangle, IsThatOfTheNearestOfManyOfItsPoints)
