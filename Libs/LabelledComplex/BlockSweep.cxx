@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <exception>
 #include <memory>
 #include <mutex>
@@ -22,17 +23,26 @@ struct Range
 
 using Centroid = std::array<float, 3>;
 
-/// Recursive cuts along the axes in turn, beginning with the round's, unless the block is more than twice as long along
-/// another. What a cut locks stays fine, so that the next round's medians are drawn to the same plane: rounds cut at other
-/// shares as well.
+/// A frame that is turned differently in each round, so that what the cuts of one round lock is free in the next: what they
+/// lock stays fine, which would draw the medians along the same axes to the same planes.
+std::array<Vec3, 3> frameOfRound(int round)
+{
+  const auto spread = [&](double step) { return 2 * (round * step - std::floor(round * step)) - 1; };
+  const double a = spread(0.8191725), b = spread(0.6710436), c = spread(0.5497005);
+  const double n = 1 + a * a + b * b + c * c; // of the quaternion (1, a, b, c)
+  return { Vec3{ 1 + a * a - b * b - c * c, 2 * (a * b - c), 2 * (a * c + b) } / n,
+           Vec3{ 2 * (a * b + c), 1 - a * a + b * b - c * c, 2 * (b * c - a) } / n,
+           Vec3{ 2 * (a * c - b), 2 * (b * c + a), 1 - a * a - b * b + c * c } / n };
+}
+
+/// Recursive cuts in halves, each across the longest way.
 class Cuts
 {
 public:
   /// `sample`: some of the centroids, each standing for `weight` of them.
-  Cuts(std::vector<Centroid> sample, double weight, std::size_t most, int round)
-    : m_Weight(weight), m_Most(most), m_Round(round)
+  Cuts(std::vector<Centroid> sample, double weight, std::size_t most) : m_Weight(weight), m_Most(most)
   {
-    cut(sample.data(), sample.data() + sample.size(), 0);
+    cut(sample.data(), sample.data() + sample.size());
   }
 
   std::int32_t blockCount() const { return m_Blocks; }
@@ -52,27 +62,26 @@ private:
     std::int32_t next; ///< from it on, this node; or the block's number
   };
 
-  void cut(Centroid* begin, Centroid* end, int depth)
+  void cut(Centroid* begin, Centroid* end)
   {
     const std::size_t n = std::size_t(end - begin);
     const std::size_t node = m_Nodes.size();
-    const int axis = n < 2 || m_Weight * double(n) <= double(m_Most) ? -1 : axisOf(begin, end, depth);
+    const int axis = n < 2 || m_Weight * double(n) <= double(m_Most) ? -1 : longestAxis(begin, end);
     m_Nodes.push_back({ axis, 0, axis < 0 ? m_Blocks : 0 });
     if (axis < 0)
     {
       ++m_Blocks;
       return;
     }
-    constexpr double shares[] = { 0.5, 0.3, 0.7 };
-    Centroid* middle = begin + std::max<std::size_t>(1, std::size_t(double(n) * shares[m_Round % 3]));
+    Centroid* middle = begin + n / 2;
     std::nth_element(begin, middle, end, [&](const Centroid& a, const Centroid& b) { return a[axis] < b[axis]; });
     m_Nodes[node].at = (*middle)[axis];
-    cut(begin, middle, depth + 1);
+    cut(begin, middle);
     m_Nodes[node].next = std::int32_t(m_Nodes.size());
-    cut(middle, end, depth + 1);
+    cut(middle, end);
   }
 
-  int axisOf(const Centroid* begin, const Centroid* end, int depth) const
+  static int longestAxis(const Centroid* begin, const Centroid* end)
   {
     Centroid low = *begin, high = low;
     for (const Centroid* c = begin; c != end; ++c)
@@ -81,15 +90,14 @@ private:
         low[k] = std::min(low[k], (*c)[k]);
         high[k] = std::max(high[k], (*c)[k]);
       }
-    int axis = (m_Round + depth) % 3;
-    for (int k = 0; k < 3; ++k)
-      if (high[k] - low[k] > 2 * (high[axis] - low[axis])) axis = k;
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+      if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
     return axis;
   }
 
   const double m_Weight;
   const std::size_t m_Most;
-  const int m_Round;
   std::vector<Node> m_Nodes;
   std::int32_t m_Blocks = 0;
 };
@@ -117,6 +125,7 @@ public:
   Sweep(AmbientMesh& ambient, int round, std::size_t most) : m_Ambient(ambient)
   {
     const auto& mesh = ambient.mesh;
+    const std::array<Vec3, 3> frame = frameOfRound(round);
     std::vector<Centroid> centroids(mesh.tetrahedra.size());
     vtkSMPTools::For(0, vtkIdType(centroids.size()),
                      [&](vtkIdType begin, vtkIdType end)
@@ -125,10 +134,10 @@ public:
                        {
                          const auto& x = mesh.tetrahedra[t];
                          const Vec3 c = mesh.points[x[0]] + mesh.points[x[1]] + mesh.points[x[2]] + mesh.points[x[3]];
-                         centroids[t] = { float(c.x), float(c.y), float(c.z) };
+                         centroids[t] = { float(dot(frame[0], c)), float(dot(frame[1], c)), float(dot(frame[2], c)) };
                        }
                      });
-    divide(centroids, round, most);
+    divide(centroids, most);
     sortEvidence();
     m_Results.resize(m_Blocks.size());
   }
@@ -178,13 +187,20 @@ public:
   }
 
 private:
-  void divide(const std::vector<Centroid>& centroids, int round, std::size_t most)
+  void divide(const std::vector<Centroid>& centroids, std::size_t most)
   {
     constexpr std::size_t sampleSize = 100000; // places each cut to within a percent of a block
-    const std::size_t stride = std::max<std::size_t>(1, centroids.size() / sampleSize);
+    const double stride = std::max(1.0, double(centroids.size()) / sampleSize);
     std::vector<Centroid> sample;
-    for (std::size_t t = 0; t < centroids.size(); t += stride) sample.push_back(centroids[t]);
-    const Cuts cuts(std::move(sample), double(stride), most, round);
+    double cost = 0;
+    for (std::size_t t = 0; t < centroids.size(); ++t)
+    {
+      cost += m_Ambient.mesh.labels[t] == 0 ? backgroundCost : 1;
+      if (cost < stride) continue;
+      cost -= stride;
+      sample.push_back(centroids[t]);
+    }
+    const Cuts cuts(std::move(sample), stride, most);
     m_BlockOf.resize(centroids.size());
     vtkSMPTools::For(0, vtkIdType(centroids.size()),
                      [&](vtkIdType begin, vtkIdType end)

@@ -27,11 +27,12 @@ struct AmbientMesh
   std::vector<Place> evidence;
 };
 
-constexpr std::size_t fairBlock = 40000; ///< tetrahedra: a few megabytes, and enough blocks for the threads
+constexpr std::size_t fairBlock = 65000; ///< a few megabytes, enough blocks for the threads, and not too much border
+constexpr double backgroundCost = 0.35; ///< of a tetrahedron of label 0, which is let off much, in tetrahedra of a tissue
 constexpr std::size_t oneBlock = std::numeric_limits<std::size_t>::max();
 
-/// Cuts the mesh into blocks of at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs `work` on
-/// each as a TetComplex whose border is locked, and puts the results together in the order of the blocks. `round` shifts
+/// Cuts the mesh into blocks worth at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs `work` on
+/// each as a TetComplex whose border is locked, and puts the results together in the order of the blocks. `round` turns
 /// the cuts, so that what is locked in one round is free in the next. The result depends on neither the number of threads
 /// nor their timing. If `work` or `progress` throws, so does this, and the mesh is as it was.
 void sweepBlocks(AmbientMesh& ambient, int round, std::size_t tetrahedraPerBlock,

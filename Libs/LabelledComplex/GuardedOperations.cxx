@@ -628,4 +628,58 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
   return true;
 }
 
+// --- relabelling ----------------------------------------------------------------------------------------------------
+
+/// Whether t can go over to the label beyond its first `shared` faces, those opposite `corners`: that label must meet it in
+/// these faces only, and its own in the others. What they enclose is a vertex, or on either side an edge.
+bool GuardedOperations::isSimple(std::int32_t t, const std::array<int, 4>& corners, int shared)
+{
+  const auto& c = m_Complex;
+  const auto vertex = [&](int k) { return c.tets[t][corners[k]]; };
+  const auto others = [&](std::int32_t v, std::int32_t w, bool ofOwnLabel)
+  {
+    const auto& star = this->star(v);
+    return std::all_of(star.begin(), star.end(),
+                       [&](std::int32_t s)
+                       { return s == t || !c.contains(s, w) || (c.labels[s] == c.labels[t]) == ofOwnLabel; });
+  };
+  if (shared == 1) return others(vertex(0), vertex(0), true);
+  if (shared == 3) return others(vertex(3), vertex(3), false);
+  return shared == 2 && others(vertex(0), vertex(1), true) && others(vertex(2), vertex(3), false);
+}
+
+bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuality)
+{
+  auto& c = m_Complex;
+  const TetComplex::Tet x = c.tets[t];
+  const Label own = c.labels[t];
+  if (lenient(label, c.quality(t)) < minimumQuality) return false;
+  std::array<int, 4> corners{};
+  int shared = 0, rest = 4;
+  for (int i = 0; i < 4; ++i)
+  {
+    const std::int32_t n = c.neighbours[t][i];
+    if (n < 0 || c.locked[x[i]] || (c.labels[n] != label && c.labels[n] != own)) return false;
+    corners[c.labels[n] == label ? shared++ : --rest] = i;
+  }
+  if (label == own || !isSimple(t, corners, shared)) return false;
+  clearEvidence();
+  for (int k = 0; k < 4; ++k)
+  {
+    const int i = corners[k];
+    const std::array<std::int32_t, 3> ids{ x[(i + 1) & 3], x[(i + 2) & 3], x[(i + 3) & 3] };
+    if (k < shared) gather(t, i);
+    else addNewFace(c.points[ids[0]], c.points[ids[1]], c.points[ids[2]], ids, own, label);
+  }
+  if (!evidenceStays()) return false;
+  detachEvidence();
+  c.labels[t] = label;
+  if (shared == 1) c.onInterface[x[corners[0]]] = 1;
+  if (shared == 3) c.onInterface[x[corners[3]]] = 0;
+  changed();
+  attachEvidence({ t });
+  ++counts.relabels;
+  return true;
+}
+
 } // namespace surgicalmesher

@@ -1,5 +1,5 @@
 #pragma once
-/// Edge collapse, vertex move, edge removal (flip) and edge split on a TetComplex, each with every guard that keeps the
+/// Edge collapse, vertex move, edge removal (flip), edge split and relabelling on a TetComplex, each with every guard that keeps the
 /// complex's promises. On the dual simplex mesh, collapse, split and flip of interface edges are Delingette's Eulerian
 /// operators T1, T2 and T7 (Audette et al. 2007); done on the tetrahedra of both sides they can neither tear nor cross.
 ///
@@ -19,7 +19,7 @@ using ScaleFunction = std::function<float(const Vec3&)>; ///< target edge length
 
 struct OperationCounts
 {
-  long collapses = 0, moves = 0, flips = 0, splits = 0;
+  long collapses = 0, moves = 0, flips = 0, splits = 0, relabels = 0;
 };
 
 class GuardedOperations
@@ -94,6 +94,10 @@ public:
   /// Splits edge ab at p.
   bool split(std::int32_t a, std::int32_t b, std::int32_t seed, const Vec3& p, double minimumQuality);
 
+  /// Gives t, an interface tetrahedron between its own label and `label`, to the latter, if both keep their topology and
+  /// their manifold boundaries: t is a simple point of either.
+  bool relabel(std::int32_t t, Label label, double minimumQuality);
+
   TetComplex& complex() { return m_Complex; }
   float scaleAt(const Vec3& p) const { return m_Scale(p); }
 
@@ -139,6 +143,7 @@ private:
   bool keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
                     const std::vector<std::int32_t>& ring, const std::vector<std::int32_t>& ringVertices);
   bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
+  bool isSimple(std::int32_t t, const std::array<int, 4>& corners, int shared);
   bool gatherFacesAt(std::int32_t v, const Vec3& p);
   void place(std::int32_t v, const Vec3& p);
   void gather(std::int32_t t, int face);

@@ -140,7 +140,8 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
   for (std::size_t i = 0; i < sweeps; ++i)
   {
     const Step& step = steps[i];
-    if ((good && step.collapseAngle > 0) || (step.whole && reaches(ambient.mesh, options.targetAngle))) continue;
+    const bool onlyMends = step.rmsLimit >= 0.5;
+    if ((good && step.collapseAngle > 0) || (onlyMends && reaches(ambient.mesh, options.targetAngle))) continue;
     sweepBlocks(
       ambient, int(i), step.whole ? oneBlock : fairBlock,
       [&](TetComplex& block)

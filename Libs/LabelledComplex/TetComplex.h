@@ -43,7 +43,7 @@ public:
   std::vector<float> lengths;
   std::vector<std::uint8_t> locked;
   std::vector<std::uint8_t>
-    onInterface; ///< per vertex: tetrahedra of different labels meet there; no operation changes it
+    onInterface;                       ///< per vertex: tetrahedra of different labels meet there
   std::vector<std::int32_t> vertexTet; ///< some tetrahedron at each vertex
   std::vector<Tet> tets;               ///< vertices
   std::vector<Tet> neighbours;         ///< [i] across the face opposite vertex i; -1 beyond a block

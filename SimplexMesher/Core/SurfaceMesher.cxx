@@ -183,6 +183,7 @@ struct Step
   RelaxationOptions relaxation;
   int polishes = 0;
   PolishOptions polishing;
+  std::size_t trim = 0; ///< see trimBlock
   ImprovementOptions improvement = improvementTo(0, 0, 0);
   bool balance = false; ///< tissues' volumes first; not under a bound on the distance to the boundary as it is
   bool whole = false;   ///< in one block: borders are locked, and what is still bad lies at them
@@ -222,7 +223,7 @@ std::vector<Step> coarseningSteps(const Grid& grid, double longest)
   step.relaxations = 1;
   step.thoroughCollapses = true;
   step.improvement = Step::improvementTo(15, 8, 1);
-  steps.insert(steps.end(), 3, step);
+  steps.insert(steps.end(), 2, step);
   return steps;
 }
 
@@ -259,7 +260,9 @@ std::vector<Step> improvementSteps(double voxel, double longest)
     step.slack = slack;
     step.improvement.together = together;
     step.whole = whole;
-    if (whole) step.improvement.worstShare = 0.002; // on one thread
+    if (!whole) return;
+    step.improvement.worstShare = 0.002; // on one thread
+    step.trim = 5;
   };
   repair(aim, 1.6, 0, 0.02, 0, false);
   repair(kept, 1.6, 0, 0.02, 20, false);
@@ -292,6 +295,7 @@ void work(GuardedOperations& operations, const Step& step)
   if (step.level > 0) coarsenBlock(operations, step.level, coarsening);
   for (int i = 0; i < step.relaxations; ++i) relaxBlock(operations, step.relaxation);
   for (int i = 0; i < step.polishes; ++i) polishBlock(operations, step.polishing);
+  if (step.trim > 0) trimBlock(operations, step.trim);
   if (step.improvement.targetAngle > 0) improveBlock(operations, step.improvement);
 }
 

@@ -75,7 +75,7 @@ Attempt attempt(GuardedOperations& operations, std::mt19937& random, const Attem
   a.minimumQuality = sine2OfDegrees(uniform(0.5, 15));
   const Vec3 from = c.points[a.u], to = c.points[a.v], middle = 0.5 * (from + to);
   const std::int32_t seed = tetrahedronAt(c, a.u, a.v);
-  const auto kind = random() % 5;
+  const auto kind = random() % 6;
   if (kind <= 1)
   {
     a.name = "collapse";
@@ -93,6 +93,16 @@ Attempt attempt(GuardedOperations& operations, std::mt19937& random, const Attem
     a.name = "removeEdge";
     a.done = operations.removeEdge(a.u, a.v, seed, a.minimumQuality);
   }
+  else if (kind == 4)
+  {
+    a.name = "relabel";
+    const std::vector<std::int32_t> star = operations.star(a.u);
+    for (std::size_t i = 0; i < star.size() && !a.done; ++i)
+    {
+      const std::int32_t n = c.neighbours[star[i]][random() % 4];
+      a.done = n >= 0 && operations.relabel(star[i], c.labels[n], a.minimumQuality);
+    }
+  }
   else
   {
     a.name = "split";
@@ -108,7 +118,8 @@ void expectQuality(const ComplexState& before, const GuardedOperations& operatio
   for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
   {
     if (!c.alive(t)) continue;
-    bool changed = std::size_t(t) >= before.tets.size() || before.tets[t] != c.tets[t];
+    bool changed =
+      std::size_t(t) >= before.tets.size() || before.tets[t] != c.tets[t] || before.labels[t] != c.labels[t];
     for (int k = 0; k < 4 && !changed; ++k) changed = !(before.points[c.tets[t][k]] == c.points[c.tets[t][k]]);
     EXPECT_TRUE(!changed || operations.quality(t) >= minimumQuality) << "tetrahedron " << t;
   }
@@ -184,6 +195,8 @@ void expectGuarded(const ComplexState& before, const std::vector<EvidencePlace>&
   }
 }
 
+long total(const OperationCounts& c) { return c.collapses + c.moves + c.flips + c.splits + c.relabels; }
+
 } // namespace
 
 /// Thousands of operations on random maps, legal and illegal ones.
@@ -194,7 +207,7 @@ class RandomOperations : public ::testing::TestWithParam<double>
 TEST_P(RandomOperations, KeepEveryPromise)
 {
   const double rmsLimit = GetParam();
-  OperationCounts total;
+  OperationCounts all;
   for (unsigned seed = 1; seed <= 8; ++seed)
   {
     std::mt19937 random(seed);
@@ -208,7 +221,7 @@ TEST_P(RandomOperations, KeepEveryPromise)
     const TetraMesh start = meshOf(complex);
     long done = 0;
     Attempt last;
-    for (int n = 0; n < 500; ++n)
+    for (int n = 0; n < 800; ++n)
     {
       const ComplexState before(complex);
       const auto places = evidencePlaces(complex);
@@ -218,9 +231,7 @@ TEST_P(RandomOperations, KeepEveryPromise)
       SCOPED_TRACE(a.name + " " + std::to_string(n) + " of seed " + std::to_string(seed));
       expectGuarded(before, places, operations, a);
       const OperationCounts now = operations.counts;
-      EXPECT_EQ(now.collapses + now.moves + now.flips + now.splits - counts.collapses - counts.moves - counts.flips -
-                  counts.splits,
-                a.done);
+      EXPECT_EQ(total(now) - total(counts), a.done);
       if (a.done && ++done % 4 == 0)
       {
         EXPECT_EQ(topologyOf(complex), topology);
@@ -230,15 +241,17 @@ TEST_P(RandomOperations, KeepEveryPromise)
       if (HasFailure()) return;
     }
     EXPECT_EQ(topologyOf(complex), topology);
-    total.collapses += operations.counts.collapses;
-    total.moves += operations.counts.moves;
-    total.flips += operations.counts.flips;
-    total.splits += operations.counts.splits;
+    all.collapses += operations.counts.collapses;
+    all.moves += operations.counts.moves;
+    all.flips += operations.counts.flips;
+    all.splits += operations.counts.splits;
+    all.relabels += operations.counts.relabels;
   }
-  EXPECT_GT(total.collapses, 80);
-  EXPECT_GT(total.moves, 80);
-  EXPECT_GT(total.flips, 40);
-  EXPECT_GT(total.splits, 80);
+  EXPECT_GT(all.collapses, 80);
+  EXPECT_GT(all.moves, 80);
+  EXPECT_GT(all.flips, 40);
+  EXPECT_GT(all.splits, 80);
+  EXPECT_GT(all.relabels, 80);
 }
 
 INSTANTIATE_TEST_SUITE_P(LooseAndStrict, RandomOperations, ::testing::Values(anyDistance, 0.4));

@@ -197,6 +197,34 @@ TEST(MeshImprovement, KeepsTissuesAndHullAndRaisesTheWorstAngle)
   }
 }
 
+TEST(Trimming, KeepsEveryPromiseAndLeavesFewerTips)
+{
+  const auto tips = [](GuardedOperations& operations)
+  {
+    const TetComplex& c = operations.complex();
+    long count = 0;
+    for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+    {
+      if (c.vertexTet[v] < 0) continue;
+      const auto& star = operations.star(v);
+      const auto tissue = std::count_if(star.begin(), star.end(), [&](std::int32_t t) { return c.labels[t] != 0; });
+      count += tissue > 0 && tissue <= 5;
+    }
+    return count;
+  };
+  long before = 0, after = 0, relabels = 0;
+  expectPromisesKept(1, false,
+                     [&](GuardedOperations& operations)
+                     {
+                       before += tips(operations);
+                       trimBlock(operations, 5);
+                       after += tips(operations);
+                       relabels += operations.counts.relabels;
+                     });
+  EXPECT_GT(relabels, 0);
+  EXPECT_LT(after, before);
+}
+
 TEST(MeshImprovement, BytesDoNotDependOnThreadsAndCancellingLeavesTheMesh)
 {
   std::mt19937 random(9);
