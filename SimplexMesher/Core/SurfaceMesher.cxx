@@ -21,6 +21,7 @@ namespace
 {
 
 constexpr double mostSlack = 2.4;   // times the tolerance, where an angle can't be mended otherwise
+constexpr double trimSlack = 0.9;   // or the surface withdraws where it is to be finest
 constexpr double mostBalance = 0.5; // voxels
 constexpr double balanceGain = 1.5; // angles hold vertices back from where the evidence goes
 
@@ -108,7 +109,7 @@ void setTolerances(AmbientMesh& ambient, const TissueMap& map, const std::map<La
   const double voxel = std::max({ map.grid.spacing.x, map.grid.spacing.y, map.grid.spacing.z });
   for (auto& e : ambient.evidence)
   {
-    double tolerance = 0.4 * voxel + 0.088 * scale(e.position);
+    double tolerance = 0.4 * voxel + 0.09 * scale(e.position);
     for (const Label label : labelsBeside(map, e.position))
       if (label != 0) tolerance = std::min(tolerance, std::max(0.6 * voxel, 0.28 * thickness.at(label)));
     e.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
@@ -262,12 +263,12 @@ std::vector<Step> improvementSteps(double voxel, double longest)
     step.whole = whole;
     if (!whole) return;
     step.improvement.worstShare = 0.002; // on one thread
-    step.trim = 5;
   };
   repair(aim, 1.6, 0, 0.02, 0, false);
   repair(kept, 1.6, 0, 0.02, 20, false);
   repair(kept, mostSlack, 0.3, 1, 20, false);
   repair(kept, mostSlack, 0.3, 1, 20, true);
+  steps.back().trim = 5; // before the last rounds of balance
   for (const double rmsLimit : { 0.3, 0.25, 0.25, 0.25 })
   {
     add(rmsLimit, longest, 1, Step::improvementTo(0, 0, 0));
@@ -295,7 +296,6 @@ void work(GuardedOperations& operations, const Step& step)
   if (step.level > 0) coarsenBlock(operations, step.level, coarsening);
   for (int i = 0; i < step.relaxations; ++i) relaxBlock(operations, step.relaxation);
   for (int i = 0; i < step.polishes; ++i) polishBlock(operations, step.polishing);
-  if (step.trim > 0) trimBlock(operations, step.trim);
   if (step.improvement.targetAngle > 0) improveBlock(operations, step.improvement);
 }
 
@@ -330,6 +330,11 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
       result.ambient, int(i), step.whole ? oneBlock : fairBlock,
       [&](TetComplex& block)
       {
+        if (step.trim > 0)
+        {
+          GuardedOperations trimming(block, lengthAt, 1, trimSlack);
+          trimBlock(trimming, step.trim);
+        }
         GuardedOperations operations(block, lengthAt, step.rmsLimit, bounded ? 1 : step.slack);
         work(operations, step);
         evolution.count(operations.counts);
