@@ -3,7 +3,7 @@
 #include "Coarsening.h"
 #include "FaceNeighbours.h"
 #include "Improvement.h"
-#include "TetQuality.h"
+#include "MeshQuality.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,17 +71,14 @@ void work(GuardedOperations& operations, const Step& step, double targetAngle)
   improveBlock(operations, improvement);
 }
 
-/// Whether no tetrahedron within a tissue has a dihedral angle below `degrees` or above 180 minus it.
-bool reaches(const TetraMesh& mesh, double degrees)
+/// The angle to work for. Of a mesh without a bad tetrahedron that still has many below `wanted`, the surface stage has found
+/// no room for better ones.
+double attainable(const TetraMesh& mesh, bool good, double wanted)
 {
-  const double least = sine2OfDegrees(degrees);
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-  {
-    const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    const auto& p = mesh.points;
-    if (mesh.labels[t] != 0 && worstSine2(p[a], p[b], p[c], p[d]) < least) return false;
-  }
-  return true;
+  constexpr double modest = 23;
+  constexpr std::size_t many = 2000;
+  const std::size_t below = good ? countBelow(mesh, wanted) : 0;
+  return below > many && below > mesh.tetrahedra.size() / 200 ? std::min(wanted, modest) : wanted;
 }
 
 /// The triangle cut into n^2 congruent ones.
@@ -136,18 +133,19 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
   for (const Vec3& p : mesh.points) ambient.lengths.push_back(scale(p));
   placeEvidence(ambient, options.surfaceTolerance);
   const std::size_t sweeps = std::size(steps);
-  const bool good = reaches(mesh, 20); // worse angles are mended only by many collapses and flips
+  const bool good = countBelow(mesh, 20) == 0; // worse angles are mended only by many collapses and flips
+  const double target = attainable(mesh, good, options.targetAngle);
   for (std::size_t i = 0; i < sweeps; ++i)
   {
     const Step& step = steps[i];
     const bool onlyMends = step.rmsLimit >= 0.5;
-    if ((good && step.collapseAngle > 0) || (onlyMends && reaches(ambient.mesh, options.targetAngle))) continue;
+    if ((good && step.collapseAngle > 0) || (onlyMends && countBelow(ambient.mesh, target) == 0)) continue;
     sweepBlocks(
       ambient, int(i), step.whole ? oneBlock : fairBlock,
       [&](TetComplex& block)
       {
         GuardedOperations operations(block, scale, step.rmsLimit, step.slack);
-        work(operations, step, options.targetAngle);
+        work(operations, step, target);
       },
       [&](double fraction, const std::string&)
       { report(progress, (double(i) + fraction) / double(sweeps), "improvement"); });

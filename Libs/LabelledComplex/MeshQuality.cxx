@@ -1,6 +1,7 @@
 #include "MeshQuality.h"
 
 #include "FaceNeighbours.h"
+#include "TetQuality.h"
 #include "JsonMember.h"
 #include "ParallelTasks.h"
 
@@ -297,6 +298,19 @@ Distribution distributionOf(std::vector<double> values)
   result.percentile99 = percentile(0.99);
   result.maximum = percentile(1);
   return result;
+}
+
+std::size_t countBelow(const TetraMesh& mesh, double degrees)
+{
+  const double least = sine2OfDegrees(degrees);
+  std::size_t below = 0;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    if (mesh.labels[t] == 0) continue;
+    const auto& [a, b, c, d] = mesh.tetrahedra[t];
+    below += worstSine2(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) < least;
+  }
+  return below;
 }
 
 MeshQuality assessQuality(const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh,

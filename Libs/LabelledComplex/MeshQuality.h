@@ -67,6 +67,9 @@ struct MeshQuality
   Histogram valence; ///< tetrahedra per inner point, one bin each
 };
 
+/// How many tetrahedra of tissues (label not 0) have a dihedral angle below `degrees` or above 180 minus it.
+std::size_t countBelow(const TetraMesh& mesh, double degrees);
+
 /// Assesses the tetrahedra (label 0 included, if there are any). `subMesh` per tetrahedron, or empty. `edgeLength` is
 /// L(x) in mm, asked at the middle of each edge, or empty.
 MeshQuality assessQuality(const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh,

@@ -4,6 +4,7 @@
 #include "Coarsening.h"
 #include "FaceNeighbours.h"
 #include "Improvement.h"
+#include "MeshQuality.h"
 #include "ReferenceSurface.h"
 #include "TissueScale.h"
 
@@ -101,15 +102,29 @@ std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
   return { labelOf(voxels[0]), labelOf(voxels[1]) };
 }
 
+/// What share of the usual tolerance a map allows: the voxels that a drift of the surfaces puts into wrong tissues are as many
+/// as their area times the drift, so that a large map whose surfaces lie close together must have less of it. In a small one
+/// they lie close because its bodies are small.
+double roomFor(const AmbientMesh& ambient, const TissueMap& map)
+{
+  constexpr std::size_t large = 600000; // faces between tissues
+  constexpr double usual = 3.0;         // voxels of tissue for each
+  if (ambient.evidence.size() < large) return 1;
+  const auto tissue = std::count_if(map.labels.begin(), map.labels.end(), [](Label l) { return l != 0; });
+  const double ratio = double(tissue) / (usual * double(ambient.evidence.size()));
+  return std::clamp(ratio * ratio, 0.5, 1.0);
+}
+
 /// `ambient` as the lattice made it: with its evidence at the centres of voxel faces. The same drift that nobody sees on a
 /// thick tissue takes a third of a thin one's volume.
 void setTolerances(AmbientMesh& ambient, const TissueMap& map, const std::map<Label, double>& thickness,
                    const ScaleFunction& scale, double bound)
 {
   const double voxel = std::max({ map.grid.spacing.x, map.grid.spacing.y, map.grid.spacing.z });
+  const double room = roomFor(ambient, map);
   for (auto& e : ambient.evidence)
   {
-    double tolerance = 0.4 * voxel + 0.09 * scale(e.position);
+    double tolerance = room * (0.4 * voxel + 0.09 * scale(e.position));
     for (const Label label : labelsBeside(map, e.position))
       if (label != 0) tolerance = std::min(tolerance, std::max(0.6 * voxel, 0.28 * thickness.at(label)));
     e.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
@@ -228,12 +243,32 @@ std::vector<Step> coarseningSteps(const Grid& grid, double longest)
   return steps;
 }
 
+/// What is tried for: dihedral angles in degrees, first, in the end, and those that must not be lost again; sweeps that still
+/// coarsen, and rounds of balance after the repairs.
+struct Effort
+{
+  double first, aim, kept;
+  int coarsenings, rounds;
+};
+constexpr Effort usualEffort{ 25, 28.8, 28.5, 3, 4 };
+constexpr Effort modestEffort{ 22, 23.5, 23, 2, 2 };
+
+/// Whether coarsening has left so many bad tetrahedra that features of the map's own size, as noise makes them, have no room
+/// for good ones: to try for them all would take most of the time and be in vain.
+bool isCrowded(const TetraMesh& mesh)
+{
+  constexpr std::size_t many = 20000;
+  constexpr double share = 0.065;
+  const std::size_t bad = countBelow(mesh, 20);
+  return bad > many && double(bad) > share * double(mesh.tetrahedra.size());
+}
+
 /// The angle aimed at rises from step to step: sizes suffer less than from one step straight to the end. Only what is still
 /// bad afterwards may stray farther from the evidence, or be split; and in the end all go back towards it as far as the
 /// angles allow.
-std::vector<Step> improvementSteps(double voxel, double longest)
+std::vector<Step> improvementSteps(double voxel, double longest, const Effort& effort)
 {
-  constexpr double aim = 28.8, kept = 28.5; // degrees
+  const double aim = effort.aim, kept = effort.kept;
   std::vector<Step> steps;
   const auto add = [&](double rmsLimit, double level, int polishes, const ImprovementOptions& improvement)
   {
@@ -245,11 +280,12 @@ std::vector<Step> improvementSteps(double voxel, double longest)
     step.improvement = improvement;
     steps.push_back(step);
   };
-  add(0.4, longest, 1, Step::improvementTo(25, 8, 2));
-  add(0.35, longest, 1, Step::improvementTo(aim, 8, 2));
-  steps.back().balance = true;
-  add(0.35, longest, 1, Step::improvementTo(aim, 8, 1));
-  steps.back().balance = true;
+  add(0.4, longest, 1, Step::improvementTo(effort.first, 8, 2));
+  for (int sweep = 1; sweep < effort.coarsenings; ++sweep)
+  {
+    add(0.35, longest, 1, Step::improvementTo(aim, 8, sweep == 1 ? 2 : 1));
+    steps.back().balance = true;
+  }
   add(0.5, 0, 1, Step::improvementTo(aim, 16, 2));
   add(0.8, 0, 0, Step::improvementTo(aim, 16, 2));
   steps.back().slack = 1.3;
@@ -269,9 +305,9 @@ std::vector<Step> improvementSteps(double voxel, double longest)
   repair(kept, mostSlack, 0.3, 1, 20, false);
   repair(kept, mostSlack, 0.3, 1, 20, true);
   steps.back().trim = 5; // before the last rounds of balance
-  for (const double rmsLimit : { 0.3, 0.25, 0.25, 0.25 })
+  for (int round = 0; round < effort.rounds; ++round)
   {
-    add(rmsLimit, longest, 1, Step::improvementTo(0, 0, 0));
+    add(round == 0 ? 0.3 : 0.25, longest, 1, Step::improvementTo(0, 0, 0));
     Step& step = steps.back();
     step.balance = true;
     step.collapseAngle = kept;
@@ -317,15 +353,15 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
   Evolution evolution(result.ambient, result.evolution);
   evolution.record("lattice");
   std::vector<Step> steps = coarseningSteps(map.grid, *std::max_element(scale.lengths.begin(), scale.lengths.end()));
-  const std::vector<Step> improving = improvementSteps(shortestSpacing(map.grid), steps.back().level);
-  steps.insert(steps.end(), improving.begin(), improving.end());
+  const double voxel = shortestSpacing(map.grid), longest = steps.back().level;
+  const std::size_t coarsenings = steps.size();
+  const double most = double(coarsenings + improvementSteps(voxel, longest, usualEffort).size());
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
-    const Step& step = steps[i];
+    const Step step = steps[i]; // steps grows
     const bool bounded = options.maximumDistance > 0;
     if (step.balance && !bounded) balance.apply(result.ambient);
-    const Progress part = subProgress(progress, 0.1 + 0.9 * double(i) / double(steps.size()),
-                                      0.1 + 0.9 * double(i + 1) / double(steps.size()));
+    const Progress part = subProgress(progress, 0.1 + 0.9 * double(i) / most, 0.1 + 0.9 * double(i + 1) / most);
     sweepBlocks(
       result.ambient, int(i), step.whole ? oneBlock : fairBlock,
       [&](TetComplex& block)
@@ -341,6 +377,10 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
       },
       [&](double fraction, const std::string&) { report(part, fraction, step.name); });
     evolution.record(step.name);
+    if (i + 1 != coarsenings) continue;
+    const std::vector<Step> improving =
+      improvementSteps(voxel, longest, isCrowded(result.ambient.mesh) ? modestEffort : usualEffort);
+    steps.insert(steps.end(), improving.begin(), improving.end());
   }
   return result;
 }

@@ -43,6 +43,23 @@ TEST(TetrahedronQuality, CanonicalTetrahedron)
               1e-14);
 }
 
+TEST(CountBelow, CountsTissueWithSmallOrLargeAngles)
+{
+  TetraMesh mesh;
+  for (auto [a, b, c, d] : { regular, canonical, canonical })
+  {
+    if (orient(a, b, c, d) < 0) std::swap(a, b);
+    const std::int32_t first = std::int32_t(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), { a, b, c, d });
+    mesh.tetrahedra.push_back({ first, first + 1, first + 2, first + 3 });
+  }
+  mesh.labels = { 1, 2, 0 };
+  EXPECT_EQ(countBelow(mesh, 59.9), 0u);
+  EXPECT_EQ(countBelow(mesh, 60.1), 1u);
+  EXPECT_EQ(countBelow(mesh, 71), 2u);
+  EXPECT_EQ(countBelow({}, 71), 0u);
+}
+
 TEST(TetrahedronQuality, DoesNotDependOnSizePlaceOrCornerOrder)
 {
   auto [a, b, c, d] = canonical;
