@@ -22,7 +22,7 @@ namespace
 {
 
 constexpr double mostSlack = 2.4;   // times the tolerance, where an angle can't be mended otherwise
-constexpr double trimSlack = 0.9;   // or the surface withdraws where it is to be finest
+constexpr double trimSlack = 1.1;   // beyond that the surface withdraws where it is to be finest
 constexpr double mostBalance = 0.5; // voxels
 constexpr double balanceGain = 1.5; // angles hold vertices back from where the evidence goes
 
@@ -304,7 +304,7 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
   repair(kept, 1.6, 0, 0.02, 20, false);
   repair(kept, mostSlack, 0.3, 1, 20, false);
   repair(kept, mostSlack, 0.3, 1, 20, true);
-  steps.back().trim = 5; // before the last rounds of balance
+  steps.back().trim = 4; // before the last rounds of balance
   for (int round = 0; round < effort.rounds; ++round)
   {
     add(round == 0 ? 0.3 : 0.25, longest, 1, Step::improvementTo(0, 0, 0));
