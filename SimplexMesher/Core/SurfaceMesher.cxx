@@ -368,7 +368,7 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
       {
         if (step.trim > 0)
         {
-          GuardedOperations trimming(block, lengthAt, 1, trimSlack);
+          GuardedOperations trimming(block, lengthAt, 1, bounded ? 1 : trimSlack);
           trimBlock(trimming, step.trim);
         }
         GuardedOperations operations(block, lengthAt, step.rmsLimit, bounded ? 1 : step.slack);
