@@ -1,7 +1,8 @@
 #pragma once
-/// Edge collapse, vertex move, edge removal (flip), edge split and relabelling on a TetComplex, each with every guard that keeps the
-/// complex's promises. On the dual simplex mesh, collapse, split and flip of interface edges are Delingette's Eulerian
-/// operators T1, T2 and T7 (Audette et al. 2007); done on the tetrahedra of both sides they can neither tear nor cross.
+/// Edge collapse, vertex move, edge removal (flip), edge split and relabelling on a TetComplex, each with every guard that
+/// keeps the complex's promises. On the dual simplex mesh, collapse, split and flip of interface edges are Delingette's
+/// Eulerian operators T1, T2 and T7 (Audette et al. 2007); done on the tetrahedra of both sides they can neither tear nor
+/// cross.
 ///
 /// An operation that returns false has changed nothing. *Quality* is worstSine2 (TetQuality.h); tetrahedra of label 0 are
 /// thrown away in the end and are let off with a smaller one: theirs is multiplied by backgroundLeniency.

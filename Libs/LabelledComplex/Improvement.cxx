@@ -540,7 +540,8 @@ std::vector<std::int32_t> tissuesAt(GuardedOperations& operations, std::int32_t 
   return result;
 }
 
-/// Gives all tissue at v to the background, in whatever order it allows, or none.
+/// Gives all tissue at v to the background, in whatever order it allows. What leads nowhere is given back, if the evidence
+/// has not come to lie too well for that.
 bool takeOff(GuardedOperations& operations, std::int32_t v)
 {
   constexpr double anyQuality = 0;

@@ -1,9 +1,9 @@
 #include "MeshQuality.h"
 
 #include "FaceNeighbours.h"
-#include "TetQuality.h"
 #include "JsonMember.h"
 #include "ParallelTasks.h"
+#include "TetQuality.h"
 
 #include <rapidjson/prettywriter.h>
 #include <rapidjson/stringbuffer.h>
