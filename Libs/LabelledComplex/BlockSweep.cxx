@@ -142,7 +142,16 @@ public:
     m_Results.resize(m_Blocks.size());
   }
 
-  std::size_t blockCount() const { return m_Blocks.size(); }
+  /// The blocks, those with the most evidence first: it takes most of the time, and what comes last leaves threads idle.
+  std::vector<std::size_t> longestFirst() const
+  {
+    std::vector<std::size_t> order(m_Blocks.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto evidence = [&](std::size_t b) { return m_EvidenceStart[b + 1] - m_EvidenceStart[b]; };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return evidence(a) > evidence(b); });
+    return order;
+  }
 
   void run(std::size_t b, const std::function<void(TetComplex&)>& work)
   {
@@ -347,14 +356,15 @@ void sweepBlocks(AmbientMesh& ambient, int round, std::size_t tetrahedraPerBlock
                  const std::function<void(TetComplex&)>& work, const Progress& progress)
 {
   Sweep sweep(ambient, round, std::max<std::size_t>(1, tetrahedraPerBlock));
-  const std::size_t n = sweep.blockCount();
+  const std::vector<std::size_t> order = sweep.longestFirst();
+  const std::size_t n = order.size();
   std::mutex mutex;
   std::exception_ptr failure; // an exception must not leave a worker thread
-  std::atomic<std::size_t> done{ 0 };
+  std::atomic<std::size_t> begun{ 0 }, done{ 0 };
   vtkSMPTools::For(0, vtkIdType(n), 1,
                    [&](vtkIdType begin, vtkIdType end)
                    {
-                     for (vtkIdType b = begin; b < end; ++b)
+                     for (vtkIdType i = begin; i < end; ++i)
                      {
                        try
                        {
@@ -363,7 +373,7 @@ void sweepBlocks(AmbientMesh& ambient, int round, std::size_t tetrahedraPerBlock
                            if (failure) return;
                            report(progress, double(done) / double(n), "");
                          }
-                         sweep.run(std::size_t(b), work);
+                         sweep.run(order[begun++], work); // in this order, whichever the threads are handed
                          ++done;
                        }
                        catch (...)
