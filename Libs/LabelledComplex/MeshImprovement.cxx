@@ -45,7 +45,8 @@ constexpr Step steps[] = {
   { 0.4, 1.0, 0, 0, 0, 2, 28.4, 3, 0, 0, 0, 0, false },
 };
 
-void work(GuardedOperations& operations, const Step& step, double targetAngle)
+/// `keptAngle`, degrees: what relaxation must not fall below whatever the step allows.
+void work(GuardedOperations& operations, const Step& step, double targetAngle, double keptAngle)
 {
   if (step.collapseAngle > 0)
   {
@@ -54,7 +55,7 @@ void work(GuardedOperations& operations, const Step& step, double targetAngle)
     coarsenBlock(operations, std::numeric_limits<double>::max(), coarsening);
   }
   RelaxationOptions relaxation;
-  relaxation.goodAngle = step.relaxationAngle;
+  relaxation.goodAngle = std::max(step.relaxationAngle, keptAngle);
   PolishOptions polishing;
   polishing.goodAngle = step.polishAngle;
   polishing.fit = step.polishFit;
@@ -135,6 +136,7 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
   const std::size_t sweeps = std::size(steps);
   const bool good = countBelow(mesh, 20) == 0; // worse angles are mended only by many collapses and flips
   const double target = attainable(mesh, good, options.targetAngle);
+  const double kept = good ? target : 0; // to fall below it and to be mended again would take most of the time
   for (std::size_t i = 0; i < sweeps; ++i)
   {
     const Step& step = steps[i];
@@ -145,7 +147,7 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
       [&](TetComplex& block)
       {
         GuardedOperations operations(block, scale, step.rmsLimit, step.slack);
-        work(operations, step, target);
+        work(operations, step, target, kept);
       },
       [&](double fraction, const std::string&)
       { report(progress, (double(i) + fraction) / double(sweeps), "improvement"); });
