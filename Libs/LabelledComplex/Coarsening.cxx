@@ -121,6 +121,7 @@ private:
   void visit(std::int32_t u)
   {
     ++m_Tries[u];
+    m_Visited = u;
     shortNeighbours(u);
     if (m_Complex.onInterface[u]) keepOnlyAlongInterface();
     const Vec3 from = m_Complex.points[u];
@@ -129,15 +130,14 @@ private:
     for (double share : { 1.0, 0.5, 0.0 })
     {
       if (share == 0 && !m_Options.thorough) break;
-      if (share == 0.5) fits = m_Options.fit && quadricAt(u, m_Operations.star(u), m_QuadricOfU);
+      if (share == 0.5) fits = m_Options.fit && quadricAt(u).trace() > 0;
       for (const Near& n : m_Near)
       {
         if (!m_Operations.mayCollapse(u, n.vertex, share < 1)) continue;
         const Vec3 to = m_Complex.points[n.vertex];
         Vec3 p = share == 1 ? to : from + share * (to - from);
-        if (share == 0.5 && fits) p = fitted(n.vertex, p);
-        if (!m_Operations.keepsLengths(u, n.vertex, p, m_Options.longEdge)) continue;
-        const double q = m_Operations.qualityAfterCollapse(u, n.vertex, p, m_Low);
+        if (share == 0.5 && fits) p = fitted(u, n.vertex, p);
+        const double q = m_Operations.qualityAfterCollapse(u, n.vertex, p, m_Low, m_Options.longEdge);
         if (q < m_Low) continue;
         if (q >= m_Good && collapse(u, { q, n.vertex, p })) return;
         if (q < m_Good) m_Candidates.push_back({ q, n.vertex, p });
@@ -149,22 +149,27 @@ private:
       if (collapse(u, c)) return;
   }
 
-  /// What the evidence at v says of its position: m x = g. False if v has none. `star`: the tetrahedra at v.
-  bool quadricAt(std::int32_t v, const std::vector<std::int32_t>& star, Fit& quadric)
+  /// What the evidence at v says of its position: m x = g. Kept until a collapse changes a face at v.
+  const Fit& quadricAt(std::int32_t v)
   {
-    sheetFaces(m_Complex, v, star, m_Faces);
+    m_Quadrics.resize(m_Complex.points.size());
+    auto& [isKnown, quadric] = m_Quadrics[v];
+    if (isKnown) return quadric;
+    sheetFaces(m_Complex, v, v == m_Visited ? m_Operations.star(v) : m_Operations.starOfTarget(v), m_Faces);
     quadric = fitOf(m_Complex, v, m_Faces);
     quadric.g += quadric.times(m_Complex.points[v]);
-    return quadric.trace() > 0;
+    isKnown = true;
+    return quadric;
   }
 
   /// Where the evidence of u and v together would like the vertex they become; held by a spring to `middle`.
-  Vec3 fitted(std::int32_t v, const Vec3& middle)
+  Vec3 fitted(std::int32_t u, std::int32_t v, const Vec3& middle)
   {
-    Fit both;
-    if (!quadricAt(v, m_Operations.starOfTarget(v), both)) return middle;
-    for (int k = 0; k < 6; ++k) both.m[k] += m_QuadricOfU.m[k];
-    both.g += m_QuadricOfU.g;
+    Fit both = quadricAt(v);
+    if (!(both.trace() > 0)) return middle;
+    const Fit& ofU = quadricAt(u);
+    for (int k = 0; k < 6; ++k) both.m[k] += ofU.m[k];
+    both.g += ofU.g;
     const double spring = 0.02 * both.trace();
     both.addToDiagonal(spring);
     const Vec3 p = both.solve(both.g + spring * middle);
@@ -175,9 +180,17 @@ private:
   {
     if (!m_Options.thorough) m_Around = m_Operations.neighbours(u);
     if (!m_Operations.collapseWithin(u, c.vertex, c.position)) return false;
+    if (m_Complex.onInterface[u]) forgetQuadrics(c.vertex);
     if (m_Options.thorough) wakeAll(c.vertex);
     else wakeChanged(c.vertex);
     return true;
+  }
+
+  void forgetQuadrics(std::int32_t v)
+  {
+    if (m_Quadrics.empty()) return;
+    m_Quadrics[v].isKnown = false;
+    for (const auto& n : m_Operations.neighbours(v)) m_Quadrics[n.vertex].isKnown = false;
   }
 
   /// After a collapse onto v: the ends of the edges that it changed, m_Around, may have become short or removable.
@@ -210,10 +223,16 @@ private:
   const double m_Low, m_Good;
   std::vector<std::uint8_t> m_Queued, m_Tries;
   LengthQueue m_Queue;
+  std::int32_t m_Visited = -1;
   std::vector<Near> m_Near;
   std::vector<GuardedOperations::Neighbour> m_Around;
   std::vector<Candidate> m_Candidates;
-  Fit m_QuadricOfU;
+  struct Quadric
+  {
+    bool isKnown = false;
+    Fit fit;
+  };
+  std::vector<Quadric> m_Quadrics; ///< per vertex, from the first that is asked for on
   std::vector<SheetFace> m_Faces;
 };
 

@@ -316,23 +316,14 @@ bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v, const std::
   return true;
 }
 
-bool GuardedOperations::keepsLengths(std::int32_t u, std::int32_t v, const Vec3& p, double maximumRatio)
+/// Whether the edge from `end` to x, once it leads from v at p, is short enough, or no longer than now.
+bool GuardedOperations::keepsLength(std::int32_t end, std::int32_t x, std::int32_t v, const Vec3& p,
+                                    double maximumRatio) const
 {
   const auto& c = m_Complex;
-  const auto check = [&](std::int32_t end, std::int32_t x)
-  {
-    if (x == u || x == v) return true;
-    const double limit = maximumRatio * 0.5 * (c.lengths[x] + c.lengths[v]);
-    const double length2 = squaredNorm(c.points[x] - p);
-    return length2 <= limit * limit || length2 <= squaredNorm(c.points[x] - c.points[end]);
-  };
-  for (const Neighbour& n : neighbours(u))
-    if (!check(u, n.vertex)) return false;
-  if (p == c.points[v]) return true;
-  for (std::int32_t t : starOfTarget(v))
-    for (std::int32_t x : c.tets[t])
-      if (!check(v, x)) return false;
-  return true;
+  const double limit = maximumRatio * 0.5 * (c.lengths[x] + c.lengths[v]);
+  const double length2 = squaredNorm(c.points[x] - p);
+  return length2 <= limit * limit || length2 <= squaredNorm(c.points[x] - c.points[end]);
 }
 
 /// Gathers the evidence of the interface faces at u and at v and finds it new faces; false if one point is left too far.
@@ -386,10 +377,17 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
   return evidenceStays();
 }
 
-double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast)
+double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast,
+                                               double maximumRatio)
 {
+  constexpr double tooLong = std::numeric_limits<double>::lowest();
+  for (const Neighbour& n : neighbours(u))
+    if (n.vertex != v && !keepsLength(u, n.vertex, v, p, maximumRatio)) return tooLong;
   const double worst = measured(u).worst(p, atLeast, v);
   if (worst < atLeast || p == m_Complex.points[v]) return worst;
+  for (std::int32_t t : starOfTarget(v))
+    for (std::int32_t x : m_Complex.tets[t])
+      if (x != u && x != v && !keepsLength(v, x, v, p, maximumRatio)) return tooLong;
   return std::min(worst, measured(v, m_StarOfV).worst(p, atLeast, u));
 }
 
@@ -404,8 +402,8 @@ bool GuardedOperations::mayCollapse(std::int32_t u, std::int32_t v, bool moves) 
 bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality,
                                  double maximumRatio)
 {
-  return mayCollapse(u, v, !(p == m_Complex.points[v])) && keepsLengths(u, v, p, maximumRatio) &&
-         qualityAfterCollapse(u, v, p, minimumQuality) >= minimumQuality && collapseWithin(u, v, p);
+  return mayCollapse(u, v, !(p == m_Complex.points[v])) &&
+         qualityAfterCollapse(u, v, p, minimumQuality, maximumRatio) >= minimumQuality && collapseWithin(u, v, p);
 }
 
 bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec3& p)

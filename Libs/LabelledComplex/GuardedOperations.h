@@ -57,17 +57,14 @@ public:
   double qualityAt(std::int32_t v, const Vec3& p, double atLeast) { return measured(v).worst(p, atLeast); }
   double qualityAt(std::int32_t v) { return qualityAt(v, m_Complex.points[v], -1); }
 
-  /// The worst quality that merging u into v at p would leave among the changed tetrahedra, or some value below
-  /// `atLeast` if it is less than that.
-  double qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast);
-
   /// Whether locks and labels let u go into its neighbour v at all, v staying or moving: one of the interface, only along it
   /// and wholly seen; one beside it, only without moving it.
   bool mayCollapse(std::int32_t u, std::int32_t v, bool moves) const;
 
-  /// Whether no edge at v becomes longer than maximumRatio times the target if u merges into v at p (one that is longer may
-  /// stay, but not grow).
-  bool keepsLengths(std::int32_t u, std::int32_t v, const Vec3& p, double maximumRatio);
+  /// The worst quality that merging u into v at p would leave among the changed tetrahedra; some value below `atLeast` if it
+  /// is less than that, or if an edge at v would become longer than maximumRatio times the target (one that is longer
+  /// may stay, but not grow).
+  double qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast, double maximumRatio);
 
   /// Merges u into v at p if topology and evidence allow: the rest of collapse(), once the others have been asked.
   bool collapseWithin(std::int32_t u, std::int32_t v, const Vec3& p);
@@ -141,6 +138,7 @@ private:
   void changed() { m_Star.vertex = m_StarOfV.vertex = m_NeighboursVertex = m_RefusedVertex = -1; }
   double lenient(std::int32_t t, double q) const { return m_Complex.labels[t] == 0 ? q * backgroundLeniency : q; }
   double lenient(Label label, double q) const { return label == 0 ? q * backgroundLeniency : q; }
+  bool keepsLength(std::int32_t end, std::int32_t x, std::int32_t v, const Vec3& p, double maximumRatio) const;
   bool keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
                     const std::vector<std::int32_t>& ring, const std::vector<std::int32_t>& ringVertices);
   bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
