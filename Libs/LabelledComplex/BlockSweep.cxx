@@ -111,7 +111,7 @@ struct BlockResult
     Vec3 position;
     float length;
   };
-  std::vector<std::array<std::int32_t, 4>> tets;
+  std::vector<std::array<std::int32_t, 4>> tets, neighbours; ///< numbers of neighbours are the block's own
   std::vector<Label> labels;
   std::vector<AmbientMesh::Place> evidence;
   std::vector<Moved> moved; ///< the mesh's own points; applied only when all blocks have succeeded
@@ -164,38 +164,85 @@ public:
   void merge()
   {
     auto& mesh = m_Ambient.mesh;
-    mesh.tetrahedra.clear();
-    mesh.labels.clear();
-    m_Ambient.evidence.clear();
-    for (BlockResult& r : m_Results)
+    std::vector<Start> starts(m_Results.size() + 1);
+    starts[0].point = mesh.points.size();
+    for (std::size_t b = 0; b < m_Results.size(); ++b)
     {
-      const std::int32_t shift = std::int32_t(mesh.points.size()) - m_Known;
-      const std::int32_t firstTet = std::int32_t(mesh.tetrahedra.size());
-      for (const auto& [id, position, length] : r.moved)
-      {
-        mesh.points[id] = position;
-        m_Ambient.lengths[id] = length;
-      }
-      mesh.points.insert(mesh.points.end(), r.newPoints.begin(), r.newPoints.end());
-      m_Ambient.lengths.insert(m_Ambient.lengths.end(), r.newLengths.begin(), r.newLengths.end());
-      for (auto t : r.tets)
-      {
-        for (auto& v : t)
-          if (v >= m_Known) v += shift;
-        mesh.tetrahedra.push_back(t);
-      }
-      mesh.labels.insert(mesh.labels.end(), r.labels.begin(), r.labels.end());
-      for (auto e : r.evidence)
-      {
-        e.tetrahedron += firstTet;
-        m_Ambient.evidence.push_back(e);
-      }
-      r = {};
+      const BlockResult& r = m_Results[b];
+      const Start& s = starts[b];
+      starts[b + 1] = { s.point + r.newPoints.size(), s.tetrahedron + r.tets.size(), s.evidence + r.evidence.size() };
     }
+    mesh.points.resize(starts.back().point);
+    m_Ambient.lengths.resize(starts.back().point);
+    mesh.tetrahedra.resize(starts.back().tetrahedron);
+    mesh.labels.resize(starts.back().tetrahedron);
+    m_Ambient.neighbours.resize(starts.back().tetrahedron);
+    m_Ambient.evidence.resize(starts.back().evidence);
+    vtkSMPTools::For(0, vtkIdType(m_Results.size()), 1,
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType b = begin; b < end; ++b) place(m_Results[b], starts[b]);
+                     });
+    connectBlocks();
     dropUnusedPoints();
   }
 
 private:
+  struct Start ///< of a block's result in the mesh
+  {
+    std::size_t point = 0, tetrahedron = 0, evidence = 0;
+  };
+
+  void place(BlockResult& r, const Start& start)
+  {
+    auto& mesh = m_Ambient.mesh;
+    for (const auto& [id, position, length] : r.moved) // of no other block: not on its border
+    {
+      mesh.points[id] = position;
+      m_Ambient.lengths[id] = length;
+    }
+    std::copy(r.newPoints.begin(), r.newPoints.end(), mesh.points.begin() + start.point);
+    std::copy(r.newLengths.begin(), r.newLengths.end(), m_Ambient.lengths.begin() + start.point);
+    std::copy(r.labels.begin(), r.labels.end(), mesh.labels.begin() + start.tetrahedron);
+    const std::int32_t shift = std::int32_t(start.point) - m_Known, first = std::int32_t(start.tetrahedron);
+    for (std::size_t t = 0; t < r.tets.size(); ++t)
+      for (int i = 0; i < 4; ++i)
+      {
+        const std::int32_t v = r.tets[t][i], n = r.neighbours[t][i];
+        mesh.tetrahedra[first + t][i] = v < m_Known ? v : v + shift;
+        m_Ambient.neighbours[first + t][i] = n < 0 ? -1 : n + first;
+      }
+    for (auto& e : r.evidence) e.tetrahedron += first;
+    std::copy(r.evidence.begin(), r.evidence.end(), m_Ambient.evidence.begin() + start.evidence);
+    r = {};
+  }
+
+  /// Makes tetrahedra of different blocks neighbours.
+  void connectBlocks()
+  {
+    using Face = std::pair<std::array<std::int32_t, 3>, std::pair<std::int32_t, int>>; // vertices, tetrahedron, opposite
+    auto& neighbours = m_Ambient.neighbours;
+    std::vector<Face> faces;
+    for (std::int32_t t = 0; t < std::int32_t(neighbours.size()); ++t)
+      for (int i = 0; i < 4; ++i)
+      {
+        if (neighbours[t][i] >= 0) continue;
+        const auto& x = m_Ambient.mesh.tetrahedra[t];
+        std::array<std::int32_t, 3> corners{ x[(i + 1) & 3], x[(i + 2) & 3], x[(i + 3) & 3] };
+        std::sort(corners.begin(), corners.end());
+        faces.push_back({ corners, { t, i } });
+      }
+    vtkSMPTools::Sort(faces.begin(), faces.end());
+    for (std::size_t k = 1; k < faces.size(); ++k)
+    {
+      if (faces[k].first != faces[k - 1].first) continue;
+      const auto [t, i] = faces[k].second;
+      const auto [n, j] = faces[k - 1].second;
+      neighbours[t][i] = n;
+      neighbours[n][j] = t;
+    }
+  }
+
   void divide(const std::vector<Centroid>& centroids, std::size_t most)
   {
     constexpr std::size_t sampleSize = 100000; // places each cut to within a percent of a block
@@ -251,10 +298,11 @@ private:
     static thread_local std::vector<std::int32_t> local;
     if (local.size() < std::size_t(m_Known)) local.resize(m_Known, -1);
     const Range range = m_Blocks[b];
-    std::vector<TetComplex::Tet> tets;
+    std::vector<TetComplex::Tet> tets, neighbours;
     std::vector<Label> labels;
     tets.reserve(range.end - range.begin);
     labels.reserve(range.end - range.begin);
+    if (!m_Ambient.neighbours.empty()) neighbours.reserve(range.end - range.begin);
     for (std::size_t i = range.begin; i < range.end; ++i)
     {
       auto t = mesh.tetrahedra[m_Order[i]];
@@ -269,6 +317,10 @@ private:
       }
       tets.push_back(t);
       labels.push_back(mesh.labels[m_Order[i]]);
+      if (m_Ambient.neighbours.empty()) continue;
+      auto across = m_Ambient.neighbours[m_Order[i]];
+      for (auto& n : across) n = n >= 0 && m_BlockOf[n] == std::int32_t(b) ? m_LocalTet[n] : -1;
+      neighbours.push_back(across);
     }
     std::vector<Vec3> points;
     std::vector<float> lengths;
@@ -278,7 +330,8 @@ private:
       lengths.push_back(m_Ambient.lengths[v]);
       local[v] = -1;
     }
-    TetComplex complex(std::move(points), std::move(lengths), std::move(tets), std::move(labels));
+    TetComplex complex(std::move(points), std::move(lengths), std::move(tets), std::move(labels),
+                       std::move(neighbours));
     complex.evidence.reserve(m_EvidenceStart[b + 1] - m_EvidenceStart[b]);
     for (std::size_t i = m_EvidenceStart[b]; i < m_EvidenceStart[b + 1]; ++i)
     {
@@ -307,11 +360,17 @@ private:
       r.newPoints.push_back(complex.points[v]);
       r.newLengths.push_back(complex.lengths[v]);
     }
+    std::vector<std::int32_t> number(complex.tets.size(), -1);
+    std::int32_t count = 0;
+    for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+      if (complex.alive(t)) number[t] = count++;
     for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
     {
       if (!complex.alive(t)) continue;
-      auto x = complex.tets[t];
+      auto x = complex.tets[t], across = complex.neighbours[t];
       for (auto& v : x) v = ids[v];
+      for (auto& n : across) n = n < 0 ? -1 : number[n];
+      r.neighbours.push_back(across);
       for (std::int32_t i = 0; i < 4; ++i)
         for (std::int32_t e = complex.evidenceHeads[t][i]; e >= 0; e = complex.evidence[e].next)
           r.evidence.push_back(

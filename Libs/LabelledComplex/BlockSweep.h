@@ -25,6 +25,8 @@ struct AmbientMesh
   TetraMesh mesh;
   std::vector<float> lengths; ///< target edge length at each point, mm
   std::vector<Place> evidence;
+  /// [t][i]: tetrahedron across the face opposite vertex i; -1: none. Empty before the first sweep.
+  std::vector<std::array<std::int32_t, 4>> neighbours;
 };
 
 constexpr std::size_t fairBlock = 65000; ///< a few megabytes, enough blocks for the threads, and not too much border

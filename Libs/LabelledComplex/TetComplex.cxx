@@ -27,9 +27,9 @@ std::array<std::int32_t, 3> sortedFace(const Tet& t, int i)
 } // namespace
 
 TetComplex::TetComplex(std::vector<Vec3> points_, std::vector<float> lengths_, std::vector<Tet> tets_,
-                       std::vector<Label> labels_)
+                       std::vector<Label> labels_, std::vector<Tet> neighbours_)
   : points(std::move(points_)), lengths(std::move(lengths_)), locked(points.size(), 0), onInterface(points.size(), 0),
-    vertexTet(points.size(), -1), tets(std::move(tets_)), neighbours(tets.size(), Tet{ -1, -1, -1, -1 }),
+    vertexTet(points.size(), -1), tets(std::move(tets_)), neighbours(std::move(neighbours_)),
     labels(std::move(labels_)), evidenceHeads(tets.size(), { -1, -1, -1, -1 }), m_Mark(tets.size(), 0)
 {
   for (std::size_t t = 0; t < tets.size(); ++t)
@@ -38,7 +38,7 @@ TetComplex::TetComplex(std::vector<Vec3> points_, std::vector<float> lengths_, s
       if (vertexTet[v] >= 0 && labels[vertexTet[v]] != labels[t]) onInterface[v] = 1;
       vertexTet[v] = std::int32_t(t);
     }
-  matchFaces();
+  if (neighbours.empty()) matchFaces();
   for (std::size_t t = 0; t < tets.size(); ++t)
     for (int i = 0; i < 4; ++i)
       if (neighbours[t][i] < 0)
@@ -47,6 +47,7 @@ TetComplex::TetComplex(std::vector<Vec3> points_, std::vector<float> lengths_, s
 
 void TetComplex::matchFaces()
 {
+  neighbours.assign(tets.size(), Tet{ -1, -1, -1, -1 });
   struct Face
   {
     std::int32_t second, third, tet, index;

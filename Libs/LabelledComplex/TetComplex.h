@@ -35,8 +35,10 @@ class TetComplex
 public:
   using Tet = std::array<std::int32_t, 4>;
 
-  /// `tets` must be positively wound and face-to-face. `lengths` is the target edge length at each point, mm.
-  TetComplex(std::vector<Vec3> points, std::vector<float> lengths, std::vector<Tet> tets, std::vector<Label> labels);
+  /// `tets` must be positively wound and face-to-face. `lengths` is the target edge length at each point, mm. `neighbours`
+  /// may be empty: then they are found.
+  TetComplex(std::vector<Vec3> points, std::vector<float> lengths, std::vector<Tet> tets, std::vector<Label> labels,
+             std::vector<Tet> neighbours = {});
 
   // --- the arrays; dead vertices have vertexTet -1, dead tetrahedra vertex 0 equal to -1
   std::vector<Vec3> points;

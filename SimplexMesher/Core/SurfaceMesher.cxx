@@ -2,7 +2,6 @@
 
 #include "AmbientLattice.h"
 #include "Coarsening.h"
-#include "FaceNeighbours.h"
 #include "Improvement.h"
 #include "MeshQuality.h"
 #include "ReferenceSurface.h"
@@ -146,7 +145,7 @@ public:
   void apply(AmbientMesh& ambient)
   {
     const TetraMesh& mesh = ambient.mesh;
-    const auto neighbours = faceNeighbours(mesh);
+    const auto& neighbours = ambient.neighbours;
     const auto corner = [&](std::int32_t t, int i, int k) { return mesh.points[mesh.tetrahedra[t][(i + k) & 3]]; };
     const auto normal = [&](std::int32_t t, int i)
     { return cross(corner(t, i, 2) - corner(t, i, 1), corner(t, i, 3) - corner(t, i, 1)); };
@@ -156,7 +155,7 @@ public:
       const Label label = mesh.labels[t];
       missing[label] -= orient(corner(t, 0, 0), corner(t, 0, 1), corner(t, 0, 2), corner(t, 0, 3)) / 6;
       for (int i = 0; i < 4; ++i)
-        if (const std::int32_t n = neighbours.across[t][i]; n >= 0 && mesh.labels[n] != label)
+        if (const std::int32_t n = neighbours[t][i]; n >= 0 && mesh.labels[n] != label)
           area[label] += 0.5 * norm(normal(t, i));
     }
     std::map<Label, double> steps;
@@ -167,7 +166,7 @@ public:
       Vec3 outward = normal(e.tetrahedron, e.face);
       if (dot(outward, corner(e.tetrahedron, e.face, 0) - corner(e.tetrahedron, e.face, 1)) > 0)
         outward = -1.0 * outward;
-      const Label inside = mesh.labels[e.tetrahedron], beyond = mesh.labels[neighbours.across[e.tetrahedron][e.face]];
+      const Label inside = mesh.labels[e.tetrahedron], beyond = mesh.labels[neighbours[e.tetrahedron][e.face]];
       e.position += (steps[inside] - steps[beyond]) / norm(outward) * outward;
     }
   }
