@@ -1,6 +1,6 @@
 #include "Coarsening.h"
 
-#include "EvidenceFit.h"
+#include "EvidenceSheet.h"
 #include "TetQuality.h"
 
 #include <algorithm>
@@ -155,8 +155,8 @@ private:
     m_Quadrics.resize(m_Complex.points.size());
     auto& [isKnown, quadric] = m_Quadrics[v];
     if (isKnown) return quadric;
-    sheetFaces(m_Complex, v, v == m_Visited ? m_Operations.star(v) : m_Operations.starOfTarget(v), m_Faces);
-    quadric = fitOf(m_Complex, v, m_Faces);
+    gatherSheet(m_Complex, v, v == m_Visited ? m_Operations.star(v) : m_Operations.starOfTarget(v), m_Sheet);
+    quadric = fitOf(m_Complex, v, m_Sheet);
     quadric.g += quadric.times(m_Complex.points[v]);
     isKnown = true;
     return quadric;
@@ -233,7 +233,7 @@ private:
     Fit fit;
   };
   std::vector<Quadric> m_Quadrics; ///< per vertex, from the first that is asked for on
-  std::vector<SheetFace> m_Faces;
+  Sheet m_Sheet;
 };
 
 } // namespace

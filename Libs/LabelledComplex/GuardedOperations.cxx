@@ -104,31 +104,23 @@ double GuardedOperations::worstQuality(const std::vector<std::int32_t>& tetrahed
 
 void GuardedOperations::clearEvidence()
 {
-  m_OldFaces.clear();
+  m_Changed.clear();
   m_NewFaces.clear();
-  m_Holders.clear();
-  m_Gathered.clear();
 }
 
 /// Takes note of the interface face (t, face) and its evidence, once.
 void GuardedOperations::gather(std::int32_t t, int face)
 {
   const auto holder = m_Complex.holder(t, face);
-  if (std::find(m_Holders.begin(), m_Holders.end(), holder) != m_Holders.end()) return;
-  const auto& v = m_Complex.tets[t];
-  const std::array<std::int32_t, 3> ids{ v[(face + 1) & 3], v[(face + 2) & 3], v[(face + 3) & 3] };
-  const auto& p = m_Complex.points;
-  const Pair pair = pairOf(m_Complex.labels[t], m_Complex.labels[m_Complex.neighbours[t][face]]);
-  m_OldFaces.push_back({ { p[ids[0]], p[ids[1]], p[ids[2]] }, pair, ids, {}, {}, {}, t, face });
-  m_Holders.push_back(holder);
-  for (std::int32_t e = m_Complex.evidenceHeads[holder.first][holder.second]; e >= 0; e = m_Complex.evidence[e].next)
-    m_Gathered.push_back({ e, pair, std::int32_t(m_OldFaces.size()) - 1, -1, 0 });
+  const auto& known = m_Changed.faces;
+  if (std::none_of(known.begin(), known.end(), [&](const SheetFace& f) { return f.holder == holder; }))
+    m_Changed.add(m_Complex, t, face);
 }
 
 void GuardedOperations::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids,
                                    Label x, Label y, std::int32_t tet, int face)
 {
-  Face f{ { a, b, c }, pairOf(x, y), ids, {}, {}, {}, tet, face };
+  Face f{ { a, b, c }, labelPair(x, y), ids, {}, {}, {}, tet, face };
   const Vec3 n = cross(b - a, c - a);
   const double area2 = squaredNorm(n); // positive, as the tetrahedra on both sides are
   f.normal = n / std::sqrt(area2);
@@ -137,98 +129,109 @@ void GuardedOperations::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, 
   m_NewFaces.push_back(f);
 }
 
-double GuardedOperations::squaredDistanceNow(const Gathered& g)
+double GuardedOperations::squaredDistanceNow(const Sheet& sheet, const SheetPoint& point)
 {
-  Evidence& e = m_Complex.evidence[g.id];
-  const auto& corners = m_OldFaces[g.from].corners;
-  if (e.distance2 < 0) e.distance2 = squaredDistanceToTriangle(e.position, corners[0], corners[1], corners[2]);
-  return e.distance2;
+  double& distance2 = m_Complex.evidence[point.id].distance2;
+  if (distance2 >= 0) return distance2;
+  const auto corner = [&](int k) { return m_Complex.points[sheet.faces[point.from].vertices[k]]; };
+  return distance2 = squaredDistanceToTriangle(point.position, corner(0), corner(1), corner(2));
 }
 
-/// Finds g the nearest new face of its pair; false if there is none. Begins with the face that takes the place of its own,
-/// if there is one, and beyond the line of a side the distance to that line bounds the distance to the face from below: both
-/// spare most faces the full test.
-bool GuardedOperations::nearestFace(Gathered& g) const
+/// Finds the point the nearest new face of its labels; false if there is none. Begins with the face that takes the place of
+/// its own, if there is one, and beyond the line of a side the distance to that line bounds the distance to the face from
+/// below: both spare most faces the full test.
+bool GuardedOperations::nearestFace(const Sheet& sheet, SheetPoint& point) const
 {
-  g.distance2 = std::numeric_limits<double>::max();
-  const Vec3& p = m_Complex.evidence[g.id].position;
+  point.to = -1;
+  point.distance2 = std::numeric_limits<double>::max();
+  const LabelPair labels = sheet.faces[point.from].labels;
   const std::size_t count = m_NewFaces.size();
-  std::size_t k = std::size_t(g.from) < count ? std::size_t(g.from) : 0;
+  std::size_t k = std::size_t(point.from) < count ? std::size_t(point.from) : 0;
   for (std::size_t n = 0; n < count; ++n, k = k + 1 < count ? k + 1 : 0)
   {
     const Face& f = m_NewFaces[k];
-    if (f.pair != g.pair) continue;
-    const Vec3 d = p - f.corners[0];
+    if (f.labels != labels) continue;
+    const Vec3 d = point.position - f.corners[0];
     const double height = dot(f.normal, d);
     double d2 = height * height;
-    if (d2 >= g.distance2) continue;
+    if (d2 >= point.distance2) continue;
     const double second = dot(f.slopes[1], d), third = dot(f.slopes[2], d), first = 1 - second - third;
     double beyond = 0;
     if (first < 0) beyond = std::max(beyond, first * first * f.heights[0]);
     if (second < 0) beyond = std::max(beyond, second * second * f.heights[1]);
     if (third < 0) beyond = std::max(beyond, third * third * f.heights[2]);
-    if (d2 + beyond >= g.distance2) continue;
-    if (beyond > 0) d2 = squaredDistanceToTriangle(p, f.corners[0], f.corners[1], f.corners[2]);
-    if (d2 < g.distance2) g.distance2 = d2, g.to = std::int32_t(k);
+    if (d2 + beyond >= point.distance2) continue;
+    if (beyond > 0) d2 = squaredDistanceToTriangle(point.position, f.corners[0], f.corners[1], f.corners[2]);
+    if (d2 < point.distance2) point.distance2 = d2, point.to = std::int32_t(k);
   }
-  return g.to >= 0;
-}
-
-double GuardedOperations::squaredTolerance(const Gathered& g) const
-{
-  const double tolerance = m_Complex.evidence[g.id].tolerance;
-  return m_SquaredSlack * tolerance * tolerance;
+  return point.to >= 0;
 }
 
 /// Where two tissues cease to touch, the boundary of each stays within the tolerance of their points.
-bool GuardedOperations::tissuesStayNear(const Gathered& g) const
+bool GuardedOperations::tissuesStayNear(const Sheet& sheet, const SheetPoint& point) const
 {
-  const Evidence& e = m_Complex.evidence[g.id];
-  const double tolerance2 = squaredTolerance(g);
+  const double tolerance2 = m_SquaredSlack * point.tolerance2;
   const auto near = [&](Label label)
   {
     return std::any_of(m_NewFaces.begin(), m_NewFaces.end(),
                        [&](const Face& f)
                        {
                          const auto& [a, b, c] = f.corners;
-                         return has(f.pair, label) && squaredDistanceToTriangle(e.position, a, b, c) <= tolerance2;
+                         return has(f.labels, label) && squaredDistanceToTriangle(point.position, a, b, c) <= tolerance2;
                        });
   };
-  return near(Label(g.pair)) && near(Label(g.pair >> 16));
+  const LabelPair labels = sheet.faces[point.from].labels;
+  return near(Label(labels)) && near(Label(labels >> 16));
 }
 
-/// Assigns every gathered point to the nearest new face of its pair; false if one would lie beyond its tolerance and
+/// Assigns every point of the sheet to the nearest new face of its labels; false if one would lie beyond its tolerance and
 /// farther than it does now, or if their mean square, in units of the tolerance, would exceed the limit and grow. Where
 /// two tissues cease to touch, their points are let go if each tissue's boundary stays within tolerance.
-bool GuardedOperations::evidenceStays()
+bool GuardedOperations::evidenceStays(Sheet& sheet)
 {
   double sum = 0;
-  for (Gathered& g : m_Gathered)
+  for (SheetPoint& point : sheet.points)
   {
-    const double tolerance2 = squaredTolerance(g);
-    const bool kept = nearestFace(g);
-    sum += std::min(1.0, g.distance2 / tolerance2);
-    if (g.distance2 <= tolerance2) continue;
-    if (kept ? g.distance2 > squaredDistanceNow(g) * (1 + 1e-9) : !tissuesStayNear(g)) return false;
+    const double tolerance2 = m_SquaredSlack * point.tolerance2;
+    const bool kept = nearestFace(sheet, point);
+    sum += std::min(1.0, point.distance2 / tolerance2);
+    if (point.distance2 <= tolerance2) continue;
+    if (kept ? point.distance2 > squaredDistanceNow(sheet, point) * (1 + 1e-9) : !tissuesStayNear(sheet, point))
+      return false;
   }
-  if (sum <= m_MeanSquareLimit * double(m_Gathered.size())) return true;
+  if (sum <= m_MeanSquareLimit * double(sheet.points.size())) return true;
   double before = 0;
-  for (const Gathered& g : m_Gathered) before += std::min(1.0, squaredDistanceNow(g) / squaredTolerance(g));
+  for (const SheetPoint& point : sheet.points)
+    before += std::min(1.0, squaredDistanceNow(sheet, point) / (m_SquaredSlack * point.tolerance2));
   return sum <= before * (1 + 1e-9);
 }
 
-void GuardedOperations::detachEvidence()
+void GuardedOperations::detachEvidence(const Sheet& sheet)
 {
-  for (const auto& [t, i] : m_Holders) m_Complex.evidenceHeads[t][i] = -1;
+  for (const SheetFace& f : sheet.faces) m_Complex.evidenceHeads[f.holder.first][f.holder.second] = -1;
 }
 
-/// Hands the gathered points to their new faces, each found among the tetrahedra `around`.
+/// Hands the points to the holders of their new faces. Backwards, so that lists keep their order when nothing else changes.
+void GuardedOperations::attach(const std::vector<SheetPoint>& points,
+                               const std::vector<std::pair<std::int32_t, int>>& holders)
+{
+  for (auto point = points.rbegin(); point != points.rend(); ++point)
+  {
+    if (point->to < 0) continue;
+    const auto [t, i] = holders[point->to];
+    m_Complex.evidence[point->id].distance2 = point->distance2;
+    m_Complex.evidence[point->id].next = m_Complex.evidenceHeads[t][i];
+    m_Complex.evidenceHeads[t][i] = point->id;
+  }
+}
+
+/// Hands the points that an operation has changed to their new faces, each found among the tetrahedra `around`.
 void GuardedOperations::attachEvidence(const std::vector<std::int32_t>& around)
 {
-  if (m_Gathered.empty()) return;
-  std::vector<std::pair<std::int32_t, int>> holders(m_NewFaces.size(), { -1, 0 });
+  if (m_Changed.points.empty()) return;
+  m_Holders.assign(m_NewFaces.size(), { -1, 0 });
   for (std::size_t k = 0; k < m_NewFaces.size(); ++k)
-    if (m_NewFaces[k].tet >= 0) holders[k] = m_Complex.holder(m_NewFaces[k].tet, m_NewFaces[k].face);
+    if (m_NewFaces[k].tet >= 0) m_Holders[k] = m_Complex.holder(m_NewFaces[k].tet, m_NewFaces[k].face);
   for (std::int32_t t : around)
   {
     if (!m_Complex.alive(t)) continue;
@@ -237,24 +240,16 @@ void GuardedOperations::attachEvidence(const std::vector<std::int32_t>& around)
       if (!m_Complex.isInterface(t, i)) continue;
       for (std::size_t k = 0; k < m_NewFaces.size(); ++k)
       {
-        if (holders[k].first >= 0) continue;
+        if (m_Holders[k].first >= 0) continue;
         const auto& ids = m_NewFaces[k].vertices;
         const auto& v = m_Complex.tets[t];
         if (v[i] == ids[0] || v[i] == ids[1] || v[i] == ids[2]) continue;
         if (m_Complex.contains(t, ids[0]) && m_Complex.contains(t, ids[1]) && m_Complex.contains(t, ids[2]))
-          holders[k] = m_Complex.holder(t, i);
+          m_Holders[k] = m_Complex.holder(t, i);
       }
     }
   }
-  // Backwards, so that lists keep their order when nothing else changes.
-  for (auto g = m_Gathered.rbegin(); g != m_Gathered.rend(); ++g)
-  {
-    if (g->to < 0) continue;
-    const auto [t, i] = holders[g->to];
-    m_Complex.evidence[g->id].distance2 = g->distance2;
-    m_Complex.evidence[g->id].next = m_Complex.evidenceHeads[t][i];
-    m_Complex.evidenceHeads[t][i] = g->id;
-  }
+  attach(m_Changed.points, m_Holders);
 }
 
 // --- edge collapse --------------------------------------------------------------------------------------------------
@@ -374,7 +369,7 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
     while (c.neighbours[nu][opposite] != t) ++opposite;
     addMoved(t, iu, c.labels[nu], c.labels[nv], nu, opposite);
   }
-  return evidenceStays();
+  return evidenceStays(m_Changed);
 }
 
 double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast,
@@ -425,7 +420,7 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
       return false;
     }
     if (!collapseKeepsEvidence(u, v, p)) return false;
-    detachEvidence();
+    detachEvidence(m_Changed);
   }
   c.collapse(u, v, star);
   changed();
@@ -441,32 +436,45 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
 
 // --- vertex move ----------------------------------------------------------------------------------------------------
 
-/// The interface faces at v as they are and, with v at p, as they would be; false without any.
-bool GuardedOperations::gatherFacesAt(std::int32_t v, const Vec3& p)
+const Sheet& GuardedOperations::sheet(std::int32_t v)
+{
+  if (m_SheetVertex != v) gatherSheet(m_Complex, v, star(v), m_SheetAt);
+  m_SheetVertex = v;
+  return m_SheetAt;
+}
+
+/// The faces of v's sheet as they would be with v at p.
+void GuardedOperations::addMovedFaces(std::int32_t v, const Vec3& p)
 {
   const auto& c = m_Complex;
-  if (!c.onInterface[v]) return false;
-  clearEvidence();
-  for (std::int32_t t : star(v))
-    for (int i = 0; i < 4; ++i)
-    {
-      const std::int32_t n = c.neighbours[t][i];
-      if (c.tets[t][i] == v || n < t || c.labels[n] == c.labels[t]) continue;
-      gather(t, i);
-      const std::array<std::int32_t, 3> ids{ c.tets[t][(i + 1) & 3], c.tets[t][(i + 2) & 3], c.tets[t][(i + 3) & 3] };
-      const auto at = [&](std::int32_t id) { return id == v ? p : c.points[id]; };
-      addNewFace(at(ids[0]), at(ids[1]), at(ids[2]), ids, c.labels[t], c.labels[n], t, i);
-    }
-  return true;
+  m_NewFaces.clear();
+  for (const SheetFace& f : sheet(v).faces)
+  {
+    const auto at = [&](int k) { return f.vertices[k] == v ? p : c.points[f.vertices[k]]; };
+    addNewFace(at(0), at(1), at(2), f.vertices, Label(f.labels), Label(f.labels >> 16), f.tet, f.face);
+  }
+}
+
+/// Hands the points of the sheet of a vertex that has moved to their faces, and puts them in their order again.
+void GuardedOperations::attachMoved()
+{
+  auto& [faces, points] = m_SheetAt;
+  detachEvidence(m_SheetAt);
+  m_Holders.clear();
+  for (const SheetFace& f : faces) m_Holders.push_back(f.holder);
+  attach(points, m_Holders);
+  for (SheetPoint& point : points) point.from = point.to;
+  std::stable_sort(points.begin(), points.end(),
+                   [](const SheetPoint& a, const SheetPoint& b) { return a.from < b.from; });
 }
 
 bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
 {
-  if (gatherFacesAt(v, p))
+  if (m_Complex.onInterface[v])
   {
-    if (!evidenceStays()) return false;
-    detachEvidence();
-    attachEvidence();
+    addMovedFaces(v, p);
+    if (!evidenceStays(m_SheetAt)) return false;
+    attachMoved();
   }
   place(v, p);
   ++counts.moves;
@@ -475,11 +483,11 @@ bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
 
 void GuardedOperations::moveBack(std::int32_t v, const Vec3& p)
 {
-  if (gatherFacesAt(v, p))
+  if (m_Complex.onInterface[v])
   {
-    for (Gathered& g : m_Gathered) nearestFace(g);
-    detachEvidence();
-    attachEvidence();
+    addMovedFaces(v, p);
+    for (SheetPoint& point : m_SheetAt.points) nearestFace(m_SheetAt, point);
+    attachMoved();
   }
   place(v, p);
   --counts.moves;
@@ -574,8 +582,8 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
     const std::int32_t p = m_RingVertices[0], q = m_RingVertices[second];
     for (std::int32_t end : { a, b })
       addNewFace(c.points[end], c.points[p], c.points[q], { end, p, q }, c.labels[m_Ring[0]], c.labels[m_Ring[second]]);
-    if (!evidenceStays()) return false;
-    detachEvidence();
+    if (!evidenceStays(m_Changed)) return false;
+    detachEvidence(m_Changed);
   }
   const auto ids = c.replace(m_Ring, fresh, labels);
   changed();
@@ -605,8 +613,8 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
     for (std::int32_t end : { a, b })
       addNewFace(c.points[end], p, c.points[x], { end, m, x }, c.labels[t], c.labels[before]);
   }
-  if (!evidenceStays()) return false;
-  detachEvidence();
+  if (!evidenceStays(m_Changed)) return false;
+  detachEvidence(m_Changed);
   c.addVertex(p, m_Scale(p), !m_NewFaces.empty());
   std::vector<TetComplex::Tet> fresh;
   std::vector<Label> labels;
@@ -669,8 +677,8 @@ bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuali
     if (k < shared) gather(t, i);
     else addNewFace(c.points[ids[0]], c.points[ids[1]], c.points[ids[2]], ids, own, label);
   }
-  if (!evidenceStays()) return false;
-  detachEvidence();
+  if (!evidenceStays(m_Changed)) return false;
+  detachEvidence(m_Changed);
   c.labels[t] = label;
   if (shared == 1) c.onInterface[x[corners[0]]] = 1;
   if (shared == 3) c.onInterface[x[corners[3]]] = 0;

@@ -7,6 +7,7 @@
 /// An operation that returns false has changed nothing. *Quality* is worstSine2 (TetQuality.h); tetrahedra of label 0 are
 /// thrown away in the end and are let off with a smaller one: theirs is multiplied by backgroundLeniency.
 
+#include "EvidenceSheet.h"
 #include "StarQuality.h"
 #include "TetComplex.h"
 
@@ -49,6 +50,9 @@ public:
   };
   /// The ends of the edges at v; kept likewise.
   const std::vector<Neighbour>& neighbours(std::int32_t v);
+
+  /// The interface faces at v and their evidence; kept likewise, and while only v moves.
+  const Sheet& sheet(std::int32_t v);
 
   /// To measure star(v) with v anywhere; kept likewise, and while only v moves.
   StarQuality& measured(std::int32_t v) { return measured(v, m_Star); }
@@ -103,26 +107,16 @@ public:
   std::int32_t lastSplitVertex = -1;
 
 private:
-  using Pair =
-    std::uint32_t; ///< two labels, the larger one in the upper half: compared far more often than taken apart
-  struct Face      ///< an interface face as it would be, and where its evidence would go
+  struct Face ///< an interface face as it would be, and where its evidence would go
   {
     std::array<Vec3, 3> corners;
-    Pair pair;
+    LabelPair labels;
     std::array<std::int32_t, 3> vertices;
     Vec3 normal;                   ///< unit
     std::array<Vec3, 3> slopes;    ///< gradients of the barycentric coordinates
     std::array<double, 3> heights; ///< squared, over the side opposite each corner
     std::int32_t tet;              ///< that has it as its `face` already; -1: not known yet
     int face;
-  };
-  struct Gathered
-  {
-    std::int32_t id;
-    Pair pair;
-    std::int32_t from; ///< index into m_OldFaces
-    std::int32_t to;   ///< index into m_NewFaces
-    double distance2;  ///< to m_NewFaces[to]
   };
 
   struct Star
@@ -135,7 +129,7 @@ private:
 
   const std::vector<std::int32_t>& starOf(std::int32_t v, Star& star);
   StarQuality& measured(std::int32_t v, Star& star);
-  void changed() { m_Star.vertex = m_StarOfV.vertex = m_NeighboursVertex = m_RefusedVertex = -1; }
+  void changed() { m_Star.vertex = m_StarOfV.vertex = m_NeighboursVertex = m_SheetVertex = m_RefusedVertex = -1; }
   double lenient(std::int32_t t, double q) const { return m_Complex.labels[t] == 0 ? q * backgroundLeniency : q; }
   double lenient(Label label, double q) const { return label == 0 ? q * backgroundLeniency : q; }
   bool keepsLength(std::int32_t end, std::int32_t x, std::int32_t v, const Vec3& p, double maximumRatio) const;
@@ -143,21 +137,21 @@ private:
                     const std::vector<std::int32_t>& ring, const std::vector<std::int32_t>& ringVertices);
   bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
   bool isSimple(std::int32_t t, const std::array<int, 4>& corners, int shared);
-  bool gatherFacesAt(std::int32_t v, const Vec3& p);
+  void addMovedFaces(std::int32_t v, const Vec3& p);
   void place(std::int32_t v, const Vec3& p);
   void gather(std::int32_t t, int face);
   void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x, Label y,
                   std::int32_t tet = -1, int face = 0);
-  double squaredDistanceNow(const Gathered& g);
-  bool nearestFace(Gathered& g) const;
-  bool tissuesStayNear(const Gathered& g) const;
-  double squaredTolerance(const Gathered& g) const;
-  bool evidenceStays();
-  void detachEvidence();
+  double squaredDistanceNow(const Sheet& sheet, const SheetPoint& point);
+  bool nearestFace(const Sheet& sheet, SheetPoint& point) const;
+  bool tissuesStayNear(const Sheet& sheet, const SheetPoint& point) const;
+  bool evidenceStays(Sheet& sheet);
+  void detachEvidence(const Sheet& sheet);
   void attachEvidence(const std::vector<std::int32_t>& around = {});
+  void attach(const std::vector<SheetPoint>& points, const std::vector<std::pair<std::int32_t, int>>& holders);
+  void attachMoved();
   void clearEvidence();
-  static Pair pairOf(Label a, Label b) { return a < b ? Pair(b) << 16 | a : Pair(a) << 16 | b; }
-  static bool has(Pair pair, Label label) { return (pair & 0xffff) == label || pair >> 16 == label; }
+  static bool has(LabelPair pair, Label label) { return (pair & 0xffff) == label || pair >> 16 == label; }
   Label localBit(Label label);
 
   TetComplex& m_Complex;
@@ -177,9 +171,12 @@ private:
   std::int32_t m_RefusedVertex = -1; ///< whose collapses onto m_Refused would change a tissue's topology; -1: nobody's
   std::vector<std::int32_t> m_Refused;
   std::vector<std::int32_t> m_Ring, m_RingVertices, m_EdgeRing, m_EdgeRingVertices;
-  std::vector<Face> m_OldFaces, m_NewFaces;
-  std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of m_OldFaces
-  std::vector<Gathered> m_Gathered;
+  std::int32_t m_SheetVertex = -1; ///< whose m_SheetAt is; -1: nobody's
+  Sheet m_SheetAt;
+  Sheet m_Changed; ///< the faces that an operation changes
+  std::vector<Face> m_NewFaces;
+  std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of the new faces
+  std::vector<SheetPoint> m_Sorted;
   std::vector<Label> m_LocalLabels;
 };
 

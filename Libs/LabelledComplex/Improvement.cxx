@@ -1,6 +1,5 @@
 #include "Improvement.h"
 
-#include "EvidenceFit.h"
 #include "TetQuality.h"
 
 #include <algorithm>
@@ -30,8 +29,7 @@ public:
 private:
   void relax(std::int32_t v)
   {
-    sheetFaces(m_Complex, v, m_Operations.star(v), m_Faces);
-    const Vec3 step = m_Faces.empty() ? towardsMiddle(v) : onInterface(v);
+    const Vec3 step = m_Complex.onInterface[v] ? onInterface(v) : towardsMiddle(v);
     const double before = m_Operations.qualityAt(v);
     const double floor = std::min(m_Good, before);
     for (double share : { 1.0, 0.5, 0.25 })
@@ -60,7 +58,7 @@ private:
   /// Least squares over the evidence of the faces at v, held by a spring to the middle of the neighbours on the interface.
   Vec3 onInterface(std::int32_t v)
   {
-    Fit fit = fitOf(m_Complex, v, m_Faces, m_Options.robust);
+    Fit fit = fitOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
     if (!(fit.trace() > 0)) return {};
     const double spring = 0.05 * fit.trace() / m_Options.fit;
     fit.addToDiagonal(spring);
@@ -71,9 +69,10 @@ private:
   Vec3 alongInterface(std::int32_t v)
   {
     m_Degree.clear();
-    for (const SheetFace& f : m_Faces)
-      for (std::int32_t u : { f.x, f.y })
+    for (const SheetFace& f : m_Operations.sheet(v).faces)
+      for (std::int32_t u : f.vertices)
       {
+        if (u == v) continue;
         auto at = std::find_if(m_Degree.begin(), m_Degree.end(), [&](const auto& d) { return d.first == u; });
         if (at == m_Degree.end()) m_Degree.push_back({ u, 1 });
         else ++at->second;
@@ -95,9 +94,16 @@ private:
   TetComplex& m_Complex;
   const RelaxationOptions& m_Options;
   const double m_Good;
-  std::vector<SheetFace> m_Faces;
   std::vector<std::pair<std::int32_t, int>> m_Degree;
 };
+
+/// How the evidence resists a step of v: not more along a sheet than its share `ease` of that across it.
+Fit heldAt(GuardedOperations& operations, std::int32_t v, double ease)
+{
+  Fit held = fitOf(operations.complex(), v, operations.sheet(v));
+  held.addToDiagonal(operations.complex().onInterface[v] ? ease * held.trace() : 1);
+  return held;
+}
 
 /// Turns `direction` at a vertex on the interface into one that its evidence resists less.
 Vec3 easiest(const Fit& held, const Vec3& direction)
@@ -121,8 +127,7 @@ public:
     for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
     {
       if (m_Complex.vertexTet[v] < 0 || m_Complex.locked[v]) continue;
-      sheetFaces(m_Complex, v, m_Operations.star(v), m_Faces);
-      if (!m_Faces.empty()) moveToEvidence(v);
+      if (m_Complex.onInterface[v]) moveToEvidence(v);
       climb(v);
     }
   }
@@ -130,7 +135,7 @@ public:
 private:
   void moveToEvidence(std::int32_t v)
   {
-    Fit fit = fitOf(m_Complex, v, m_Faces, m_Options.robust);
+    Fit fit = fitOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
     fit.addToDiagonal(0.05 * fit.trace() / m_Options.fit);
     const Vec3 step = fit.solve(fit.g);
     const double before = m_Operations.qualityAt(v);
@@ -166,9 +171,7 @@ private:
       q[a] += h;
       direction[a] = sumOfSines(v, q, -1) - now;
     }
-    Fit held = fitOf(m_Complex, v, m_Faces);
-    held.addToDiagonal(m_Faces.empty() ? 1 : m_Options.ease * held.trace());
-    direction = easiest(held, direction);
+    direction = easiest(heldAt(m_Operations, v, m_Options.ease), direction);
     for (double step : { 0.12, 0.06, 0.03 })
     {
       const Vec3 q = p + step * size * direction;
@@ -180,7 +183,6 @@ private:
   TetComplex& m_Complex;
   const PolishOptions& m_Options;
   const double m_Good;
-  std::vector<SheetFace> m_Faces;
 };
 
 /// A fixed sequence of directions, for reproducible trials.
@@ -310,9 +312,7 @@ private:
     const double start = best;
     const double size = m_Complex.lengths[v];
     double step = 0.12 * size;
-    sheetFaces(m_Complex, v, m_Operations.star(v), m_Faces);
-    Fit held = fitOf(m_Complex, v, m_Faces);
-    held.addToDiagonal(m_Faces.empty() ? 1 : m_Options.ease * held.trace());
+    const Fit held = heldAt(m_Operations, v, m_Options.ease);
     for (int trial = 0; trial < m_Options.trials && best < m_Target && step > 0.004 * size; ++trial)
     {
       const Vec3 p = m_Complex.points[v];
@@ -440,10 +440,7 @@ private:
       q[a] += h;
       direction[a] = now - lack(v, q);
     }
-    sheetFaces(m_Complex, v, m_Operations.star(v), m_Faces);
-    Fit held = fitOf(m_Complex, v, m_Faces);
-    held.addToDiagonal(m_Faces.empty() ? 1 : m_Options.ease * held.trace());
-    direction = easiest(held, direction);
+    direction = easiest(heldAt(m_Operations, v, m_Options.ease), direction);
     for (double step : { 0.1, 0.03, 0.01, 0.003 })
     {
       const Vec3 q = p + step * size * direction;
@@ -527,7 +524,6 @@ private:
   std::vector<std::uint8_t> m_Touched; ///< per vertex
   std::size_t m_TogetherLeft = 0;      ///< in this pass
   std::vector<std::int32_t> m_Ring, m_RingVertices;
-  std::vector<SheetFace> m_Faces;
   std::vector<double> m_Now;
   std::vector<Vec3> m_Gradients;
 };
