@@ -13,6 +13,7 @@ namespace surgicalmesher
 {
 
 using Label = std::uint16_t; ///< 0 is background
+constexpr std::size_t labelCount = 65536;
 
 struct Tissue
 {

@@ -5,6 +5,8 @@
 #include <vtkSMPTools.h>
 
 #include <algorithm>
+#include <atomic>
+#include <bitset>
 #include <cmath>
 
 namespace surgicalmesher
@@ -20,7 +22,7 @@ using Tet = std::array<Index, 4>;
 class ActivePoints
 {
 public:
-  explicit ActivePoints(const Index& size) : m_Size(size), m_Words((count() + 63) / 64, 0) {}
+  explicit ActivePoints(const Index& size) : m_Size(size), m_Words((count() + 63) / 64) {}
 
   std::size_t count() const { return std::size_t(m_Size[0]) * m_Size[1] * m_Size[2]; }
   bool inside(const Index& p) const
@@ -28,20 +30,22 @@ public:
     return p[0] >= 0 && p[1] >= 0 && p[2] >= 0 && p[0] < m_Size[0] && p[1] < m_Size[1] && p[2] < m_Size[2];
   }
   std::size_t at(const Index& p) const { return (std::size_t(p[2]) * m_Size[1] + p[1]) * m_Size[0] + p[0]; }
-  bool test(const Index& p) const { return m_Words[at(p) >> 6] >> (at(p) & 63) & 1; }
+  bool test(const Index& p) const { return word(at(p) >> 6) >> (at(p) & 63) & 1; }
+  /// From several threads at once.
   void set(const Index& p)
   {
-    if (inside(p)) m_Words[at(p) >> 6] |= std::uint64_t(1) << (at(p) & 63);
+    if (inside(p) && !test(p))
+      m_Words[at(p) >> 6].fetch_or(std::uint64_t(1) << (at(p) & 63), std::memory_order_relaxed);
   }
   void number()
   {
     m_Before.resize(m_Words.size() + 1, 0);
-    for (std::size_t w = 0; w < m_Words.size(); ++w) m_Before[w + 1] = m_Before[w] + __builtin_popcountll(m_Words[w]);
+    for (std::size_t w = 0; w < m_Words.size(); ++w) m_Before[w + 1] = m_Before[w] + bitCount(word(w));
   }
   std::int32_t id(const Index& p) const
   {
     const std::size_t a = at(p);
-    return m_Before[a >> 6] + __builtin_popcountll(m_Words[a >> 6] & ((std::uint64_t(1) << (a & 63)) - 1));
+    return m_Before[a >> 6] + bitCount(word(a >> 6) & ((std::uint64_t(1) << (a & 63)) - 1));
   }
   std::int32_t numbered() const { return m_Before.back(); }
   template <class F>
@@ -49,16 +53,19 @@ public:
   {
     std::int32_t n = 0;
     for (std::size_t w = 0; w < m_Words.size(); ++w)
-      for (std::uint64_t bits = m_Words[w]; bits; bits &= bits - 1)
+      for (std::uint64_t bits = word(w); bits; bits &= bits - 1)
       {
-        const std::size_t a = w * 64 + __builtin_ctzll(bits);
+        const std::size_t a = w * 64 + bitCount((bits & -bits) - 1);
         f(n++, Index{ int(a % m_Size[0]), int(a / m_Size[0] % m_Size[1]), int(a / m_Size[0] / m_Size[1]) });
       }
   }
 
 private:
+  static int bitCount(std::uint64_t bits) { return int(std::bitset<64>(bits).count()); }
+  std::uint64_t word(std::size_t w) const { return m_Words[w].load(std::memory_order_relaxed); }
+
   Index m_Size;
-  std::vector<std::uint64_t> m_Words;
+  std::vector<std::atomic<std::uint64_t>> m_Words;
   std::vector<std::int32_t> m_Before;
 };
 
@@ -114,7 +121,15 @@ public:
   {
     const Index r = m_Layout.roots;
     const int side = m_Layout.rootUnits();
-    forEachRoot([&](const Index& root) { activateCube({ root[0] * side, root[1] * side, root[2] * side }, side); });
+    vtkSMPTools::For(0, vtkIdType(r[0]) * r[1] * r[2], 1,
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType i = begin; i < end; ++i)
+                       {
+                         const Index c = root(i);
+                         activateCube({ c[0] * side, c[1] * side, c[2] * side }, side);
+                       }
+                     });
     for (int k = 0; k <= r[2]; ++k)
       for (int j = 0; j <= r[1]; ++j)
         for (int i = 0; i <= r[0]; ++i) m_Active.set({ i * side, j * side, k * side });
@@ -142,7 +157,7 @@ public:
                      [&](vtkIdType begin, vtkIdType end)
                      {
                        for (vtkIdType i = begin; i < end; ++i)
-                         generateRoot({ int(i % r[0]), int(i / r[0] % r[1]), int(i / r[0] / r[1]) }, parts[i]);
+                         generateRoot(root(i), parts[i]);
                      });
     for (AmbientLattice& part : parts)
     {
@@ -175,12 +190,10 @@ private:
     return size;
   }
 
-  template <class F>
-  void forEachRoot(F&& f) const
+  Index root(vtkIdType i) const
   {
-    for (int k = 0; k < m_Layout.roots[2]; ++k)
-      for (int j = 0; j < m_Layout.roots[1]; ++j)
-        for (int i = 0; i < m_Layout.roots[0]; ++i) f(Index{ i, j, k });
+    const Index& r = m_Layout.roots;
+    return { int(i % r[0]), int(i / r[0] % r[1]), int(i / r[0] / r[1]) };
   }
 
   Vec3 position(const Index& p) const
@@ -300,15 +313,22 @@ private:
   {
     const Index n{ m_Layout.roots[0] * m_Layout.rootUnits(), m_Layout.roots[1] * m_Layout.rootUnits(),
                    m_Layout.roots[2] * m_Layout.rootUnits() };
+    const auto closeLayer = [&](int k, int kind)
+    {
+      for (int j = 0; j <= n[1]; j += half)
+      {
+        const int odd = (k / half & 1) + (j / half & 1);
+        if (odd > kind || odd < kind - 1) continue;
+        for (int i = odd == kind ? 0 : half; i <= n[0]; i += 2 * half)
+          if (m_Active.test({ i, j, k })) restOn({ i, j, k }, half, kind);
+      }
+    };
     for (int kind = 1; kind <= 3; ++kind) // odd multiples of half: 1 edge midpoint, 2 face centre, 3 cube centre
-      for (int k = 0; k <= n[2]; k += half)
-        for (int j = 0; j <= n[1]; j += half)
-        {
-          const int odd = (k / half & 1) + (j / half & 1);
-          if (odd > kind || odd < kind - 1) continue;
-          for (int i = odd == kind ? 0 : half; i <= n[0]; i += 2 * half)
-            if (m_Active.test({ i, j, k })) restOn({ i, j, k }, half, kind);
-        }
+      vtkSMPTools::For(0, n[2] / half + 1,
+                       [&](vtkIdType begin, vtkIdType end)
+                       {
+                         for (vtkIdType k = begin; k < end; ++k) closeLayer(int(k) * half, kind);
+                       });
   }
 
   void restOn(const Index& p, int half, int kind)

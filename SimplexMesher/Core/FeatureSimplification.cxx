@@ -321,7 +321,7 @@ private:
 
 std::map<Label, std::size_t> countVoxels(const TissueMap& map)
 {
-  std::vector<std::size_t> counts(std::size_t(1) << 16, 0);
+  std::vector<std::size_t> counts(labelCount, 0);
   for (const Label label : map.labels) ++counts[label];
   std::map<Label, std::size_t> result;
   for (std::size_t label = 0; label < counts.size(); ++label)

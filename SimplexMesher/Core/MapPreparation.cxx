@@ -259,7 +259,7 @@ class ContactResolver
 public:
   explicit ContactResolver(TissueMap& map)
     : m_Map(map), m_Corners(cornerSteps(map.grid)), m_Around(neighbourSteps(map.grid)), m_States(map.labels.size(), 0),
-      m_Voxels(std::numeric_limits<Label>::max() + 1, 0)
+      m_Voxels(labelCount, 0)
   {
     for (const Label label : map.labels) ++m_Voxels[label];
   }

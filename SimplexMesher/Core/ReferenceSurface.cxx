@@ -56,7 +56,7 @@ InterfaceGraph makeGraph(const AmbientLattice& lattice)
       edges.push_back({ std::min(a, b), std::max(a, b) });
     }
   }
-  std::sort(edges.begin(), edges.end());
+  vtkSMPTools::Sort(edges.begin(), edges.end());
   // An edge with three or more faces is part of a curve between three or more labels.
   const std::size_t n = graph.vertices.size();
   std::vector<std::uint8_t> curveDegree(n, 0);
@@ -122,7 +122,7 @@ void moveEvidence(AmbientMesh& ambient, const InterfaceGraph& graph, const std::
   const auto& points = ambient.mesh.points;
   std::vector<Vec3> way(points.size());
   for (std::size_t i = 0; i < graph.vertices.size(); ++i) way[graph.vertices[i]] = target[i] - points[graph.vertices[i]];
-  for (auto& e : ambient.evidence)
+  const auto move = [&](AmbientMesh::Place& e)
   {
     const auto& t = ambient.mesh.tetrahedra[e.tetrahedron];
     const std::int32_t a = t[(e.face + 1) & 3], b = t[(e.face + 2) & 3], c = t[(e.face + 3) & 3];
@@ -130,7 +130,10 @@ void moveEvidence(AmbientMesh& ambient, const InterfaceGraph& graph, const std::
     const auto weight = [&](const Vec3& q, const Vec3& r) { return dot(cross(q - e.position, r - e.position), n) / squaredNorm(n); };
     e.position += share * (weight(points[b], points[c]) * way[a] + weight(points[c], points[a]) * way[b] +
                            weight(points[a], points[b]) * way[c]);
-  }
+  };
+  vtkSMPTools::For(0, vtkIdType(ambient.evidence.size()),
+                   [&](vtkIdType begin, vtkIdType end)
+                   { std::for_each(ambient.evidence.begin() + begin, ambient.evidence.begin() + end, move); });
 }
 
 } // namespace
@@ -144,38 +147,43 @@ void smoothInterface(AmbientLattice& lattice, const Vec3& voxelSpacing, const Sm
   moveEvidence(lattice.ambient, graph, target, options.evidence);
 
   // Shorten moves until no tetrahedron is worse than allowed. All tetrahedra are judged on the same state and a vertex takes
-  // the shortest of what its tetrahedra ask, so the result does not depend on any order.
+  // the shortest of what its tetrahedra ask, so the result does not depend on any order. Only those are judged again of which
+  // a vertex has moved.
   const std::vector<Vec3> home = mesh.points;
   constexpr std::array<float, 9> shares{ 1, 0.75f, 0.55f, 0.4f, 0.28f, 0.2f, 0.12f, 0.06f, 0 };
   const std::size_t n = graph.vertices.size();
-  std::vector<std::int32_t> indexOf(mesh.points.size(), -1);
-  for (std::size_t i = 0; i < n; ++i) indexOf[graph.vertices[i]] = std::int32_t(i);
-  std::vector<std::uint8_t> level(n, 0);
-  std::vector<std::atomic<bool>> tooFar(n);
-  const double floor = sine2OfDegrees(options.minimumAngle);
-  for (bool changed = true; changed;)
+  std::vector<std::uint8_t> level(n, 0), moved(mesh.points.size(), 0);
+  std::vector<std::atomic<bool>> tooFar(mesh.points.size());
+  const auto moveAll = [&](auto&& isToMove)
   {
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      const std::int32_t v = graph.vertices[i];
-      mesh.points[v] = home[v] + double(shares[level[i]]) * (target[i] - home[v]);
-      tooFar[i] = false;
-    }
+    std::atomic<bool> any{ false };
+    vtkSMPTools::For(0, vtkIdType(n), [&](vtkIdType begin, vtkIdType end) {
+      for (vtkIdType i = begin; i < end; ++i)
+      {
+        const std::int32_t v = graph.vertices[i];
+        moved[v] = isToMove(i);
+        tooFar[v] = false;
+        if (!moved[v]) continue;
+        mesh.points[v] = home[v] + double(shares[level[i]]) * (target[i] - home[v]);
+        any = true;
+      }
+    });
+    return bool(any);
+  };
+  const auto isStillTooFar = [&](vtkIdType i)
+  { return tooFar[graph.vertices[i]] && level[i] + 1u < shares.size() && ++level[i] > 0; };
+  const double floor = sine2OfDegrees(options.minimumAngle);
+  for (bool any = moveAll([](vtkIdType) { return true; }); any; any = moveAll(isStillTooFar))
     vtkSMPTools::For(0, vtkIdType(mesh.tetrahedra.size()), [&](vtkIdType begin, vtkIdType end) {
       for (vtkIdType t = begin; t < end; ++t)
       {
         const auto& x = mesh.tetrahedra[t];
-        if (indexOf[x[0]] < 0 && indexOf[x[1]] < 0 && indexOf[x[2]] < 0 && indexOf[x[3]] < 0) continue;
+        if (!(moved[x[0]] | moved[x[1]] | moved[x[2]] | moved[x[3]])) continue;
         const auto& p = mesh.points;
         if (worstSine2(p[x[0]], p[x[1]], p[x[2]], p[x[3]]) >= floor) continue;
-        for (std::int32_t v : x)
-          if (indexOf[v] >= 0) tooFar[indexOf[v]] = true;
+        for (std::int32_t v : x) tooFar[v] = true;
       }
     });
-    changed = false;
-    for (std::size_t i = 0; i < n; ++i)
-      if (tooFar[i] && level[i] + 1u < shares.size()) ++level[i], changed = true;
-  }
 }
 
 } // namespace surgicalmesher

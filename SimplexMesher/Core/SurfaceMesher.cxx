@@ -138,7 +138,10 @@ public:
   explicit VolumeBalance(const TissueMap& map) : m_Most(mostBalance * shortestSpacing(map.grid))
   {
     const Vec3 h = map.grid.spacing;
-    for (const Label label : map.labels) m_Volumes[label] += h.x * h.y * h.z;
+    std::vector<std::size_t> voxels(labelCount);
+    for (const Label label : map.labels) ++voxels[label];
+    for (std::size_t label = 0; label < labelCount; ++label)
+      if (voxels[label] > 0) m_Volumes[Label(label)] = double(voxels[label]) * h.x * h.y * h.z;
   }
 
   /// By what would make up for the volume and half as much again; half a voxel in all at most, a voxel between two tissues.
@@ -149,7 +152,8 @@ public:
     const auto corner = [&](std::int32_t t, int i, int k) { return mesh.points[mesh.tetrahedra[t][(i + k) & 3]]; };
     const auto normal = [&](std::int32_t t, int i)
     { return cross(corner(t, i, 2) - corner(t, i, 1), corner(t, i, 3) - corner(t, i, 1)); };
-    std::map<Label, double> missing = m_Volumes, area;
+    std::vector<double> missing(labelCount), area(labelCount);
+    for (const auto& [label, volume] : m_Volumes) missing[label] = volume;
     for (std::int32_t t = 0; t < std::int32_t(mesh.tetrahedra.size()); ++t)
     {
       const Label label = mesh.labels[t];
@@ -158,9 +162,9 @@ public:
         if (const std::int32_t n = neighbours[t][i]; n >= 0 && mesh.labels[n] != label)
           area[label] += 0.5 * norm(normal(t, i));
     }
-    std::map<Label, double> steps;
-    for (const auto& [label, volume] : missing)
-      if (label != 0 && area[label] > 0) steps[label] = stepOf(label, volume / area[label]);
+    std::vector<double> steps(labelCount);
+    for (const auto& [label, volume] : m_Volumes)
+      if (label != 0 && area[label] > 0) steps[label] = stepOf(label, missing[label] / area[label]);
     for (auto& e : ambient.evidence)
     {
       Vec3 outward = normal(e.tetrahedron, e.face);

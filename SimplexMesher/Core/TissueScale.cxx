@@ -201,7 +201,7 @@ std::map<Label, double> meanThickness(const TissueMap& map)
   const Grid& grid = map.grid;
   const Vec3 h = grid.spacing;
   const double area[3] = { h.y * h.z / staircase, h.z * h.x / staircase, h.x * h.y / staircase };
-  std::map<Label, double> volume, surface;
+  std::vector<double> volume(labelCount), surface(labelCount);
   for (int k = 0; k < grid.size[2]; ++k)
     for (int j = 0; j < grid.size[1]; ++j)
       for (int i = 0; i < grid.size[0]; ++i)
@@ -218,7 +218,8 @@ std::map<Label, double> meanThickness(const TissueMap& map)
           }
       }
   std::map<Label, double> result;
-  for (const auto& [label, v] : volume) result[label] = 2 * v / surface[label];
+  for (std::size_t label = 1; label < labelCount; ++label)
+    if (volume[label] > 0) result[Label(label)] = 2 * volume[label] / surface[label];
   return result;
 }
 
@@ -226,7 +227,7 @@ ScaleField followFlatTissues(const ScaleField& scale, const TissueMap& map, cons
 {
   constexpr double flattest = 0.32, flatness = 0.5;
   const Vec3& h = map.grid.spacing;
-  std::map<Label, std::pair<double, std::size_t>> lengths; // sum and number
+  std::vector<std::pair<double, std::size_t>> lengths(labelCount); // sum and number
   for (int k = 0; k < map.grid.size[2]; ++k)
     for (int j = 0; j < map.grid.size[1]; ++j)
       for (int i = 0; i < map.grid.size[0]; ++i)
