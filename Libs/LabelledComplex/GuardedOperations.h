@@ -4,8 +4,11 @@
 /// Eulerian operators T1, T2 and T7 (Audette et al. 2007); done on the tetrahedra of both sides they can neither tear nor
 /// cross.
 ///
-/// An operation that returns false has changed nothing. *Quality* is worstSine2 (TetQuality.h); tetrahedra of label 0 are
-/// thrown away in the end and are let off with a smaller one: theirs is multiplied by backgroundLeniency.
+/// An operation that returns false has changed nothing. Stars, measures and evidence are kept from one to the next: whoever
+/// changes the complex by other means goes on with new GuardedOperations.
+///
+/// *Quality* is worstSine2 (TetQuality.h); tetrahedra of label 0 are thrown away in the end and are let off with a smaller
+/// one: theirs is multiplied by backgroundLeniency.
 
 #include "EvidenceSheet.h"
 #include "StarQuality.h"

@@ -564,8 +564,9 @@ TEST(Move, MayComeCloserFromBeyondTheTolerance)
   const std::int32_t v = operations.lastSplitVertex;
   ASSERT_TRUE(operations.move(v, { 0, 0, 0.4 }, anyQuality));
   for (Evidence& e : complex.evidence) e.tolerance = 0.01f;
-  EXPECT_FALSE(operations.move(v, { 0, 0, 0.45 }, anyQuality));
-  EXPECT_TRUE(operations.move(v, { 0, 0, 0.3 }, anyQuality));
+  GuardedOperations strict(complex, unitScale, anyDistance);
+  EXPECT_FALSE(strict.move(v, { 0, 0, 0.45 }, anyQuality));
+  EXPECT_TRUE(strict.move(v, { 0, 0, 0.3 }, anyQuality));
 }
 
 TEST(Move, TakenBackLeavesPlaceAndDistancesAsTheyWere)
