@@ -25,7 +25,8 @@ struct AmbientMesh
   TetraMesh mesh;
   std::vector<float> lengths; ///< target edge length at each point, mm
   std::vector<Place> evidence;
-  /// [t][i]: tetrahedron across the face opposite vertex i; -1: none. Empty before the first sweep.
+  /// [t][i]: tetrahedron across the face opposite vertex i; -1: none. Sweeps keep it; whoever changes the mesh by other means
+  /// leaves it empty.
   std::vector<std::array<std::int32_t, 4>> neighbours;
 };
 

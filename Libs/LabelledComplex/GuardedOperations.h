@@ -179,7 +179,6 @@ private:
   Sheet m_Changed; ///< the faces that an operation changes
   std::vector<Face> m_NewFaces;
   std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of the new faces
-  std::vector<SheetPoint> m_Sorted;
   std::vector<Label> m_LocalLabels;
 };
 

@@ -97,7 +97,7 @@ private:
   std::vector<std::pair<std::int32_t, int>> m_Degree;
 };
 
-/// How the evidence resists a step of v: not more along a sheet than its share `ease` of that across it.
+/// How the evidence resists a step of v: a share `ease` of all its resistance in every direction besides.
 Fit heldAt(GuardedOperations& operations, std::int32_t v, double ease)
 {
   Fit held = fitOf(operations.complex(), v, operations.sheet(v));

@@ -184,6 +184,32 @@ TEST(BlockSweep, CoarseningBlockwiseKeepsTissuesHullAndEvidence)
   }
 }
 
+TEST(BlockSweep, NeighboursAreThoseOfTheMeshWhateverTheBlocks)
+{
+  const AmbientMesh before = randomAmbient(5, 3);
+  for (std::size_t size : { 1u, 50u, 300u, 1000000u })
+  {
+    AmbientMesh ambient = before;
+    for (int round = 0; round < 3; ++round)
+    {
+      sweepBlocks(ambient, round, size, coarsen);
+      EXPECT_EQ(ambient.neighbours, faceNeighbours(ambient.mesh).across) << "blocks of " << size << ", round " << round;
+    }
+  }
+}
+
+TEST(BlockSweep, GivenNeighboursLeadToTheSameMesh)
+{
+  AmbientMesh given = randomAmbient(4, 3), found = given;
+  for (int round = 0; round < 3; ++round)
+  {
+    sweepBlocks(given, round, 300, coarsen);
+    found.neighbours.clear();
+    sweepBlocks(found, round, 300, coarsen);
+    EXPECT_TRUE(identical(given, found)) << "round " << round;
+  }
+}
+
 TEST(BlockSweep, BytesDoNotDependOnThreadsNorOnTheRun)
 {
   const AmbientMesh before = randomAmbient(6, 4);
