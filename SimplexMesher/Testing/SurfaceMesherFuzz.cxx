@@ -74,7 +74,13 @@ std::string run(unsigned seed)
   if (random() % 4 == 0) options.maximumDistance = 0.3 + random() % 10 * 0.1;
   try
   {
-    return test::faultOf(meshTissues(map, scale, options), map);
+    const SurfaceMesh mesh = meshTissues(map, scale, options);
+    const std::string fault = test::faultOf(mesh, map);
+    const double allowed = std::max(options.maximumDistance, mesh.evolution.front().maximumDistance) * (1 + 1e-5);
+    const double farthest = mesh.evolution.back().maximumDistance;
+    return fault.empty() && options.maximumDistance > 0 && farthest > allowed
+             ? "evidence is " + std::to_string(farthest) + " mm away, asked for " + std::to_string(allowed)
+             : fault;
   }
   catch (const std::exception& error)
   {
