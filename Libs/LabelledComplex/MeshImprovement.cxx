@@ -82,6 +82,16 @@ double attainable(const TetraMesh& mesh, bool good, double wanted)
   return below > many && below > mesh.tetrahedra.size() / 200 ? std::min(wanted, modest) : wanted;
 }
 
+/// Whether a step has anything to do for a mesh that has had the steps before, and that was good from the beginning or not. Of
+/// a good one a few tetrahedra are mended where they are, without moving everything else once more.
+bool isWorthwhile(const Step& step, const TetraMesh& mesh, double target, bool good)
+{
+  if (step.collapseAngle > 0) return !good;
+  if (step.rmsLimit < 0.5) return true;
+  const std::size_t few = good && !step.whole ? mesh.tetrahedra.size() / 400 : 0;
+  return countBelow(mesh, target) > few;
+}
+
 /// The triangle cut into n^2 congruent ones.
 std::vector<std::array<Vec3, 3>> subdivided(const std::array<Vec3, 3>& p, int n)
 {
@@ -140,8 +150,7 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
   for (std::size_t i = 0; i < sweeps; ++i)
   {
     const Step& step = steps[i];
-    const bool onlyMends = step.rmsLimit >= 0.5;
-    if ((good && step.collapseAngle > 0) || (onlyMends && countBelow(ambient.mesh, target) == 0)) continue;
+    if (!isWorthwhile(step, ambient.mesh, target, good)) continue;
     sweepBlocks(
       ambient, int(i), step.whole ? oneBlock : fairBlock,
       [&](TetComplex& block)
