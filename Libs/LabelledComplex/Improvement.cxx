@@ -556,7 +556,7 @@ bool takeOff(GuardedOperations& operations, std::int32_t v)
 void fillBeside(GuardedOperations& operations, std::int32_t v, std::size_t few)
 {
   const TetComplex& c = operations.complex();
-  const double least = sine2OfDegrees(28.5); // what is let off as background no longer is
+  const double least = sine2OfDegrees(usualAngle); // what is let off as background no longer is
   const std::vector<std::int32_t> star = operations.star(v);
   for (std::int32_t t : star)
   {

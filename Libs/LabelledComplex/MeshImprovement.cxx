@@ -76,10 +76,9 @@ void work(GuardedOperations& operations, const Step& step, double targetAngle, d
 /// no room for better ones.
 double attainable(const TetraMesh& mesh, bool good, double wanted)
 {
-  constexpr double modest = 23;
   constexpr std::size_t many = 2000;
   const std::size_t below = good ? countBelow(mesh, wanted) : 0;
-  return below > many && below > mesh.tetrahedra.size() / 200 ? std::min(wanted, modest) : wanted;
+  return below > many && below > mesh.tetrahedra.size() / 200 ? std::min(wanted, modestAngle) : wanted;
 }
 
 /// Whether a step has anything to do for a mesh that has had the steps before, and that was good from the beginning or not. Of

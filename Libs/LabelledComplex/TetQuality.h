@@ -32,4 +32,8 @@ inline double sine2OfDegrees(double degrees)
   return s * s;
 }
 
+/// Degrees: what meshes are improved to, and what those are whose features leave no room for that.
+constexpr double usualAngle = 28.5;
+constexpr double modestAngle = 23;
+
 } // namespace surgicalmesher

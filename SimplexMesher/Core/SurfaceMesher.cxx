@@ -5,6 +5,7 @@
 #include "Improvement.h"
 #include "MeshQuality.h"
 #include "ReferenceSurface.h"
+#include "TetQuality.h"
 #include "TissueScale.h"
 
 #include <vtkSMPTools.h>
@@ -253,8 +254,8 @@ struct Effort
   double first, aim, kept;
   int coarsenings, rounds;
 };
-constexpr Effort usualEffort{ 25, 28.8, 28.5, 3, 4 };
-constexpr Effort modestEffort{ 22, 23.5, 23, 2, 2 };
+constexpr Effort usualEffort{ 25, 28.8, usualAngle, 3, 4 };
+constexpr Effort modestEffort{ 22, 23.5, modestAngle, 2, 2 };
 
 /// Whether coarsening has left so many bad tetrahedra that features of the map's own size, as noise makes them, have no room
 /// for good ones: to try for them all would take most of the time and be in vain.
