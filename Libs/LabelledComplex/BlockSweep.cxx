@@ -183,7 +183,7 @@ public:
                      {
                        for (vtkIdType b = begin; b < end; ++b) place(m_Results[b], starts[b]);
                      });
-    connectBlocks();
+    matchOpenFaces(mesh, m_Ambient.neighbours); // between blocks
     dropUnusedPoints();
   }
 
@@ -215,32 +215,6 @@ private:
     for (auto& e : r.evidence) e.tetrahedron += first;
     std::copy(r.evidence.begin(), r.evidence.end(), m_Ambient.evidence.begin() + start.evidence);
     r = {};
-  }
-
-  /// Makes tetrahedra of different blocks neighbours.
-  void connectBlocks()
-  {
-    using Face = std::pair<std::array<std::int32_t, 3>, std::pair<std::int32_t, int>>; // vertices, tetrahedron, opposite
-    auto& neighbours = m_Ambient.neighbours;
-    std::vector<Face> faces;
-    for (std::int32_t t = 0; t < std::int32_t(neighbours.size()); ++t)
-      for (int i = 0; i < 4; ++i)
-      {
-        if (neighbours[t][i] >= 0) continue;
-        const auto& x = m_Ambient.mesh.tetrahedra[t];
-        std::array<std::int32_t, 3> corners{ x[(i + 1) & 3], x[(i + 2) & 3], x[(i + 3) & 3] };
-        std::sort(corners.begin(), corners.end());
-        faces.push_back({ corners, { t, i } });
-      }
-    vtkSMPTools::Sort(faces.begin(), faces.end());
-    for (std::size_t k = 1; k < faces.size(); ++k)
-    {
-      if (faces[k].first != faces[k - 1].first) continue;
-      const auto [t, i] = faces[k].second;
-      const auto [n, j] = faces[k - 1].second;
-      neighbours[t][i] = n;
-      neighbours[n][j] = t;
-    }
   }
 
   void divide(const std::vector<Centroid>& centroids, std::size_t most)

@@ -1,6 +1,7 @@
 #pragma once
 /// Runs a local-operation algorithm over a whole mesh, block by block, in parallel.
 
+#include "FaceNeighbours.h"
 #include "Progress.h"
 #include "TetComplex.h"
 
@@ -25,13 +26,13 @@ struct AmbientMesh
   TetraMesh mesh;
   std::vector<float> lengths; ///< target edge length at each point, mm
   std::vector<Place> evidence;
-  /// [t][i]: tetrahedron across the face opposite vertex i; -1: none. Sweeps keep it; whoever changes the mesh by other means
-  /// leaves it empty.
-  std::vector<std::array<std::int32_t, 4>> neighbours;
+  /// Empty before the first sweep, and where the mesh has been changed by other means since.
+  AcrossFaces neighbours;
 };
 
 constexpr std::size_t fairBlock = 65000; ///< a few megabytes, enough blocks for the threads, and not too much border
-constexpr double backgroundCost = 0.35; ///< of a tetrahedron of label 0, which is let off much, in tetrahedra of a tissue
+constexpr double backgroundCost =
+  0.35; ///< of a tetrahedron of label 0, which is let off much, in tetrahedra of a tissue
 constexpr std::size_t oneBlock = std::numeric_limits<std::size_t>::max();
 
 /// Cuts the mesh into blocks worth at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs `work` on

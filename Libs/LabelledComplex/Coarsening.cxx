@@ -121,7 +121,6 @@ private:
   void visit(std::int32_t u)
   {
     ++m_Tries[u];
-    m_Visited = u;
     shortNeighbours(u);
     if (m_Complex.onInterface[u]) keepOnlyAlongInterface();
     const Vec3 from = m_Complex.points[u];
@@ -155,7 +154,7 @@ private:
     m_Quadrics.resize(m_Complex.points.size());
     auto& [isKnown, quadric] = m_Quadrics[v];
     if (isKnown) return quadric;
-    gatherSheet(m_Complex, v, v == m_Visited ? m_Operations.star(v) : m_Operations.starOfTarget(v), m_Sheet);
+    gatherSheet(m_Complex, v, m_Operations.starOfTarget(v), m_Sheet);
     quadric = fitOf(m_Complex, v, m_Sheet);
     quadric.g += quadric.times(m_Complex.points[v]);
     isKnown = true;
@@ -223,7 +222,6 @@ private:
   const double m_Low, m_Good;
   std::vector<std::uint8_t> m_Queued, m_Tries;
   LengthQueue m_Queue;
-  std::int32_t m_Visited = -1;
   std::vector<Near> m_Near;
   std::vector<GuardedOperations::Neighbour> m_Around;
   std::vector<Candidate> m_Candidates;

@@ -8,10 +8,7 @@ namespace surgicalmesher
 
 using LabelPair = std::uint32_t; ///< two labels, the larger one in the upper half: compared more often than taken apart
 
-inline LabelPair labelPair(Label a, Label b)
-{
-  return a < b ? LabelPair(b) << 16 | a : LabelPair(a) << 16 | b;
-}
+inline LabelPair labelPair(Label a, Label b) { return a < b ? LabelPair(b) << 16 | a : LabelPair(a) << 16 | b; }
 
 struct SheetFace
 {

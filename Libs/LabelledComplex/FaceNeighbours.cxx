@@ -34,7 +34,7 @@ bool operator<(const Face& a, const Face& b)
 }
 
 /// Pairs the faces from `begin` to `end`, all with the same first point.
-void pairFaces(Face* begin, Face* end, FaceNeighbours& result, std::vector<std::int32_t>& overused)
+void pairFaces(Face* begin, Face* end, AcrossFaces& across, std::vector<std::int32_t>& overused)
 {
   std::sort(begin, end);
   for (Face* next; begin != end; begin = next)
@@ -42,8 +42,8 @@ void pairFaces(Face* begin, Face* end, FaceNeighbours& result, std::vector<std::
     for (next = begin + 1; next != end && next->points == begin->points;) ++next;
     if (next - begin == 2)
     {
-      result.across[begin[0].tetrahedron][begin[0].local] = begin[1].tetrahedron;
-      result.across[begin[1].tetrahedron][begin[1].local] = begin[0].tetrahedron;
+      across[begin[0].tetrahedron][begin[0].local] = begin[1].tetrahedron;
+      across[begin[1].tetrahedron][begin[1].local] = begin[0].tetrahedron;
     }
     for (const Face* face = begin; next - begin > 2 && face != next; ++face) overused.push_back(face->tetrahedron);
   }
@@ -55,31 +55,38 @@ FaceNeighbours faceNeighbours(const TetraMesh& mesh)
 {
   FaceNeighbours result;
   result.across.assign(mesh.tetrahedra.size(), { -1, -1, -1, -1 });
-  // Sorted by their first points by counting: some twenty of each are left to compare.
+  result.overused = matchOpenFaces(mesh, result.across);
+  return result;
+}
+
+std::vector<std::int32_t> matchOpenFaces(const TetraMesh& mesh, AcrossFaces& across)
+{
+  // Sorted by their first points by counting: of all faces of a mesh, some twenty of each are left to compare.
+  const auto forEachOpen = [&](auto&& f)
+  {
+    for (std::size_t t = 0; t < across.size(); ++t)
+      for (int local = 0; local < 4; ++local)
+        if (across[t][local] < 0) f(faceOf(mesh, t, local));
+  };
   std::vector<std::size_t> end(mesh.points.size() + 1, 0);
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    for (int f = 0; f < 4; ++f) ++end[faceOf(mesh, t, f).points[0] + 1];
+  forEachOpen([&](const Face& face) { ++end[face.points[0] + 1]; });
   std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<Face> faces(4 * mesh.tetrahedra.size());
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-    for (int f = 0; f < 4; ++f)
-    {
-      const Face face = faceOf(mesh, t, f);
-      faces[end[face.points[0]]++] = face;
-    }
+  std::vector<Face> faces(end.back());
+  forEachOpen([&](const Face& face) { faces[end[face.points[0]]++] = face; });
+  std::vector<std::int32_t> overused;
   std::mutex mutex;
   vtkSMPTools::For(0, vtkIdType(mesh.points.size()),
                    [&](vtkIdType first, vtkIdType last)
                    {
-                     std::vector<std::int32_t> overused;
+                     std::vector<std::int32_t> here;
                      for (vtkIdType v = first; v < last; ++v)
-                       pairFaces(faces.data() + (v ? end[v - 1] : 0), faces.data() + end[v], result, overused);
+                       pairFaces(faces.data() + (v ? end[v - 1] : 0), faces.data() + end[v], across, here);
                      const std::lock_guard<std::mutex> lock(mutex);
-                     result.overused.insert(result.overused.end(), overused.begin(), overused.end());
+                     overused.insert(overused.end(), here.begin(), here.end());
                    });
-  std::sort(result.overused.begin(), result.overused.end());
-  result.overused.erase(std::unique(result.overused.begin(), result.overused.end()), result.overused.end());
-  return result;
+  std::sort(overused.begin(), overused.end());
+  overused.erase(std::unique(overused.begin(), overused.end()), overused.end());
+  return overused;
 }
 
 std::vector<std::int32_t> faceRegions(const FaceNeighbours& neighbours,

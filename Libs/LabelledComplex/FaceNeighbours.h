@@ -16,13 +16,19 @@ constexpr std::array<std::array<int, 2>, 6> kEdgeCorners{
   { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } }
 };
 
+using AcrossFaces =
+  std::vector<std::array<std::int32_t, 4>>; ///< [t][f]: tetrahedron beyond the face opposite corner f; -1: none
+
 struct FaceNeighbours
 {
-  std::vector<std::array<std::int32_t, 4>> across; ///< [t][f]: tetrahedron beyond the face opposite corner f; -1 none
-  std::vector<std::int32_t> overused;              ///< tetrahedra with a face that more than two share, ascending
+  AcrossFaces across;
+  std::vector<std::int32_t> overused; ///< tetrahedra with a face that more than two share, ascending
 };
 
 FaceNeighbours faceNeighbours(const TetraMesh& mesh);
+
+/// Finds the neighbours that are not in `across` yet; returns the overused tetrahedra among those faces.
+std::vector<std::int32_t> matchOpenFaces(const TetraMesh& mesh, AcrossFaces& across);
 
 /// Regions of tetrahedra joined through faces: the region of each tetrahedron, numbered from 0 in the order of their
 /// first tetrahedra. `joined(t, f)` says whether the face may be passed; it must say the same from both sides, and is

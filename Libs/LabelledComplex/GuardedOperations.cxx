@@ -177,7 +177,8 @@ bool GuardedOperations::tissuesStayNear(const Sheet& sheet, const SheetPoint& po
                        [&](const Face& f)
                        {
                          const auto& [a, b, c] = f.corners;
-                         return has(f.labels, label) && squaredDistanceToTriangle(point.position, a, b, c) <= tolerance2;
+                         return has(f.labels, label) &&
+                                squaredDistanceToTriangle(point.position, a, b, c) <= tolerance2;
                        });
   };
   const LabelPair labels = sheet.faces[point.from].labels;

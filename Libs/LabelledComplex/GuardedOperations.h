@@ -44,7 +44,10 @@ public:
   const std::vector<std::int32_t>& star(std::int32_t v) { return starOf(v, m_Star); }
 
   /// The same, kept apart, for the vertex that another one may go into.
-  const std::vector<std::int32_t>& starOfTarget(std::int32_t v) { return starOf(v, m_StarOfV); }
+  const std::vector<std::int32_t>& starOfTarget(std::int32_t v)
+  {
+    return v == m_Star.vertex ? m_Star.tets : starOf(v, m_StarOfV);
+  }
 
   struct Neighbour
   {

@@ -13,7 +13,7 @@ struct MeshImprovementOptions
 {
   double surfaceTolerance = 0.017; ///< how far the surface may move from where it was, as a share of the target
                                    ///< length; four times as far where nothing else mends an angle
-  double targetAngle = usualAngle;  ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
+  double targetAngle = usualAngle; ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
 };
 
 /// Improves `mesh` (positively wound, face-to-face, label 0 outside; vertices on its hull stay) towards `scale` and towards

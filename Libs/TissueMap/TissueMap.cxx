@@ -5,14 +5,24 @@ namespace surgicalmesher
 
 std::vector<Label> presentLabels(const TissueMap& map)
 {
-  std::vector<char> present(65536, 0);
-  for (const Label label : map.labels) present[label] = 1;
   std::vector<Label> labels;
-  for (int label = 1; label < 65536; ++label)
+  for (const auto& [label, voxels] : countVoxels(map))
   {
-    if (present[label]) labels.push_back(Label(label));
+    if (label != 0) labels.push_back(label);
   }
   return labels;
+}
+
+std::map<Label, std::size_t> countVoxels(const TissueMap& map)
+{
+  std::vector<std::size_t> counts(labelCount, 0);
+  for (const Label label : map.labels) ++counts[label];
+  std::map<Label, std::size_t> result;
+  for (std::size_t label = 0; label < counts.size(); ++label)
+  {
+    if (counts[label] > 0) result[Label(label)] = counts[label];
+  }
+  return result;
 }
 
 } // namespace surgicalmesher

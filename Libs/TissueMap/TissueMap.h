@@ -12,8 +12,8 @@
 namespace surgicalmesher
 {
 
-using Label = std::uint16_t; ///< 0 is background
-constexpr std::size_t labelCount = 65536;
+using Label = std::uint16_t;              ///< 0 is background
+constexpr std::size_t labelCount = 65536; ///< possible values, for tables by label
 
 struct Tissue
 {
@@ -34,5 +34,8 @@ struct TissueMap
 
 /// Labels present in the map, ascending, without background.
 std::vector<Label> presentLabels(const TissueMap& map);
+
+/// Voxels of each label in the map, background included.
+std::map<Label, std::size_t> countVoxels(const TissueMap& map);
 
 } // namespace surgicalmesher

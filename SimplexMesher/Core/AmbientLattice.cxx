@@ -156,8 +156,7 @@ public:
     vtkSMPTools::For(0, n, 1,
                      [&](vtkIdType begin, vtkIdType end)
                      {
-                       for (vtkIdType i = begin; i < end; ++i)
-                         generateRoot(root(i), parts[i]);
+                       for (vtkIdType i = begin; i < end; ++i) generateRoot(root(i), parts[i]);
                      });
     for (AmbientLattice& part : parts)
     {

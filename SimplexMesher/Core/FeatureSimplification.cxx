@@ -319,18 +319,6 @@ private:
   DirtyCubes m_Dirty;
 };
 
-std::map<Label, std::size_t> countVoxels(const TissueMap& map)
-{
-  std::vector<std::size_t> counts(labelCount, 0);
-  for (const Label label : map.labels) ++counts[label];
-  std::map<Label, std::size_t> result;
-  for (std::size_t label = 0; label < counts.size(); ++label)
-  {
-    if (counts[label] > 0) result[Label(label)] = counts[label];
-  }
-  return result;
-}
-
 /// Tissues of which less than half is left.
 std::set<Label> halved(const std::map<Label, std::size_t>& before, const TissueMap& map)
 {

@@ -71,7 +71,8 @@ InterfaceGraph makeGraph(const AmbientLattice& lattice)
       for (std::int32_t v : { edges[i].a, edges[i].b }) curveDegree[v] = std::uint8_t(std::min(3, curveDegree[v] + 1));
     i = j;
   }
-  const auto follows = [&](std::int32_t v, bool curve) { return curveDegree[v] == 0 || (curveDegree[v] == 2 && curve); };
+  const auto follows = [&](std::int32_t v, bool curve)
+  { return curveDegree[v] == 0 || (curveDegree[v] == 2 && curve); };
   graph.start.assign(n + 1, 0);
   for (const auto& [e, curve] : unique)
   {
@@ -98,19 +99,22 @@ std::vector<Vec3> taubin(const InterfaceGraph& graph, const std::vector<Vec3>& p
   for (int step = 0; step < 2 * options.iterations; ++step)
   {
     const double weight = step % 2 ? options.grow : options.shrink;
-    vtkSMPTools::For(0, vtkIdType(n), [&](vtkIdType begin, vtkIdType end) {
-      for (vtkIdType v = begin; v < end; ++v)
-      {
-        next[v] = position[v];
-        const std::int32_t from = graph.start[v], to = graph.start[v + 1];
-        if (from == to) continue;
-        Vec3 mean;
-        for (std::int32_t k = from; k < to; ++k) mean += position[graph.neighbours[k]];
-        next[v] += weight * (mean / double(to - from) - position[v]);
-        const Vec3& home = points[graph.vertices[v]];
-        for (int a = 0; a < 3; ++a) next[v][a] = std::clamp(next[v][a], home[a] - box[a], home[a] + box[a]);
-      }
-    });
+    vtkSMPTools::For(0, vtkIdType(n),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType v = begin; v < end; ++v)
+                       {
+                         next[v] = position[v];
+                         const std::int32_t from = graph.start[v], to = graph.start[v + 1];
+                         if (from == to) continue;
+                         Vec3 mean;
+                         for (std::int32_t k = from; k < to; ++k) mean += position[graph.neighbours[k]];
+                         next[v] += weight * (mean / double(to - from) - position[v]);
+                         const Vec3& home = points[graph.vertices[v]];
+                         for (int a = 0; a < 3; ++a)
+                           next[v][a] = std::clamp(next[v][a], home[a] - box[a], home[a] + box[a]);
+                       }
+                     });
     position.swap(next);
   }
   return position;
@@ -121,13 +125,15 @@ void moveEvidence(AmbientMesh& ambient, const InterfaceGraph& graph, const std::
 {
   const auto& points = ambient.mesh.points;
   std::vector<Vec3> way(points.size());
-  for (std::size_t i = 0; i < graph.vertices.size(); ++i) way[graph.vertices[i]] = target[i] - points[graph.vertices[i]];
+  for (std::size_t i = 0; i < graph.vertices.size(); ++i)
+    way[graph.vertices[i]] = target[i] - points[graph.vertices[i]];
   const auto move = [&](AmbientMesh::Place& e)
   {
     const auto& t = ambient.mesh.tetrahedra[e.tetrahedron];
     const std::int32_t a = t[(e.face + 1) & 3], b = t[(e.face + 2) & 3], c = t[(e.face + 3) & 3];
     const Vec3 n = cross(points[b] - points[a], points[c] - points[a]);
-    const auto weight = [&](const Vec3& q, const Vec3& r) { return dot(cross(q - e.position, r - e.position), n) / squaredNorm(n); };
+    const auto weight = [&](const Vec3& q, const Vec3& r)
+    { return dot(cross(q - e.position, r - e.position), n) / squaredNorm(n); };
     e.position += share * (weight(points[b], points[c]) * way[a] + weight(points[c], points[a]) * way[b] +
                            weight(points[a], points[b]) * way[c]);
   };
@@ -157,33 +163,37 @@ void smoothInterface(AmbientLattice& lattice, const Vec3& voxelSpacing, const Sm
   const auto moveAll = [&](auto&& isToMove)
   {
     std::atomic<bool> any{ false };
-    vtkSMPTools::For(0, vtkIdType(n), [&](vtkIdType begin, vtkIdType end) {
-      for (vtkIdType i = begin; i < end; ++i)
-      {
-        const std::int32_t v = graph.vertices[i];
-        moved[v] = isToMove(i);
-        tooFar[v] = false;
-        if (!moved[v]) continue;
-        mesh.points[v] = home[v] + double(shares[level[i]]) * (target[i] - home[v]);
-        any = true;
-      }
-    });
+    vtkSMPTools::For(0, vtkIdType(n),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType i = begin; i < end; ++i)
+                       {
+                         const std::int32_t v = graph.vertices[i];
+                         moved[v] = isToMove(i);
+                         tooFar[v] = false;
+                         if (!moved[v]) continue;
+                         mesh.points[v] = home[v] + double(shares[level[i]]) * (target[i] - home[v]);
+                         any = true;
+                       }
+                     });
     return bool(any);
   };
   const auto isStillTooFar = [&](vtkIdType i)
   { return tooFar[graph.vertices[i]] && level[i] + 1u < shares.size() && ++level[i] > 0; };
   const double floor = sine2OfDegrees(options.minimumAngle);
   for (bool any = moveAll([](vtkIdType) { return true; }); any; any = moveAll(isStillTooFar))
-    vtkSMPTools::For(0, vtkIdType(mesh.tetrahedra.size()), [&](vtkIdType begin, vtkIdType end) {
-      for (vtkIdType t = begin; t < end; ++t)
-      {
-        const auto& x = mesh.tetrahedra[t];
-        if (!(moved[x[0]] | moved[x[1]] | moved[x[2]] | moved[x[3]])) continue;
-        const auto& p = mesh.points;
-        if (worstSine2(p[x[0]], p[x[1]], p[x[2]], p[x[3]]) >= floor) continue;
-        for (std::int32_t v : x) tooFar[v] = true;
-      }
-    });
+    vtkSMPTools::For(0, vtkIdType(mesh.tetrahedra.size()),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType t = begin; t < end; ++t)
+                       {
+                         const auto& x = mesh.tetrahedra[t];
+                         if (!(moved[x[0]] | moved[x[1]] | moved[x[2]] | moved[x[3]])) continue;
+                         const auto& p = mesh.points;
+                         if (worstSine2(p[x[0]], p[x[1]], p[x[2]], p[x[3]]) >= floor) continue;
+                         for (std::int32_t v : x) tooFar[v] = true;
+                       }
+                     });
 }
 
 } // namespace surgicalmesher

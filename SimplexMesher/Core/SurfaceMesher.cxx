@@ -139,10 +139,7 @@ public:
   explicit VolumeBalance(const TissueMap& map) : m_Most(mostBalance * shortestSpacing(map.grid))
   {
     const Vec3 h = map.grid.spacing;
-    std::vector<std::size_t> voxels(labelCount);
-    for (const Label label : map.labels) ++voxels[label];
-    for (std::size_t label = 0; label < labelCount; ++label)
-      if (voxels[label] > 0) m_Volumes[Label(label)] = double(voxels[label]) * h.x * h.y * h.z;
+    for (const auto& [label, voxels] : countVoxels(map)) m_Volumes[label] = double(voxels) * h.x * h.y * h.z;
   }
 
   /// By what would make up for the volume and half as much again; half a voxel in all at most, a voxel between two tissues.
