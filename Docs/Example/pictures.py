@@ -341,15 +341,14 @@ def draw_evolution(folder):
     figure = new_figure(1500, 560)
     panels = [figure.add_axes((0.05 + 0.325 * n, 0.12, 0.28, 0.63)) for n in range(3)]
     size, distance, operations = panels
-    size.bar(number, [step["tetrahedra"] for step in steps], color=BAR_COLOR, edgecolor="white", linewidth=0.4)
-    size.set_yscale("log")
-    size.set_ylabel("tetrahedra of tissues", fontsize=11)
+    size.bar(number, [step["faces"] / 1000 for step in steps], color=BAR_COLOR, edgecolor="white", linewidth=0.4)
+    size.set_ylabel("faces between tissues (thousands)", fontsize=11)
     distance.plot(number, [step["maximumDistance"] for step in steps], color=IDEAL_COLOR, marker="o", label="maximum")
     distance.plot(number, [step["meanDistance"] for step in steps], color=BAR_COLOR, marker="o", label="mean")
     distance.set_ylabel("distance to the boundary (mm)", fontsize=11)
     distance.set_ylim(bottom=0)
     for name, kind, color in (("T1: collapses", "collapses", BAR_COLOR), ("T2: splits", "splits", INK),
-                              ("T7: flips", "flips", IDEAL_COLOR)):
+                              ("T7: flips", "flips", IDEAL_COLOR), ("relabels", "relabels", "#54a24b")):
         counts = np.array([step[kind] for step in steps], float)
         operations.plot(number, np.where(counts > 0, counts, np.nan), color=color, marker="o", label=name)
     operations.set_yscale("log")

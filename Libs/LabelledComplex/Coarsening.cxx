@@ -178,7 +178,7 @@ private:
   bool collapse(std::int32_t u, const Candidate& c)
   {
     if (!m_Options.thorough) m_Around = m_Operations.neighbours(u);
-    if (!m_Operations.collapseWithin(u, c.vertex, c.position)) return false;
+    if (!m_Operations.collapseWithin(u, c.vertex, c.position, m_Low)) return false;
     if (m_Complex.onInterface[u]) forgetQuadrics(c.vertex);
     if (m_Options.thorough) wakeAll(c.vertex);
     else wakeChanged(c.vertex);

@@ -45,9 +45,23 @@ double squaredDistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, co
   return h * h / squaredNorm(n);
 }
 
-GuardedOperations::GuardedOperations(TetComplex& complex, ScaleFunction scale, double rmsLimit, double slack)
-  : m_Complex(complex), m_Scale(std::move(scale)), m_MeanSquareLimit(rmsLimit * rmsLimit), m_SquaredSlack(slack * slack)
+GuardedOperations::GuardedOperations(TetComplex& complex, ScaleFunction scale, const Guards& guards)
+  : m_Complex(complex), m_Scale(std::move(scale)), m_MeanSquareLimit(guards.rmsLimit * guards.rmsLimit),
+    m_SquaredSlack(guards.slack * guards.slack), m_TriangleWeight(guards.triangleWeight), m_Reach(guards.reach)
 {
+}
+
+double GuardedOperations::quality(std::int32_t t) const
+{
+  const auto& c = m_Complex;
+  double result = lenient(t, c.quality(t));
+  const auto& x = c.tets[t];
+  const bool hasTriangle = c.onInterface[x[0]] + c.onInterface[x[1]] + c.onInterface[x[2]] + c.onInterface[x[3]] >= 3;
+  for (int i = 0; i < 4 && hasTriangle && m_TriangleWeight > 0; ++i)
+    if (const std::int32_t n = c.neighbours[t][i]; n > t && c.labels[n] != c.labels[t])
+      result = std::min(result, m_TriangleWeight * smallestSine2(c.points[x[(i + 1) & 3]], c.points[x[(i + 2) & 3]],
+                                                                 c.points[x[(i + 3) & 3]]));
+  return result;
 }
 
 const std::vector<std::int32_t>& GuardedOperations::starOf(std::int32_t v, Star& star)
@@ -64,7 +78,7 @@ const std::vector<std::int32_t>& GuardedOperations::starOf(std::int32_t v, Star&
 StarQuality& GuardedOperations::measured(std::int32_t v, Star& star)
 {
   starOf(v, star);
-  if (!star.isMeasured) star.quality.gather(m_Complex, v, star.tets);
+  if (!star.isMeasured) star.quality.gather(m_Complex, v, star.tets, m_TriangleWeight);
   star.isMeasured = true;
   return star.quality;
 }
@@ -118,15 +132,26 @@ void GuardedOperations::gather(std::int32_t t, int face)
 }
 
 void GuardedOperations::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids,
-                                   Label x, Label y, std::int32_t tet, int face)
+                                   Label x, Label y, std::int32_t tet, int face, bool changes)
 {
-  Face f{ { a, b, c }, labelPair(x, y), ids, {}, {}, {}, tet, face };
+  Face f{ { a, b, c }, labelPair(x, y), ids, {}, {}, {}, tet, face, changes };
   const Vec3 n = cross(b - a, c - a);
   const double area2 = squaredNorm(n); // positive, as the tetrahedra on both sides are
   f.normal = n / std::sqrt(area2);
   f.slopes = { cross(n, c - b) / area2, cross(n, a - c) / area2, cross(n, b - a) / area2 };
   for (int k = 0; k < 3; ++k) f.heights[k] = 1 / squaredNorm(f.slopes[k]);
   m_NewFaces.push_back(f);
+}
+
+bool GuardedOperations::newFacesReach(double minimumQuality) const
+{
+  return m_TriangleWeight == 0 || std::all_of(m_NewFaces.begin(), m_NewFaces.end(),
+                                              [&](const Face& f)
+                                              {
+                                                const auto& [a, b, c] = f.corners;
+                                                return !f.changes ||
+                                                       m_TriangleWeight * smallestSine2(a, b, c) >= minimumQuality;
+                                              });
 }
 
 double GuardedOperations::squaredDistanceNow(const Sheet& sheet, const SheetPoint& point)
@@ -205,6 +230,20 @@ bool GuardedOperations::evidenceStays(Sheet& sheet)
   for (const SheetPoint& point : sheet.points)
     before += std::min(1.0, squaredDistanceNow(sheet, point) / (m_SquaredSlack * point.tolerance2));
   return sum <= before * (1 + 1e-9);
+}
+
+/// After evidenceStays: whether a tenth of the sum of squares at least would be saved, and no point let go.
+bool GuardedOperations::evidenceComesNearer(const Sheet& sheet)
+{
+  constexpr double clearly = 0.9;
+  double before = 0, after = 0;
+  for (const SheetPoint& point : sheet.points)
+  {
+    if (point.to < 0) return false;
+    before += squaredDistanceNow(sheet, point) / point.tolerance2;
+    after += point.distance2 / point.tolerance2;
+  }
+  return after < clearly * before;
 }
 
 void GuardedOperations::detachEvidence(const Sheet& sheet)
@@ -328,7 +367,7 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
   const auto& c = m_Complex;
   clearEvidence();
   // Each face as it will be in a tetrahedron that stays: `stays`, opposite its vertex number `opposite`.
-  const auto addMoved = [&](std::int32_t t, int face, Label x, Label y, std::int32_t stays, int opposite)
+  const auto addMoved = [&](std::int32_t t, int face, Label x, Label y, std::int32_t stays, int opposite, bool changing)
   {
     std::array<std::int32_t, 3> ids{ c.tets[t][(face + 1) & 3], c.tets[t][(face + 2) & 3], c.tets[t][(face + 3) & 3] };
     Vec3 corners[3];
@@ -337,7 +376,7 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
       if (ids[k] == u) ids[k] = v;
       corners[k] = ids[k] == v ? p : c.points[ids[k]];
     }
-    addNewFace(corners[0], corners[1], corners[2], ids, x, y, stays, opposite);
+    addNewFace(corners[0], corners[1], corners[2], ids, x, y, stays, opposite, changing);
   };
   const auto facesAt = [&](std::int32_t end, std::int32_t other, const std::vector<std::int32_t>& star, bool changing)
   {
@@ -351,7 +390,7 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
         if (c.contains(n, other)) continue; // dealt with from the ring
         if (n < t) continue;
         if (changing) gather(t, i);
-        addMoved(t, i, c.labels[t], c.labels[n], t, i);
+        addMoved(t, i, c.labels[t], c.labels[n], t, i, changing);
       }
     }
   };
@@ -368,7 +407,7 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
     if (c.labels[nu] == c.labels[nv]) continue;
     int opposite = 0;
     while (c.neighbours[nu][opposite] != t) ++opposite;
-    addMoved(t, iu, c.labels[nu], c.labels[nv], nu, opposite);
+    addMoved(t, iu, c.labels[nu], c.labels[nv], nu, opposite, true);
   }
   return evidenceStays(m_Changed);
 }
@@ -399,10 +438,11 @@ bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, 
                                  double maximumRatio)
 {
   return mayCollapse(u, v, !(p == m_Complex.points[v])) &&
-         qualityAfterCollapse(u, v, p, minimumQuality, maximumRatio) >= minimumQuality && collapseWithin(u, v, p);
+         qualityAfterCollapse(u, v, p, minimumQuality, maximumRatio) >= minimumQuality &&
+         collapseWithin(u, v, p, minimumQuality);
 }
 
-bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec3& p)
+bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality)
 {
   auto& c = m_Complex;
   const bool moves = !(p == c.points[v]), inside = !c.onInterface[u];
@@ -420,7 +460,7 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
       m_Refused.push_back(v);
       return false;
     }
-    if (!collapseKeepsEvidence(u, v, p)) return false;
+    if (!collapseKeepsEvidence(u, v, p) || !newFacesReach(minimumQuality)) return false;
     detachEvidence(m_Changed);
   }
   c.collapse(u, v, star);
@@ -469,12 +509,40 @@ void GuardedOperations::attachMoved()
                    [](const SheetPoint& a, const SheetPoint& b) { return a.from < b.from; });
 }
 
+namespace
+{
+
+/// The point of the sheet that is nearest to p, and its squared distance; null if there is none.
+std::pair<const SheetPoint*, double> nearestPoint(const Sheet& sheet, const Vec3& p)
+{
+  std::pair<const SheetPoint*, double> result{ nullptr, std::numeric_limits<double>::max() };
+  for (const SheetPoint& point : sheet.points)
+    if (const double d2 = squaredNorm(point.position - p); d2 < result.second) result = { &point, d2 };
+  return result;
+}
+
+} // namespace
+
+bool GuardedOperations::isSpike(std::int32_t v, double reach)
+{
+  const auto [point, distance2] = nearestPoint(sheet(v), m_Complex.points[v]);
+  return point && distance2 > reach * reach * point->tolerance2;
+}
+
+bool GuardedOperations::growsSpike(std::int32_t v, const Vec3& p)
+{
+  if (m_Reach == 0) return false;
+  const auto [point, distance2] = nearestPoint(m_SheetAt, p);
+  return point && distance2 > m_Reach * m_Reach * point->tolerance2 &&
+         distance2 > nearestPoint(m_SheetAt, m_Complex.points[v]).second;
+}
+
 bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
 {
   if (m_Complex.onInterface[v])
   {
     addMovedFaces(v, p);
-    if (!evidenceStays(m_SheetAt)) return false;
+    if (!evidenceStays(m_SheetAt) || growsSpike(v, p)) return false;
     attachMoved();
   }
   place(v, p);
@@ -583,7 +651,7 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
     const std::int32_t p = m_RingVertices[0], q = m_RingVertices[second];
     for (std::int32_t end : { a, b })
       addNewFace(c.points[end], c.points[p], c.points[q], { end, p, q }, c.labels[m_Ring[0]], c.labels[m_Ring[second]]);
-    if (!evidenceStays(m_Changed)) return false;
+    if (!newFacesReach(minimumQuality) || !evidenceStays(m_Changed)) return false;
     detachEvidence(m_Changed);
   }
   const auto ids = c.replace(m_Ring, fresh, labels);
@@ -614,7 +682,7 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
     for (std::int32_t end : { a, b })
       addNewFace(c.points[end], p, c.points[x], { end, m, x }, c.labels[t], c.labels[before]);
   }
-  if (!evidenceStays(m_Changed)) return false;
+  if (!newFacesReach(minimumQuality) || !evidenceStays(m_Changed)) return false;
   detachEvidence(m_Changed);
   c.addVertex(p, m_Scale(p), !m_NewFaces.empty());
   std::vector<TetComplex::Tet> fresh;
@@ -655,7 +723,7 @@ bool GuardedOperations::isSimple(std::int32_t t, const std::array<int, 4>& corne
   return shared == 2 && others(vertex(0), vertex(1), true) && others(vertex(2), vertex(3), false);
 }
 
-bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuality)
+bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuality, bool onlyNearer)
 {
   auto& c = m_Complex;
   const TetComplex::Tet x = c.tets[t];
@@ -678,7 +746,8 @@ bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuali
     if (k < shared) gather(t, i);
     else addNewFace(c.points[ids[0]], c.points[ids[1]], c.points[ids[2]], ids, own, label);
   }
-  if (!evidenceStays(m_Changed)) return false;
+  if (!newFacesReach(minimumQuality) || !evidenceStays(m_Changed)) return false;
+  if (onlyNearer && !evidenceComesNearer(m_Changed)) return false;
   detachEvidence(m_Changed);
   c.labels[t] = label;
   if (shared == 1) c.onInterface[x[corners[0]]] = 1;

@@ -8,7 +8,8 @@
 /// changes the complex by other means goes on with new GuardedOperations.
 ///
 /// *Quality* is worstSine2 (TetQuality.h); tetrahedra of label 0 are thrown away in the end and are let off with a smaller
-/// one: theirs is multiplied by backgroundLeniency.
+/// one: theirs is multiplied by backgroundLeniency. Of the triangles between labels it is smallestSine2 times a weight: with 1,
+/// their angles count like dihedral ones.
 
 #include "EvidenceSheet.h"
 #include "StarQuality.h"
@@ -27,15 +28,26 @@ struct OperationCounts
   long collapses = 0, moves = 0, flips = 0, splits = 0, relabels = 0;
 };
 
+/// What operations keep of the evidence that they touch, and how much they ask of triangles between labels.
+struct Guards
+{
+  /// Of the root mean square distance, in units of the tolerance; nor does an operation raise one beyond it. Single points may
+  /// use up their tolerance where the others lie close.
+  double rmsLimit = 0.5;
+  double slack = 1;          ///< tolerances count so many times
+  double triangleWeight = 0; ///< of triangles between labels, see above; 0: they have no quality
+  /// In tolerances: a vertex between labels moves no farther than this from the nearest evidence of its faces, or no farther
+  /// than it is. A spike gives good angles, and its sides pass the evidence at its foot however long it grows. 0: no bound.
+  double reach = 0;
+};
+
 class GuardedOperations
 {
 public:
-  /// The evidence that an operation touches keeps its root mean square distance, in units of its tolerance, under
-  /// `rmsLimit`, or does not raise it: single points may use up their tolerance where the others lie close. Tolerances
-  /// count `slack` times.
-  GuardedOperations(TetComplex& complex, ScaleFunction scale, double rmsLimit = 0.5, double slack = 1);
+  GuardedOperations(TetComplex& complex, ScaleFunction scale, const Guards& guards = {});
 
-  double quality(std::int32_t t) const { return lenient(t, m_Complex.quality(t)); }
+  /// Of t, and of its triangles between labels.
+  double quality(std::int32_t t) const;
 
   /// The worst quality of `tetrahedra`.
   double worstQuality(const std::vector<std::int32_t>& tetrahedra) const;
@@ -60,7 +72,7 @@ public:
   /// The interface faces at v and their evidence; kept likewise, and while only v moves.
   const Sheet& sheet(std::int32_t v);
 
-  /// To measure star(v) with v anywhere; kept likewise, and while only v moves.
+  /// To measure star(v) and sheet(v) with v anywhere; kept likewise, and while only v moves.
   StarQuality& measured(std::int32_t v) { return measured(v, m_Star); }
 
   /// The worst quality at v, were it at p, or some value below `atLeast` if it is less than that.
@@ -76,8 +88,9 @@ public:
   /// may stay, but not grow).
   double qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast, double maximumRatio);
 
-  /// Merges u into v at p if topology and evidence allow: the rest of collapse(), once the others have been asked.
-  bool collapseWithin(std::int32_t u, std::int32_t v, const Vec3& p);
+  /// Merges u into v at p if topology and evidence allow, and the triangles that come to lie between labels: the rest of
+  /// collapse(), once the others have been asked.
+  bool collapseWithin(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality);
 
   /// Merges u into its neighbour v, which moves to p, if every changed tetrahedron reaches `minimumQuality` and all of the
   /// above allow it.
@@ -103,8 +116,12 @@ public:
   bool split(std::int32_t a, std::int32_t b, std::int32_t seed, const Vec3& p, double minimumQuality);
 
   /// Gives t, an interface tetrahedron between its own label and `label`, to the latter, if both keep their topology and
-  /// their manifold boundaries: t is a simple point of either.
-  bool relabel(std::int32_t t, Label label, double minimumQuality);
+  /// their manifold boundaries: t is a simple point of either. With `onlyNearer`, only if that brings the surface clearly
+  /// nearer to the evidence.
+  bool relabel(std::int32_t t, Label label, double minimumQuality, bool onlyNearer = false);
+
+  /// Whether v, between labels, is more than `reach` tolerances from all evidence of its faces.
+  bool isSpike(std::int32_t v, double reach);
 
   TetComplex& complex() { return m_Complex; }
   float scaleAt(const Vec3& p) const { return m_Scale(p); }
@@ -123,6 +140,7 @@ private:
     std::array<double, 3> heights; ///< squared, over the side opposite each corner
     std::int32_t tet;              ///< that has it as its `face` already; -1: not known yet
     int face;
+    bool changes;
   };
 
   struct Star
@@ -147,11 +165,14 @@ private:
   void place(std::int32_t v, const Vec3& p);
   void gather(std::int32_t t, int face);
   void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x, Label y,
-                  std::int32_t tet = -1, int face = 0);
+                  std::int32_t tet = -1, int face = 0, bool changes = true);
+  bool newFacesReach(double minimumQuality) const;
   double squaredDistanceNow(const Sheet& sheet, const SheetPoint& point);
   bool nearestFace(const Sheet& sheet, SheetPoint& point) const;
   bool tissuesStayNear(const Sheet& sheet, const SheetPoint& point) const;
   bool evidenceStays(Sheet& sheet);
+  bool evidenceComesNearer(const Sheet& sheet);
+  bool growsSpike(std::int32_t v, const Vec3& p);
   void detachEvidence(const Sheet& sheet);
   void attachEvidence(const std::vector<std::int32_t>& around = {});
   void attach(const std::vector<SheetPoint>& points, const std::vector<std::pair<std::int32_t, int>>& holders);
@@ -162,7 +183,7 @@ private:
 
   TetComplex& m_Complex;
   ScaleFunction m_Scale;
-  double m_MeanSquareLimit, m_SquaredSlack;
+  double m_MeanSquareLimit, m_SquaredSlack, m_TriangleWeight, m_Reach;
   Star m_Star, m_StarOfV;               ///< of the vertex worked on, and of the one it may go into
   std::int32_t m_NeighboursVertex = -1; ///< whose m_Neighbours are; -1: nobody's
   std::vector<Neighbour> m_Neighbours;

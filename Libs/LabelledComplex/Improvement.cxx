@@ -528,57 +528,7 @@ private:
   std::vector<Vec3> m_Gradients;
 };
 
-std::vector<std::int32_t> tissuesAt(GuardedOperations& operations, std::int32_t v)
-{
-  std::vector<std::int32_t> result;
-  for (std::int32_t t : operations.star(v))
-    if (operations.complex().labels[t] != 0) result.push_back(t);
-  return result;
-}
-
-/// Gives all tissue at v to the background, in whatever order it allows. What leads nowhere is given back, if the evidence
-/// has not come to lie too well for that.
-bool takeOff(GuardedOperations& operations, std::int32_t v)
-{
-  constexpr double anyQuality = 0;
-  const std::vector<std::int32_t> tissues = tissuesAt(operations, v);
-  for (std::int32_t t : tissues)
-  {
-    const Label own = operations.complex().labels[t];
-    if (!operations.relabel(t, 0, anyQuality)) continue;
-    if (tissues.size() == 1 || takeOff(operations, v)) return true;
-    operations.relabel(t, own, anyQuality);
-  }
-  return false;
-}
-
-/// Gives background at v that faces of one tissue enclose on two or three sides to that tissue, until v has enough.
-void fillBeside(GuardedOperations& operations, std::int32_t v, std::size_t few)
-{
-  const TetComplex& c = operations.complex();
-  const double least = sine2OfDegrees(usualAngle); // what is let off as background no longer is
-  const std::vector<std::int32_t> star = operations.star(v);
-  for (std::int32_t t : star)
-  {
-    if (c.labels[t] != 0) continue;
-    if (tissuesAt(operations, v).size() > few) return;
-    int sides = 0;
-    Label tissue = 0;
-    for (int i = 0; i < 4; ++i)
-      if (c.isInterface(t, i)) ++sides, tissue = c.labels[c.neighbours[t][i]];
-    if (sides >= 2) operations.relabel(t, tissue, least);
-  }
-}
-
 } // namespace
-
-void trimBlock(GuardedOperations& operations, std::size_t few)
-{
-  const TetComplex& c = operations.complex();
-  for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
-    if (c.vertexTet[v] >= 0 && !c.locked[v] && c.onInterface[v] && tissuesAt(operations, v).size() <= few)
-      if (!takeOff(operations, v)) fillBeside(operations, v, few);
-}
 
 void relaxBlock(GuardedOperations& operations, const RelaxationOptions& options)
 {

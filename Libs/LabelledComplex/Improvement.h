@@ -48,11 +48,6 @@ struct ImprovementOptions
   int passes = 3; ///< later passes work only where something has changed
 };
 
-/// Takes vertices at which tissues have at most `few` tetrahedra off the outer boundary, by relabelling these, or fills the
-/// valleys beside them. They are tips of no volume to speak of, but the largest eigenvalues of a stiffness matrix are
-/// theirs.
-void trimBlock(GuardedOperations& operations, std::size_t few);
-
 /// Worst first: edge removal, vertex optimisation, collapse, split, and moves of several vertices together, of the
 /// tetrahedra below the target, until nothing helps.
 void improveBlock(GuardedOperations& operations, const ImprovementOptions& options = {});

@@ -72,8 +72,15 @@ void work(GuardedOperations& operations, const Step& step, double targetAngle, d
   improveBlock(operations, improvement);
 }
 
-/// The angle to work for. Of a mesh without a bad tetrahedron that still has many below `wanted`, the surface stage has found
-/// no room for better ones.
+/// Whether hardly any angle is so bad that many collapses and flips all over the mesh would be worth their while.
+bool isGood(const TetraMesh& mesh)
+{
+  constexpr std::size_t few = 10000; // one in so many
+  return countBelow(mesh, 20) <= mesh.tetrahedra.size() / few;
+}
+
+/// The angle to work for. Of a good mesh that still has many below `wanted`, the surface stage has found no room for better
+/// ones.
 double attainable(const TetraMesh& mesh, bool good, double wanted)
 {
   constexpr std::size_t many = 2000;
@@ -143,18 +150,20 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
   for (const Vec3& p : mesh.points) ambient.lengths.push_back(scale(p));
   placeEvidence(ambient, options.surfaceTolerance);
   const std::size_t sweeps = std::size(steps);
-  const bool good = countBelow(mesh, 20) == 0; // worse angles are mended only by many collapses and flips
+  const bool good = isGood(mesh);
   const double target = attainable(mesh, good, options.targetAngle);
   const double kept = good ? target : 0; // to fall below it and to be mended again would take most of the time
   for (std::size_t i = 0; i < sweeps; ++i)
   {
     const Step& step = steps[i];
     if (!isWorthwhile(step, ambient.mesh, target, good)) continue;
+    // The surface stage has put its surface where it belongs: only repairs may take it away.
+    const double held = good && step.rmsLimit < 0.5 ? 0.6 : 1;
     sweepBlocks(
       ambient, int(i), step.whole ? oneBlock : fairBlock,
       [&](TetComplex& block)
       {
-        GuardedOperations operations(block, scale, step.rmsLimit, step.slack);
+        GuardedOperations operations(block, scale, { held * step.rmsLimit, step.slack });
         work(operations, step, target, kept);
       },
       [&](double fraction, const std::string&)

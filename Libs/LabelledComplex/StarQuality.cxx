@@ -1,5 +1,7 @@
 #include "StarQuality.h"
 
+#include "TetQuality.h"
+
 #include <limits>
 
 // A copy of the loops for processors that handle four doubles at once, chosen when the program starts. Without fused
@@ -21,7 +23,8 @@ double lesser(double a, double b) { return a < b ? a : b; }
 
 } // namespace
 
-void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star)
+void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star,
+                         double triangleWeight)
 {
   // With v first, an even permutation of the tetrahedron.
   static constexpr int others[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 3, 0, 1 }, { 2, 1, 0 } };
@@ -44,6 +47,56 @@ void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::v
       group.ids[k][lane] = id;
     }
     group.weight[lane] = complex.labels[t] == 0 ? backgroundLeniency : 1;
+  }
+  m_Triangles.clear();
+  m_TriangleCount = 0;
+  m_TriangleWeight = triangleWeight;
+  if (triangleWeight > 0 && complex.onInterface[v]) gatherTriangles(complex, v, star);
+}
+
+void StarQuality::gatherTriangles(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star)
+{
+  for (std::int32_t t : star)
+  {
+    const auto& x = complex.tets[t];
+    if (complex.onInterface[x[0]] + complex.onInterface[x[1]] + complex.onInterface[x[2]] + complex.onInterface[x[3]] <
+        3)
+      continue;
+    for (int i = 0; i < 4; ++i)
+    {
+      const std::int32_t n = complex.neighbours[t][i];
+      if (n < t || x[i] == v || complex.labels[n] == complex.labels[t]) continue;
+      int k = i;
+      const auto next = [&]() { return k = (k + 1) & 3, x[k] == v ? x[k = (k + 1) & 3] : x[k]; };
+      const std::int32_t a = next();
+      add(complex, a, next());
+    }
+  }
+  // The last group is filled up with its own first triangle.
+  for (std::size_t lane = m_TriangleCount % lanes; lane > 0 && lane < lanes; ++lane)
+  {
+    Triangles& last = m_Triangles.back();
+    for (int k = 0; k < 2; ++k)
+    {
+      for (int axis = 0; axis < 3; ++axis) last.corners[k][axis][lane] = last.corners[k][axis][0];
+      last.ids[k][lane] = last.ids[k][0];
+    }
+  }
+}
+
+void StarQuality::add(const TetComplex& complex, std::int32_t a, std::int32_t b)
+{
+  const std::size_t lane = m_TriangleCount++ % lanes;
+  if (lane == 0) m_Triangles.emplace_back();
+  Triangles& group = m_Triangles.back();
+  const std::int32_t ids[2] = { a, b };
+  for (int k = 0; k < 2; ++k)
+  {
+    const Vec3& p = complex.points[ids[k]];
+    group.corners[k][0][lane] = p.x;
+    group.corners[k][1][lane] = p.y;
+    group.corners[k][2][lane] = p.z;
+    group.ids[k][lane] = ids[k];
   }
 }
 
@@ -68,6 +121,17 @@ inline void StarQuality::measure(const Group& g, const Vec3& p, double* quality)
   }
 }
 
+inline void StarQuality::measure(const Triangles& g, const Vec3& p, double* quality) const
+{
+  for (std::size_t k = 0; k < lanes; ++k)
+  {
+    const Vec3 b = Vec3{ g.corners[0][0][k], g.corners[0][1][k], g.corners[0][2][k] } - p;
+    const Vec3 c = Vec3{ g.corners[1][0][k], g.corners[1][1][k], g.corners[1][2][k] } - p;
+    quality[k] =
+      m_TriangleWeight * smallestSine2(squaredNorm(cross(b, c)), squaredNorm(b), squaredNorm(c), squaredNorm(c - b));
+  }
+}
+
 WITH_WIDE_COPY
 double StarQuality::worst(const Vec3& p, double atLeast, std::int32_t without) const
 {
@@ -84,7 +148,18 @@ double StarQuality::worst(const Vec3& p, double atLeast, std::int32_t without) c
       q[k] = g.ids[2][k] == none ? std::numeric_limits<double>::max() : q[k];
     }
     result = lesser(result, lesser(lesser(q[0], q[1]), lesser(q[2], q[3])));
-    if (result < atLeast) break;
+    if (result < atLeast) return result;
+  }
+  for (const Triangles& g : m_Triangles)
+  {
+    double q[lanes];
+    measure(g, p, q);
+    for (std::size_t k = 0; k < lanes; ++k)
+    {
+      q[k] = g.ids[0][k] == none ? std::numeric_limits<double>::max() : q[k];
+      q[k] = g.ids[1][k] == none ? std::numeric_limits<double>::max() : q[k];
+    }
+    result = lesser(result, lesser(lesser(q[0], q[1]), lesser(q[2], q[3])));
   }
   return result;
 }
@@ -92,8 +167,10 @@ double StarQuality::worst(const Vec3& p, double atLeast, std::int32_t without) c
 WITH_WIDE_COPY
 const std::vector<double>& StarQuality::each(const Vec3& p)
 {
-  m_Each.resize(m_Groups.size() * lanes);
+  m_Each.resize((m_Groups.size() + m_Triangles.size()) * lanes);
   for (std::size_t i = 0; i < m_Groups.size(); ++i) measure(m_Groups[i], p, m_Each.data() + i * lanes);
+  // In the place of what fills up the last group of tetrahedra.
+  for (std::size_t i = 0; i < m_Triangles.size(); ++i) measure(m_Triangles[i], p, m_Each.data() + m_Size + i * lanes);
   return m_Each;
 }
 

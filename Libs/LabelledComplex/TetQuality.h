@@ -1,5 +1,6 @@
 #pragma once
-/// The measure that every guarded operation compares: the squared sine of a tetrahedron's worst dihedral angle.
+/// The measures that every guarded operation compares: the squared sines of a tetrahedron's worst dihedral angle and of a
+/// triangle's smallest one.
 
 #include "Vec3.h"
 
@@ -23,6 +24,19 @@ inline double worstSine2(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
   const double worst = std::min({ squaredNorm(ab) * ic * id, squaredNorm(ac) * ib * id, squaredNorm(ad) * ib * ic,
                                   squaredNorm(c - b) * ia * id, squaredNorm(d - b) * ia * ic, squaredNorm(d - c) * ia * ib });
   return v6 * v6 * worst;
+}
+
+/// sin^2 of the smallest angle of a triangle, in [0, 3/4]: that between its two longest sides, whose squared lengths are among
+/// x, y and z; `area2` is the square of twice its area.
+inline double smallestSine2(double area2, double x, double y, double z)
+{
+  const double least = x < y ? x : y, most = x < y ? y : x;
+  return area2 / (most * (least < z ? z : least));
+}
+
+inline double smallestSine2(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  return smallestSine2(squaredNorm(cross(b - a, c - a)), squaredNorm(b - a), squaredNorm(c - a), squaredNorm(c - b));
 }
 
 /// worstSine2 of a tetrahedron whose worst dihedral angle is `degrees` or 180 - `degrees`.

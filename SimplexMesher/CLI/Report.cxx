@@ -212,11 +212,13 @@ void writeEvolution(JsonWriter& json, const std::vector<EvolutionStep>& evolutio
                {
                  writeMember(json, "stage", step.stage);
                  writeMember(json, "tetrahedra", step.tetrahedra);
+                 writeMember(json, "faces", step.faces);
                  writeMember(json, "meanDistance", step.meanDistance);
                  writeMember(json, "maximumDistance", step.maximumDistance);
                  writeMember(json, "collapses", step.operations.collapses);
                  writeMember(json, "splits", step.operations.splits);
                  writeMember(json, "flips", step.operations.flips);
+                 writeMember(json, "relabels", step.operations.relabels);
                  writeMember(json, "moves", step.operations.moves);
                });
 }
@@ -252,13 +254,13 @@ std::string evolutionCsv(const std::vector<EvolutionStep>& evolution)
 {
   std::ostringstream csv;
   csv.imbue(std::locale::classic());
-  csv << "step,stage,tetrahedra,meanDistance,maximumDistance,T1,T2,T7,moves\n";
+  csv << "step,stage,tetrahedra,faces,meanDistance,maximumDistance,T1,T2,T7,relabels,moves\n";
   std::size_t number = 0;
   for (const EvolutionStep& step : evolution)
   {
-    csv << number++ << ",\"" << step.stage << "\"," << step.tetrahedra << ',' << step.meanDistance << ','
-        << step.maximumDistance << ',' << step.operations.collapses << ',' << step.operations.splits << ','
-        << step.operations.flips << ',' << step.operations.moves << '\n';
+    csv << number++ << ",\"" << step.stage << "\"," << step.tetrahedra << ',' << step.faces << ',' << step.meanDistance
+        << ',' << step.maximumDistance << ',' << step.operations.collapses << ',' << step.operations.splits << ','
+        << step.operations.flips << ',' << step.operations.relabels << ',' << step.operations.moves << '\n';
   }
   return csv.str();
 }

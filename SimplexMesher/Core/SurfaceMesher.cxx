@@ -5,6 +5,7 @@
 #include "Improvement.h"
 #include "MeshQuality.h"
 #include "ReferenceSurface.h"
+#include "Relabelling.h"
 #include "TetQuality.h"
 #include "TissueScale.h"
 
@@ -21,8 +22,11 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double mostSlack = 2.4;   // times the tolerance, where an angle can't be mended otherwise
-constexpr double trimSlack = 1.1;   // beyond that the surface withdraws where it is to be finest
+constexpr double mostSlack = 2.4; // times the tolerance, where an angle can't be mended otherwise
+constexpr double trimSlack = 1.1; // beyond that the surface withdraws where it is to be finest
+constexpr double relabelSlack = 1.6;
+constexpr double usualReach = 1.4; // likewise times the tolerance; see Guards
+constexpr double triangleWeightAtSpikes = 1.6;
 constexpr double mostBalance = 0.5; // voxels
 constexpr double balanceGain = 1.5; // angles hold vertices back from where the evidence goes
 
@@ -38,6 +42,7 @@ public:
     m_Counts.moves += c.moves;
     m_Counts.flips += c.flips;
     m_Counts.splits += c.splits;
+    m_Counts.relabels += c.relabels;
   }
 
   void record(const std::string& stage)
@@ -49,6 +54,9 @@ public:
     const TetraMesh& mesh = m_Ambient.mesh;
     step.tetrahedra =
       std::size_t(std::count_if(mesh.labels.begin(), mesh.labels.end(), [](Label l) { return l != 0; }));
+    const auto& neighbours = m_Ambient.neighbours; // none before the first sweep
+    for (std::size_t t = 0; t < neighbours.size(); ++t)
+      for (const std::int32_t n : neighbours[t]) step.faces += n > std::int32_t(t) && mesh.labels[n] != mesh.labels[t];
     // In parts of a fixed size: their sum does not depend on the threads.
     constexpr std::size_t part = 4096;
     const auto& evidence = m_Ambient.evidence;
@@ -190,9 +198,11 @@ private:
 struct Step
 {
   std::string name;
-  double rmsLimit = 0.45; ///< see GuardedOperations
-  double slack = 1;       ///< see GuardedOperations
-  double level = 0;       ///< mm, size that short edges are collapsed to; 0: none
+  double rmsLimit = 0.45;    ///< see Guards
+  double slack = 1;          ///< see Guards
+  double triangleWeight = 0; ///< see Guards
+  double reach = usualReach; ///< see Guards
+  double level = 0;          ///< mm, size that short edges are collapsed to; 0: none
   bool fitCollapses = true;
   bool thoroughCollapses = true;
   double collapseAngle = 5; ///< degrees, least that a collapse leaves
@@ -200,7 +210,9 @@ struct Step
   RelaxationOptions relaxation;
   int polishes = 0;
   PolishOptions polishing;
-  std::size_t trim = 0; ///< see trimBlock
+  std::size_t trim = 0;   ///< see trimBlock
+  double spikes = 0;      ///< degrees; see SpikeOptions::keptAngle; 0: none are cut
+  double relabelling = 0; ///< degrees; see relabelBlock; 0: none
   ImprovementOptions improvement = improvementTo(0, 0, 0);
   bool balance = false; ///< tissues' volumes first; not under a bound on the distance to the boundary as it is
   bool whole = false;   ///< in one block: borders are locked, and what is still bad lies at them
@@ -240,19 +252,21 @@ std::vector<Step> coarseningSteps(const Grid& grid, double longest)
   step.relaxations = 1;
   step.thoroughCollapses = true;
   step.improvement = Step::improvementTo(15, 8, 1);
-  steps.insert(steps.end(), 2, step);
+  steps.push_back(step);
   return steps;
 }
 
-/// What is tried for: dihedral angles in degrees, first, in the end, and those that must not be lost again; sweeps that still
-/// coarsen, and rounds of balance after the repairs.
+/// What is tried for: dihedral angles in degrees, first, in the end, and those that must not be lost again; how hard, while
+/// sizes still change; sweeps that still coarsen, and rounds of balance after the repairs.
 struct Effort
 {
   double first, aim, kept;
+  double triangleWeight; ///< see Guards; 0: neither triangles nor spikes are worked on, which noise is made of
+  int passes, trials;
   int coarsenings, rounds;
 };
-constexpr Effort usualEffort{ 25, 28.8, usualAngle, 3, 4 };
-constexpr Effort modestEffort{ 22, 23.5, modestAngle, 2, 2 };
+constexpr Effort usualEffort{ 25, 28.8, usualAngle, 1.033, 1, 10, 3, 4 }; // triangles' angles of 28 degrees are as good
+constexpr Effort modestEffort{ 22, 23.5, modestAngle, 0, 2, 16, 2, 2 };
 
 /// Whether coarsening has left so many bad tetrahedra that features of the map's own size, as noise makes them, have no room
 /// for good ones: to try for them all would take most of the time and be in vain.
@@ -269,7 +283,8 @@ bool isCrowded(const TetraMesh& mesh)
 /// angles allow.
 std::vector<Step> improvementSteps(double voxel, double longest, const Effort& effort)
 {
-  const double aim = effort.aim, kept = effort.kept;
+  const double aim = effort.aim, kept = effort.kept, between = 0.5 * (effort.first + aim);
+  const bool evens = effort.triangleWeight > 0;
   std::vector<Step> steps;
   const auto add = [&](double rmsLimit, double level, int polishes, const ImprovementOptions& improvement)
   {
@@ -279,15 +294,18 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     step.level = level;
     step.polishes = polishes;
     step.improvement = improvement;
+    step.triangleWeight = effort.triangleWeight;
+    step.reach = evens ? usualReach : 0;
     steps.push_back(step);
   };
-  add(0.4, longest, 1, Step::improvementTo(effort.first, 8, 2));
+  add(0.4, longest, 1, Step::improvementTo(effort.first, 8, effort.passes));
   for (int sweep = 1; sweep < effort.coarsenings; ++sweep)
   {
-    add(0.35, longest, 1, Step::improvementTo(aim, 8, sweep == 1 ? 2 : 1));
+    add(0.35, longest, 1, Step::improvementTo(sweep == 1 ? between : aim, 8, sweep == 1 ? effort.passes : 1));
     steps.back().balance = true;
+    steps.back().relabelling = evens ? kept : 0;
   }
-  add(0.5, 0, 1, Step::improvementTo(aim, 16, 2));
+  add(0.5, 0, 1, Step::improvementTo(aim, effort.trials, 2));
   add(0.8, 0, 0, Step::improvementTo(aim, 16, 2));
   steps.back().slack = 1.3;
   const auto repair = [&](double angle, double slack, double splitEdge, double ease, int together, bool whole)
@@ -299,6 +317,8 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     step.improvement.together = together;
     step.whole = whole;
     if (!whole) return;
+    step.spikes = evens ? kept : 0;
+    step.reach = 0;
     step.improvement.worstShare = 0.002; // on one thread
   };
   repair(aim, 1.6, 0, 0.02, 0, false);
@@ -312,6 +332,7 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     Step& step = steps.back();
     step.balance = true;
     step.collapseAngle = kept;
+    step.relabelling = step.spikes = evens ? kept : 0;
     step.relaxations = 1;
     step.relaxation.goodAngle = step.polishing.goodAngle = kept;
     step.relaxation.fit = 2;
@@ -324,7 +345,7 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
   return steps;
 }
 
-void work(GuardedOperations& operations, const Step& step)
+void coarsenAndImprove(GuardedOperations& operations, const Step& step)
 {
   CoarseningOptions coarsening;
   coarsening.minimumAngle = step.collapseAngle;
@@ -334,6 +355,25 @@ void work(GuardedOperations& operations, const Step& step)
   for (int i = 0; i < step.relaxations; ++i) relaxBlock(operations, step.relaxation);
   for (int i = 0; i < step.polishes; ++i) polishBlock(operations, step.polishing);
   if (step.improvement.targetAngle > 0) improveBlock(operations, step.improvement);
+}
+
+/// `guarded` does a change to a block under guards.
+template <class Guarded>
+void work(const Guarded& guarded, const Step& step)
+{
+  if (step.trim > 0) guarded({ 1, trimSlack }, [&](auto& operations) { trimBlock(operations, step.trim); });
+  if (step.spikes > 0)
+  {
+    SpikeOptions spikes;
+    spikes.reach = usualReach;
+    spikes.keptAngle = step.spikes;
+    guarded({ 1, mostSlack, triangleWeightAtSpikes }, [&](auto& operations) { cutSpikesOfBlock(operations, spikes); });
+  }
+  guarded({ step.rmsLimit, step.slack, step.triangleWeight, step.reach },
+          [&](auto& operations) { coarsenAndImprove(operations, step); });
+  if (step.relabelling > 0)
+    guarded({ 1, relabelSlack, step.triangleWeight },
+            [&](auto& operations) { relabelBlock(operations, step.relabelling); });
 }
 
 } // namespace
@@ -360,21 +400,20 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
     const Step step = steps[i]; // steps grows
-    const bool bounded = options.maximumDistance > 0;
-    if (step.balance && !bounded) balance.apply(result.ambient);
+    if (step.balance && options.maximumDistance == 0) balance.apply(result.ambient);
     const Progress part = subProgress(progress, 0.1 + 0.9 * double(i) / most, 0.1 + 0.9 * double(i + 1) / most);
     sweepBlocks(
       result.ambient, int(i), step.whole ? oneBlock : fairBlock,
       [&](TetComplex& block)
       {
-        if (step.trim > 0)
+        const auto guarded = [&](Guards guards, const auto& change)
         {
-          GuardedOperations trimming(block, lengthAt, 1, bounded ? 1 : trimSlack);
-          trimBlock(trimming, step.trim);
-        }
-        GuardedOperations operations(block, lengthAt, step.rmsLimit, bounded ? 1 : step.slack);
-        work(operations, step);
-        evolution.count(operations.counts);
+          if (options.maximumDistance > 0) guards.slack = 1;
+          GuardedOperations operations(block, lengthAt, guards);
+          change(operations);
+          evolution.count(operations.counts);
+        };
+        work(guarded, step);
       },
       [&](double fraction, const std::string&) { report(part, fraction, step.name); });
     evolution.record(step.name);

@@ -26,6 +26,7 @@ struct EvolutionStep
 {
   std::string stage;
   std::size_t tetrahedra = 0; ///< of tissues
+  std::size_t faces = 0;      ///< between labels; not counted (0) in the lattice, whose neighbours nobody needs
   double meanDistance = 0;    ///< mm, of the map's smoothed boundary to the surface
   double maximumDistance = 0; ///< mm
   OperationCounts operations; ///< since the step before

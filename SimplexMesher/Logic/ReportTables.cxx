@@ -146,11 +146,13 @@ struct EvolutionColumns
   std::string step = vtkMRMLTr("SimplexMesher", "Step");
   std::string stage = vtkMRMLTr("SimplexMesher", "Stage");
   std::string tetrahedra = vtkMRMLTr("SimplexMesher", "Tetrahedra");
+  std::string faces = vtkMRMLTr("SimplexMesher", "Faces");
   std::string meanDistance = vtkMRMLTr("SimplexMesher", "Mean distance (mm)");
   std::string maximumDistance = vtkMRMLTr("SimplexMesher", "Maximum distance (mm)");
   std::string collapses = vtkMRMLTr("SimplexMesher", "T1 (collapses)");
   std::string splits = vtkMRMLTr("SimplexMesher", "T2 (splits)");
   std::string flips = vtkMRMLTr("SimplexMesher", "T7 (flips)");
+  std::string relabels = vtkMRMLTr("SimplexMesher", "Relabelled tetrahedra");
   std::string moves = vtkMRMLTr("SimplexMesher", "Moves");
 };
 
@@ -252,11 +254,13 @@ void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* node)
                               return std::string(known ? stage->value.GetString() : "");
                             });
   number(names.tetrahedra, "tetrahedra");
+  number(names.faces, "faces");
   distance(names.meanDistance, "meanDistance");
   distance(names.maximumDistance, "maximumDistance");
   number(names.collapses, "collapses");
   number(names.splits, "splits");
   number(names.flips, "flips");
+  number(names.relabels, "relabels");
   number(names.moves, "moves");
 }
 
@@ -264,7 +268,7 @@ std::vector<vtkMRMLPlotChartNode*> plotEvolution(vtkMRMLTableNode* table,
                                                  const std::vector<vtkMRMLPlotChartNode*>& charts)
 {
   const EvolutionColumns names;
-  const std::array<Plot, 3> plots{ { { names.tetrahedra, names.tetrahedra, { names.tetrahedra } },
+  const std::array<Plot, 3> plots{ { { names.faces, names.faces, { names.faces } },
                                      { vtkMRMLTr("SimplexMesher", "Distance to the tissue boundary"),
                                        vtkMRMLTr("SimplexMesher", "Distance (mm)"),
                                        { names.meanDistance, names.maximumDistance } },

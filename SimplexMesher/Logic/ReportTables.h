@@ -21,7 +21,7 @@ void fillTissueTable(const std::string& reportFile, vtkMRMLModelNode* surface, v
 /// operations by their names in the simplex mesh. Throws InputError likewise.
 void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* table);
 
-/// Plots of the evolution table: tetrahedra, distance, operations. `charts` are those of an earlier run, to be filled
+/// Plots of the evolution table: faces, distance, operations. `charts` are those of an earlier run, to be filled
 /// again, or empty; new ones are called after the table.
 std::vector<vtkMRMLPlotChartNode*> plotEvolution(vtkMRMLTableNode* table,
                                                  const std::vector<vtkMRMLPlotChartNode*>& charts);

@@ -111,10 +111,38 @@ Attempt attempt(GuardedOperations& operations, std::mt19937& random, const Attem
   return a;
 }
 
-/// Every tetrahedron that is not as it was reaches the quality asked for.
-void expectQuality(const ComplexState& before, const GuardedOperations& operations, const TetComplex& c,
-                   double minimumQuality)
+constexpr double triangleWeight = 1;
+using FaceVertices = std::array<std::int32_t, 3>;
+
+/// Of every triangle between labels, by its vertices.
+std::map<FaceVertices, std::array<Vec3, 3>> interfaceTriangles(const TetComplex& c)
 {
+  std::map<FaceVertices, std::array<Vec3, 3>> result;
+  for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
+    for (int i = 0; c.alive(t) && i < 4; ++i)
+      if (c.neighbours[t][i] > t && c.isInterface(t, i))
+      {
+        const FaceVertices key = faceKey(c.tets[t], i);
+        result[key] = { c.points[key[0]], c.points[key[1]], c.points[key[2]] };
+      }
+  return result;
+}
+
+/// Every triangle between labels that is not as it was reaches the quality asked for.
+void expectTriangleQuality(const std::map<FaceVertices, std::array<Vec3, 3>>& before, const TetComplex& c,
+                           double minimumQuality)
+{
+  for (const auto& [key, p] : interfaceTriangles(c))
+    if (const auto was = before.find(key); was == before.end() || !(was->second == p))
+    {
+      EXPECT_GE(triangleWeight * smallestSine2(p[0], p[1], p[2]), minimumQuality * (1 - 1e-9));
+    }
+}
+
+/// Every tetrahedron that is not as it was reaches the quality asked for.
+void expectQuality(const ComplexState& before, TetComplex& c, double minimumQuality)
+{
+  const GuardedOperations operations(c, [](const Vec3&) { return 1.0f; });
   for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
   {
     if (!c.alive(t)) continue;
@@ -185,7 +213,7 @@ void expectGuarded(const ComplexState& before, const std::vector<EvidencePlace>&
     return;
   }
   ASSERT_TRUE(isConsistent(c));
-  expectQuality(before, operations, c, a.minimumQuality);
+  expectQuality(before, c, a.minimumQuality);
   expectEvidenceKept(places, c);
   if (a.name == "collapse") expectLengths(before, c, a);
   for (std::size_t v = 0; v < before.points.size(); ++v)
@@ -214,8 +242,8 @@ TEST_P(RandomOperations, KeepEveryPromise)
     const TissueMap map = randomWellComposedMap(random, { 4, 4, 4 }, 1 + int(seed % 4));
     TetComplex complex =
       complexOf(tetrahedraOf(map), 1, std::array<float, 3>{ 0.15f, 0.6f, float(anyDistance) }[seed % 3]);
-    GuardedOperations operations(
-      complex, [](const Vec3&) { return 1.0f; }, rmsLimit);
+    GuardedOperations operations(complex, [](const Vec3&) { return 1.0f; },
+                                 { rmsLimit, 1, seed % 2 ? triangleWeight : 0 });
     const auto topology = topologyOf(complex);
     const double volume = volumeOf(meshOf(complex));
     const TetraMesh start = meshOf(complex);
@@ -225,11 +253,13 @@ TEST_P(RandomOperations, KeepEveryPromise)
     {
       const ComplexState before(complex);
       const auto places = evidencePlaces(complex);
+      const auto triangles = interfaceTriangles(complex);
       const OperationCounts counts = operations.counts;
       const Attempt a = attempt(operations, random, last);
       last = a;
       SCOPED_TRACE(a.name + " " + std::to_string(n) + " of seed " + std::to_string(seed));
       expectGuarded(before, places, operations, a);
+      if (a.done && seed % 2) expectTriangleQuality(triangles, complex, a.minimumQuality);
       const OperationCounts now = operations.counts;
       EXPECT_EQ(total(now) - total(counts), a.done);
       if (a.done && ++done % 4 == 0)
@@ -252,6 +282,53 @@ TEST_P(RandomOperations, KeepEveryPromise)
   EXPECT_GT(all.flips, 40);
   EXPECT_GT(all.splits, 80);
   EXPECT_GT(all.relabels, 80);
+}
+
+TEST(GuardedOperations, CountTrianglesBetweenLabelsAtTheirVertices)
+{
+  constexpr double weight = 0.3; // most triangles are worse than their tetrahedra then
+  std::mt19937 random(1);
+  TetComplex complex = complexOf(tetrahedraOf(randomWellComposedMap(random, { 4, 4, 4 }, 3)), 1, 0.6f);
+  const auto triangles = interfaceTriangles(complex);
+  GuardedOperations plain(complex, [](const Vec3&) { return 1.0f; });
+  GuardedOperations weighted(complex, [](const Vec3&) { return 1.0f; }, { 0.5, 1, weight });
+  long decisive = 0;
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+  {
+    const double ofTetrahedra = plain.qualityAt(v);
+    double expected = ofTetrahedra;
+    for (const auto& [key, p] : triangles)
+      if (std::find(key.begin(), key.end(), v) != key.end())
+        expected = std::min(expected, weight * smallestSine2(p[0], p[1], p[2]));
+    EXPECT_NEAR(weighted.qualityAt(v), expected, 1e-12) << "vertex " << v;
+    decisive += expected < ofTetrahedra;
+  }
+  EXPECT_GT(decisive, 100);
+}
+
+TEST(GuardedOperations, LetNoVertexLeaveItsEvidenceByMoreThanItsReach)
+{
+  constexpr double reach = 1.5;
+  std::mt19937 random(1);
+  TetComplex complex = complexOf(tetrahedraOf(randomWellComposedMap(random, { 4, 4, 4 }, 3)), 1, 0.6f);
+  const auto uniform = [&] { return random() / 2147483648.0 - 1; };
+  long done = 0, refused = 0;
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+  {
+    if (complex.locked[v] || !complex.onInterface[v]) continue;
+    GuardedOperations bounded(complex, [](const Vec3&) { return 1.0f; }, { anyDistance, anyDistance, 0, reach });
+    const bool wasSpike = bounded.isSpike(v, reach);
+    const Vec3 from = complex.points[v], to = from + Vec3{ uniform(), uniform(), uniform() };
+    if (bounded.qualityAt(v, to, 0) < 0) continue;
+    if (bounded.move(v, to, 0))
+    {
+      ++done;
+      EXPECT_TRUE(wasSpike || !bounded.isSpike(v, reach)) << "vertex " << v;
+    }
+    else ++refused;
+  }
+  EXPECT_GT(done, 10);
+  EXPECT_GT(refused, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(LooseAndStrict, RandomOperations, ::testing::Values(anyDistance, 0.4));
@@ -529,7 +606,7 @@ TEST(Split, OnTheEdgeKeepsEveryVolume)
 TEST(Split, OutsideTheRingIsRefused)
 {
   TetComplex complex = octahedron({ 1, 1, 0, 0 }, float(anyDistance));
-  GuardedOperations operations(complex, unitScale, anyDistance);
+  GuardedOperations operations(complex, unitScale, { anyDistance });
   const ComplexState before(complex);
   EXPECT_FALSE(operations.split(0, 1, 0, { 0, 0, 1.1 }, anyQuality));
   EXPECT_FALSE(operations.split(0, 1, 0, { 1, 0, 0 }, anyQuality)) << "at one end";
@@ -546,7 +623,7 @@ TEST(Move, KeepsEvidenceWithinToleranceAndItsMeanSquareBelowTheLimit)
                                                       { 0.21f, anyDistance, true } })
   {
     TetComplex complex = octahedron({ 1, 1, 0, 0 }, tolerance);
-    GuardedOperations operations(complex, unitScale, rmsLimit);
+    GuardedOperations operations(complex, unitScale, { rmsLimit });
     ASSERT_TRUE(operations.split(0, 1, 0, {}, anyQuality));
     const ComplexState before(complex);
     EXPECT_EQ(operations.move(operations.lastSplitVertex, lifted, anyQuality), allowed)
@@ -559,12 +636,12 @@ TEST(Move, KeepsEvidenceWithinToleranceAndItsMeanSquareBelowTheLimit)
 TEST(Move, MayComeCloserFromBeyondTheTolerance)
 {
   TetComplex complex = octahedron({ 1, 1, 0, 0 }, 0.5f);
-  GuardedOperations operations(complex, unitScale, anyDistance);
+  GuardedOperations operations(complex, unitScale, { anyDistance });
   ASSERT_TRUE(operations.split(0, 1, 0, {}, anyQuality));
   const std::int32_t v = operations.lastSplitVertex;
   ASSERT_TRUE(operations.move(v, { 0, 0, 0.4 }, anyQuality));
   for (Evidence& e : complex.evidence) e.tolerance = 0.01f;
-  GuardedOperations strict(complex, unitScale, anyDistance);
+  GuardedOperations strict(complex, unitScale, { anyDistance });
   EXPECT_FALSE(strict.move(v, { 0, 0, 0.45 }, anyQuality));
   EXPECT_TRUE(strict.move(v, { 0, 0, 0.3 }, anyQuality));
 }
@@ -572,7 +649,7 @@ TEST(Move, MayComeCloserFromBeyondTheTolerance)
 TEST(Move, TakenBackLeavesPlaceAndDistancesAsTheyWere)
 {
   TetComplex complex = octahedron({ 1, 1, 0, 0 }, 0.5f);
-  GuardedOperations operations(complex, unitScale, anyDistance);
+  GuardedOperations operations(complex, unitScale, { anyDistance });
   ASSERT_TRUE(operations.split(0, 1, 0, {}, anyQuality));
   const std::int32_t v = operations.lastSplitVertex;
   ASSERT_TRUE(operations.move(v, { 0, 0, 0.1 }, anyQuality));
@@ -599,7 +676,7 @@ TEST(LockedVertices, NeverMoveOrGo)
 {
   TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 3, 3, 3 }, [](int i, int, int) { return i < 2; })));
   std::fill(complex.locked.begin(), complex.locked.end(), std::uint8_t(1));
-  GuardedOperations operations(complex, unitScale, anyDistance);
+  GuardedOperations operations(complex, unitScale, { anyDistance });
   const ComplexState before(complex);
   for (std::int32_t u = 0; u < std::int32_t(complex.points.size()); ++u)
   {

@@ -3,6 +3,7 @@
 #include "ComplexInvariants.h"
 #include "MeshImprovement.h"
 #include "RandomMaps.h"
+#include "Relabelling.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
@@ -195,6 +196,62 @@ TEST(MeshImprovement, KeepsTissuesAndHullAndRaisesTheWorstAngle)
     EXPECT_EQ(meshTopology(withBackgroundAsTissue(after)), meshTopology(withBackgroundAsTissue(before)));
     EXPECT_NEAR(volumeOf(after), volumeOf(before), 1e-9 * volumeOf(before));
   }
+}
+
+TEST(Relabelling, BringsTheSurfaceBackToItsEvidence)
+{
+  constexpr float anyDistance = 10;
+  const auto sumOfSquares = [](const TetComplex& complex)
+  {
+    double sum = 0;
+    for (const auto& place : evidencePlaces(complex))
+      if (place.tet >= 0) sum += place.distance * place.distance;
+    return sum;
+  };
+  for (unsigned seed = 1; seed <= 10; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const TissueMap map = randomWellComposedMap(random, { 5, 5, 5 }, 1 + int(seed % 4));
+    TetComplex complex = complexOf(tetrahedraOf(map), 1.5f, anyDistance);
+    const auto topology = meshTopology(withBackgroundAsTissue(meshOf(complex)));
+    GuardedOperations operations(complex, scale, { 1 });
+    for (int n = 0; n < 300; ++n)
+    {
+      const auto t = std::int32_t(random() % complex.tets.size());
+      if (const std::int32_t across = complex.neighbours[t][n % 4]; across >= 0)
+        operations.relabel(t, complex.labels[across], 0);
+    }
+    const double before = sumOfSquares(complex);
+    ASSERT_GT(before, 0.1);
+    relabelBlock(operations, 0);
+    EXPECT_LT(sumOfSquares(complex), 0.8 * before);
+    EXPECT_EQ(meshTopology(withBackgroundAsTissue(meshOf(complex))), topology);
+    ASSERT_TRUE(isConsistent(complex));
+  }
+}
+
+TEST(Spikes, AreCutWhereTopologyAllows)
+{
+  long before = 0, after = 0;
+  const SpikeOptions options{ 1.2, 8, 1 };
+  const auto spikes = [&](GuardedOperations& operations)
+  {
+    const TetComplex& c = operations.complex();
+    long count = 0;
+    for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+      count += c.vertexTet[v] >= 0 && !c.locked[v] && c.onInterface[v] && operations.isSpike(v, options.reach);
+    return count;
+  };
+  expectPromisesKept(0, false,
+                     [&](GuardedOperations& operations)
+                     {
+                       before += spikes(operations);
+                       cutSpikesOfBlock(operations, options);
+                       after += spikes(operations);
+                     });
+  EXPECT_GT(before, 0);
+  EXPECT_LT(after, before);
 }
 
 TEST(Trimming, KeepsEveryPromiseAndLeavesFewerTips)

@@ -1,0 +1,130 @@
+#include "Relabelling.h"
+
+#include "TetQuality.h"
+
+#include <optional>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+constexpr double anyQuality = 0;
+
+std::vector<std::int32_t> tissuesAt(GuardedOperations& operations, std::int32_t v)
+{
+  std::vector<std::int32_t> result;
+  for (std::int32_t t : operations.star(v))
+    if (operations.complex().labels[t] != 0) result.push_back(t);
+  return result;
+}
+
+/// Gives all at v to `label`, in whatever order that allows. What leads nowhere is given back, if the evidence has not come to
+/// lie too well for that.
+bool takeOff(GuardedOperations& operations, std::int32_t v, Label label, double quality)
+{
+  std::vector<std::int32_t> others;
+  for (std::int32_t t : operations.star(v))
+    if (operations.complex().labels[t] != label) others.push_back(t);
+  for (std::int32_t t : others)
+  {
+    const Label own = operations.complex().labels[t];
+    if (!operations.relabel(t, label, quality)) continue;
+    if (others.size() == 1 || takeOff(operations, v, label, quality)) return true;
+    if (operations.relabel(t, own, anyQuality)) operations.counts.relabels -= 2;
+  }
+  return false;
+}
+
+/// Gives background at v that faces of one tissue enclose on two or three sides to that tissue, until v has enough.
+void fillBeside(GuardedOperations& operations, std::int32_t v, std::size_t few)
+{
+  const TetComplex& c = operations.complex();
+  const double least = sine2OfDegrees(usualAngle); // what is let off as background no longer is
+  const std::vector<std::int32_t> star = operations.star(v);
+  for (std::int32_t t : star)
+  {
+    if (c.labels[t] != 0) continue;
+    if (tissuesAt(operations, v).size() > few) return;
+    int sides = 0;
+    Label tissue = 0;
+    for (int i = 0; i < 4; ++i)
+      if (c.isInterface(t, i)) ++sides, tissue = c.labels[c.neighbours[t][i]];
+    if (sides >= 2) operations.relabel(t, tissue, least);
+  }
+}
+
+/// The labels at v if they are two, that of fewer tetrahedra first, and how many these are.
+struct TwoLabels
+{
+  Label fewer, more;
+  std::size_t count;
+};
+
+std::optional<TwoLabels> twoLabelsAt(GuardedOperations& operations, std::int32_t v)
+{
+  const TetComplex& c = operations.complex();
+  const std::vector<std::int32_t>& star = operations.star(v);
+  const Label a = c.labels[star.front()];
+  Label b = a;
+  std::size_t ofA = 0;
+  for (std::int32_t t : star)
+  {
+    if (c.labels[t] == a) ++ofA;
+    else if (b == a) b = c.labels[t];
+    else if (c.labels[t] != b) return {};
+  }
+  if (b == a) return {};
+  const std::size_t ofB = star.size() - ofA;
+  return ofA < ofB ? TwoLabels{ a, b, ofA } : TwoLabels{ b, a, ofB };
+}
+
+/// The label beyond all interface faces of t that is the same, if there are two or three of them.
+std::optional<Label> beyondMostFaces(const TetComplex& c, std::int32_t t)
+{
+  int faces = 0;
+  Label beyond = 0;
+  for (int i = 0; i < 4; ++i)
+  {
+    const std::int32_t n = c.neighbours[t][i];
+    if (n < 0 || c.labels[n] == c.labels[t]) continue;
+    if (faces++ && c.labels[n] != beyond) return {};
+    beyond = c.labels[n];
+  }
+  return faces == 2 || faces == 3 ? std::optional(beyond) : std::nullopt;
+}
+
+} // namespace
+
+void trimBlock(GuardedOperations& operations, std::size_t few)
+{
+  const TetComplex& c = operations.complex();
+  for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+    if (c.vertexTet[v] >= 0 && !c.locked[v] && c.onInterface[v] && tissuesAt(operations, v).size() <= few)
+      if (!takeOff(operations, v, 0, anyQuality)) fillBeside(operations, v, few);
+}
+
+void cutSpikesOfBlock(GuardedOperations& operations, const SpikeOptions& options)
+{
+  const TetComplex& c = operations.complex();
+  const double least = sine2OfDegrees(options.keptAngle);
+  for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+  {
+    if (c.vertexTet[v] < 0 || c.locked[v] || !c.onInterface[v]) continue;
+    const auto labels = twoLabelsAt(operations, v);
+    if (!labels || labels->count > options.few || !operations.isSpike(v, options.reach)) continue;
+    takeOff(operations, v, labels->more, labels->more == 0 ? anyQuality : least);
+  }
+}
+
+void relabelBlock(GuardedOperations& operations, double keptAngle)
+{
+  const TetComplex& c = operations.complex();
+  const double least = sine2OfDegrees(keptAngle);
+  for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
+    if (c.alive(t))
+      if (const auto label = beyondMostFaces(c, t)) operations.relabel(t, *label, least, true);
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,30 @@
+#pragma once
+/// Moves of the interface by whole tetrahedra, which leave every tetrahedron's shape as it is: where vertices are held back by
+/// the angles that they would spoil.
+
+#include "GuardedOperations.h"
+
+namespace surgicalmesher
+{
+
+/// Gives tetrahedra with two or three faces towards one other label to that, where the surface comes nearer to its evidence so
+/// and dihedral angles of `keptAngle` (degrees) remain.
+void relabelBlock(GuardedOperations& operations, double keptAngle);
+
+struct SpikeOptions
+{
+  double reach = 1.4;  ///< tolerances that a spike's tip is away from all evidence of its faces at least
+  std::size_t few = 8; ///< tetrahedra that it consists of at most
+  double keptAngle =
+    28.5; ///< degrees; what has been let off as background has such dihedral angles if it becomes tissue
+};
+
+/// Takes vertices between two labels that stick out of their evidence off the interface.
+void cutSpikesOfBlock(GuardedOperations& operations, const SpikeOptions& options = {});
+
+/// Takes vertices at which tissues have at most `few` tetrahedra off the outer boundary, by relabelling these, or fills the
+/// valleys beside them. They are tips of no volume to speak of, but the largest eigenvalues of a stiffness matrix are
+/// theirs.
+void trimBlock(GuardedOperations& operations, std::size_t few);
+
+} // namespace surgicalmesher
