@@ -342,6 +342,7 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
   }
   repair(kept, mostSlack, 0.4, 0.1, 20, false); // what resisted may have got room
   repair(kept, mostSlack, 0.3, 1, 20, true);
+  steps.back().trim = 4; // relabelling leaves tips
   return steps;
 }
 
