@@ -31,8 +31,8 @@ struct AmbientMesh
 };
 
 constexpr std::size_t fairBlock = 65000; ///< a few megabytes, enough blocks for the threads, and not too much border
-constexpr double backgroundCost =
-  0.35; ///< of a tetrahedron of label 0, which is let off much, in tetrahedra of a tissue
+/// Of a tetrahedron of label 0, which is let off much, in tetrahedra of a tissue.
+constexpr double backgroundCost = 0.35;
 constexpr std::size_t oneBlock = std::numeric_limits<std::size_t>::max();
 
 /// Cuts the mesh into blocks worth at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs `work` on

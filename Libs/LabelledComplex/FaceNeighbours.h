@@ -16,8 +16,8 @@ constexpr std::array<std::array<int, 2>, 6> kEdgeCorners{
   { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } }
 };
 
-using AcrossFaces =
-  std::vector<std::array<std::int32_t, 4>>; ///< [t][f]: tetrahedron beyond the face opposite corner f; -1: none
+/// [t][f]: the tetrahedron beyond the face opposite corner f; -1: none.
+using AcrossFaces = std::vector<std::array<std::int32_t, 4>>;
 
 struct FaceNeighbours
 {

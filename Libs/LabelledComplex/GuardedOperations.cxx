@@ -21,6 +21,15 @@ int bitCount(std::uint32_t x)
   return n;
 }
 
+/// The point of the sheet that is nearest to p, and its squared distance; null if there is none.
+std::pair<const SheetPoint*, double> nearestPoint(const Sheet& sheet, const Vec3& p)
+{
+  std::pair<const SheetPoint*, double> result{ nullptr, std::numeric_limits<double>::max() };
+  for (const SheetPoint& point : sheet.points)
+    if (const double d2 = squaredNorm(point.position - p); d2 < result.second) result = { &point, d2 };
+  return result;
+}
+
 } // namespace
 
 double squaredDistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
@@ -55,12 +64,11 @@ double GuardedOperations::quality(std::int32_t t) const
 {
   const auto& c = m_Complex;
   double result = lenient(t, c.quality(t));
-  const auto& x = c.tets[t];
-  const bool hasTriangle = c.onInterface[x[0]] + c.onInterface[x[1]] + c.onInterface[x[2]] + c.onInterface[x[3]] >= 3;
-  for (int i = 0; i < 4 && hasTriangle && m_TriangleWeight > 0; ++i)
-    if (const std::int32_t n = c.neighbours[t][i]; n > t && c.labels[n] != c.labels[t])
-      result = std::min(result, m_TriangleWeight * smallestSine2(c.points[x[(i + 1) & 3]], c.points[x[(i + 2) & 3]],
-                                                                 c.points[x[(i + 3) & 3]]));
+  if (m_TriangleWeight == 0 || !c.mayHaveInterface(t)) return result;
+  const auto corner = [&](int i) { return c.points[c.tets[t][i & 3]]; };
+  for (int i = 0; i < 4; ++i)
+    if (c.neighbours[t][i] > t && c.isInterface(t, i))
+      result = std::min(result, m_TriangleWeight * smallestSine2(corner(i + 1), corner(i + 2), corner(i + 3)));
   return result;
 }
 
@@ -508,20 +516,6 @@ void GuardedOperations::attachMoved()
   std::stable_sort(points.begin(), points.end(),
                    [](const SheetPoint& a, const SheetPoint& b) { return a.from < b.from; });
 }
-
-namespace
-{
-
-/// The point of the sheet that is nearest to p, and its squared distance; null if there is none.
-std::pair<const SheetPoint*, double> nearestPoint(const Sheet& sheet, const Vec3& p)
-{
-  std::pair<const SheetPoint*, double> result{ nullptr, std::numeric_limits<double>::max() };
-  for (const SheetPoint& point : sheet.points)
-    if (const double d2 = squaredNorm(point.position - p); d2 < result.second) result = { &point, d2 };
-  return result;
-}
-
-} // namespace
 
 bool GuardedOperations::isSpike(std::int32_t v, double reach)
 {

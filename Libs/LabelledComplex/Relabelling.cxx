@@ -1,7 +1,5 @@
 #include "Relabelling.h"
 
-#include "TetQuality.h"
-
 #include <optional>
 
 namespace surgicalmesher

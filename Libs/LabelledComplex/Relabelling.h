@@ -3,6 +3,7 @@
 /// the angles that they would spoil.
 
 #include "GuardedOperations.h"
+#include "TetQuality.h"
 
 namespace surgicalmesher
 {
@@ -15,8 +16,8 @@ struct SpikeOptions
 {
   double reach = 1.4;  ///< tolerances that a spike's tip is away from all evidence of its faces at least
   std::size_t few = 8; ///< tetrahedra that it consists of at most
-  double keptAngle =
-    28.5; ///< degrees; what has been let off as background has such dihedral angles if it becomes tissue
+  /// Degrees; what has been let off as background has such dihedral angles if it becomes tissue.
+  double keptAngle = usualAngle;
 };
 
 /// Takes vertices between two labels that stick out of their evidence off the interface.

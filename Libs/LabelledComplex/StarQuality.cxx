@@ -56,47 +56,29 @@ void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::v
 
 void StarQuality::gatherTriangles(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star)
 {
-  for (std::int32_t t : star)
+  const auto put = [&](std::size_t lane, const std::array<std::int32_t, 2>& ids)
   {
-    const auto& x = complex.tets[t];
-    if (complex.onInterface[x[0]] + complex.onInterface[x[1]] + complex.onInterface[x[2]] + complex.onInterface[x[3]] <
-        3)
-      continue;
-    for (int i = 0; i < 4; ++i)
-    {
-      const std::int32_t n = complex.neighbours[t][i];
-      if (n < t || x[i] == v || complex.labels[n] == complex.labels[t]) continue;
-      int k = i;
-      const auto next = [&]() { return k = (k + 1) & 3, x[k] == v ? x[k = (k + 1) & 3] : x[k]; };
-      const std::int32_t a = next();
-      add(complex, a, next());
-    }
-  }
-  // The last group is filled up with its own first triangle.
-  for (std::size_t lane = m_TriangleCount % lanes; lane > 0 && lane < lanes; ++lane)
-  {
-    Triangles& last = m_Triangles.back();
     for (int k = 0; k < 2; ++k)
     {
-      for (int axis = 0; axis < 3; ++axis) last.corners[k][axis][lane] = last.corners[k][axis][0];
-      last.ids[k][lane] = last.ids[k][0];
+      const Vec3& p = complex.points[ids[k]];
+      for (int axis = 0; axis < 3; ++axis) m_Triangles.back().corners[k][axis][lane] = p[axis];
+      m_Triangles.back().ids[k][lane] = ids[k];
     }
-  }
-}
-
-void StarQuality::add(const TetComplex& complex, std::int32_t a, std::int32_t b)
-{
-  const std::size_t lane = m_TriangleCount++ % lanes;
-  if (lane == 0) m_Triangles.emplace_back();
-  Triangles& group = m_Triangles.back();
-  const std::int32_t ids[2] = { a, b };
-  for (int k = 0; k < 2; ++k)
+  };
+  for (std::int32_t t : star)
   {
-    const Vec3& p = complex.points[ids[k]];
-    group.corners[k][0][lane] = p.x;
-    group.corners[k][1][lane] = p.y;
-    group.corners[k][2][lane] = p.z;
-    group.ids[k][lane] = ids[k];
+    if (!complex.mayHaveInterface(t)) continue;
+    const auto& x = complex.tets[t];
+    for (int i = 0; i < 4; ++i)
+    {
+      if (complex.neighbours[t][i] < t || x[i] == v || !complex.isInterface(t, i)) continue;
+      std::array<std::int32_t, 2> others;
+      for (int k = 0, found = 0; k < 4; ++k)
+        if (k != i && x[k] != v) others[found++] = x[k];
+      const std::size_t lane = m_TriangleCount++ % lanes;
+      if (lane == 0) m_Triangles.emplace_back();
+      for (std::size_t l = lane; l < lanes; ++l) put(l, others);
+    }
   }
 }
 
@@ -132,36 +114,29 @@ inline void StarQuality::measure(const Triangles& g, const Vec3& p, double* qual
   }
 }
 
+/// The least of `worst` and what `measure` finds in the groups, or some value below `atLeast`.
+template <class Groups, class Measure>
+inline double StarQuality::worstOf(const Groups& groups, double without, double atLeast, double worst,
+                                   Measure&& measure)
+{
+  for (const auto& g : groups)
+  {
+    double q[lanes];
+    measure(g, q);
+    for (const auto& ids : g.ids)
+      for (std::size_t k = 0; k < lanes; ++k) q[k] = ids[k] == without ? std::numeric_limits<double>::max() : q[k];
+    worst = lesser(worst, lesser(lesser(q[0], q[1]), lesser(q[2], q[3])));
+    if (worst < atLeast) break;
+  }
+  return worst;
+}
+
 WITH_WIDE_COPY
 double StarQuality::worst(const Vec3& p, double atLeast, std::int32_t without) const
 {
-  const double none = without;
-  double result = std::numeric_limits<double>::max();
-  for (const Group& g : m_Groups)
-  {
-    double q[lanes];
-    measure(g, p, q);
-    for (std::size_t k = 0; k < lanes; ++k)
-    {
-      q[k] = g.ids[0][k] == none ? std::numeric_limits<double>::max() : q[k];
-      q[k] = g.ids[1][k] == none ? std::numeric_limits<double>::max() : q[k];
-      q[k] = g.ids[2][k] == none ? std::numeric_limits<double>::max() : q[k];
-    }
-    result = lesser(result, lesser(lesser(q[0], q[1]), lesser(q[2], q[3])));
-    if (result < atLeast) return result;
-  }
-  for (const Triangles& g : m_Triangles)
-  {
-    double q[lanes];
-    measure(g, p, q);
-    for (std::size_t k = 0; k < lanes; ++k)
-    {
-      q[k] = g.ids[0][k] == none ? std::numeric_limits<double>::max() : q[k];
-      q[k] = g.ids[1][k] == none ? std::numeric_limits<double>::max() : q[k];
-    }
-    result = lesser(result, lesser(lesser(q[0], q[1]), lesser(q[2], q[3])));
-  }
-  return result;
+  const auto ofGroup = [&](const auto& group, double* quality) { measure(group, p, quality); };
+  const double worst = worstOf(m_Groups, without, atLeast, std::numeric_limits<double>::max(), ofGroup);
+  return worst < atLeast ? worst : worstOf(m_Triangles, without, atLeast, worst, ofGroup);
 }
 
 WITH_WIDE_COPY

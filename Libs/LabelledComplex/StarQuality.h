@@ -47,10 +47,11 @@ private:
   static void measure(const Group& group, const Vec3& p, double* quality);
   void measure(const Triangles& group, const Vec3& p, double* quality) const;
   void gatherTriangles(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star);
-  void add(const TetComplex& complex, std::int32_t a, std::int32_t b);
+  template <class Groups, class Measure>
+  static double worstOf(const Groups& groups, double without, double atLeast, double worst, Measure&& measure);
 
   std::vector<Group> m_Groups;        ///< the last one filled up with its first tetrahedron
-  std::vector<Triangles> m_Triangles; ///< likewise
+  std::vector<Triangles> m_Triangles; ///< the last one filled up with its last triangle
   std::vector<double> m_Each;
   std::size_t m_Size = 0, m_TriangleCount = 0;
   double m_TriangleWeight = 0;

@@ -79,6 +79,13 @@ public:
     return neighbours[t][i] >= 0 && labels[neighbours[t][i]] != labels[t];
   }
 
+  /// Whether t may have such a face at all: spares most tetrahedra the look at their neighbours.
+  bool mayHaveInterface(std::int32_t t) const
+  {
+    const Tet& x = tets[t];
+    return onInterface[x[0]] + onInterface[x[1]] + onInterface[x[2]] + onInterface[x[3]] >= 3;
+  }
+
   // --- evidence
   /// Adds a point to face i of tetrahedron t, whose sides must differ in label, or which is on the block's border.
   void addEvidence(std::int32_t t, int i, const Vec3& position, float tolerance);

@@ -265,7 +265,7 @@ struct Effort
   int passes, trials;
   int coarsenings, rounds;
 };
-constexpr Effort usualEffort{ 25, 28.8, usualAngle, 1.033, 1, 10, 3, 4 }; // triangles' angles of 28 degrees are as good
+constexpr Effort usualEffort{ 25, 28.8, usualAngle, 1.033, 1, 10, 3, 4 }; // 28 degrees of a triangle are as good
 constexpr Effort modestEffort{ 22, 23.5, modestAngle, 0, 2, 16, 2, 2 };
 
 /// Whether coarsening has left so many bad tetrahedra that features of the map's own size, as noise makes them, have no room
