@@ -30,6 +30,24 @@ std::pair<const SheetPoint*, double> nearestPoint(const Sheet& sheet, const Vec3
   return result;
 }
 
+/// How far faces are off the points of a sheet.
+struct FacesOff
+{
+  double area = 0;
+  double sum = 0; ///< of areas times squared distances of centres to the nearest point, in units of its tolerance
+
+  void add(const Sheet& sheet, const Vec3& a, const Vec3& b, const Vec3& c)
+  {
+    const Vec3 centre = (a + b + c) / 3.0;
+    double least = std::numeric_limits<double>::max();
+    for (const SheetPoint& point : sheet.points)
+      least = std::min(least, squaredNorm(point.position - centre) / point.tolerance2);
+    const double own = 0.5 * norm(cross(b - a, c - a));
+    area += own;
+    sum += own * least;
+  }
+};
+
 } // namespace
 
 double squaredDistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
@@ -200,22 +218,19 @@ bool GuardedOperations::nearestFace(const Sheet& sheet, SheetPoint& point) const
   return point.to >= 0;
 }
 
-/// Where two tissues cease to touch, the boundary of each stays within the tolerance of their points.
-bool GuardedOperations::tissuesStayNear(const Sheet& sheet, const SheetPoint& point) const
+/// From a point whose two labels no longer touch to the boundary of either, the greater distance.
+double GuardedOperations::squaredDistanceToBoth(const Sheet& sheet, const SheetPoint& point) const
 {
-  const double tolerance2 = m_SquaredSlack * point.tolerance2;
-  const auto near = [&](Label label)
+  const auto toBoundary = [&](Label label)
   {
-    return std::any_of(m_NewFaces.begin(), m_NewFaces.end(),
-                       [&](const Face& f)
-                       {
-                         const auto& [a, b, c] = f.corners;
-                         return has(f.labels, label) &&
-                                squaredDistanceToTriangle(point.position, a, b, c) <= tolerance2;
-                       });
+    double least = std::numeric_limits<double>::max();
+    for (const Face& f : m_NewFaces)
+      if (has(f.labels, label))
+        least = std::min(least, squaredDistanceToTriangle(point.position, f.corners[0], f.corners[1], f.corners[2]));
+    return least;
   };
   const LabelPair labels = sheet.faces[point.from].labels;
-  return near(Label(labels)) && near(Label(labels >> 16));
+  return std::max(toBoundary(Label(labels)), toBoundary(Label(labels >> 16)));
 }
 
 /// Assigns every point of the sheet to the nearest new face of its labels; false if one would lie beyond its tolerance and
@@ -229,8 +244,9 @@ bool GuardedOperations::evidenceStays(Sheet& sheet)
     const double tolerance2 = m_SquaredSlack * point.tolerance2;
     const bool kept = nearestFace(sheet, point);
     sum += std::min(1.0, point.distance2 / tolerance2);
-    if (point.distance2 <= tolerance2) continue;
-    if (kept ? point.distance2 > squaredDistanceNow(sheet, point) * (1 + 1e-9) : !tissuesStayNear(sheet, point))
+    if (point.distance2 <= std::max(tolerance2, m_Stray2)) continue;
+    if (kept ? point.distance2 > squaredDistanceNow(sheet, point) * (1 + 1e-9)
+             : squaredDistanceToBoth(sheet, point) > tolerance2)
       return false;
   }
   if (sum <= m_MeanSquareLimit * double(sheet.points.size())) return true;
@@ -240,18 +256,26 @@ bool GuardedOperations::evidenceStays(Sheet& sheet)
   return sum <= before * (1 + 1e-9);
 }
 
-/// After evidenceStays: whether a tenth of the sum of squares at least would be saved, and no point let go.
-bool GuardedOperations::evidenceComesNearer(const Sheet& sheet)
+/// After evidenceStays: whether at most this share would be left of the squared distances, in units of the tolerance, both of
+/// the points to the faces and of the faces to the points. A face that stands off all evidence has none to tell so.
+bool GuardedOperations::comesNearer(const Sheet& sheet, double mostLeft)
 {
-  constexpr double clearly = 0.9;
+  if (sheet.points.empty()) return false;
   double before = 0, after = 0;
   for (const SheetPoint& point : sheet.points)
   {
-    if (point.to < 0) return false;
     before += squaredDistanceNow(sheet, point) / point.tolerance2;
-    after += point.distance2 / point.tolerance2;
+    after += (point.to < 0 ? squaredDistanceToBoth(sheet, point) : point.distance2) / point.tolerance2;
   }
-  return after < clearly * before;
+  FacesOff now, then;
+  for (const SheetFace& f : sheet.faces)
+  {
+    const auto corner = [&](int k) { return m_Complex.points[f.vertices[k]]; };
+    now.add(sheet, corner(0), corner(1), corner(2));
+  }
+  for (const Face& f : m_NewFaces) then.add(sheet, f.corners[0], f.corners[1], f.corners[2]);
+  const double pointsPerArea = double(sheet.points.size()) / std::max(now.area, then.area);
+  return after + pointsPerArea * then.sum < mostLeft * (before + pointsPerArea * now.sum);
 }
 
 void GuardedOperations::detachEvidence(const Sheet& sheet)
@@ -517,6 +541,12 @@ void GuardedOperations::attachMoved()
                    [](const SheetPoint& a, const SheetPoint& b) { return a.from < b.from; });
 }
 
+std::optional<Vec3> GuardedOperations::nearestEvidence(std::int32_t v)
+{
+  const SheetPoint* point = nearestPoint(sheet(v), m_Complex.points[v]).first;
+  return point ? std::optional(point->position) : std::nullopt;
+}
+
 bool GuardedOperations::isSpike(std::int32_t v, double reach)
 {
   const auto [point, distance2] = nearestPoint(sheet(v), m_Complex.points[v]);
@@ -699,54 +729,53 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
 
 // --- relabelling ----------------------------------------------------------------------------------------------------
 
-/// Whether t can go over to the label beyond its first `shared` faces, those opposite `corners`: that label must meet it in
-/// these faces only, and its own in the others. What they enclose is a vertex, or on either side an edge.
-bool GuardedOperations::isSimple(std::int32_t t, const std::array<int, 4>& corners, int shared)
+/// Whether t can leave `label`, or go over to it, without a change of that label's topology: what has the label and what has
+/// not each meet t in one to three of its faces, and besides at these faces' edges and corners only.
+bool GuardedOperations::isSimple(std::int32_t t, Label label)
 {
   const auto& c = m_Complex;
-  const auto vertex = [&](int k) { return c.tets[t][corners[k]]; };
-  const auto others = [&](std::int32_t v, std::int32_t w, bool ofOwnLabel)
+  std::array<int, 4> corners{}; // opposite what has the label, and from the end opposite what has not
+  int shared = 0, rest = 4;
+  for (int i = 0; i < 4; ++i) corners[c.labels[c.neighbours[t][i]] == label ? shared++ : --rest] = i;
+  const auto meets = [&](int k, int l, bool has) // at that corner, or at the edge between two
   {
+    const std::int32_t v = c.tets[t][corners[k]], w = c.tets[t][corners[l]];
     const auto& star = this->star(v);
-    return std::all_of(star.begin(), star.end(),
-                       [&](std::int32_t s)
-                       { return s == t || !c.contains(s, w) || (c.labels[s] == c.labels[t]) == ofOwnLabel; });
+    return std::any_of(star.begin(), star.end(),
+                       [&](std::int32_t s) { return s != t && (c.labels[s] == label) == has && c.contains(s, w); });
   };
-  if (shared == 1) return others(vertex(0), vertex(0), true);
-  if (shared == 3) return others(vertex(3), vertex(3), false);
-  return shared == 2 && others(vertex(0), vertex(1), true) && others(vertex(2), vertex(3), false);
+  if (shared == 1) return !meets(0, 0, true);
+  if (shared == 3) return !meets(3, 3, false);
+  return shared == 2 && !meets(0, 1, true) && !meets(2, 3, false);
 }
 
-bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuality, bool onlyNearer)
+bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuality, double mostLeft)
 {
   auto& c = m_Complex;
   const TetComplex::Tet x = c.tets[t];
   const Label own = c.labels[t];
-  if (lenient(label, c.quality(t)) < minimumQuality) return false;
-  std::array<int, 4> corners{};
-  int shared = 0, rest = 4;
+  if (label == own || lenient(label, c.quality(t)) < minimumQuality) return false;
+  for (int i = 0; i < 4; ++i)
+    if (c.neighbours[t][i] < 0 || c.locked[x[i]]) return false;
+  if (!isSimple(t, own) || !isSimple(t, label)) return false;
+  clearEvidence();
   for (int i = 0; i < 4; ++i)
   {
-    const std::int32_t n = c.neighbours[t][i];
-    if (n < 0 || c.locked[x[i]] || (c.labels[n] != label && c.labels[n] != own)) return false;
-    corners[c.labels[n] == label ? shared++ : --rest] = i;
-  }
-  if (label == own || !isSimple(t, corners, shared)) return false;
-  clearEvidence();
-  for (int k = 0; k < 4; ++k)
-  {
-    const int i = corners[k];
+    const Label beyond = c.labels[c.neighbours[t][i]];
     const std::array<std::int32_t, 3> ids{ x[(i + 1) & 3], x[(i + 2) & 3], x[(i + 3) & 3] };
-    if (k < shared) gather(t, i);
-    else addNewFace(c.points[ids[0]], c.points[ids[1]], c.points[ids[2]], ids, own, label);
+    if (beyond != own) gather(t, i);
+    if (beyond != label) addNewFace(c.points[ids[0]], c.points[ids[1]], c.points[ids[2]], ids, beyond, label);
   }
   if (!newFacesReach(minimumQuality) || !evidenceStays(m_Changed)) return false;
-  if (onlyNearer && !evidenceComesNearer(m_Changed)) return false;
+  if (mostLeft < anyShare && !comesNearer(m_Changed, mostLeft)) return false;
   detachEvidence(m_Changed);
   c.labels[t] = label;
-  if (shared == 1) c.onInterface[x[corners[0]]] = 1;
-  if (shared == 3) c.onInterface[x[corners[3]]] = 0;
   changed();
+  for (std::int32_t v : x)
+  {
+    const auto& star = this->star(v);
+    c.onInterface[v] = std::any_of(star.begin(), star.end(), [&](std::int32_t s) { return c.labels[s] != label; });
+  }
   attachEvidence({ t });
   ++counts.relabels;
   return true;

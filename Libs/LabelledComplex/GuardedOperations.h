@@ -16,6 +16,8 @@
 #include "TetComplex.h"
 
 #include <functional>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace surgicalmesher
@@ -115,10 +117,18 @@ public:
   /// Splits edge ab at p.
   bool split(std::int32_t a, std::int32_t b, std::int32_t seed, const Vec3& p, double minimumQuality);
 
-  /// Gives t, an interface tetrahedron between its own label and `label`, to the latter, if both keep their topology and
-  /// their manifold boundaries: t is a simple point of either. With `onlyNearer`, only if that brings the surface clearly
-  /// nearer to the evidence.
-  bool relabel(std::int32_t t, Label label, double minimumQuality, bool onlyNearer = false);
+  static constexpr double anyShare = std::numeric_limits<double>::infinity();
+
+  /// Gives t to `label`, which lies beyond one of its faces, if that and its own keep their topology and their manifold
+  /// boundaries: t is a simple point of either. With `mostLeft`, only if at most that share of the squared distances between
+  /// the surface and its evidence, there and back, is left.
+  bool relabel(std::int32_t t, Label label, double minimumQuality, double mostLeft = anyShare);
+
+  /// From now on evidence may be left as far off as this, mm, whatever its tolerance.
+  void letStray(double distance) { m_Stray2 = distance * distance; }
+
+  /// The point of the evidence of v's faces that is nearest to v, if there is any.
+  std::optional<Vec3> nearestEvidence(std::int32_t v);
 
   /// Whether v, between labels, is more than `reach` tolerances from all evidence of its faces.
   bool isSpike(std::int32_t v, double reach);
@@ -160,7 +170,7 @@ private:
   bool keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
                     const std::vector<std::int32_t>& ring, const std::vector<std::int32_t>& ringVertices);
   bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
-  bool isSimple(std::int32_t t, const std::array<int, 4>& corners, int shared);
+  bool isSimple(std::int32_t t, Label label);
   void addMovedFaces(std::int32_t v, const Vec3& p);
   void place(std::int32_t v, const Vec3& p);
   void gather(std::int32_t t, int face);
@@ -169,9 +179,9 @@ private:
   bool newFacesReach(double minimumQuality) const;
   double squaredDistanceNow(const Sheet& sheet, const SheetPoint& point);
   bool nearestFace(const Sheet& sheet, SheetPoint& point) const;
-  bool tissuesStayNear(const Sheet& sheet, const SheetPoint& point) const;
+  double squaredDistanceToBoth(const Sheet& sheet, const SheetPoint& point) const;
   bool evidenceStays(Sheet& sheet);
-  bool evidenceComesNearer(const Sheet& sheet);
+  bool comesNearer(const Sheet& sheet, double mostLeft);
   bool growsSpike(std::int32_t v, const Vec3& p);
   void detachEvidence(const Sheet& sheet);
   void attachEvidence(const std::vector<std::int32_t>& around = {});
@@ -183,7 +193,7 @@ private:
 
   TetComplex& m_Complex;
   ScaleFunction m_Scale;
-  double m_MeanSquareLimit, m_SquaredSlack, m_TriangleWeight, m_Reach;
+  double m_MeanSquareLimit, m_SquaredSlack, m_TriangleWeight, m_Reach, m_Stray2 = 0;
   Star m_Star, m_StarOfV;               ///< of the vertex worked on, and of the one it may go into
   std::int32_t m_NeighboursVertex = -1; ///< whose m_Neighbours are; -1: nobody's
   std::vector<Neighbour> m_Neighbours;

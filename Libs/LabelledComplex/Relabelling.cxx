@@ -78,19 +78,27 @@ std::optional<TwoLabels> twoLabelsAt(GuardedOperations& operations, std::int32_t
   return ofA < ofB ? TwoLabels{ a, b, ofA } : TwoLabels{ b, a, ofB };
 }
 
-/// The label beyond all interface faces of t that is the same, if there are two or three of them.
+/// The label beyond two or three faces of t, if there is one.
 std::optional<Label> beyondMostFaces(const TetComplex& c, std::int32_t t)
 {
-  int faces = 0;
-  Label beyond = 0;
-  for (int i = 0; i < 4; ++i)
+  const auto isBeyond = [&](int i, int k)
+  { return c.neighbours[t][k] >= 0 && c.labels[c.neighbours[t][k]] == c.labels[c.neighbours[t][i]]; };
+  for (int i = 0; i < 3; ++i)
   {
-    const std::int32_t n = c.neighbours[t][i];
-    if (n < 0 || c.labels[n] == c.labels[t]) continue;
-    if (faces++ && c.labels[n] != beyond) return {};
-    beyond = c.labels[n];
+    if (!c.isInterface(t, i)) continue;
+    for (int k = i + 1; k < 4; ++k)
+      if (isBeyond(i, k)) return c.labels[c.neighbours[t][i]];
   }
-  return faces == 2 || faces == 3 ? std::optional(beyond) : std::nullopt;
+  return std::nullopt;
+}
+
+/// Moves v towards its evidence, as far as quality allows.
+void pull(GuardedOperations& operations, std::int32_t v, const Vec3& evidence, double quality)
+{
+  const Vec3 from = operations.complex().points[v];
+  quality = std::min(quality, operations.qualityAt(v));
+  for (const double share : { 1.0, 0.7, 0.5, 0.35, 0.2, 0.1 })
+    if (operations.move(v, from + share * (evidence - from), quality)) return;
 }
 
 } // namespace
@@ -112,17 +120,21 @@ void cutSpikesOfBlock(GuardedOperations& operations, const SpikeOptions& options
     if (c.vertexTet[v] < 0 || c.locked[v] || !c.onInterface[v]) continue;
     const auto labels = twoLabelsAt(operations, v);
     if (!labels || labels->count > options.few || !operations.isSpike(v, options.reach)) continue;
-    takeOff(operations, v, labels->more, labels->more == 0 ? anyQuality : least);
+    operations.letStray(std::min(options.maximumDistance, norm(*operations.nearestEvidence(v) - c.points[v])));
+    const bool isCut = takeOff(operations, v, labels->more, labels->more == 0 ? anyQuality : least);
+    operations.letStray(0);
+    if (!isCut && options.pullAngle > 0)
+      pull(operations, v, *operations.nearestEvidence(v), sine2OfDegrees(options.pullAngle));
   }
 }
 
-void relabelBlock(GuardedOperations& operations, double keptAngle)
+void relabelBlock(GuardedOperations& operations, double keptAngle, double mostLeft)
 {
   const TetComplex& c = operations.complex();
   const double least = sine2OfDegrees(keptAngle);
   for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
     if (c.alive(t))
-      if (const auto label = beyondMostFaces(c, t)) operations.relabel(t, *label, least, true);
+      if (const auto label = beyondMostFaces(c, t)) operations.relabel(t, *label, least, mostLeft);
 }
 
 } // namespace surgicalmesher

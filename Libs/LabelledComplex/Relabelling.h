@@ -8,9 +8,9 @@
 namespace surgicalmesher
 {
 
-/// Gives tetrahedra with two or three faces towards one other label to that, where the surface comes nearer to its evidence so
-/// and dihedral angles of `keptAngle` (degrees) remain.
-void relabelBlock(GuardedOperations& operations, double keptAngle);
+/// Gives tetrahedra with two or three faces towards one other label to that, where dihedral angles of `keptAngle` (degrees)
+/// remain and `mostLeft` of what there is between the surface and its evidence (GuardedOperations::relabel) at most.
+void relabelBlock(GuardedOperations& operations, double keptAngle, double mostLeft);
 
 struct SpikeOptions
 {
@@ -18,9 +18,14 @@ struct SpikeOptions
   std::size_t few = 8; ///< tetrahedra that it consists of at most
   /// Degrees; what has been let off as background has such dihedral angles if it becomes tissue.
   double keptAngle = usualAngle;
+  /// Degrees; what can't be cut is drawn in as far as such dihedral angles remain, which is less than is to remain in the end. 0:
+  /// it stays.
+  double pullAngle = 0;
+  /// mm; evidence is left no farther off than the tip is, nor than this.
+  double maximumDistance = std::numeric_limits<double>::infinity();
 };
 
-/// Takes vertices between two labels that stick out of their evidence off the interface.
+/// Takes vertices between two labels that stick out of their evidence off the interface, or draws them in.
 void cutSpikesOfBlock(GuardedOperations& operations, const SpikeOptions& options = {});
 
 /// Takes vertices at which tissues have at most `few` tetrahedra off the outer boundary, by relabelling these, or fills the

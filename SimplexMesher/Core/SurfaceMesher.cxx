@@ -22,13 +22,13 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double mostSlack = 2.4; // times the tolerance, where an angle can't be mended otherwise
 constexpr double trimSlack = 1.1; // beyond that the surface withdraws where it is to be finest
-constexpr double relabelSlack = 1.6;
+constexpr double relabelSlack = 1.6, spikeSlack = 2.1;
 constexpr double usualReach = 1.4; // likewise times the tolerance; see Guards
 constexpr double triangleWeightAtSpikes = 1.6;
-constexpr double mostBalance = 0.5; // voxels
-constexpr double balanceGain = 1.5; // angles hold vertices back from where the evidence goes
+constexpr double clearly = 0.9, byFar = 0.7; // see relabelBlock: the latter pays for a worse triangle
+constexpr double mostBalance = 0.5;          // voxels
+constexpr double balanceGain = 1.5;          // angles hold vertices back from where the evidence goes
 
 class Evolution
 {
@@ -203,6 +203,7 @@ struct Step
   double triangleWeight = 0; ///< see Guards
   double reach = usualReach; ///< see Guards
   double level = 0;          ///< mm, size that short edges are collapsed to; 0: none
+  double shortEdge = 0.75;   ///< see CoarseningOptions
   bool fitCollapses = true;
   bool thoroughCollapses = true;
   double collapseAngle = 5; ///< degrees, least that a collapse leaves
@@ -212,6 +213,7 @@ struct Step
   PolishOptions polishing;
   std::size_t trim = 0;   ///< see trimBlock
   double spikes = 0;      ///< degrees; see SpikeOptions::keptAngle; 0: none are cut
+  double pullAngle = 0;   ///< degrees; see SpikeOptions
   double relabelling = 0; ///< degrees; see relabelBlock; 0: none
   ImprovementOptions improvement = improvementTo(0, 0, 0);
   bool balance = false; ///< tissues' volumes first; not under a bound on the distance to the boundary as it is
@@ -261,19 +263,22 @@ std::vector<Step> coarseningSteps(const Grid& grid, double longest)
 struct Effort
 {
   double first, aim, kept;
+  double mostSlack;      ///< times the tolerance, where an angle can't be mended otherwise
+  double shortEdge;      ///< see CoarseningOptions
   double triangleWeight; ///< see Guards; 0: neither triangles nor spikes are worked on, which noise is made of
   int passes, trials;
   int coarsenings, rounds;
 };
-constexpr Effort usualEffort{ 25, 28.8, usualAngle, 1.033, 1, 10, 3, 4 }; // 28 degrees of a triangle are as good
-constexpr Effort modestEffort{ 22, 23.5, modestAngle, 0, 2, 16, 2, 2 };
+constexpr double as28Degrees = 1.033; // of a triangle, beside 28.5 between faces
+constexpr Effort usualEffort{ 25, 28.8, usualAngle, 2.1, 0.78, as28Degrees, 1, 10, 3, 4 };
+constexpr Effort modestEffort{ 22, 23.5, modestAngle, 2.4, 0.75, 0, 2, 16, 2, 2 };
 
 /// Whether coarsening has left so many bad tetrahedra that features of the map's own size, as noise makes them, have no room
 /// for good ones: to try for them all would take most of the time and be in vain.
 bool isCrowded(const TetraMesh& mesh)
 {
   constexpr std::size_t many = 20000;
-  constexpr double share = 0.065;
+  constexpr double share = 0.07;
   const std::size_t bad = countBelow(mesh, 20);
   return bad > many && double(bad) > share * double(mesh.tetrahedra.size());
 }
@@ -294,6 +299,7 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     step.level = level;
     step.polishes = polishes;
     step.improvement = improvement;
+    step.shortEdge = effort.shortEdge;
     step.triangleWeight = effort.triangleWeight;
     step.reach = evens ? usualReach : 0;
     steps.push_back(step);
@@ -323,8 +329,8 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
   };
   repair(aim, 1.6, 0, 0.02, 0, false);
   repair(kept, 1.6, 0, 0.02, 20, false);
-  repair(kept, mostSlack, 0.3, 1, 20, false);
-  repair(kept, mostSlack, 0.3, 1, 20, true);
+  repair(kept, effort.mostSlack, 0.3, 1, 20, false);
+  repair(kept, effort.mostSlack, 0.3, 1, 20, true);
   steps.back().trim = 4; // before the last rounds of balance
   for (int round = 0; round < effort.rounds; ++round)
   {
@@ -333,6 +339,7 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     step.balance = true;
     step.collapseAngle = kept;
     step.relabelling = step.spikes = evens ? kept : 0;
+    step.pullAngle = 20; // what is lost, the repairs after the rounds bring back
     step.relaxations = 1;
     step.relaxation.goodAngle = step.polishing.goodAngle = kept;
     step.relaxation.fit = 2;
@@ -340,8 +347,8 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     step.polishing.fit = 10;
     step.relaxation.robust = step.polishing.robust = 0.1 * voxel;
   }
-  repair(kept, mostSlack, 0.4, 0.1, 20, false); // what resisted may have got room
-  repair(kept, mostSlack, 0.3, 1, 20, true);
+  repair(kept, effort.mostSlack, 0.4, 0.1, 20, false); // what resisted may have got room
+  repair(kept, effort.mostSlack, 0.3, 1, 20, true);
   steps.back().trim = 4; // relabelling leaves tips
   return steps;
 }
@@ -350,6 +357,7 @@ void coarsenAndImprove(GuardedOperations& operations, const Step& step)
 {
   CoarseningOptions coarsening;
   coarsening.minimumAngle = step.collapseAngle;
+  coarsening.shortEdge = step.shortEdge;
   coarsening.fit = step.fitCollapses;
   coarsening.thorough = step.thoroughCollapses;
   if (step.level > 0) coarsenBlock(operations, step.level, coarsening);
@@ -358,9 +366,9 @@ void coarsenAndImprove(GuardedOperations& operations, const Step& step)
   if (step.improvement.targetAngle > 0) improveBlock(operations, step.improvement);
 }
 
-/// `guarded` does a change to a block under guards.
+/// `guarded` does a change to a block under guards; `maximumDistance` bounds what they don't.
 template <class Guarded>
-void work(const Guarded& guarded, const Step& step)
+void work(const Guarded& guarded, const Step& step, double maximumDistance)
 {
   if (step.trim > 0) guarded({ 1, trimSlack }, [&](auto& operations) { trimBlock(operations, step.trim); });
   if (step.spikes > 0)
@@ -368,13 +376,20 @@ void work(const Guarded& guarded, const Step& step)
     SpikeOptions spikes;
     spikes.reach = usualReach;
     spikes.keptAngle = step.spikes;
-    guarded({ 1, mostSlack, triangleWeightAtSpikes }, [&](auto& operations) { cutSpikesOfBlock(operations, spikes); });
+    spikes.pullAngle = step.pullAngle;
+    spikes.maximumDistance = maximumDistance;
+    guarded({ 1, spikeSlack, triangleWeightAtSpikes },
+            [&](auto& operations)
+            {
+              relabelBlock(operations, step.spikes, byFar);
+              cutSpikesOfBlock(operations, spikes);
+            });
   }
   guarded({ step.rmsLimit, step.slack, step.triangleWeight, step.reach },
           [&](auto& operations) { coarsenAndImprove(operations, step); });
   if (step.relabelling > 0)
     guarded({ 1, relabelSlack, step.triangleWeight },
-            [&](auto& operations) { relabelBlock(operations, step.relabelling); });
+            [&](auto& operations) { relabelBlock(operations, step.relabelling, clearly); });
 }
 
 } // namespace
@@ -414,7 +429,7 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
           change(operations);
           evolution.count(operations.counts);
         };
-        work(guarded, step);
+        work(guarded, step, options.maximumDistance > 0 ? options.maximumDistance : HUGE_VAL);
       },
       [&](double fraction, const std::string&) { report(part, fraction, step.name); });
     evolution.record(step.name);

@@ -16,8 +16,8 @@ namespace surgicalmesher
 struct SurfaceMesherOptions
 {
   /// mm; bound on the distance of any boundary point of the map to the surface. 0: automatic: 0.4 voxel + 0.088 L, on thin
-  /// tissues 0.28 of their thickness if that is less (0.6 voxel at least); 2.4 times as much where an angle can't be mended
-  /// otherwise; and up to a voxel more where that keeps a tissue's volume.
+  /// tissues 0.28 of their thickness if that is less (0.6 voxel at least); 2.1 times as much (2.4 in maps full of noise)
+  /// where an angle can't be mended otherwise; and up to a voxel more where that keeps a tissue's volume.
   double maximumDistance = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <set>
 
 namespace surgicalmesher
 {
@@ -304,6 +305,36 @@ TEST(GuardedOperations, CountTrianglesBetweenLabelsAtTheirVertices)
     decisive += expected < ofTetrahedra;
   }
   EXPECT_GT(decisive, 100);
+}
+
+TEST(GuardedOperations, RelabelBesideAThirdLabel)
+{
+  long done = 0;
+  for (unsigned seed = 1; seed <= 4; ++seed)
+  {
+    std::mt19937 random(seed);
+    TetComplex complex = complexOf(tetrahedraOf(randomWellComposedMap(random, { 4, 4, 4 }, 3)), 1, float(anyDistance));
+    GuardedOperations operations(complex, [](const Vec3&) { return 1.0f; }, { anyDistance });
+    const auto topology = topologyOf(complex);
+    for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+    {
+      std::set<Label> beyond;
+      for (const std::int32_t n : complex.neighbours[t]) beyond.insert(n < 0 ? Label(0) : complex.labels[n]);
+      if (beyond.size() < 3 || !beyond.count(complex.labels[t])) continue;
+      for (const Label label : beyond)
+      {
+        if (!operations.relabel(t, label, 0)) continue;
+        ++done;
+        EXPECT_EQ(complex.labels[t], label);
+        EXPECT_EQ(topologyOf(complex), topology);
+        expectManifold(complex);
+        break;
+      }
+      if (HasFailure()) return;
+    }
+    ASSERT_TRUE(isConsistent(complex));
+  }
+  EXPECT_GT(done, 10);
 }
 
 TEST(GuardedOperations, LetNoVertexLeaveItsEvidenceByMoreThanItsReach)

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
 
+#include <numeric>
 #include <stdexcept>
 
 namespace surgicalmesher
@@ -198,6 +199,16 @@ TEST(MeshImprovement, KeepsTissuesAndHullAndRaisesTheWorstAngle)
   }
 }
 
+void relabelAtRandom(GuardedOperations& operations, std::mt19937& random)
+{
+  const TetComplex& c = operations.complex();
+  for (int n = 0; n < 300; ++n)
+  {
+    const auto t = std::int32_t(random() % c.tets.size());
+    if (const std::int32_t across = c.neighbours[t][n % 4]; across >= 0) operations.relabel(t, c.labels[across], 0);
+  }
+}
+
 TEST(Relabelling, BringsTheSurfaceBackToItsEvidence)
 {
   constexpr float anyDistance = 10;
@@ -216,42 +227,82 @@ TEST(Relabelling, BringsTheSurfaceBackToItsEvidence)
     TetComplex complex = complexOf(tetrahedraOf(map), 1.5f, anyDistance);
     const auto topology = meshTopology(withBackgroundAsTissue(meshOf(complex)));
     GuardedOperations operations(complex, scale, { 1 });
-    for (int n = 0; n < 300; ++n)
-    {
-      const auto t = std::int32_t(random() % complex.tets.size());
-      if (const std::int32_t across = complex.neighbours[t][n % 4]; across >= 0)
-        operations.relabel(t, complex.labels[across], 0);
-    }
+    relabelAtRandom(operations, random);
     const double before = sumOfSquares(complex);
     ASSERT_GT(before, 0.1);
-    relabelBlock(operations, 0);
+    relabelBlock(operations, 0, 0.9);
     EXPECT_LT(sumOfSquares(complex), 0.8 * before);
     EXPECT_EQ(meshTopology(withBackgroundAsTissue(meshOf(complex))), topology);
     ASSERT_TRUE(isConsistent(complex));
   }
 }
 
-TEST(Spikes, AreCutWhereTopologyAllows)
+/// How far each spike of a block stands off its evidence.
+std::vector<double> depthsOfSpikes(GuardedOperations& operations, double reach)
 {
-  long before = 0, after = 0;
-  const SpikeOptions options{ 1.2, 8, 1 };
-  const auto spikes = [&](GuardedOperations& operations)
+  const TetComplex& c = operations.complex();
+  std::vector<double> depths;
+  for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+    if (c.vertexTet[v] >= 0 && !c.locked[v] && c.onInterface[v] && operations.isSpike(v, reach))
+      depths.push_back(norm(*operations.nearestEvidence(v) - c.points[v]));
+  return depths;
+}
+
+double sumOf(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+TEST(Spikes, AreCutWhereTopologyAllowsAndElseDrawnIn)
+{
+  std::size_t before = 0, cut = 0;
+  double left = 0, drawnIn = 0;
+  for (const double pullAngle : { 0, 1 })
   {
-    const TetComplex& c = operations.complex();
-    long count = 0;
-    for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
-      count += c.vertexTet[v] >= 0 && !c.locked[v] && c.onInterface[v] && operations.isSpike(v, options.reach);
-    return count;
+    const SpikeOptions options{ 1.2, 8, 1, pullAngle, 0 };
+    expectPromisesKept(0, false,
+                       [&](GuardedOperations& operations)
+                       {
+                         const std::size_t spikes = depthsOfSpikes(operations, options.reach).size();
+                         cutSpikesOfBlock(operations, options);
+                         const auto after = depthsOfSpikes(operations, options.reach);
+                         EXPECT_LE(after.size(), spikes);
+                         (pullAngle > 0 ? drawnIn : left) += sumOf(after);
+                         before += spikes;
+                         cut += spikes - after.size();
+                       });
+  }
+  EXPECT_GT(before, 0u);
+  EXPECT_GT(cut, 0u);
+  EXPECT_LT(drawnIn, left);
+}
+
+TEST(Spikes, LeaveNoEvidenceFartherOffThanTheyWere)
+{
+  const auto leftWith = [](double maximumDistance)
+  {
+    std::size_t left = 0;
+    for (unsigned seed = 1; seed <= 10; ++seed)
+    {
+      std::mt19937 random(seed);
+      const TissueMap map = randomWellComposedMap(random, { 5, 5, 5 }, 1 + int(seed % 4));
+      TetComplex complex = complexOf(tetrahedraOf(map), 1.5f, 0.2f);
+      GuardedOperations unguarded(complex, scale, { 1, 100 });
+      relabelAtRandom(unguarded, random);
+      GuardedOperations operations(complex, scale, { 1 });
+      const SpikeOptions options{ 1.2, 8, 1, 0, maximumDistance };
+      const auto depths = depthsOfSpikes(operations, options.reach);
+      const double deepest = depths.empty() ? 0 : *std::max_element(depths.begin(), depths.end());
+      const auto places = evidencePlaces(complex);
+      cutSpikesOfBlock(operations, options);
+      const auto after = evidencePlaces(complex);
+      for (std::size_t e = 0; e < places.size(); ++e)
+      {
+        const double most = std::max({ places[e].distance, 0.2, std::min(deepest, maximumDistance) });
+        EXPECT_LE(after[e].tet < 0 ? 0 : after[e].distance, most * (1 + 1e-6));
+      }
+      left += depthsOfSpikes(operations, options.reach).size();
+    }
+    return left;
   };
-  expectPromisesKept(0, false,
-                     [&](GuardedOperations& operations)
-                     {
-                       before += spikes(operations);
-                       cutSpikesOfBlock(operations, options);
-                       after += spikes(operations);
-                     });
-  EXPECT_GT(before, 0);
-  EXPECT_LT(after, before);
+  EXPECT_LT(leftWith(10), leftWith(0));
 }
 
 TEST(Trimming, KeepsEveryPromiseAndLeavesFewerTips)
