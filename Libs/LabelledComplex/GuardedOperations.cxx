@@ -256,8 +256,8 @@ bool GuardedOperations::evidenceStays(Sheet& sheet)
   return sum <= before * (1 + 1e-9);
 }
 
-/// After evidenceStays: whether at most this share would be left of the squared distances, in units of the tolerance, both of
-/// the points to the faces and of the faces to the points. A face that stands off all evidence has none to tell so.
+/// After evidenceStays: whether at most this share would be left of the squared distances, in units of the tolerance, of the
+/// points to the faces and of the faces to the points. A face that stands off all evidence has none of its own to say so.
 bool GuardedOperations::comesNearer(const Sheet& sheet, double mostLeft)
 {
   if (sheet.points.empty()) return false;

@@ -92,13 +92,15 @@ std::optional<Label> beyondMostFaces(const TetComplex& c, std::int32_t t)
   return std::nullopt;
 }
 
-/// Moves v towards its evidence, as far as quality allows.
-void pull(GuardedOperations& operations, std::int32_t v, const Vec3& evidence, double quality)
+/// Moves v towards its evidence, if there is any left, as far as quality allows.
+void pull(GuardedOperations& operations, std::int32_t v, double quality)
 {
+  const auto to = operations.nearestEvidence(v);
+  if (!to) return;
   const Vec3 from = operations.complex().points[v];
   quality = std::min(quality, operations.qualityAt(v));
   for (const double share : { 1.0, 0.7, 0.5, 0.35, 0.2, 0.1 })
-    if (operations.move(v, from + share * (evidence - from), quality)) return;
+    if (operations.move(v, from + share * (*to - from), quality)) return;
 }
 
 } // namespace
@@ -123,8 +125,7 @@ void cutSpikesOfBlock(GuardedOperations& operations, const SpikeOptions& options
     operations.letStray(std::min(options.maximumDistance, norm(*operations.nearestEvidence(v) - c.points[v])));
     const bool isCut = takeOff(operations, v, labels->more, labels->more == 0 ? anyQuality : least);
     operations.letStray(0);
-    if (!isCut && options.pullAngle > 0)
-      pull(operations, v, *operations.nearestEvidence(v), sine2OfDegrees(options.pullAngle));
+    if (!isCut && options.pullAngle > 0) pull(operations, v, sine2OfDegrees(options.pullAngle));
   }
 }
 
