@@ -169,7 +169,7 @@ void GuardedOperations::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, 
   m_NewFaces.push_back(f);
 }
 
-bool GuardedOperations::newFacesReach(double minimumQuality) const
+bool GuardedOperations::newFacesAreGood(double minimumQuality) const
 {
   return m_TriangleWeight == 0 || std::all_of(m_NewFaces.begin(), m_NewFaces.end(),
                                               [&](const Face& f)
@@ -492,7 +492,7 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
       m_Refused.push_back(v);
       return false;
     }
-    if (!collapseKeepsEvidence(u, v, p) || !newFacesReach(minimumQuality)) return false;
+    if (!collapseKeepsEvidence(u, v, p) || !newFacesAreGood(minimumQuality)) return false;
     detachEvidence(m_Changed);
   }
   c.collapse(u, v, star);
@@ -675,7 +675,7 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
     const std::int32_t p = m_RingVertices[0], q = m_RingVertices[second];
     for (std::int32_t end : { a, b })
       addNewFace(c.points[end], c.points[p], c.points[q], { end, p, q }, c.labels[m_Ring[0]], c.labels[m_Ring[second]]);
-    if (!newFacesReach(minimumQuality) || !evidenceStays(m_Changed)) return false;
+    if (!newFacesAreGood(minimumQuality) || !evidenceStays(m_Changed)) return false;
     detachEvidence(m_Changed);
   }
   const auto ids = c.replace(m_Ring, fresh, labels);
@@ -706,7 +706,7 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
     for (std::int32_t end : { a, b })
       addNewFace(c.points[end], p, c.points[x], { end, m, x }, c.labels[t], c.labels[before]);
   }
-  if (!newFacesReach(minimumQuality) || !evidenceStays(m_Changed)) return false;
+  if (!newFacesAreGood(minimumQuality) || !evidenceStays(m_Changed)) return false;
   detachEvidence(m_Changed);
   c.addVertex(p, m_Scale(p), !m_NewFaces.empty());
   std::vector<TetComplex::Tet> fresh;
@@ -766,7 +766,7 @@ bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuali
     if (beyond != own) gather(t, i);
     if (beyond != label) addNewFace(c.points[ids[0]], c.points[ids[1]], c.points[ids[2]], ids, beyond, label);
   }
-  if (!newFacesReach(minimumQuality) || !evidenceStays(m_Changed)) return false;
+  if (!newFacesAreGood(minimumQuality) || !evidenceStays(m_Changed)) return false;
   if (mostLeft < anyShare && !comesNearer(m_Changed, mostLeft)) return false;
   detachEvidence(m_Changed);
   c.labels[t] = label;

@@ -176,7 +176,7 @@ private:
   void gather(std::int32_t t, int face);
   void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x, Label y,
                   std::int32_t tet = -1, int face = 0, bool changes = true);
-  bool newFacesReach(double minimumQuality) const;
+  bool newFacesAreGood(double minimumQuality) const;
   double squaredDistanceNow(const Sheet& sheet, const SheetPoint& point);
   bool nearestFace(const Sheet& sheet, SheetPoint& point) const;
   double squaredDistanceToBoth(const Sheet& sheet, const SheetPoint& point) const;

@@ -18,7 +18,7 @@ struct SpikeOptions
   std::size_t few = 8; ///< tetrahedra that it consists of at most
   /// Degrees; what has been let off as background has such dihedral angles if it becomes tissue.
   double keptAngle = usualAngle;
-  /// Degrees; what can't be cut is drawn in as far as dihedral angles of this remain, which repairs must raise again. 0: it stays.
+  /// Degrees; what can't be cut is drawn in as far as such dihedral angles remain, for repairs to raise again. 0: it stays.
   double pullAngle = 0;
   /// mm; evidence is left no farther off than the tip is, nor than this.
   double maximumDistance = std::numeric_limits<double>::infinity();
