@@ -1,6 +1,7 @@
 #include "GuardedOperations.h"
 
 #include "TetQuality.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <functional>
@@ -326,6 +327,12 @@ void GuardedOperations::attachEvidence(const std::vector<std::int32_t>& around)
 
 // --- edge collapse --------------------------------------------------------------------------------------------------
 
+bool GuardedOperations::meetsLabels(const std::vector<std::int32_t>& star) const
+{
+  const auto& labels = m_Complex.labels;
+  return std::any_of(star.begin(), star.end(), [&](std::int32_t t) { return labels[t] != labels[star.front()]; });
+}
+
 Label GuardedOperations::localBit(Label label)
 {
   const auto at = std::find(m_LocalLabels.begin(), m_LocalLabels.end(), label);
@@ -334,51 +341,124 @@ Label GuardedOperations::localBit(Label label)
   return Label(m_LocalLabels.size() - 1);
 }
 
-/// The link condition (Dey, Edelsbrunner, Guha, Nekhayev 1999) on every tissue's boundary that both vertices lie on: the
-/// edge lies on it, and the boundary's links of u and v meet only in the link of uv. Positive volumes see to the condition
-/// on the tetrahedra themselves: the cone from v tiles star(u) only if it holds.
-bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
-                                     const std::vector<std::int32_t>& ring,
-                                     const std::vector<std::int32_t>& ringVertices)
+std::uint32_t GuardedOperations::bitsOf(const std::vector<std::int32_t>& tetrahedra)
 {
-  const auto& labels = m_Complex.labels;
-  m_LocalLabels.clear();
-  const auto bits = [&](const std::vector<std::int32_t>& list)
-  {
-    std::uint32_t mask = 0;
-    for (std::int32_t t : list) mask |= 1u << std::min<int>(31, localBit(labels[t]));
-    return mask;
-  };
-  const std::uint32_t atU = bits(star), onEdge = bits(ring);
-  if (bitCount(onEdge) < 2) return false;
-  const std::uint32_t atV = bits(m_StarOfV.tets);
-  if (m_LocalLabels.size() > 30) return false;
-  if (atU & atV & ~onEdge) return false;
+  std::uint32_t bits = 0;
+  for (std::int32_t t : tetrahedra) bits |= 1u << std::min<int>(31, localBit(m_Complex.labels[t]));
+  return bits;
+}
 
-  const std::size_t n = ring.size();
+/// The same for those of the tetrahedra that are at x.
+std::uint32_t GuardedOperations::bitsOf(const std::vector<std::int32_t>& tetrahedra, std::int32_t x)
+{
+  std::uint32_t bits = 0;
+  for (std::int32_t t : tetrahedra)
+    if (m_Complex.contains(t, x)) bits |= 1u << localBit(m_Complex.labels[t]);
+  return bits;
+}
+
+/// The label, as a bit, that closes over tetrahedron t of the ring of uv once that is gone: the one beyond both its faces; 0
+/// if they are two, or t's own.
+std::uint32_t GuardedOperations::closingOver(std::int32_t t, std::int32_t u, std::int32_t v)
+{
+  const auto& c = m_Complex;
+  const std::int32_t nu = c.neighbours[t][c.indexOf(t, v)], nv = c.neighbours[t][c.indexOf(t, u)];
+  if (nu < 0 || nv < 0 || c.labels[nu] != c.labels[nv] || c.labels[nu] == c.labels[t]) return 0;
+  return 1u << localBit(c.labels[nu]);
+}
+
+/// Whether some label has a tetrahedron of the ring and nothing beside it: it would vanish.
+bool GuardedOperations::losesLabel(std::int32_t u, std::int32_t v) const
+{
+  const auto& c = m_Complex;
+  const std::size_t n = m_Ring.size();
   for (std::size_t i = 0; i < n; ++i)
   {
-    const std::int32_t x = ringVertices[i], before = ring[(i + n - 1) % n], after = ring[i];
-    std::uint32_t onUX = 0;
-    for (std::int32_t t : star)
-      if (m_Complex.contains(t, x)) onUX |= 1u << localBit(labels[t]);
-    if (bitCount(onUX) < 2) continue;
-    if (!m_Complex.ring(v, x, after, m_EdgeRing, m_EdgeRingVertices)) return false;
-    const std::uint32_t onVX = bits(m_EdgeRing);
-    if (bitCount(onVX) < 2) continue;
-    const std::uint32_t onFace =
-      labels[before] == labels[after] ? 0u : (1u << localBit(labels[before])) | (1u << localBit(labels[after]));
-    if (onUX & onVX & ~onFace) return false;
+    const std::int32_t t = m_Ring[i];
+    const auto isBeside = [&](std::int32_t other) { return other >= 0 && c.labels[other] == c.labels[t]; };
+    if (!isBeside(m_Ring[(i + 1) % n]) && !isBeside(m_Ring[(i + n - 1) % n]) &&
+        !isBeside(c.neighbours[t][c.indexOf(t, u)]) && !isBeside(c.neighbours[t][c.indexOf(t, v)]))
+      return true;
   }
-  // A label that owns one tetrahedron of the ring and nothing beside it would vanish.
+  return false;
+}
+
+/// Whether `label` has a disc on the boundary of star(u) and star(v) together: connected, and of Euler number 1.
+bool GuardedOperations::hasDisc(Label label, std::int32_t u, std::int32_t v) const
+{
+  const auto& c = m_Complex;
+  std::vector<std::int32_t> corners;
+  std::vector<std::pair<std::array<std::int32_t, 2>, std::int32_t>> sides; // and their triangles' numbers
+  std::int32_t triangles = 0;
+  const auto add = [&](const std::vector<std::int32_t>& star, std::int32_t centre, std::int32_t other)
+  {
+    for (std::int32_t t : star)
+    {
+      if (c.labels[t] != label || c.contains(t, other)) continue;
+      std::array<std::int32_t, 3> x;
+      std::remove_copy(c.tets[t].begin(), c.tets[t].end(), x.begin(), centre);
+      std::sort(x.begin(), x.end());
+      corners.insert(corners.end(), x.begin(), x.end());
+      for (const auto& side : { std::array{ x[0], x[1] }, { x[0], x[2] }, { x[1], x[2] } })
+        sides.push_back({ side, triangles });
+      ++triangles;
+    }
+  };
+  add(m_Star.tets, u, v);
+  add(m_StarOfV.tets, v, u);
+  std::sort(corners.begin(), corners.end());
+  std::sort(sides.begin(), sides.end());
+  const auto points = std::int32_t(std::unique(corners.begin(), corners.end()) - corners.begin());
+  std::int32_t shared = 0, components = triangles;
+  UnionFind connected(triangles);
+  for (std::size_t i = 1; i < sides.size(); ++i)
+  {
+    if (sides[i].first != sides[i - 1].first) continue;
+    ++shared;
+    components -= connected.unite(sides[i].second, sides[i - 1].second);
+  }
+  return components == 1 && points - (3 * triangles - shared) + triangles == 1;
+}
+
+/// Whether merging u into v leaves every label its topology and a manifold boundary. A label that is at both is cut out of
+/// the ball of both stars and comes back as the cone over its share of the ball's boundary, which changes nothing if what
+/// was there was contractible and that share is a disc:
+///   - The stars meet in the ring of uv. Those of its vertices and edges at which both have the label, be it in the ring
+///     or beyond, must be a path.
+///   - The share is a disc for certain if the label is not at edge uv, or closes over nothing and meets the link condition
+///     (Dey, Edelsbrunner, Guha, Nekhayev 1999) on its own boundary; else it is looked at.
+/// Positive volumes see to the link condition on the tetrahedra themselves: the cone from v tiles star(u) only if it holds.
+bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v)
+{
+  const auto& c = m_Complex;
+  m_LocalLabels.clear();
+  const std::uint32_t atU = bitsOf(m_Star.tets), onEdge = bitsOf(m_Ring);
+  if (bitCount(onEdge) < 2) return false;
+  const std::uint32_t atV = bitsOf(m_StarOfV.tets);
+  if (m_LocalLabels.size() > 30 || losesLabel(u, v)) return false;
+
+  const std::size_t n = m_Ring.size();
+  std::uint32_t doubtful = 0, closed = 0;
+  m_Common.clear();
   for (std::size_t i = 0; i < n; ++i)
   {
-    const std::int32_t t = ring[i];
-    const Label m = labels[t];
-    if (labels[ring[(i + 1) % n]] == m || labels[ring[(i + n - 1) % n]] == m) continue;
-    const std::int32_t nu = m_Complex.neighbours[t][m_Complex.indexOf(t, v)];
-    const std::int32_t nv = m_Complex.neighbours[t][m_Complex.indexOf(t, u)];
-    if (nu < 0 || nv < 0 || (labels[nu] != m && labels[nv] != m)) return false;
+    const std::int32_t x = m_RingVertices[i], before = m_Ring[(i + n - 1) % n], after = m_Ring[i];
+    const std::uint32_t own = 1u << localBit(c.labels[after]), closing = closingOver(after, u, v);
+    const std::uint32_t onUX = bitsOf(m_Star.tets, x), onVX = bitsOf(m_StarOfV.tets, x);
+    m_Common.push_back({ onUX & onVX, own | closing });
+    closed |= closing;
+    if (c.labels[before] == c.labels[after] && bitCount(onUX) > 1 && bitCount(onVX) > 1) doubtful |= own;
+  }
+  doubtful |= closed & onEdge;
+  m_RingLosesLabels = (doubtful | closed) != 0;
+  const std::uint32_t common = atU & atV;
+  for (std::size_t k = 0; common >> k != 0; ++k)
+  {
+    if (!(common >> k & 1)) continue;
+    std::uint32_t vertices = 0, edges = 0;
+    for (const auto& [atVertex, atEdge] : m_Common) vertices += atVertex >> k & 1, edges += atEdge >> k & 1;
+    if (edges == 0 || vertices != edges + 1) return false;
+    if (doubtful >> k & 1 && !hasDisc(m_LocalLabels[k], u, v)) return false;
   }
   return true;
 }
@@ -487,7 +567,7 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
     starOfTarget(v);
     const auto seed = std::find_if(star.begin(), star.end(), [&](std::int32_t t) { return c.contains(t, v); });
     if (seed == star.end() || !c.ring(u, v, *seed, m_Ring, m_RingVertices) ||
-        !keepsTissues(u, v, star, m_Ring, m_RingVertices))
+        !keepsTissues(u, v))
     {
       m_Refused.push_back(v);
       return false;
@@ -497,6 +577,9 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
   }
   c.collapse(u, v, star);
   changed();
+  if (!inside && m_RingLosesLabels)
+    for (std::int32_t x : m_RingVertices)
+      if (!c.locked[x]) c.onInterface[x] = meetsLabels(this->star(x));
   if (moves)
   {
     c.points[v] = p;
@@ -771,11 +854,7 @@ bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuali
   detachEvidence(m_Changed);
   c.labels[t] = label;
   changed();
-  for (std::int32_t v : x)
-  {
-    const auto& star = this->star(v);
-    c.onInterface[v] = std::any_of(star.begin(), star.end(), [&](std::int32_t s) { return c.labels[s] != label; });
-  }
+  for (std::int32_t v : x) c.onInterface[v] = meetsLabels(star(v));
   attachEvidence({ t });
   ++counts.relabels;
   return true;

@@ -167,8 +167,10 @@ private:
   double lenient(std::int32_t t, double q) const { return m_Complex.labels[t] == 0 ? q * backgroundLeniency : q; }
   double lenient(Label label, double q) const { return label == 0 ? q * backgroundLeniency : q; }
   bool keepsLength(std::int32_t end, std::int32_t x, std::int32_t v, const Vec3& p, double maximumRatio) const;
-  bool keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& star,
-                    const std::vector<std::int32_t>& ring, const std::vector<std::int32_t>& ringVertices);
+  bool keepsTissues(std::int32_t u, std::int32_t v);
+  bool losesLabel(std::int32_t u, std::int32_t v) const;
+  bool hasDisc(Label label, std::int32_t u, std::int32_t v) const;
+  bool meetsLabels(const std::vector<std::int32_t>& star) const;
   bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
   bool isSimple(std::int32_t t, Label label);
   void addMovedFaces(std::int32_t v, const Vec3& p);
@@ -190,6 +192,9 @@ private:
   void clearEvidence();
   static bool has(LabelPair pair, Label label) { return (pair & 0xffff) == label || pair >> 16 == label; }
   Label localBit(Label label);
+  std::uint32_t bitsOf(const std::vector<std::int32_t>& tetrahedra);
+  std::uint32_t bitsOf(const std::vector<std::int32_t>& tetrahedra, std::int32_t x);
+  std::uint32_t closingOver(std::int32_t t, std::int32_t u, std::int32_t v);
 
   TetComplex& m_Complex;
   ScaleFunction m_Scale;
@@ -214,6 +219,12 @@ private:
   std::vector<Face> m_NewFaces;
   std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of the new faces
   std::vector<Label> m_LocalLabels;
+  struct Common ///< labels of both stars
+  {
+    std::uint32_t atVertex, atEdge;
+  };
+  std::vector<Common> m_Common; ///< of a ring
+  bool m_RingLosesLabels = false;    ///< whether one may leave vertices of the ring
 };
 
 /// Squared distance from p to triangle abc, mm^2.

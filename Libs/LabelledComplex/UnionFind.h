@@ -20,12 +20,14 @@ public:
     return i;
   }
 
-  void unite(std::uint32_t a, std::uint32_t b)
+  /// Whether they were apart.
+  bool unite(std::uint32_t a, std::uint32_t b)
   {
     a = find(a);
     b = find(b);
     if (a > b) std::swap(a, b);
     m_Parent[b] = a;
+    return a != b;
   }
 
 private:

@@ -444,6 +444,69 @@ TEST(Collapse, CannotPinchOpenOrSwallowATissue)
   }
 }
 
+/// What merging u into v at p would make of the complex.
+TetraMesh merged(const TetComplex& c, std::int32_t u, std::int32_t v, const Vec3& p)
+{
+  TetraMesh mesh;
+  mesh.points = c.points;
+  mesh.points[v] = p;
+  for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
+  {
+    if (!c.alive(t) || (c.contains(t, u) && c.contains(t, v))) continue;
+    mesh.tetrahedra.push_back(c.tets[t]);
+    std::replace(mesh.tetrahedra.back().begin(), mesh.tetrahedra.back().end(), u, v);
+    mesh.labels.push_back(c.labels[t]);
+  }
+  return withBackgroundAsTissue(mesh);
+}
+
+bool allPositive(const TetraMesh& mesh)
+{
+  return std::all_of(mesh.tetrahedra.begin(), mesh.tetrahedra.end(),
+                     [&](const auto& t)
+                     {
+                       const auto at = [&](int i) { return mesh.points[t[i]]; };
+                       return worstSine2(at(0), at(1), at(2), at(3)) > anyQuality;
+                     });
+}
+
+bool allManifold(const TetraMesh& mesh)
+{
+  const auto tissues = checkSurface(interfaceOf(mesh));
+  return std::all_of(tissues.begin(), tissues.end(), [](const auto& tissue) { return tissue.second.manifold(); });
+}
+
+/// Along the interface, what looks at the stars of two vertices finds neither more nor less than what looks at everything.
+TEST(Collapse, HappensWhereverEveryTissueStaysAsItWas)
+{
+  int allowed = 0, refused = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed)
+  {
+    std::mt19937 random(seed);
+    TetComplex complex =
+      withoutEvidence(tetrahedraOf(randomWellComposedMap(random, { 4, 4, 4 }, 1 + int(seed % 5))));
+    GuardedOperations operations(complex, unitScale);
+    const auto topology = topologyOf(complex);
+    for (int n = 0; n < 400; ++n)
+    {
+      const std::int32_t u = std::int32_t(random() % complex.points.size());
+      if (complex.vertexTet[u] < 0) continue;
+      const auto around = operations.neighbours(u);
+      const auto [v, alongInterface] = around[random() % around.size()];
+      if (!alongInterface || complex.locked[u] || complex.locked[v]) continue;
+      const Vec3 to = complex.points[v], p = random() % 2 ? to : 0.5 * (complex.points[u] + to);
+      const TetraMesh mesh = merged(complex, u, v, p);
+      if (!allPositive(mesh)) continue;
+      const bool keepsAll = meshTopology(mesh) == topology && allManifold(mesh);
+      ASSERT_EQ(operations.collapse(u, v, p, 0, anyLength), keepsAll) << u << " into " << v << " of seed " << seed;
+      ++(keepsAll ? allowed : refused);
+      ASSERT_TRUE(isConsistent(complex));
+    }
+  }
+  EXPECT_GT(allowed, 1000);
+  EXPECT_GT(refused, 100);
+}
+
 TEST(Collapse, KeepsATissueOfOneTetrahedron)
 {
   TetraMesh mesh = tetrahedraOf(paintedMap({ 2, 2, 2 }, [](int, int, int) { return 0; }));
