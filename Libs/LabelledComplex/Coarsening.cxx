@@ -126,7 +126,7 @@ private:
     const Vec3 from = m_Complex.points[u];
     m_Candidates.clear();
     bool fits = false;
-    for (double share : { 1.0, 0.5, 0.0 })
+    for (double share : { 1.0, 0.5, 0.0, 0.75, 0.25 })
     {
       if (share == 0 && !m_Options.thorough) break;
       if (share == 0.5) fits = m_Options.fit && quadricAt(u).trace() > 0;

@@ -14,6 +14,7 @@ namespace
 {
 
 constexpr int maximumRing = 10;
+constexpr std::size_t mostLocalLabels = 30;
 
 int bitCount(std::uint32_t x)
 {
@@ -219,24 +220,27 @@ bool GuardedOperations::nearestFace(const Sheet& sheet, SheetPoint& point) const
   return point.to >= 0;
 }
 
-/// From a point whose two labels no longer touch to the boundary of either, the greater distance.
+/// From a point to the new boundary of either of its labels, the greater distance. To that of background that has vanished
+/// there is none to keep.
 double GuardedOperations::squaredDistanceToBoth(const Sheet& sheet, const SheetPoint& point) const
 {
+  constexpr double none = std::numeric_limits<double>::max();
   const auto toBoundary = [&](Label label)
   {
-    double least = std::numeric_limits<double>::max();
+    double least = none;
     for (const Face& f : m_NewFaces)
       if (has(f.labels, label))
         least = std::min(least, squaredDistanceToTriangle(point.position, f.corners[0], f.corners[1], f.corners[2]));
-    return least;
+    return least == none && label == 0 ? 0 : least;
   };
   const LabelPair labels = sheet.faces[point.from].labels;
   return std::max(toBoundary(Label(labels)), toBoundary(Label(labels >> 16)));
 }
 
 /// Assigns every point of the sheet to the nearest new face of its labels; false if one would lie beyond its tolerance and
-/// farther than it does now, or if their mean square, in units of the tolerance, would exceed the limit and grow. Where
-/// two tissues cease to touch, their points are let go if each tissue's boundary stays within tolerance.
+/// farther than it does now, or if their mean square, in units of the tolerance, would exceed the limit and grow. It is
+/// enough that the boundary of either label stays within tolerance, where they cease to touch, which lets the point go, or
+/// where others come between.
 bool GuardedOperations::evidenceStays(Sheet& sheet)
 {
   double sum = 0;
@@ -246,9 +250,8 @@ bool GuardedOperations::evidenceStays(Sheet& sheet)
     const bool kept = nearestFace(sheet, point);
     sum += std::min(1.0, point.distance2 / tolerance2);
     if (point.distance2 <= std::max(tolerance2, m_Stray2)) continue;
-    if (kept ? point.distance2 > squaredDistanceNow(sheet, point) * (1 + 1e-9)
-             : squaredDistanceToBoth(sheet, point) > tolerance2)
-      return false;
+    if (kept && point.distance2 <= squaredDistanceNow(sheet, point) * (1 + 1e-9)) continue;
+    if (squaredDistanceToBoth(sheet, point) > tolerance2) return false;
   }
   if (sum <= m_MeanSquareLimit * double(sheet.points.size())) return true;
   double before = 0;
@@ -333,27 +336,28 @@ bool GuardedOperations::meetsLabels(const std::vector<std::int32_t>& star) const
   return std::any_of(star.begin(), star.end(), [&](std::int32_t t) { return labels[t] != labels[star.front()]; });
 }
 
-Label GuardedOperations::localBit(Label label)
+/// One of 30 bits for each label that keepsTissues meets, or a last one for all the others.
+std::uint32_t GuardedOperations::bitOf(Label label)
 {
   const auto at = std::find(m_LocalLabels.begin(), m_LocalLabels.end(), label);
-  if (at != m_LocalLabels.end()) return Label(at - m_LocalLabels.begin());
-  m_LocalLabels.push_back(label);
-  return Label(m_LocalLabels.size() - 1);
+  const auto k = std::size_t(at - m_LocalLabels.begin());
+  if (at == m_LocalLabels.end()) m_LocalLabels.push_back(label);
+  return 1u << std::min<std::size_t>(k, mostLocalLabels);
 }
 
 std::uint32_t GuardedOperations::bitsOf(const std::vector<std::int32_t>& tetrahedra)
 {
   std::uint32_t bits = 0;
-  for (std::int32_t t : tetrahedra) bits |= 1u << std::min<int>(31, localBit(m_Complex.labels[t]));
+  for (std::int32_t t : tetrahedra) bits |= bitOf(m_Complex.labels[t]);
   return bits;
 }
 
-/// The same for those of the tetrahedra that are at x.
-std::uint32_t GuardedOperations::bitsOf(const std::vector<std::int32_t>& tetrahedra, std::int32_t x)
+/// The same for those of the tetrahedra that are at x, or for those that are not.
+std::uint32_t GuardedOperations::bitsOf(const std::vector<std::int32_t>& tetrahedra, std::int32_t x, bool isAt)
 {
   std::uint32_t bits = 0;
   for (std::int32_t t : tetrahedra)
-    if (m_Complex.contains(t, x)) bits |= 1u << localBit(m_Complex.labels[t]);
+    if (m_Complex.contains(t, x) == isAt) bits |= bitOf(m_Complex.labels[t]);
   return bits;
 }
 
@@ -364,23 +368,7 @@ std::uint32_t GuardedOperations::closingOver(std::int32_t t, std::int32_t u, std
   const auto& c = m_Complex;
   const std::int32_t nu = c.neighbours[t][c.indexOf(t, v)], nv = c.neighbours[t][c.indexOf(t, u)];
   if (nu < 0 || nv < 0 || c.labels[nu] != c.labels[nv] || c.labels[nu] == c.labels[t]) return 0;
-  return 1u << localBit(c.labels[nu]);
-}
-
-/// Whether some label has a tetrahedron of the ring and nothing beside it: it would vanish.
-bool GuardedOperations::losesLabel(std::int32_t u, std::int32_t v) const
-{
-  const auto& c = m_Complex;
-  const std::size_t n = m_Ring.size();
-  for (std::size_t i = 0; i < n; ++i)
-  {
-    const std::int32_t t = m_Ring[i];
-    const auto isBeside = [&](std::int32_t other) { return other >= 0 && c.labels[other] == c.labels[t]; };
-    if (!isBeside(m_Ring[(i + 1) % n]) && !isBeside(m_Ring[(i + n - 1) % n]) &&
-        !isBeside(c.neighbours[t][c.indexOf(t, u)]) && !isBeside(c.neighbours[t][c.indexOf(t, v)]))
-      return true;
-  }
-  return false;
+  return bitOf(c.labels[nu]);
 }
 
 /// Whether `label` has a disc on the boundary of star(u) and star(v) together: connected, and of Euler number 1.
@@ -427,15 +415,17 @@ bool GuardedOperations::hasDisc(Label label, std::int32_t u, std::int32_t v) con
 ///     or beyond, must be a path.
 ///   - The share is a disc for certain if the label is not at edge uv, or closes over nothing and meets the link condition
 ///     (Dey, Edelsbrunner, Guha, Nekhayev 1999) on its own boundary; else it is looked at.
+/// Background that has no more than the ring of uv is enclosed by tissues, and may vanish: it is no tissue.
 /// Positive volumes see to the link condition on the tetrahedra themselves: the cone from v tiles star(u) only if it holds.
 bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v)
 {
   const auto& c = m_Complex;
   m_LocalLabels.clear();
-  const std::uint32_t atU = bitsOf(m_Star.tets), onEdge = bitsOf(m_Ring);
+  const std::uint32_t onEdge = bitsOf(m_Ring);
   if (bitCount(onEdge) < 2) return false;
-  const std::uint32_t atV = bitsOf(m_StarOfV.tets);
-  if (m_LocalLabels.size() > 30 || losesLabel(u, v)) return false;
+  const std::uint32_t besideU = bitsOf(m_Star.tets, v, false), besideV = bitsOf(m_StarOfV.tets, u, false);
+  const std::uint32_t lost = onEdge & ~(besideU | besideV);
+  if (m_LocalLabels.size() > mostLocalLabels || (lost != 0 && lost != bitOf(0))) return false;
 
   const std::size_t n = m_Ring.size();
   std::uint32_t doubtful = 0, closed = 0;
@@ -443,15 +433,15 @@ bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v)
   for (std::size_t i = 0; i < n; ++i)
   {
     const std::int32_t x = m_RingVertices[i], before = m_Ring[(i + n - 1) % n], after = m_Ring[i];
-    const std::uint32_t own = 1u << localBit(c.labels[after]), closing = closingOver(after, u, v);
-    const std::uint32_t onUX = bitsOf(m_Star.tets, x), onVX = bitsOf(m_StarOfV.tets, x);
+    const std::uint32_t own = bitOf(c.labels[after]), closing = closingOver(after, u, v);
+    const std::uint32_t onUX = bitsOf(m_Star.tets, x, true), onVX = bitsOf(m_StarOfV.tets, x, true);
     m_Common.push_back({ onUX & onVX, own | closing });
     closed |= closing;
     if (c.labels[before] == c.labels[after] && bitCount(onUX) > 1 && bitCount(onVX) > 1) doubtful |= own;
   }
   doubtful |= closed & onEdge;
-  m_RingLosesLabels = (doubtful | closed) != 0;
-  const std::uint32_t common = atU & atV;
+  m_RingLosesLabels = (doubtful | closed | lost) != 0;
+  const std::uint32_t common = (besideU | onEdge) & (besideV | onEdge) & ~lost;
   for (std::size_t k = 0; common >> k != 0; ++k)
   {
     if (!(common >> k & 1)) continue;
@@ -813,7 +803,8 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
 // --- relabelling ----------------------------------------------------------------------------------------------------
 
 /// Whether t can leave `label`, or go over to it, without a change of that label's topology: what has the label and what has
-/// not each meet t in one to three of its faces, and besides at these faces' edges and corners only.
+/// not each meet t in one to three of its faces, and besides at these faces' edges and corners only. A last tetrahedron of
+/// background among tissues may also go.
 bool GuardedOperations::isSimple(std::int32_t t, Label label)
 {
   const auto& c = m_Complex;
@@ -827,6 +818,7 @@ bool GuardedOperations::isSimple(std::int32_t t, Label label)
     return std::any_of(star.begin(), star.end(),
                        [&](std::int32_t s) { return s != t && (c.labels[s] == label) == has && c.contains(s, w); });
   };
+  if (shared == 0) return label == 0;
   if (shared == 1) return !meets(0, 0, true);
   if (shared == 3) return !meets(3, 3, false);
   return shared == 2 && !meets(0, 1, true) && !meets(2, 3, false);

@@ -168,7 +168,6 @@ private:
   double lenient(Label label, double q) const { return label == 0 ? q * backgroundLeniency : q; }
   bool keepsLength(std::int32_t end, std::int32_t x, std::int32_t v, const Vec3& p, double maximumRatio) const;
   bool keepsTissues(std::int32_t u, std::int32_t v);
-  bool losesLabel(std::int32_t u, std::int32_t v) const;
   bool hasDisc(Label label, std::int32_t u, std::int32_t v) const;
   bool meetsLabels(const std::vector<std::int32_t>& star) const;
   bool collapseKeepsEvidence(std::int32_t u, std::int32_t v, const Vec3& p);
@@ -191,9 +190,9 @@ private:
   void attachMoved();
   void clearEvidence();
   static bool has(LabelPair pair, Label label) { return (pair & 0xffff) == label || pair >> 16 == label; }
-  Label localBit(Label label);
+  std::uint32_t bitOf(Label label);
   std::uint32_t bitsOf(const std::vector<std::int32_t>& tetrahedra);
-  std::uint32_t bitsOf(const std::vector<std::int32_t>& tetrahedra, std::int32_t x);
+  std::uint32_t bitsOf(const std::vector<std::int32_t>& tetrahedra, std::int32_t x, bool isAt);
   std::uint32_t closingOver(std::int32_t t, std::int32_t u, std::int32_t v);
 
   TetComplex& m_Complex;

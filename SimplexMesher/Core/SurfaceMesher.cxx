@@ -132,7 +132,7 @@ void setTolerances(AmbientMesh& ambient, const TissueMap& map, const std::map<La
   const double room = roomFor(ambient, map);
   for (auto& e : ambient.evidence)
   {
-    double tolerance = room * (0.4 * voxel + 0.09 * scale(e.position));
+    double tolerance = room * (0.42 * voxel + 0.095 * scale(e.position));
     for (const Label label : labelsBeside(map, e.position))
       if (label != 0) tolerance = std::min(tolerance, std::max(0.6 * voxel, 0.28 * thickness.at(label)));
     e.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
