@@ -15,6 +15,7 @@ namespace
 
 constexpr int maximumRing = 10;
 constexpr std::size_t mostLocalLabels = 30;
+constexpr double mostAside = 2;
 
 int bitCount(std::uint32_t x)
 {
@@ -238,9 +239,9 @@ double GuardedOperations::squaredDistanceToBoth(const Sheet& sheet, const SheetP
 }
 
 /// Assigns every point of the sheet to the nearest new face of its labels; false if one would lie beyond its tolerance and
-/// farther than it does now, or if their mean square, in units of the tolerance, would exceed the limit and grow. It is
-/// enough that the boundary of either label stays within tolerance, where they cease to touch, which lets the point go, or
-/// where others come between.
+/// farther than it does now, or if their mean square, in units of the tolerance, would exceed the limit and grow. Up to
+/// mostAside tolerances from there it is enough that the boundary of either label stays within tolerance: others have come
+/// between. So it is where the two cease to touch, which lets the point go.
 bool GuardedOperations::evidenceStays(Sheet& sheet)
 {
   double sum = 0;
@@ -251,6 +252,7 @@ bool GuardedOperations::evidenceStays(Sheet& sheet)
     sum += std::min(1.0, point.distance2 / tolerance2);
     if (point.distance2 <= std::max(tolerance2, m_Stray2)) continue;
     if (kept && point.distance2 <= squaredDistanceNow(sheet, point) * (1 + 1e-9)) continue;
+    if (kept && point.distance2 > mostAside * mostAside * tolerance2) return false;
     if (squaredDistanceToBoth(sheet, point) > tolerance2) return false;
   }
   if (sum <= m_MeanSquareLimit * double(sheet.points.size())) return true;

@@ -7,7 +7,8 @@
 ///   - at every vertex, each label occupies one disc of the vertex's link, so each tissue's boundary is a 2-manifold and no
 ///     operation changes any tissue's topology; only background that tissues enclose may vanish;
 ///   - every evidence point (a place where the map says that the boundary between two labels is) lies within its tolerance
-///     of a face between these two labels, or of the boundary of either, once it does.
+///     of a face between these two labels, or of the boundary of either and twice as far from such a face if there is one,
+///     once it does.
 ///
 /// A complex may be a block cut out of a larger one. The vertices on its border, whose star may go on outside, are locked:
 /// no operation moves or removes them.

@@ -189,7 +189,7 @@ void expectQuality(const ComplexState& before, TetComplex& c, double minimumQual
 }
 
 /// Evidence stays within its tolerance of faces of its label pair, or no farther than it was; or both labels still have a
-/// boundary within the tolerance, if they have not vanished.
+/// boundary within the tolerance, if they have not vanished, and the pair faces within twice that, if any.
 void expectEvidenceKept(const std::vector<EvidencePlace>& before, const TetComplex& c, bool backgroundVanished)
 {
   const auto after = evidencePlaces(c);
@@ -205,6 +205,7 @@ void expectEvidenceKept(const std::vector<EvidencePlace>& before, const TetCompl
     {
       EXPECT_EQ(after[e].pair, before[e].pair) << "evidence " << e;
       if (after[e].distance <= std::max(tolerance, before[e].distance) * (1 + 1e-6)) continue;
+      EXPECT_LE(after[e].distance, 2 * tolerance * (1 + 1e-6)) << "evidence " << e;
     }
     for (Label label : before[e].pair)
     {
