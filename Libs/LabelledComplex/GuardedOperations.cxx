@@ -15,7 +15,6 @@ namespace
 
 constexpr int maximumRing = 10;
 constexpr std::size_t mostLocalLabels = 30;
-constexpr double mostAside = 2;
 
 int bitCount(std::uint32_t x)
 {
@@ -77,7 +76,8 @@ double squaredDistanceToTriangle(const Vec3& p, const Vec3& a, const Vec3& b, co
 
 GuardedOperations::GuardedOperations(TetComplex& complex, ScaleFunction scale, const Guards& guards)
   : m_Complex(complex), m_Scale(std::move(scale)), m_MeanSquareLimit(guards.rmsLimit * guards.rmsLimit),
-    m_SquaredSlack(guards.slack * guards.slack), m_TriangleWeight(guards.triangleWeight), m_Reach(guards.reach)
+    m_SquaredSlack(guards.slack * guards.slack), m_TriangleWeight(guards.triangleWeight), m_Reach(guards.reach),
+    m_SquaredAside(guards.aside * guards.aside)
 {
 }
 
@@ -239,9 +239,9 @@ double GuardedOperations::squaredDistanceToBoth(const Sheet& sheet, const SheetP
 }
 
 /// Assigns every point of the sheet to the nearest new face of its labels; false if one would lie beyond its tolerance and
-/// farther than it does now, or if their mean square, in units of the tolerance, would exceed the limit and grow. Up to
-/// mostAside tolerances from there it is enough that the boundary of either label stays within tolerance: others have come
-/// between. So it is where the two cease to touch, which lets the point go.
+/// farther than it does now, or if their mean square, in units of the tolerance, would exceed the limit and grow. Where
+/// others come between two labels, see Guards::aside; where these cease to touch, their points are let go if the boundary
+/// of either stays within tolerance.
 bool GuardedOperations::evidenceStays(Sheet& sheet)
 {
   double sum = 0;
@@ -252,7 +252,7 @@ bool GuardedOperations::evidenceStays(Sheet& sheet)
     sum += std::min(1.0, point.distance2 / tolerance2);
     if (point.distance2 <= std::max(tolerance2, m_Stray2)) continue;
     if (kept && point.distance2 <= squaredDistanceNow(sheet, point) * (1 + 1e-9)) continue;
-    if (kept && point.distance2 > mostAside * mostAside * tolerance2) return false;
+    if (kept && point.distance2 > m_SquaredAside * tolerance2) return false;
     if (squaredDistanceToBoth(sheet, point) > tolerance2) return false;
   }
   if (sum <= m_MeanSquareLimit * double(sheet.points.size())) return true;

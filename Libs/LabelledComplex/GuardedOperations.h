@@ -41,6 +41,9 @@ struct Guards
   /// In tolerances: a vertex between labels moves no farther than this from the nearest evidence of its faces, or no farther
   /// than it is. A spike gives good angles, and its sides pass the evidence at its foot however long it grows. 0: no bound.
   double reach = 0;
+  /// In tolerances, at least 1: where others have come between two labels, evidence may be this far from their faces, if it
+  /// has the boundary of either within tolerance.
+  double aside = 1;
 };
 
 class GuardedOperations
@@ -197,7 +200,7 @@ private:
 
   TetComplex& m_Complex;
   ScaleFunction m_Scale;
-  double m_MeanSquareLimit, m_SquaredSlack, m_TriangleWeight, m_Reach, m_Stray2 = 0;
+  double m_MeanSquareLimit, m_SquaredSlack, m_TriangleWeight, m_Reach, m_SquaredAside, m_Stray2 = 0;
   Star m_Star, m_StarOfV;               ///< of the vertex worked on, and of the one it may go into
   std::int32_t m_NeighboursVertex = -1; ///< whose m_Neighbours are; -1: nobody's
   std::vector<Neighbour> m_Neighbours;

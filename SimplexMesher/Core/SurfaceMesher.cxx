@@ -25,6 +25,7 @@ namespace
 constexpr double trimSlack = 1.1; // beyond that the surface withdraws where it is to be finest
 constexpr double relabelSlack = 1.6, spikeSlack = 2.1;
 constexpr double usualReach = 1.4; // likewise times the tolerance; see Guards
+constexpr double usualAside = 2;   // see Guards
 constexpr double triangleWeightAtSpikes = 1.6;
 constexpr double clearly = 0.9, byFar = 0.7; // see relabelBlock: the latter pays for a worse triangle
 constexpr double mostBalance = 0.5;          // voxels
@@ -425,6 +426,7 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
         const auto guarded = [&](Guards guards, const auto& change)
         {
           if (options.maximumDistance > 0) guards.slack = 1;
+          else guards.aside = usualAside;
           GuardedOperations operations(block, lengthAt, guards);
           change(operations);
           evolution.count(operations.counts);

@@ -45,7 +45,8 @@ inline std::string faultOf(const SurfaceMesh& result, const TissueMap& map)
   if (result.ambient.lengths.size() != mesh.points.size()) return "there is not one target length per point";
   const auto neighbours = faceNeighbours(mesh);
   const Vec3 h = map.grid.spacing;
-  const auto allowed = [&](double tolerance) { return 2.4 * tolerance + std::min({ h.x, h.y, h.z }); };
+  constexpr double slack = 2.4, aside = 2; // see Guards
+  const auto allowed = [&](double tolerance) { return aside * slack * tolerance + std::min({ h.x, h.y, h.z }); };
   for (const auto& e : result.ambient.evidence)
   {
     const std::int32_t n = neighbours.across[e.tetrahedron][e.face];
