@@ -12,8 +12,7 @@ struct CoarseningOptions
   double longEdge = 1.4;   ///< no collapse makes an edge longer than this share of the target
   double minimumAngle = 8; ///< degrees; no collapse leaves a worse dihedral angle (nor one above 180 minus it)
   bool fit = true;         ///< try the position that fits the evidence best instead of an edge's middle
-  bool thorough = true;    ///< try also a vertex's own place for the two and others between, and all neighbours again after
-                           ///< each collapse
+  bool thorough = true;    ///< try more places for the two, and all neighbours again after each collapse
   double goodAngle = 20;   ///< degrees; a collapse that keeps this much is taken at once
 };
 

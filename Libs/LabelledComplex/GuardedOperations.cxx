@@ -558,8 +558,7 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
     if (std::find(m_Refused.begin(), m_Refused.end(), v) != m_Refused.end()) return false;
     starOfTarget(v);
     const auto seed = std::find_if(star.begin(), star.end(), [&](std::int32_t t) { return c.contains(t, v); });
-    if (seed == star.end() || !c.ring(u, v, *seed, m_Ring, m_RingVertices) ||
-        !keepsTissues(u, v))
+    if (seed == star.end() || !c.ring(u, v, *seed, m_Ring, m_RingVertices) || !keepsTissues(u, v))
     {
       m_Refused.push_back(v);
       return false;

@@ -214,7 +214,7 @@ private:
   std::uint32_t m_Search = 0;
   std::int32_t m_RefusedVertex = -1; ///< whose collapses onto m_Refused would change a tissue's topology; -1: nobody's
   std::vector<std::int32_t> m_Refused;
-  std::vector<std::int32_t> m_Ring, m_RingVertices, m_EdgeRing, m_EdgeRingVertices;
+  std::vector<std::int32_t> m_Ring, m_RingVertices;
   std::int32_t m_SheetVertex = -1; ///< whose m_SheetAt is; -1: nobody's
   Sheet m_SheetAt;
   Sheet m_Changed; ///< the faces that an operation changes
@@ -225,8 +225,8 @@ private:
   {
     std::uint32_t atVertex, atEdge;
   };
-  std::vector<Common> m_Common; ///< of a ring
-  bool m_RingLosesLabels = false;    ///< whether one may leave vertices of the ring
+  std::vector<Common> m_Common;   ///< of a ring
+  bool m_RingLosesLabels = false; ///< whether one may leave vertices of the ring
 };
 
 /// Squared distance from p to triangle abc, mm^2.

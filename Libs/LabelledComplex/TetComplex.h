@@ -45,11 +45,10 @@ public:
   std::vector<Vec3> points;
   std::vector<float> lengths;
   std::vector<std::uint8_t> locked;
-  std::vector<std::uint8_t>
-    onInterface;                       ///< per vertex: tetrahedra of different labels meet there
-  std::vector<std::int32_t> vertexTet; ///< some tetrahedron at each vertex
-  std::vector<Tet> tets;               ///< vertices
-  std::vector<Tet> neighbours;         ///< [i] across the face opposite vertex i; -1 beyond a block
+  std::vector<std::uint8_t> onInterface; ///< per vertex: tetrahedra of different labels meet there
+  std::vector<std::int32_t> vertexTet;   ///< some tetrahedron at each vertex
+  std::vector<Tet> tets;                 ///< vertices
+  std::vector<Tet> neighbours;           ///< [i] across the face opposite vertex i; -1 beyond a block
   std::vector<Label> labels;
   std::vector<std::array<std::int32_t, 4>> evidenceHeads; ///< per face, held by the side of the larger label (on a
                                                           ///< block's border, by the block that has that side)

@@ -519,8 +519,7 @@ TEST(Collapse, HappensWhereverEveryTissueStaysAsItWas)
   for (unsigned seed = 1; seed <= 40; ++seed)
   {
     std::mt19937 random(seed);
-    TetComplex complex =
-      withoutEvidence(tetrahedraOf(randomWellComposedMap(random, { 4, 4, 4 }, 1 + int(seed % 5))));
+    TetComplex complex = withoutEvidence(tetrahedraOf(randomWellComposedMap(random, { 4, 4, 4 }, 1 + int(seed % 5))));
     GuardedOperations operations(complex, unitScale);
     const auto topology = topologyOf(complex);
     for (int n = 0; n < 400; ++n)
