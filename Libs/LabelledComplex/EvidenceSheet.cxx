@@ -27,20 +27,23 @@ void Sheet::clear()
   points.clear();
 }
 
-void Sheet::add(const TetComplex& complex, std::int32_t t, int face)
+void Sheet::addFace(const TetComplex& complex, std::int32_t t, int face)
 {
   const auto& v = complex.tets[t];
-  const auto holder = complex.holder(t, face);
-  const std::int32_t from = std::int32_t(faces.size());
   faces.push_back({ t,
                     face,
                     labelPair(complex.labels[t], complex.labels[complex.neighbours[t][face]]),
                     { v[(face + 1) & 3], v[(face + 2) & 3], v[(face + 3) & 3] },
-                    holder });
-  for (std::int32_t e = complex.evidenceHeads[holder.first][holder.second]; e >= 0; e = complex.evidence[e].next)
+                    complex.holder(t, face) });
+}
+
+void Sheet::addPoints(const TetComplex& complex, std::size_t k)
+{
+  const auto [t, face] = faces[k].holder;
+  for (std::int32_t e = complex.evidenceHeads[t][face]; e >= 0; e = complex.evidence[e].next)
   {
     const double tolerance = complex.evidence[e].tolerance;
-    points.push_back({ complex.evidence[e].position, tolerance * tolerance, e, from, -1, 0 });
+    points.push_back({ complex.evidence[e].position, tolerance * tolerance, e, std::int32_t(k), -1, 0 });
   }
 }
 
@@ -52,8 +55,9 @@ void gatherSheet(const TetComplex& complex, std::int32_t v, const std::vector<st
     for (int i = 0; i < 4; ++i)
     {
       const std::int32_t n = complex.neighbours[t][i];
-      if (complex.tets[t][i] != v && n > t && complex.labels[n] != complex.labels[t]) sheet.add(complex, t, i);
+      if (complex.tets[t][i] != v && n > t && complex.labels[n] != complex.labels[t]) sheet.addFace(complex, t, i);
     }
+  for (std::size_t k = 0; k < sheet.faces.size(); ++k) sheet.addPoints(complex, k);
 }
 
 Fit fitOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust)

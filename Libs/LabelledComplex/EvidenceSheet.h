@@ -35,8 +35,10 @@ struct Sheet
   std::vector<SheetPoint> points; ///< in the order of their faces
 
   void clear();
-  /// Adds the face opposite vertex `face` of t, which must separate two labels, and its evidence.
-  void add(const TetComplex& complex, std::int32_t t, int face);
+  /// Adds the face opposite vertex `face` of t, which must separate two labels.
+  void addFace(const TetComplex& complex, std::int32_t t, int face);
+  /// Adds the evidence of face number k, once that of those before it is there.
+  void addPoints(const TetComplex& complex, std::size_t k);
 };
 
 /// Collects the interface faces at v, each once, whose tetrahedra are `star`.

@@ -151,13 +151,13 @@ void GuardedOperations::clearEvidence()
   m_NewFaces.clear();
 }
 
-/// Takes note of the interface face (t, face) and its evidence, once.
+/// Takes note of the interface face (t, face), once.
 void GuardedOperations::gather(std::int32_t t, int face)
 {
   const auto holder = m_Complex.holder(t, face);
   const auto& known = m_Changed.faces;
   if (std::none_of(known.begin(), known.end(), [&](const SheetFace& f) { return f.holder == holder; }))
-    m_Changed.add(m_Complex, t, face);
+    m_Changed.addFace(m_Complex, t, face);
 }
 
 void GuardedOperations::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids,
@@ -238,28 +238,50 @@ double GuardedOperations::squaredDistanceToBoth(const Sheet& sheet, const SheetP
   return std::max(toBoundary(Label(labels)), toBoundary(Label(labels >> 16)));
 }
 
-/// Assigns every point of the sheet to the nearest new face of its labels; false if one would lie beyond its tolerance and
-/// farther than it does now, or if their mean square, in units of the tolerance, would exceed the limit and grow. Where
-/// others come between two labels, see Guards::aside; where these cease to touch, their points are let go if the boundary
-/// of either stays within tolerance.
-bool GuardedOperations::evidenceStays(Sheet& sheet)
+/// Assigns a point to the nearest new face of its labels; false if it would lie beyond its tolerance and farther than it does
+/// now. Where others come between two labels, see Guards::aside; where these cease to touch, their points are let go if the
+/// boundary of either stays within tolerance.
+bool GuardedOperations::pointStays(const Sheet& sheet, SheetPoint& point)
+{
+  const double tolerance2 = m_SquaredSlack * point.tolerance2;
+  const bool kept = nearestFace(sheet, point);
+  if (point.distance2 <= std::max(tolerance2, m_Stray2)) return true;
+  if (kept && point.distance2 <= squaredDistanceNow(sheet, point) * (1 + 1e-9)) return true;
+  if (kept && point.distance2 > m_SquaredAside * tolerance2) return false;
+  return squaredDistanceToBoth(sheet, point) <= tolerance2;
+}
+
+/// Whether the mean square of the points' distances, in units of the tolerance, is within the limit or does not grow.
+bool GuardedOperations::meanSquareStays(const Sheet& sheet)
 {
   double sum = 0;
-  for (SheetPoint& point : sheet.points)
-  {
-    const double tolerance2 = m_SquaredSlack * point.tolerance2;
-    const bool kept = nearestFace(sheet, point);
-    sum += std::min(1.0, point.distance2 / tolerance2);
-    if (point.distance2 <= std::max(tolerance2, m_Stray2)) continue;
-    if (kept && point.distance2 <= squaredDistanceNow(sheet, point) * (1 + 1e-9)) continue;
-    if (kept && point.distance2 > m_SquaredAside * tolerance2) return false;
-    if (squaredDistanceToBoth(sheet, point) > tolerance2) return false;
-  }
+  for (const SheetPoint& point : sheet.points)
+    sum += std::min(1.0, point.distance2 / (m_SquaredSlack * point.tolerance2));
   if (sum <= m_MeanSquareLimit * double(sheet.points.size())) return true;
   double before = 0;
   for (const SheetPoint& point : sheet.points)
     before += std::min(1.0, squaredDistanceNow(sheet, point) / (m_SquaredSlack * point.tolerance2));
   return sum <= before * (1 + 1e-9);
+}
+
+bool GuardedOperations::evidenceStays(Sheet& sheet)
+{
+  return std::all_of(sheet.points.begin(), sheet.points.end(),
+                     [&](SheetPoint& point) { return pointStays(sheet, point); }) &&
+         meanSquareStays(sheet);
+}
+
+/// The same for the faces gathered: their points are fetched as they are needed, for most refusals come early.
+bool GuardedOperations::changedEvidenceStays()
+{
+  for (std::size_t k = 0; k < m_Changed.faces.size(); ++k)
+  {
+    std::size_t i = m_Changed.points.size();
+    m_Changed.addPoints(m_Complex, k);
+    for (; i < m_Changed.points.size(); ++i)
+      if (!pointStays(m_Changed, m_Changed.points[i])) return false;
+  }
+  return meanSquareStays(m_Changed);
 }
 
 /// After evidenceStays: whether at most this share would be left of the squared distances, in units of the tolerance, of the
@@ -347,20 +369,24 @@ std::uint32_t GuardedOperations::bitOf(Label label)
   return 1u << std::min<std::size_t>(k, mostLocalLabels);
 }
 
-std::uint32_t GuardedOperations::bitsOf(const std::vector<std::int32_t>& tetrahedra)
+/// The labels of an end's star that are not at the edge's other end; and which of them are at each vertex of the ring, which
+/// m_Places numbers.
+std::uint32_t GuardedOperations::lookAround(const std::vector<std::int32_t>& star, std::int32_t other,
+                                            std::uint32_t RingLabels::*atEnd)
 {
-  std::uint32_t bits = 0;
-  for (std::int32_t t : tetrahedra) bits |= bitOf(m_Complex.labels[t]);
-  return bits;
-}
-
-/// The same for those of the tetrahedra that are at x, or for those that are not.
-std::uint32_t GuardedOperations::bitsOf(const std::vector<std::int32_t>& tetrahedra, std::int32_t x, bool isAt)
-{
-  std::uint32_t bits = 0;
-  for (std::int32_t t : tetrahedra)
-    if (m_Complex.contains(t, x) == isAt) bits |= bitOf(m_Complex.labels[t]);
-  return bits;
+  std::uint32_t beside = 0;
+  for (std::int32_t t : star)
+  {
+    const std::uint32_t bit = bitOf(m_Complex.labels[t]);
+    bool isAtOther = false;
+    for (std::int32_t x : m_Complex.tets[t])
+    {
+      isAtOther |= x == other;
+      if (const Place& place = m_Places[x]; place.search == m_Search) m_RingLabels[place.at].*atEnd |= bit;
+    }
+    if (!isAtOther) beside |= bit;
+  }
+  return beside;
 }
 
 /// The label, as a bit, that closes over tetrahedron t of the ring of uv once that is gone: the one beyond both its faces; 0
@@ -422,24 +448,29 @@ bool GuardedOperations::hasDisc(Label label, std::int32_t u, std::int32_t v) con
 bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v)
 {
   const auto& c = m_Complex;
+  const std::size_t n = m_Ring.size();
   m_LocalLabels.clear();
-  const std::uint32_t onEdge = bitsOf(m_Ring);
+  std::uint32_t onEdge = 0;
+  for (std::int32_t t : m_Ring) onEdge |= bitOf(c.labels[t]);
   if (bitCount(onEdge) < 2) return false;
-  const std::uint32_t besideU = bitsOf(m_Star.tets, v, false), besideV = bitsOf(m_StarOfV.tets, u, false);
+  m_RingLabels.assign(n, {});
+  m_Places.resize(c.points.size());
+  ++m_Search;
+  for (std::size_t i = 0; i < n; ++i) m_Places[m_RingVertices[i]] = { m_Search, std::int32_t(i) };
+  const std::uint32_t besideU = lookAround(m_Star.tets, v, &RingLabels::atU);
+  const std::uint32_t besideV = lookAround(m_StarOfV.tets, u, &RingLabels::atV);
   const std::uint32_t lost = onEdge & ~(besideU | besideV);
   if (m_LocalLabels.size() > mostLocalLabels || (lost != 0 && lost != bitOf(0))) return false;
 
-  const std::size_t n = m_Ring.size();
   std::uint32_t doubtful = 0, closed = 0;
-  m_Common.clear();
   for (std::size_t i = 0; i < n; ++i)
   {
-    const std::int32_t x = m_RingVertices[i], before = m_Ring[(i + n - 1) % n], after = m_Ring[i];
+    auto& [atU, atV, atEdge] = m_RingLabels[i];
+    const std::int32_t before = m_Ring[(i + n - 1) % n], after = m_Ring[i];
     const std::uint32_t own = bitOf(c.labels[after]), closing = closingOver(after, u, v);
-    const std::uint32_t onUX = bitsOf(m_Star.tets, x, true), onVX = bitsOf(m_StarOfV.tets, x, true);
-    m_Common.push_back({ onUX & onVX, own | closing });
+    atEdge = own | closing;
     closed |= closing;
-    if (c.labels[before] == c.labels[after] && bitCount(onUX) > 1 && bitCount(onVX) > 1) doubtful |= own;
+    if (c.labels[before] == c.labels[after] && bitCount(atU) > 1 && bitCount(atV) > 1) doubtful |= own;
   }
   doubtful |= closed & onEdge;
   m_RingLosesLabels = (doubtful | closed | lost) != 0;
@@ -448,7 +479,7 @@ bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v)
   {
     if (!(common >> k & 1)) continue;
     std::uint32_t vertices = 0, edges = 0;
-    for (const auto& [atVertex, atEdge] : m_Common) vertices += atVertex >> k & 1, edges += atEdge >> k & 1;
+    for (const auto& [atU, atV, atEdge] : m_RingLabels) vertices += (atU & atV) >> k & 1, edges += atEdge >> k & 1;
     if (edges == 0 || vertices != edges + 1) return false;
     if (doubtful >> k & 1 && !hasDisc(m_LocalLabels[k], u, v)) return false;
   }
@@ -513,7 +544,7 @@ bool GuardedOperations::collapseKeepsEvidence(std::int32_t u, std::int32_t v, co
     while (c.neighbours[nu][opposite] != t) ++opposite;
     addMoved(t, iu, c.labels[nu], c.labels[nv], nu, opposite, true);
   }
-  return evidenceStays(m_Changed);
+  return changedEvidenceStays();
 }
 
 double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast,
@@ -749,7 +780,7 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
     const std::int32_t p = m_RingVertices[0], q = m_RingVertices[second];
     for (std::int32_t end : { a, b })
       addNewFace(c.points[end], c.points[p], c.points[q], { end, p, q }, c.labels[m_Ring[0]], c.labels[m_Ring[second]]);
-    if (!newFacesAreGood(minimumQuality) || !evidenceStays(m_Changed)) return false;
+    if (!newFacesAreGood(minimumQuality) || !changedEvidenceStays()) return false;
     detachEvidence(m_Changed);
   }
   const auto ids = c.replace(m_Ring, fresh, labels);
@@ -780,7 +811,7 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
     for (std::int32_t end : { a, b })
       addNewFace(c.points[end], p, c.points[x], { end, m, x }, c.labels[t], c.labels[before]);
   }
-  if (!newFacesAreGood(minimumQuality) || !evidenceStays(m_Changed)) return false;
+  if (!newFacesAreGood(minimumQuality) || !changedEvidenceStays()) return false;
   detachEvidence(m_Changed);
   c.addVertex(p, m_Scale(p), !m_NewFaces.empty());
   std::vector<TetComplex::Tet> fresh;
@@ -842,7 +873,7 @@ bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuali
     if (beyond != own) gather(t, i);
     if (beyond != label) addNewFace(c.points[ids[0]], c.points[ids[1]], c.points[ids[2]], ids, beyond, label);
   }
-  if (!newFacesAreGood(minimumQuality) || !evidenceStays(m_Changed)) return false;
+  if (!newFacesAreGood(minimumQuality) || !changedEvidenceStays()) return false;
   if (mostLeft < anyShare && !comesNearer(m_Changed, mostLeft)) return false;
   detachEvidence(m_Changed);
   c.labels[t] = label;

@@ -156,6 +156,11 @@ private:
     bool changes;
   };
 
+  struct RingLabels ///< one vertex of the ring of an edge uv: as bits, the labels at its edges to u and to v, and those that
+  {                 ///< both ends have at the edge of the ring after it
+    std::uint32_t atU = 0, atV = 0, atEdge = 0;
+  };
+
   struct Star
   {
     std::int32_t vertex = -1; ///< -1: nobody's
@@ -184,7 +189,10 @@ private:
   double squaredDistanceNow(const Sheet& sheet, const SheetPoint& point);
   bool nearestFace(const Sheet& sheet, SheetPoint& point) const;
   double squaredDistanceToBoth(const Sheet& sheet, const SheetPoint& point) const;
+  bool pointStays(const Sheet& sheet, SheetPoint& point);
+  bool meanSquareStays(const Sheet& sheet);
   bool evidenceStays(Sheet& sheet);
+  bool changedEvidenceStays();
   bool comesNearer(const Sheet& sheet, double mostLeft);
   bool growsSpike(std::int32_t v, const Vec3& p);
   void detachEvidence(const Sheet& sheet);
@@ -194,8 +202,7 @@ private:
   void clearEvidence();
   static bool has(LabelPair pair, Label label) { return (pair & 0xffff) == label || pair >> 16 == label; }
   std::uint32_t bitOf(Label label);
-  std::uint32_t bitsOf(const std::vector<std::int32_t>& tetrahedra);
-  std::uint32_t bitsOf(const std::vector<std::int32_t>& tetrahedra, std::int32_t x, bool isAt);
+  std::uint32_t lookAround(const std::vector<std::int32_t>& star, std::int32_t other, std::uint32_t RingLabels::*atEnd);
   std::uint32_t closingOver(std::int32_t t, std::int32_t u, std::int32_t v);
 
   TetComplex& m_Complex;
@@ -210,8 +217,14 @@ private:
     std::int32_t at = 0; ///< in m_Neighbours
     Label label = 0;
   };
-  std::vector<Seen> m_Seen; ///< per vertex, by the search for neighbours of that number
+  std::vector<Seen> m_Seen; ///< per vertex, by the search of that number
   std::uint32_t m_Search = 0;
+  struct Place
+  {
+    std::uint32_t search = 0;
+    std::int32_t at = 0; ///< in m_RingVertices
+  };
+  std::vector<Place> m_Places; ///< likewise
   std::int32_t m_RefusedVertex = -1; ///< whose collapses onto m_Refused would change a tissue's topology; -1: nobody's
   std::vector<std::int32_t> m_Refused;
   std::vector<std::int32_t> m_Ring, m_RingVertices;
@@ -221,11 +234,7 @@ private:
   std::vector<Face> m_NewFaces;
   std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of the new faces
   std::vector<Label> m_LocalLabels;
-  struct Common ///< labels of both stars
-  {
-    std::uint32_t atVertex, atEdge;
-  };
-  std::vector<Common> m_Common;   ///< of a ring
+  std::vector<RingLabels> m_RingLabels;
   bool m_RingLosesLabels = false; ///< whether one may leave vertices of the ring
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace surgicalmesher
 {
@@ -313,14 +314,17 @@ private:
     const double size = m_Complex.lengths[v];
     double step = 0.12 * size;
     const Fit held = heldAt(m_Operations, v, m_Options.ease);
+    std::optional<Vec3> uphill; // from where v is now
     for (int trial = 0; trial < m_Options.trials && best < m_Target && step > 0.004 * size; ++trial)
     {
       const Vec3 p = m_Complex.points[v];
-      const Vec3 direction = easiest(held, trial % 3 != 2 ? gradient(v, p, best, 1e-4 * size) : m_Directions.next());
-      const Vec3 q = p + step * direction;
+      const bool isRandom = trial % 3 == 2;
+      if (!isRandom && !uphill) uphill = easiest(held, gradient(v, p, best, 1e-4 * size));
+      const Vec3 q = p + step * (isRandom ? easiest(held, m_Directions.next()) : *uphill);
       if (m_Operations.qualityAt(v, q, best) > best && m_Operations.moveWithin(v, q))
       {
         best = m_Operations.qualityAt(v);
+        uphill.reset();
         step *= 1.3;
       }
       else step *= 0.8;
