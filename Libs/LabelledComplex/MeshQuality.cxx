@@ -7,6 +7,7 @@
 
 #include <rapidjson/prettywriter.h>
 #include <rapidjson/stringbuffer.h>
+#include <vtkSMPTools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,7 @@ constexpr double kDegrees = 57.295779513082321;
 
 struct Samples
 {
+  std::size_t points = 0;
   std::vector<double> dihedral, minimumDihedral, radiusRatio, scaledJacobian, volume, edgeOverTarget, valence;
 };
 
@@ -63,83 +65,151 @@ std::vector<std::int32_t> valences(const TetraMesh& mesh)
   return result;
 }
 
+/// The edges of a mesh, ascending by their ends.
+struct Edges
+{
+  std::vector<std::array<std::int32_t, 2>> ends;          ///< point ids, ascending
+  std::vector<std::array<std::int32_t, 6>> ofTetrahedron; ///< numbers of edges, in the order of kEdgeCorners
+};
+
+Edges edgesOf(const TetraMesh& mesh)
+{
+  struct Use
+  {
+    std::int32_t high;
+    std::int32_t tetrahedron, local;
+  };
+  const std::size_t n = mesh.points.size();
+  // Counted by their lower ends, some thirty are left to sort for each.
+  std::vector<std::size_t> end(n + 1, 0);
+  const auto forEachUse = [&](auto&& f)
+  {
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+      for (int e = 0; e < 6; ++e)
+      {
+        const auto [low, high] =
+          std::minmax(mesh.tetrahedra[t][kEdgeCorners[e][0]], mesh.tetrahedra[t][kEdgeCorners[e][1]]);
+        f(low, Use{ high, std::int32_t(t), e });
+      }
+  };
+  forEachUse([&](std::int32_t low, const Use&) { ++end[low + 1]; });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<Use> uses(end.back());
+  forEachUse([&](std::int32_t low, const Use& use) { uses[end[low]++] = use; });
+  vtkSMPTools::For(0, vtkIdType(n),
+                   [&](vtkIdType first, vtkIdType last)
+                   {
+                     for (vtkIdType v = first; v < last; ++v)
+                       std::sort(uses.begin() + (v ? end[v - 1] : 0), uses.begin() + end[v],
+                                 [](const Use& a, const Use& b) { return a.high < b.high; });
+                   });
+  Edges edges;
+  edges.ofTetrahedron.resize(mesh.tetrahedra.size());
+  for (std::size_t v = 0, i = 0; v < n; ++v)
+    for (std::int32_t before = -1; i < end[v]; before = uses[i++].high)
+    {
+      if (uses[i].high != before) edges.ends.push_back({ std::int32_t(v), uses[i].high });
+      edges.ofTetrahedron[uses[i].tetrahedron][uses[i].local] = std::int32_t(edges.ends.size()) - 1;
+    }
+  return edges;
+}
+
+struct TetrahedronMeasures
+{
+  std::array<double, 6> dihedral;
+  double minimumDihedral, radiusRatio, scaledJacobian, volume;
+};
+
+TetrahedronMeasures measuresOf(const TetraMesh& mesh, std::size_t t)
+{
+  const auto& ids = mesh.tetrahedra[t];
+  const Vec3 &a = mesh.points[ids[0]], &b = mesh.points[ids[1]], &c = mesh.points[ids[2]], &d = mesh.points[ids[3]];
+  const std::array<double, 6> angles = dihedralAngles(a, b, c, d);
+  return { angles, *std::min_element(angles.begin(), angles.end()), radiusRatio(a, b, c, d), scaledJacobian(a, b, c, d),
+           orient(a, b, c, d) / 6 };
+}
+
 /// What every group is assessed from, found once.
 struct Context
 {
   const TetraMesh& mesh;
-  const std::function<double(const Vec3&)>& edgeLength;
   std::vector<std::int32_t> inner = innerPoints(mesh);
   std::vector<std::int32_t> valence = valences(mesh);
+  std::vector<TetrahedronMeasures> measures;
+  Edges edges;
+  std::vector<double> edgeOverTarget; ///< by edge; empty without a target
+
+  Context(const TetraMesh& ofMesh, const std::function<double(const Vec3&)>& edgeLength)
+    : mesh(ofMesh), measures(mesh.tetrahedra.size())
+  {
+    vtkSMPTools::For(0, vtkIdType(measures.size()),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType t = begin; t < end; ++t) measures[t] = measuresOf(mesh, std::size_t(t));
+                     });
+    if (!edgeLength) return;
+    edges = edgesOf(mesh);
+    edgeOverTarget.resize(edges.ends.size());
+    vtkSMPTools::For(0, vtkIdType(edgeOverTarget.size()),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType e = begin; e < end; ++e)
+                       {
+                         const Vec3 &a = mesh.points[edges.ends[e][0]], &b = mesh.points[edges.ends[e][1]];
+                         edgeOverTarget[e] = norm(b - a) / edgeLength(0.5 * (a + b));
+                       }
+                     });
+  }
 };
 
 std::vector<double> edgesOverTarget(const Context& context, const std::vector<std::int32_t>& tetrahedra)
 {
   std::vector<double> result;
-  if (!context.edgeLength) return result;
-  std::vector<std::pair<std::int32_t, std::int32_t>> edges;
-  edges.reserve(6 * tetrahedra.size());
+  if (context.edgeOverTarget.empty()) return result;
+  std::vector<std::uint8_t> used(context.edgeOverTarget.size(), 0);
   for (const std::int32_t t : tetrahedra)
-  {
-    for (const auto& [i, j] : kEdgeCorners)
-    {
-      const std::int32_t a = context.mesh.tetrahedra[t][i], b = context.mesh.tetrahedra[t][j];
-      edges.emplace_back(std::min(a, b), std::max(a, b));
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-  for (const auto& [i, j] : edges)
-  {
-    const Vec3 &a = context.mesh.points[i], &b = context.mesh.points[j];
-    result.push_back(norm(b - a) / context.edgeLength(0.5 * (a + b)));
-  }
+    for (const std::int32_t e : context.edges.ofTetrahedron[t]) used[e] = 1;
+  for (std::size_t e = 0; e < used.size(); ++e)
+    if (used[e]) result.push_back(context.edgeOverTarget[e]);
   return result;
+}
+
+/// Tetrahedra of a group at each point of the mesh.
+std::vector<std::int32_t> usesOf(const TetraMesh& mesh, const std::vector<std::int32_t>& tetrahedra)
+{
+  std::vector<std::int32_t> uses(mesh.points.size(), 0);
+  for (const std::int32_t t : tetrahedra)
+    for (const std::int32_t id : mesh.tetrahedra[t]) ++uses[id];
+  return uses;
 }
 
 Samples samplesOf(const Context& context, const std::vector<std::int32_t>& tetrahedra)
 {
   Samples samples;
-  std::vector<std::int32_t> inGroup;
   for (const std::int32_t t : tetrahedra)
   {
-    const auto& ids = context.mesh.tetrahedra[t];
-    const Vec3 &a = context.mesh.points[ids[0]], &b = context.mesh.points[ids[1]];
-    const Vec3 &c = context.mesh.points[ids[2]], &d = context.mesh.points[ids[3]];
-    const std::array<double, 6> angles = dihedralAngles(a, b, c, d);
-    samples.dihedral.insert(samples.dihedral.end(), angles.begin(), angles.end());
-    samples.minimumDihedral.push_back(*std::min_element(angles.begin(), angles.end()));
-    samples.radiusRatio.push_back(radiusRatio(a, b, c, d));
-    samples.scaledJacobian.push_back(scaledJacobian(a, b, c, d));
-    samples.volume.push_back(orient(a, b, c, d) / 6);
-    inGroup.insert(inGroup.end(), ids.begin(), ids.end());
+    const TetrahedronMeasures& m = context.measures[t];
+    samples.dihedral.insert(samples.dihedral.end(), m.dihedral.begin(), m.dihedral.end());
+    samples.minimumDihedral.push_back(m.minimumDihedral);
+    samples.radiusRatio.push_back(m.radiusRatio);
+    samples.scaledJacobian.push_back(m.scaledJacobian);
+    samples.volume.push_back(m.volume);
   }
-  std::sort(inGroup.begin(), inGroup.end());
-  for (std::size_t begin = 0, end; begin < inGroup.size(); begin = end)
+  const std::vector<std::int32_t> uses = usesOf(context.mesh, tetrahedra);
+  for (std::size_t id = 0; id < uses.size(); ++id)
   {
-    for (end = begin + 1; end < inGroup.size() && inGroup[end] == inGroup[begin];) ++end;
-    const std::int32_t id = inGroup[begin];
-    const auto count = static_cast<std::int32_t>(end - begin);
-    if (context.inner[id] >= 0 && count == context.valence[id]) samples.valence.push_back(count);
+    samples.points += uses[id] > 0;
+    if (uses[id] > 0 && context.inner[id] >= 0 && uses[id] == context.valence[id]) samples.valence.push_back(uses[id]);
   }
   samples.edgeOverTarget = edgesOverTarget(context, tetrahedra);
   return samples;
 }
 
-std::size_t countPoints(const TetraMesh& mesh, const std::vector<std::int32_t>& tetrahedra)
-{
-  std::vector<bool> used(mesh.points.size(), false);
-  for (const std::int32_t t : tetrahedra)
-  {
-    for (const std::int32_t id : mesh.tetrahedra[t]) used[id] = true;
-  }
-  return std::count(used.begin(), used.end(), true);
-}
-
-QualityGroup groupOf(const Context& context, const std::vector<std::int32_t>& tetrahedra, const Samples& samples)
+QualityGroup groupOf(const std::vector<std::int32_t>& tetrahedra, const Samples& samples)
 {
   QualityGroup group;
   group.tetrahedra = tetrahedra.size();
-  group.points = countPoints(context.mesh, tetrahedra);
+  group.points = samples.points;
   group.volume = std::accumulate(samples.volume.begin(), samples.volume.end(), 0.0);
   group.dihedral = distributionOf(samples.dihedral);
   group.minimumDihedral = distributionOf(samples.minimumDihedral);
@@ -316,7 +386,7 @@ std::size_t countBelow(const TetraMesh& mesh, double degrees)
 MeshQuality assessQuality(const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh,
                           const std::function<double(const Vec3&)>& edgeLength)
 {
-  const Context context{ mesh, edgeLength };
+  const Context context(mesh, edgeLength);
   std::vector<std::int32_t> all(mesh.tetrahedra.size());
   std::iota(all.begin(), all.end(), 0);
   std::map<Label, std::vector<std::int32_t>> byTissue;
@@ -333,13 +403,13 @@ MeshQuality assessQuality(const TetraMesh& mesh, const std::vector<std::int32_t>
     [&]
     {
       const Samples samples = samplesOf(context, all);
-      result.whole = groupOf(context, all, samples);
+      result.whole = groupOf(all, samples);
       result.dihedral = histogramOf(samples.dihedral, 0, 180, 90);
       result.edgeOverTarget = histogramOf(samples.edgeOverTarget, 0, 2.5, 100);
       result.valence = histogramOf(samples.valence, 0, 60, 60);
     });
   const auto add = [&](QualityGroup& group, const std::vector<std::int32_t>& tetrahedra)
-  { tasks.push_back([&] { group = groupOf(context, tetrahedra, samplesOf(context, tetrahedra)); }); };
+  { tasks.push_back([&] { group = groupOf(tetrahedra, samplesOf(context, tetrahedra)); }); };
   for (const auto& [id, tetrahedra] : bySubMesh) add(result.subMeshes[id], tetrahedra);
   for (const auto& [label, tetrahedra] : byTissue) add(result.tissues[label], tetrahedra);
   runInParallel(tasks);

@@ -3,48 +3,94 @@
 #include <vtkSMPTools.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace surgicalmesher
 {
 
+namespace
+{
+
+using Voxel = std::array<int, 3>;
+
+Label labelAt(const TissueMap& map, const Voxel& v)
+{
+  return map.grid.contains(v[0], v[1], v[2]) ? map.labels[map.grid.index(v[0], v[1], v[2])] : Label(0);
+}
+
+/// Squared distance from p, mm from the first voxel's centre, to the face between v and the next voxel along the axis.
+double squaredDistanceToFace(const Vec3& p, const Voxel& v, int axis, const Vec3& spacing)
+{
+  double d2 = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double off = std::abs(p[a] - (a == axis ? v[a] + 0.5 : v[a]) * spacing[a]);
+    const double beyond = std::max(0.0, off - (a == axis ? 0 : 0.5 * spacing[a]));
+    d2 += beyond * beyond;
+  }
+  return d2;
+}
+
+/// The voxels at most `reach` from `centre` along every axis and along one that far.
+template <class F>
+void forEachInShell(const Voxel& centre, int reach, F&& f)
+{
+  for (int k = -reach; k <= reach; ++k)
+    for (int j = -reach; j <= reach; ++j)
+    {
+      const bool isInside = std::max(std::abs(j), std::abs(k)) < reach;
+      for (int i = -reach; i <= reach; i += isInside ? 2 * reach : 1)
+        f(Voxel{ centre[0] + i, centre[1] + j, centre[2] + k });
+    }
+}
+
+double distanceToFaces(const TissueMap& map, const Vec3& p, const Voxel& centre)
+{
+  constexpr int mostReach = 4; // voxels
+  const Vec3 spacing = map.grid.spacing;
+  const double least = std::min({ spacing.x, spacing.y, spacing.z });
+  double best = mostReach * least * mostReach * least;
+  for (int reach = 0; reach <= mostReach; ++reach)
+  {
+    const double farther = (reach - 1) * least; // all faces of this shell are
+    if (reach > 0 && best <= farther * farther) break;
+    forEachInShell(centre, reach,
+                   [&](const Voxel& v)
+                   {
+                     const Label label = labelAt(map, v);
+                     for (int axis = 0; axis < 3; ++axis)
+                     {
+                       Voxel next = v;
+                       ++next[axis];
+                       if (labelAt(map, next) != label)
+                         best = std::min(best, squaredDistanceToFace(p, v, axis, spacing));
+                     }
+                   });
+  }
+  return std::sqrt(best);
+}
+
+} // namespace
+
 std::vector<double> boundaryDistances(const SurfaceComplex& surface, const TissueMap& map)
 {
-  constexpr int reach = 4; // voxels
-  const Grid& g = map.grid;
-  const auto labelAt = [&](int i, int j, int k) { return g.contains(i, j, k) ? map.labels[g.index(i, j, k)] : Label(0); };
   std::vector<Label> front(surface.points.size(), 0);
   for (std::size_t t = surface.triangles.size(); t-- > 0;)
     for (std::int32_t v : surface.triangles[t]) front[v] = surface.labels[t][1];
   std::vector<double> out(surface.points.size());
-  vtkSMPTools::For(0, vtkIdType(out.size()), [&](vtkIdType begin, vtkIdType end) {
-    for (vtkIdType v = begin; v < end; ++v)
-    {
-      const Vec3& p = surface.points[v];
-      int c[3];
-      for (int a = 0; a < 3; ++a) c[a] = int(std::lround(p[a] / g.spacing[a]));
-      double best = reach * std::min({ g.spacing.x, g.spacing.y, g.spacing.z });
-      best *= best;
-      for (int k = c[2] - reach; k <= c[2] + reach; ++k)
-        for (int j = c[1] - reach; j <= c[1] + reach; ++j)
-          for (int i = c[0] - reach; i <= c[0] + reach; ++i)
-            for (int a = 0; a < 3; ++a)
-            {
-              const int next[3] = { i + (a == 0), j + (a == 1), k + (a == 2) };
-              if (labelAt(i, j, k) == labelAt(next[0], next[1], next[2])) continue;
-              const int here[3] = { i, j, k };
-              double d2 = 0;
-              for (int b = 0; b < 3; ++b)
-              {
-                const double off = std::abs(p[b] - (b == a ? here[b] + 0.5 : here[b]) * g.spacing[b]);
-                const double beyond = std::max(0.0, off - (b == a ? 0 : 0.5 * g.spacing[b]));
-                d2 += beyond * beyond;
-              }
-              best = std::min(best, d2);
-            }
-      out[v] = (labelAt(c[0], c[1], c[2]) == front[v] ? 1 : -1) * std::sqrt(best);
-    }
-  });
+  vtkSMPTools::For(0, vtkIdType(out.size()),
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (vtkIdType v = begin; v < end; ++v)
+                     {
+                       const Vec3& p = surface.points[v];
+                       Voxel centre;
+                       for (int a = 0; a < 3; ++a) centre[a] = int(std::lround(p[a] / map.grid.spacing[a]));
+                       const double distance = distanceToFaces(map, p, centre);
+                       out[v] = labelAt(map, centre) == front[v] ? distance : -distance;
+                     }
+                   });
   return out;
 }
 
