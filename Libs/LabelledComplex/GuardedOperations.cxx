@@ -4,6 +4,7 @@
 #include "UnionFind.h"
 
 #include <algorithm>
+#include <cassert>
 #include <functional>
 #include <limits>
 
@@ -830,6 +831,18 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
   lastSplitVertex = m;
   ++counts.splits;
   return true;
+}
+
+void GuardedOperations::takeBackSplit(std::int32_t v, std::int32_t a)
+{
+  const double stray2 = m_Stray2, limit = m_MeanSquareLimit;
+  m_Stray2 = m_MeanSquareLimit = std::numeric_limits<double>::max(); // it was so before
+  const bool done = collapseWithin(v, a, m_Complex.points[a], 0);
+  m_Stray2 = stray2;
+  m_MeanSquareLimit = limit;
+  assert(done);
+  counts.collapses -= done;
+  counts.splits -= done;
 }
 
 // --- relabelling ----------------------------------------------------------------------------------------------------

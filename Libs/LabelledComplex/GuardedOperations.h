@@ -120,6 +120,9 @@ public:
   /// Splits edge ab at p.
   bool split(std::int32_t a, std::int32_t b, std::int32_t seed, const Vec3& p, double minimumQuality);
 
+  /// Takes back the split of an edge at v, which lies there again: v goes into the edge's end a.
+  void takeBackSplit(std::int32_t v, std::int32_t a);
+
   static constexpr double anyShare = std::numeric_limits<double>::infinity();
 
   /// Gives t to `label`, which lies beyond one of its faces, if that and its own keep their topology and their manifold
@@ -156,8 +159,9 @@ private:
     bool changes;
   };
 
-  struct RingLabels ///< one vertex of the ring of an edge uv: as bits, the labels at its edges to u and to v, and those that
-  {                 ///< both ends have at the edge of the ring after it
+  struct
+    RingLabels ///< one vertex of the ring of an edge uv: as bits, the labels at its edges to u and to v, and those that
+  {            ///< both ends have at the edge of the ring after it
     std::uint32_t atU = 0, atV = 0, atEdge = 0;
   };
 
@@ -224,7 +228,7 @@ private:
     std::uint32_t search = 0;
     std::int32_t at = 0; ///< in m_RingVertices
   };
-  std::vector<Place> m_Places; ///< likewise
+  std::vector<Place> m_Places;       ///< likewise
   std::int32_t m_RefusedVertex = -1; ///< whose collapses onto m_Refused would change a tissue's topology; -1: nobody's
   std::vector<std::int32_t> m_Refused;
   std::vector<std::int32_t> m_Ring, m_RingVertices;

@@ -262,7 +262,7 @@ private:
     for (int round = 0; round < 4; ++round)
     {
       const bool done = removeAnEdge(t) || moveAVertex(t) || collapseAnEdge(t) || (m_Options.split && splitAnEdge(t)) ||
-                        moveTogether(t);
+                        moveTogether(t) || splitAndMoveTogether(t);
       if (!done || !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target) return;
     }
   }
@@ -367,16 +367,18 @@ private:
     if (m_TogetherLeft == 0) return false;
     --m_TogetherLeft;
     for (const Reach& reach : { Reach{ 1.3, 0.8 }, Reach{ 2, 0.6 } })
-      if (moveTogether(neighbourhood(t, reach.near), reach.dip)) return true;
+    {
+      const std::vector<std::int32_t> vertices = neighbourhood(t, reach.near);
+      if (const double before = worstAt(vertices); before > 0 && moveTogether(vertices, before, reach.dip)) return true;
+    }
     return false;
   }
 
-  bool moveTogether(const std::vector<std::int32_t>& vertices, double dip)
+  /// To better than `before`, never falling to less than a share of it.
+  bool moveTogether(const std::vector<std::int32_t>& vertices, double before, double dip)
   {
-    const double before = worstAt(vertices);
-    if (!(before > 0)) return false;
     std::vector<std::pair<std::int32_t, Vec3>> moves;
-    double after = before;
+    double after = worstAt(vertices);
     for (int round = 0; round < m_Options.together && after < m_Target; ++round)
     {
       const std::size_t soFar = moves.size();
@@ -392,6 +394,45 @@ private:
     }
     for (auto m = moves.rbegin(); m != moves.rend(); ++m) m_Operations.moveBack(m->first, m->second);
     return false;
+  }
+
+  /// Where the vertices are too few for good angles, wherever they lie, as around a tiny body: a new one in the middle of an
+  /// edge, and all around it move together. Taken back if that doesn't help.
+  bool splitAndMoveTogether(std::int32_t t)
+  {
+    if (!m_Options.split || m_TogetherLeft == 0) return false;
+    const auto x = m_Complex.tets[t];
+    return forEachEdge(t,
+                       [&](std::int32_t a, std::int32_t b)
+                       {
+                         if (m_Complex.locked[a]) std::swap(a, b);
+                         if (m_Complex.locked[a]) return false;
+                         const auto& star = m_Operations.star(a); // t may have come back under another number
+                         const auto isT = [&](std::int32_t s)
+                         { return std::is_permutation(x.begin(), x.end(), m_Complex.tets[s].begin()); };
+                         return splitAndMoveTogether(a, b, *std::find_if(star.begin(), star.end(), isT));
+                       });
+  }
+
+  bool splitAndMoveTogether(std::int32_t a, std::int32_t b, std::int32_t seed)
+  {
+    constexpr double dip = 0.3;
+    const double before = std::min(m_Operations.qualityAt(a), m_Operations.qualityAt(b));
+    const Vec3 middle = 0.5 * (m_Complex.points[a] + m_Complex.points[b]);
+    if (!(before > 0) || !m_Operations.split(a, b, seed, middle, dip * before)) return false;
+    const std::int32_t v = m_Operations.lastSplitVertex;
+    if (moveTogether(around(v), before, dip)) return true;
+    m_Operations.takeBackSplit(v, a);
+    return false;
+  }
+
+  /// v and its free neighbours.
+  std::vector<std::int32_t> around(std::int32_t v)
+  {
+    std::vector<std::int32_t> result{ v };
+    for (const auto& n : m_Operations.neighbours(v))
+      if (!m_Complex.locked[n.vertex]) result.push_back(n.vertex);
+    return result;
   }
 
   /// The free vertices of the tetrahedra that share a vertex with t and are at most `near` times as good.

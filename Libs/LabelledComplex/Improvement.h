@@ -48,8 +48,8 @@ struct ImprovementOptions
   int passes = 3; ///< later passes work only where something has changed
 };
 
-/// Worst first: edge removal, vertex optimisation, collapse, split, and moves of several vertices together, of the
-/// tetrahedra below the target, until nothing helps.
+/// Worst first: edge removal, vertex optimisation, collapse, split, and moves of several vertices together, as they are or
+/// with a new one among them, of the tetrahedra below the target, until nothing helps.
 void improveBlock(GuardedOperations& operations, const ImprovementOptions& options = {});
 
 } // namespace surgicalmesher

@@ -776,6 +776,51 @@ TEST(Split, OutsideTheRingIsRefused)
   EXPECT_TRUE(ComplexState(complex) == before);
 }
 
+TEST(Split, TakenBackLeavesTheComplexAsItWas)
+{
+  const auto contents = [](const TetComplex& complex)
+  {
+    std::set<std::pair<TetComplex::Tet, Label>> result;
+    for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+    {
+      if (!complex.alive(t)) continue;
+      TetComplex::Tet sorted = complex.tets[t];
+      std::sort(sorted.begin(), sorted.end());
+      result.insert({ sorted, complex.labels[t] });
+    }
+    return result;
+  };
+  std::mt19937 random(7);
+  int splits = 0;
+  for (int map = 0; map < 4; ++map)
+  {
+    TetComplex complex = complexOf(tetrahedraOf(randomWellComposedMap(random, { 4, 4, 4 }, 3)), 1, 0.01f);
+    GuardedOperations operations(complex, unitScale, { anyDistance });
+    const auto before = contents(complex);
+    const auto places = evidencePlaces(complex);
+    const std::int32_t points = std::int32_t(complex.points.size());
+    for (std::int32_t a = 0; a < points; ++a)
+      for (const std::int32_t b : neighboursOf(complex, a))
+      {
+        const Vec3 middle = 0.5 * (complex.points[a] + complex.points[b]);
+        if (complex.locked[a] || !operations.split(a, b, tetrahedronAt(complex, a, b), middle, anyQuality)) continue;
+        ++splits;
+        operations.takeBackSplit(operations.lastSplitVertex, a);
+        ASSERT_TRUE(contents(complex) == before) << "edge " << a << " " << b;
+      }
+    ASSERT_TRUE(isConsistent(complex));
+    EXPECT_EQ(operations.counts.splits, 0);
+    EXPECT_EQ(operations.counts.collapses, 0);
+    const auto after = evidencePlaces(complex);
+    for (std::size_t e = 0; e < places.size(); ++e)
+    {
+      EXPECT_EQ(after[e].pair, places[e].pair);
+      EXPECT_NEAR(after[e].distance, places[e].distance, 1e-9);
+    }
+  }
+  EXPECT_GT(splits, 1000);
+}
+
 TEST(Move, KeepsEvidenceWithinToleranceAndItsMeanSquareBelowTheLimit)
 {
   // The evidence lies nearly two thirds of the move away from the lifted faces.

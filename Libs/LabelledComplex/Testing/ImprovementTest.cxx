@@ -109,21 +109,24 @@ TEST(Improvement, KeepsEveryPromiseAndRaisesTheWorstAngle)
 
 TEST(Improvement, MovingTogetherKeepsEveryPromiseAndGetsFarther)
 {
-  const auto sumOfWorst = [](int together)
+  const auto sumOfWorst = [](int together, bool split)
   {
     double sum = 0;
     expectPromisesKept(1, true,
                        [&](GuardedOperations& operations)
                        {
                          ImprovementOptions options;
-                         options.split = false;
+                         options.split = split;
+                         options.splitEdge = 1e9; // by itself no split is good enough
+                         options.targetAngle = 40;
                          options.together = together;
                          improveBlock(operations, options);
                          sum += worstOf(operations, operations.complex());
                        });
     return sum;
   };
-  EXPECT_GT(sumOfWorst(20), sumOfWorst(0));
+  EXPECT_GT(sumOfWorst(20, false), sumOfWorst(0, false));
+  EXPECT_GT(sumOfWorst(20, true), sumOfWorst(20, false));
 }
 
 TEST(Improvement, WithoutSplitsAddsNoVertex)
