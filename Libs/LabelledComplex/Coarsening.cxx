@@ -128,7 +128,7 @@ private:
     bool fits = false;
     for (double share : { 1.0, 0.5, 0.0, 0.75, 0.25 })
     {
-      if (share == 0 && !m_Options.thorough) break;
+      if ((share == 0 && !m_Options.thorough) || (share == 0.75 && !m_Options.quarters)) break;
       if (share == 0.5) fits = m_Options.fit && quadricAt(u).trace() > 0;
       for (const Near& n : m_Near)
       {

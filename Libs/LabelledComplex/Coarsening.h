@@ -13,6 +13,7 @@ struct CoarseningOptions
   double minimumAngle = 8; ///< degrees; no collapse leaves a worse dihedral angle (nor one above 180 minus it)
   bool fit = true;         ///< try the position that fits the evidence best instead of an edge's middle
   bool thorough = true;    ///< try more places for the two, and all neighbours again after each collapse
+  bool quarters = true;    ///< and, if thorough, the quarter points of the edge
   double goodAngle = 20;   ///< degrees; a collapse that keeps this much is taken at once
 };
 

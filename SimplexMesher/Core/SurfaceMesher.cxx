@@ -207,7 +207,8 @@ struct Step
   double shortEdge = 0.75;   ///< see CoarseningOptions
   bool fitCollapses = true;
   bool thoroughCollapses = true;
-  double collapseAngle = 5; ///< degrees, least that a collapse leaves
+  bool quarterCollapses = true; ///< see CoarseningOptions
+  double collapseAngle = 5;     ///< degrees, least that a collapse leaves
   int relaxations = 0;
   RelaxationOptions relaxation;
   int polishes = 0;
@@ -272,7 +273,7 @@ struct Effort
 };
 constexpr double as28Degrees = 1.033; // of a triangle, beside 28.5 between faces
 constexpr Effort usualEffort{ 25, 28.8, usualAngle, 2.1, 0.78, as28Degrees, 1, 10, 3, 4 };
-constexpr Effort modestEffort{ 22, 23.5, modestAngle, 2.4, 0.75, 0, 2, 16, 2, 2 };
+constexpr Effort modestEffort{ 22, 23.5, modestAngle, 2.4, 0.75, 0, 1, 12, 2, 2 };
 
 /// Whether coarsening has left so many bad tetrahedra that features of the map's own size, as noise makes them, have no room
 /// for good ones: to try for them all would take most of the time and be in vain.
@@ -282,6 +283,14 @@ bool isCrowded(const TetraMesh& mesh)
   constexpr double share = 0.07;
   const std::size_t bad = countBelow(mesh, 20);
   return bad > many && double(bad) > share * double(mesh.tetrahedra.size());
+}
+
+/// What crowds a mesh also holds most of its vertices: to try them at every level and place costs much and gains little.
+void goStraightToLastLevel(std::vector<Step>& coarsening, std::size_t from)
+{
+  if (from + 1 == coarsening.size()) return;
+  coarsening.erase(coarsening.begin() + std::ptrdiff_t(from) + 1, coarsening.end() - 1);
+  coarsening.back().quarterCollapses = false;
 }
 
 /// The angle aimed at rises from step to step: sizes suffer less than from one step straight to the end. Only what is still
@@ -303,6 +312,7 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     step.shortEdge = effort.shortEdge;
     step.triangleWeight = effort.triangleWeight;
     step.reach = evens ? usualReach : 0;
+    step.quarterCollapses = evens;
     steps.push_back(step);
   };
   add(0.4, longest, 1, Step::improvementTo(effort.first, 8, effort.passes));
@@ -361,6 +371,7 @@ void coarsenAndImprove(GuardedOperations& operations, const Step& step)
   coarsening.shortEdge = step.shortEdge;
   coarsening.fit = step.fitCollapses;
   coarsening.thorough = step.thoroughCollapses;
+  coarsening.quarters = step.quarterCollapses;
   if (step.level > 0) coarsenBlock(operations, step.level, coarsening);
   for (int i = 0; i < step.relaxations; ++i) relaxBlock(operations, step.relaxation);
   for (int i = 0; i < step.polishes; ++i) polishBlock(operations, step.polishing);
@@ -412,8 +423,9 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
   evolution.record("lattice");
   std::vector<Step> steps = coarseningSteps(map.grid, *std::max_element(scale.lengths.begin(), scale.lengths.end()));
   const double voxel = shortestSpacing(map.grid), longest = steps.back().level;
-  const std::size_t coarsenings = steps.size();
-  const double most = double(coarsenings + improvementSteps(voxel, longest, usualEffort).size());
+  const double most = double(steps.size() + improvementSteps(voxel, longest, usualEffort).size());
+  std::size_t coarsenings = steps.size();
+  bool crowded = false;
   for (std::size_t i = 0; i < steps.size(); ++i)
   {
     const Step step = steps[i]; // steps grows
@@ -435,9 +447,14 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
       },
       [&](double fraction, const std::string&) { report(part, fraction, step.name); });
     evolution.record(step.name);
+    if (!crowded && i < coarsenings && (i + 1 == coarsenings || step.level > 5 * voxel))
+    {
+      crowded = isCrowded(result.ambient.mesh);
+      if (crowded) goStraightToLastLevel(steps, i);
+      coarsenings = steps.size();
+    }
     if (i + 1 != coarsenings) continue;
-    const std::vector<Step> improving =
-      improvementSteps(voxel, longest, isCrowded(result.ambient.mesh) ? modestEffort : usualEffort);
+    const std::vector<Step> improving = improvementSteps(voxel, longest, crowded ? modestEffort : usualEffort);
     steps.insert(steps.end(), improving.begin(), improving.end());
   }
   return result;
