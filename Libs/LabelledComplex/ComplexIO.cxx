@@ -623,7 +623,8 @@ void writePolygons(const PolygonFile& content, const std::string& file)
   vtkNew<vtkPolyData> data;
   data->SetPoints(vtkPointsOf(content.points));
   data->SetPolys(cells);
-  addArray<vtkIntArray>(data->GetCellData(), kTissueLabel, std::vector<int>(content.labels.begin(), content.labels.end()));
+  addArray<vtkIntArray>(data->GetCellData(), kTissueLabel,
+                        std::vector<int>(content.labels.begin(), content.labels.end()));
   addFieldData(data->GetFieldData(), std::set<Label>(content.labels.begin(), content.labels.end()), content.tissues);
   vtkNew<vtkXMLPolyDataWriter> writer;
   writeXML(writer.Get(), data, file);

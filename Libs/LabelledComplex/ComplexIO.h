@@ -59,8 +59,8 @@ struct MeshFile
   std::vector<std::int32_t> subMeshInterface; ///< per point: 1 where two sub-meshes meet, else 0
   std::vector<double> targetEdgeLength;       ///< per point, mm
   std::vector<std::int32_t> volumePointId;    ///< per point of a part: its id in the whole mesh
-  std::vector<std::int32_t> interfaceId;      ///< per point of a part: its number on the child/parent interface, -1 none
-  TissueTable tissues;                        ///< names and colours
+  std::vector<std::int32_t> interfaceId; ///< per point of a part: its number on the child/parent interface, -1 none
+  TissueTable tissues;                   ///< names and colours
 };
 
 /// Reads tetrahedra with a cell array TissueLabel from a .vtu or .vtk, ambient complexes (label 0 outside) included.

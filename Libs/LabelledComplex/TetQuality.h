@@ -21,8 +21,9 @@ inline double worstSine2(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
   if (!(v6 > 0)) return -1;
   const Vec3 nb = cross(ac, ad), nc = cross(ad, ab), na = nb + nc + nd;
   const double ia = 1 / squaredNorm(na), ib = 1 / squaredNorm(nb), ic = 1 / squaredNorm(nc), id = 1 / squaredNorm(nd);
-  const double worst = std::min({ squaredNorm(ab) * ic * id, squaredNorm(ac) * ib * id, squaredNorm(ad) * ib * ic,
-                                  squaredNorm(c - b) * ia * id, squaredNorm(d - b) * ia * ic, squaredNorm(d - c) * ia * ib });
+  const double worst =
+    std::min({ squaredNorm(ab) * ic * id, squaredNorm(ac) * ib * id, squaredNorm(ad) * ib * ic,
+               squaredNorm(c - b) * ia * id, squaredNorm(d - b) * ia * ic, squaredNorm(d - c) * ia * ib });
   return v6 * v6 * worst;
 }
 
