@@ -273,7 +273,7 @@ struct Effort
 };
 constexpr double as28Degrees = 1.033; // of a triangle, beside 28.5 between faces
 constexpr Effort usualEffort{ 25, 28.8, usualAngle, 2.1, 0.78, as28Degrees, 1, 10, 3, 4 };
-constexpr Effort modestEffort{ 22, 23.5, modestAngle, 2.4, 0.75, 0, 1, 12, 2, 2 };
+constexpr Effort modestEffort{ 22, 23.5, modestAngle, 2.4, 0.75, 0, 1, 12, 1, 1 };
 
 /// Whether coarsening has left so many bad tetrahedra that features of the map's own size, as noise makes them, have no room
 /// for good ones: to try for them all would take most of the time and be in vain.
