@@ -159,9 +159,10 @@ private:
     bool changes;
   };
 
-  struct
-    RingLabels ///< one vertex of the ring of an edge uv: as bits, the labels at its edges to u and to v, and those that
-  {            ///< both ends have at the edge of the ring after it
+  /// One vertex of the ring of an edge uv: as bits, the labels at its edges to u and to v, and those that both ends have at
+  /// the edge of the ring after it.
+  struct RingLabels
+  {
     std::uint32_t atU = 0, atV = 0, atEdge = 0;
   };
 
