@@ -62,8 +62,12 @@ void gatherSheet(const TetComplex& complex, std::int32_t v, const std::vector<st
 
 Fit fitOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust)
 {
+  return fitAt(complex, v, complex.points[v], sheet, robust);
+}
+
+Fit fitAt(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust)
+{
   Fit fit;
-  const Vec3 p = complex.points[v];
   auto point = sheet.points.begin();
   for (std::size_t k = 0; k < sheet.faces.size(); ++k)
   {

@@ -61,4 +61,7 @@ struct Fit
 /// for the mean distance, and so for the volume between surface and map, instead of its square.
 Fit fitOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust = 0);
 
+/// The same, were v at p.
+Fit fitAt(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust);
+
 } // namespace surgicalmesher

@@ -595,7 +595,8 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
       m_Refused.push_back(v);
       return false;
     }
-    if (!collapseKeepsEvidence(u, v, p) || !newFacesAreGood(minimumQuality)) return false;
+    if (!collapseKeepsEvidence(u, v, p) || !newFacesAreGood(minimumQuality) || spansGap(m_Changed, v, c.points[u]))
+      return false;
     detachEvidence(m_Changed);
   }
   c.collapse(u, v, star);
@@ -667,12 +668,33 @@ bool GuardedOperations::growsSpike(std::int32_t v, const Vec3& p)
          distance2 > nearestPoint(m_SheetAt, m_Complex.points[v]).second;
 }
 
+/// Whether the middle of an edge at v, longer than its target, would be out of reach of the evidence of the new faces, and
+/// farther than with v at `from`.
+bool GuardedOperations::spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) const
+{
+  if (m_Reach == 0) return false;
+  for (const Face& f : m_NewFaces)
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t x = f.vertices[(k + 1) % 3];
+      if (f.vertices[k] != v && x != v) continue;
+      const Vec3 &a = f.corners[k], &b = f.corners[(k + 1) % 3];
+      const double target = 0.5 * (m_Complex.lengths[f.vertices[k]] + m_Complex.lengths[x]);
+      if (squaredNorm(b - a) <= target * target) continue;
+      const auto [point, distance2] = nearestPoint(sheet, 0.5 * (a + b));
+      if (!point || distance2 <= m_Reach * m_Reach * point->tolerance2) continue;
+      const Vec3 other = f.vertices[k] == v ? b : a;
+      if (distance2 > nearestPoint(sheet, 0.5 * (from + other)).second) return true;
+    }
+  return false;
+}
+
 bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
 {
   if (m_Complex.onInterface[v])
   {
     addMovedFaces(v, p);
-    if (!evidenceStays(m_SheetAt) || growsSpike(v, p)) return false;
+    if (!evidenceStays(m_SheetAt) || growsSpike(v, p) || spansGap(m_SheetAt, v, m_Complex.points[v])) return false;
     attachMoved();
   }
   place(v, p);
@@ -835,11 +857,13 @@ bool GuardedOperations::split(std::int32_t a, std::int32_t b, std::int32_t seed,
 
 void GuardedOperations::takeBackSplit(std::int32_t v, std::int32_t a)
 {
-  const double stray2 = m_Stray2, limit = m_MeanSquareLimit;
+  const double stray2 = m_Stray2, limit = m_MeanSquareLimit, reach = m_Reach;
   m_Stray2 = m_MeanSquareLimit = std::numeric_limits<double>::max(); // it was so before
+  m_Reach = 0;
   const bool done = collapseWithin(v, a, m_Complex.points[a], 0);
   m_Stray2 = stray2;
   m_MeanSquareLimit = limit;
+  m_Reach = reach;
   assert(done);
   counts.collapses -= done;
   counts.splits -= done;
@@ -869,6 +893,19 @@ bool GuardedOperations::isSimple(std::int32_t t, Label label)
   return shared == 2 && !meets(0, 1, true) && !meets(2, 3, false);
 }
 
+/// Whether a corner of t, inside a label so far, would lie between two out of reach of the evidence.
+bool GuardedOperations::laysBare(std::int32_t t) const
+{
+  if (m_Reach == 0) return false;
+  for (const std::int32_t v : m_Complex.tets[t])
+  {
+    if (m_Complex.onInterface[v]) continue;
+    const auto [point, distance2] = nearestPoint(m_Changed, m_Complex.points[v]);
+    if (!point || distance2 > m_Reach * m_Reach * point->tolerance2) return true;
+  }
+  return false;
+}
+
 bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuality, double mostLeft)
 {
   auto& c = m_Complex;
@@ -888,6 +925,7 @@ bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuali
   }
   if (!newFacesAreGood(minimumQuality) || !changedEvidenceStays()) return false;
   if (mostLeft < anyShare && !comesNearer(m_Changed, mostLeft)) return false;
+  if (laysBare(t)) return false;
   detachEvidence(m_Changed);
   c.labels[t] = label;
   changed();

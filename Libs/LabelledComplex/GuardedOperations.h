@@ -198,8 +198,10 @@ private:
   bool meanSquareStays(const Sheet& sheet);
   bool evidenceStays(Sheet& sheet);
   bool changedEvidenceStays();
+  bool laysBare(std::int32_t t) const;
   bool comesNearer(const Sheet& sheet, double mostLeft);
   bool growsSpike(std::int32_t v, const Vec3& p);
+  bool spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) const;
   void detachEvidence(const Sheet& sheet);
   void attachEvidence(const std::vector<std::int32_t>& around = {});
   void attach(const std::vector<SheetPoint>& points, const std::vector<std::pair<std::int32_t, int>>& holders);

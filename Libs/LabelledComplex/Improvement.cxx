@@ -1,6 +1,7 @@
 #include "Improvement.h"
 
 #include "TetQuality.h"
+#include "VertexSteps.h"
 
 #include <algorithm>
 #include <limits>
@@ -97,22 +98,6 @@ private:
   const double m_Good;
   std::vector<std::pair<std::int32_t, int>> m_Degree;
 };
-
-/// How the evidence resists a step of v: a share `ease` of all its resistance in every direction besides.
-Fit heldAt(GuardedOperations& operations, std::int32_t v, double ease)
-{
-  Fit held = fitOf(operations.complex(), v, operations.sheet(v));
-  held.addToDiagonal(operations.complex().onInterface[v] ? ease * held.trace() : 1);
-  return held;
-}
-
-/// Turns `direction` at a vertex on the interface into one that its evidence resists less.
-Vec3 easiest(const Fit& held, const Vec3& direction)
-{
-  const Vec3 d = held.solve(direction);
-  const double n = norm(d);
-  return n > 0 ? d / n : Vec3{};
-}
 
 class Polishing
 {
@@ -319,7 +304,7 @@ private:
     {
       const Vec3 p = m_Complex.points[v];
       const bool isRandom = trial % 3 == 2;
-      if (!isRandom && !uphill) uphill = easiest(held, gradient(v, p, best, 1e-4 * size));
+      if (!isRandom && !uphill) uphill = easiest(held, m_Uphill(m_Operations, v, p, best));
       const Vec3 q = p + step * (isRandom ? easiest(held, m_Directions.next()) : *uphill);
       if (m_Operations.qualityAt(v, q, best) > best && m_Operations.moveWithin(v, q))
       {
@@ -332,27 +317,6 @@ private:
     if (!(best > start * (1 + 1e-3))) return false;
     touchStar(v);
     return true;
-  }
-
-  /// Unit direction that lifts the worst tetrahedra at v: the sum of the unit gradients of all that are nearly as bad as
-  /// the worst.
-  Vec3 gradient(std::int32_t v, const Vec3& p, double worst, double h)
-  {
-    StarQuality& star = m_Operations.measured(v);
-    m_Now = star.each(p);
-    m_Gradients.assign(star.size(), {});
-    for (int a = 0; a < 3; ++a)
-    {
-      Vec3 up = p;
-      up[a] += h;
-      const std::vector<double>& moved = star.each(up);
-      for (std::size_t i = 0; i < star.size(); ++i) m_Gradients[i][a] = moved[i] - m_Now[i];
-    }
-    Vec3 sum;
-    for (std::size_t i = 0; i < star.size(); ++i)
-      if (const double n = norm(m_Gradients[i]); n > 0 && m_Now[i] <= 1.15 * worst) sum += m_Gradients[i] / n;
-    const double n = norm(sum);
-    return n > 0 ? sum / n : Vec3{ 1, 0, 0 };
   }
 
   /// Where no vertex alone can move without making another tetrahedron the worst: descends the sum of the squares of what
@@ -566,11 +530,10 @@ private:
   const ImprovementOptions& m_Options;
   const double m_Target;
   Directions m_Directions;
+  Uphill m_Uphill;
   std::vector<std::uint8_t> m_Touched; ///< per vertex
   std::size_t m_TogetherLeft = 0;      ///< in this pass
   std::vector<std::int32_t> m_Ring, m_RingVertices;
-  std::vector<double> m_Now;
-  std::vector<Vec3> m_Gradients;
 };
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "AmbientLattice.h"
 #include "Coarsening.h"
+#include "EdgeLengths.h"
 #include "Improvement.h"
 #include "MeshQuality.h"
 #include "ReferenceSurface.h"
@@ -22,7 +23,8 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double trimSlack = 1.1; // beyond that the surface withdraws where it is to be finest
+constexpr double trimSlack = 1.1;                      // beyond that the surface withdraws where it is to be finest
+constexpr double lengthsRms = 0.5, lengthsSlack = 1.3; // what even lengths are worth; see Guards
 constexpr double relabelSlack = 1.6, spikeSlack = 2.1;
 constexpr double usualReach = 1.4; // likewise times the tolerance; see Guards
 constexpr double usualAside = 2;   // see Guards
@@ -218,6 +220,8 @@ struct Step
   double pullAngle = 0;   ///< degrees; see SpikeOptions
   double relabelling = 0; ///< degrees; see relabelBlock; 0: none
   ImprovementOptions improvement = improvementTo(0, 0, 0);
+  int evenings = 0; ///< rounds of evenLengthsOfBlock
+  EdgeLengthOptions lengths;
   bool balance = false; ///< tissues' volumes first; not under a bound on the distance to the boundary as it is
   bool whole = false;   ///< in one block: borders are locked, and what is still bad lies at them
 
@@ -272,7 +276,7 @@ struct Effort
   int coarsenings, rounds;
 };
 constexpr double as28Degrees = 1.033; // of a triangle, beside 28.5 between faces
-constexpr Effort usualEffort{ 25, 28.8, usualAngle, 2.1, 0.78, as28Degrees, 1, 10, 3, 4 };
+constexpr Effort usualEffort{ 25, 28.8, usualAngle, 2.1, 0.82, as28Degrees, 1, 10, 4, 3 };
 constexpr Effort modestEffort{ 22, 23.5, modestAngle, 2.4, 0.75, 0, 1, 12, 1, 1 };
 
 /// Whether coarsening has left so many bad tetrahedra that features of the map's own size, as noise makes them, have no room
@@ -315,12 +319,18 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     step.quarterCollapses = evens;
     steps.push_back(step);
   };
+  const auto evenLengths = [&](int times, double goodAngle)
+  {
+    steps.back().evenings = times;
+    steps.back().lengths = { goodAngle, 2 * voxel, 0.1 * voxel }; // not where surface and map are to lie closest
+  };
   add(0.4, longest, 1, Step::improvementTo(effort.first, 8, effort.passes));
   for (int sweep = 1; sweep < effort.coarsenings; ++sweep)
   {
     add(0.35, longest, 1, Step::improvementTo(sweep == 1 ? between : aim, 8, sweep == 1 ? effort.passes : 1));
     steps.back().balance = true;
     steps.back().relabelling = evens ? kept : 0;
+    if (evens) evenLengths(2, 20); // sizes still change
   }
   add(0.5, 0, 1, Step::improvementTo(aim, effort.trials, 2));
   add(0.8, 0, 0, Step::improvementTo(aim, 16, 2));
@@ -335,7 +345,6 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     step.whole = whole;
     if (!whole) return;
     step.spikes = evens ? kept : 0;
-    step.reach = 0;
     step.improvement.worstShare = 0.002; // on one thread
   };
   repair(aim, 1.6, 0, 0.02, 0, false);
@@ -357,10 +366,15 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     step.relaxation.spread = 0.9;
     step.polishing.fit = 10;
     step.relaxation.robust = step.polishing.robust = 0.1 * voxel;
+    if (evens) evenLengths(2, kept);
   }
   repair(kept, effort.mostSlack, 0.4, 0.1, 20, false); // what resisted may have got room
   repair(kept, effort.mostSlack, 0.3, 1, 20, true);
   steps.back().trim = 4; // relabelling leaves tips
+  if (!evens) return steps;
+  add(0.25, 0, 0, Step::improvementTo(0, 0, 0));
+  steps.back().balance = true; // repairs cost volume
+  evenLengths(1, kept);
   return steps;
 }
 
@@ -382,7 +396,8 @@ void coarsenAndImprove(GuardedOperations& operations, const Step& step)
 template <class Guarded>
 void work(const Guarded& guarded, const Step& step, double maximumDistance)
 {
-  if (step.trim > 0) guarded({ 1, trimSlack }, [&](auto& operations) { trimBlock(operations, step.trim); });
+  if (step.trim > 0)
+    guarded({ 1, trimSlack, 0, usualReach }, [&](auto& operations) { trimBlock(operations, step.trim); });
   if (step.spikes > 0)
   {
     SpikeOptions spikes;
@@ -399,6 +414,12 @@ void work(const Guarded& guarded, const Step& step, double maximumDistance)
   }
   guarded({ step.rmsLimit, step.slack, step.triangleWeight, step.reach },
           [&](auto& operations) { coarsenAndImprove(operations, step); });
+  if (step.evenings > 0)
+    guarded({ lengthsRms, lengthsSlack, step.triangleWeight, step.reach },
+            [&](auto& operations)
+            {
+              for (int i = 0; i < step.evenings; ++i) evenLengthsOfBlock(operations, step.lengths);
+            });
   if (step.relabelling > 0)
     guarded({ 1, relabelSlack, step.triangleWeight },
             [&](auto& operations) { relabelBlock(operations, step.relabelling, clearly); });

@@ -398,6 +398,81 @@ TEST(GuardedOperations, LetNoVertexLeaveItsEvidenceByMoreThanItsReach)
   EXPECT_GT(refused, 0);
 }
 
+TEST(GuardedOperations, LetNoLongEdgeSpanAGapWiderThanItsReach)
+{
+  constexpr double reach = 0.9;
+  constexpr float length = 0.8f, tolerance = 0.6f;
+  const auto lengthAt = [=](const Vec3&) { return length; };
+  std::mt19937 random(2);
+  TetComplex complex = complexOf(tetrahedraOf(randomWellComposedMap(random, { 4, 4, 4 }, 3)), length, tolerance);
+  const auto uniform = [&] { return random() / 2147483648.0 - 1; };
+  const auto gaps = [&](GuardedOperations& operations, std::int32_t v) // in tolerances, of the edges at v
+  {
+    std::map<std::int32_t, double> result;
+    const Sheet& sheet = operations.sheet(v);
+    for (const SheetFace& f : sheet.faces)
+      for (std::int32_t x : f.vertices)
+      {
+        if (x == v) continue;
+        double& nearest = result[x] = HUGE_VAL;
+        const Vec3 middle = 0.5 * (complex.points[x] + complex.points[v]);
+        for (const SheetPoint& p : sheet.points) nearest = std::min(nearest, norm(p.position - middle) / tolerance);
+      }
+    return result;
+  };
+  long done = 0, refused = 0;
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+  {
+    if (complex.locked[v] || !complex.onInterface[v]) continue;
+    GuardedOperations bounded(complex, lengthAt, { anyDistance, anyDistance, 0, reach });
+    const Vec3 to = complex.points[v] + 0.7 * Vec3{ uniform(), uniform(), uniform() };
+    const auto before = gaps(bounded, v);
+    const bool moves = bounded.move(v, to, 0);
+    GuardedOperations now(complex, lengthAt, { anyDistance, anyDistance });
+    if (!moves && !now.move(v, to, 0)) continue;
+    (moves ? done : refused) += 1;
+    bool spans = now.isSpike(v, reach);
+    for (const auto& [x, gap] : gaps(now, v))
+    {
+      if (norm(complex.points[x] - to) <= length) continue;
+      spans |= gap > reach;
+      EXPECT_TRUE(!moves || gap <= std::max(reach, before.at(x)) * (1 + 1e-6)) << "edge " << v << ' ' << x;
+    }
+    EXPECT_TRUE(moves || spans) << "vertex " << v;
+  }
+  EXPECT_GT(done, 10);
+  EXPECT_GT(refused, 3);
+}
+
+TEST(GuardedOperations, LayNoVertexBareBeyondTheirReach)
+{
+  constexpr double reach = 0.9;
+  constexpr float tolerance = 0.6f;
+  std::map<bool, long> laidBare; // with a bound, and without one
+  for (const bool isBounded : { true, false })
+  {
+    std::mt19937 random(3);
+    TetComplex complex = complexOf(tetrahedraOf(randomWellComposedMap(random, { 5, 5, 5 }, 1)), 1, tolerance);
+    GuardedOperations operations(complex, [](const Vec3&) { return 1.0f; },
+                                 { anyDistance, anyDistance, 0, isBounded ? reach : 0 });
+    for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+    {
+      const std::vector<bool> before(complex.onInterface.begin(), complex.onInterface.end());
+      for (int i = 0; i < 4; ++i)
+        if (const std::int32_t n = complex.neighbours[t][i]; n >= 0 && operations.relabel(t, complex.labels[n], 0))
+          for (std::int32_t v : complex.tets[t])
+          {
+            if (before[v] || !complex.onInterface[v]) continue;
+            const auto nearest = operations.nearestEvidence(v);
+            laidBare[isBounded] += nearest && norm(*nearest - complex.points[v]) > reach * tolerance * (1 + 1e-6);
+          }
+    }
+    EXPECT_GT(operations.counts.relabels, 20);
+  }
+  EXPECT_EQ(laidBare[true], 0);
+  EXPECT_GT(laidBare[false], 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(LooseAndStrict, RandomOperations, ::testing::Values(anyDistance, 0.4));
 
 namespace
@@ -795,7 +870,7 @@ TEST(Split, TakenBackLeavesTheComplexAsItWas)
   for (int map = 0; map < 4; ++map)
   {
     TetComplex complex = complexOf(tetrahedraOf(randomWellComposedMap(random, { 4, 4, 4 }, 3)), 1, 0.01f);
-    GuardedOperations operations(complex, unitScale, { anyDistance });
+    GuardedOperations operations(complex, unitScale, { anyDistance, 1, 0, 0.3 });
     const auto before = contents(complex);
     const auto places = evidencePlaces(complex);
     const std::int32_t points = std::int32_t(complex.points.size());

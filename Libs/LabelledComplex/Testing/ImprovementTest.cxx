@@ -1,6 +1,7 @@
 #include "Improvement.h"
 #include "Coarsening.h"
 #include "ComplexInvariants.h"
+#include "EdgeLengths.h"
 #include "MeshImprovement.h"
 #include "RandomMaps.h"
 #include "Relabelling.h"
@@ -127,6 +128,55 @@ TEST(Improvement, MovingTogetherKeepsEveryPromiseAndGetsFarther)
   };
   EXPECT_GT(sumOfWorst(20, false), sumOfWorst(0, false));
   EXPECT_GT(sumOfWorst(20, true), sumOfWorst(20, false));
+}
+
+/// Edges of even length, those inside a label counted as evenLengthsOfBlock does.
+double evenEdges(const TetComplex& c, GuardedOperations& operations)
+{
+  double sum = 0;
+  for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+  {
+    if (c.vertexTet[v] < 0) continue;
+    for (const auto& n : operations.neighbours(v))
+    {
+      const double ratio = norm(c.points[n.vertex] - c.points[v]) / (0.5 * (c.lengths[v] + c.lengths[n.vertex]));
+      if (n.vertex > v && ratio >= shortestEven && ratio <= longestEven) sum += n.alongInterface ? 1 : insideLabel;
+    }
+  }
+  return sum;
+}
+
+TEST(EdgeLengths, KeepEveryPromiseAndBecomeMoreEven)
+{
+  double before = 0, after = 0;
+  expectPromisesKept(sine2OfDegrees(usualAngle), false,
+                     [&](GuardedOperations& operations)
+                     {
+                       const double start = evenEdges(operations.complex(), operations);
+                       evenLengthsOfBlock(operations);
+                       const double end = evenEdges(operations.complex(), operations);
+                       EXPECT_GE(end, start - 1e-9);
+                       EXPECT_EQ(operations.counts.collapses + operations.counts.splits + operations.counts.flips, 0);
+                       before += start;
+                       after += end;
+                     });
+  EXPECT_GT(after, 1.01 * before);
+}
+
+TEST(EdgeLengths, StayWhereTheTargetIsSmall)
+{
+  std::mt19937 random(1);
+  TetComplex complex =
+    complexOf(shaken(tetrahedraOf(randomWellComposedMap(random, { 5, 5, 5 }, 3)), random, 0.35), 1.5f);
+  const ComplexState before(complex);
+  GuardedOperations operations(complex, scale);
+  EdgeLengthOptions options;
+  options.from = 1.6;
+  evenLengthsOfBlock(operations, options);
+  EXPECT_EQ(before.points, complex.points);
+  options.from = 1.5;
+  evenLengthsOfBlock(operations, options);
+  EXPECT_GT(operations.counts.moves, 0);
 }
 
 TEST(Improvement, WithoutSplitsAddsNoVertex)

@@ -1,0 +1,40 @@
+#include "VertexSteps.h"
+
+namespace surgicalmesher
+{
+
+Fit heldAt(GuardedOperations& operations, std::int32_t v, double ease)
+{
+  Fit held = fitOf(operations.complex(), v, operations.sheet(v));
+  held.addToDiagonal(operations.complex().onInterface[v] ? ease * held.trace() : 1);
+  return held;
+}
+
+Vec3 easiest(const Fit& held, const Vec3& direction)
+{
+  const Vec3 d = held.solve(direction);
+  const double n = norm(d);
+  return n > 0 ? d / n : Vec3{};
+}
+
+Vec3 Uphill::operator()(GuardedOperations& operations, std::int32_t v, const Vec3& p, double worst)
+{
+  const double h = 1e-4 * operations.complex().lengths[v];
+  StarQuality& star = operations.measured(v);
+  m_Now = star.each(p);
+  m_Gradients.assign(star.size(), {});
+  for (int a = 0; a < 3; ++a)
+  {
+    Vec3 up = p;
+    up[a] += h;
+    const std::vector<double>& moved = star.each(up);
+    for (std::size_t i = 0; i < star.size(); ++i) m_Gradients[i][a] = moved[i] - m_Now[i];
+  }
+  Vec3 sum;
+  for (std::size_t i = 0; i < star.size(); ++i)
+    if (const double n = norm(m_Gradients[i]); n > 0 && m_Now[i] <= 1.15 * worst) sum += m_Gradients[i] / n;
+  const double n = norm(sum);
+  return n > 0 ? sum / n : Vec3{ 1, 0, 0 };
+}
+
+} // namespace surgicalmesher
