@@ -24,7 +24,7 @@ namespace
 {
 
 constexpr double trimSlack = 1.1;                      // beyond that the surface withdraws where it is to be finest
-constexpr double lengthsRms = 0.5, lengthsSlack = 1.3; // what even lengths are worth; see Guards
+constexpr double lengthsRms = 0.5, lengthsSlack = 1.1; // what even lengths are worth; see Guards
 constexpr double relabelSlack = 1.6, spikeSlack = 2.1;
 constexpr double usualReach = 1.4; // likewise times the tolerance; see Guards
 constexpr double usualAside = 2;   // see Guards
@@ -276,7 +276,7 @@ struct Effort
   int coarsenings, rounds;
 };
 constexpr double as28Degrees = 1.033; // of a triangle, beside 28.5 between faces
-constexpr Effort usualEffort{ 25, 28.8, usualAngle, 2.1, 0.82, as28Degrees, 1, 10, 4, 3 };
+constexpr Effort usualEffort{ 25, 28.8, usualAngle, 2.1, 0.82, as28Degrees, 1, 10, 3, 2 };
 constexpr Effort modestEffort{ 22, 23.5, modestAngle, 2.4, 0.75, 0, 1, 12, 1, 1 };
 
 /// Whether coarsening has left so many bad tetrahedra that features of the map's own size, as noise makes them, have no room
