@@ -23,7 +23,7 @@ public:
   void run()
   {
     forEachVertex([&](std::int32_t v) { stretchAt(v); });
-    forEachVertex([&](std::int32_t v) { fit(v); });
+    forEachVertex([&](std::int32_t v) { settle(v); });
   }
 
 private:
@@ -109,7 +109,8 @@ private:
     return false;
   }
 
-  void fit(std::int32_t v)
+  /// Moves v to the fit of its faces to their evidence, where that costs no even length.
+  void settle(std::int32_t v)
   {
     Fit fit = fitOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
     fit.addToDiagonal(0.005 * fit.trace());

@@ -38,8 +38,9 @@ struct Guards
   double rmsLimit = 0.5;
   double slack = 1;          ///< tolerances count so many times
   double triangleWeight = 0; ///< of triangles between labels, see above; 0: they have no quality
-  /// In tolerances: a vertex between labels moves no farther than this from the nearest evidence of its faces, or no farther
-  /// than it is. A spike gives good angles, and its sides pass the evidence at its foot however long it grows. 0: no bound.
+  /// In tolerances: a vertex between labels moves no farther than this from the nearest evidence of its faces, nor does the
+  /// middle of an edge longer than its target, or no farther than it is; and no vertex inside a label is laid bare out there.
+  /// A spike gives good angles, and its sides pass the evidence at its foot however long it grows. 0: no bound.
   double reach = 0;
   /// In tolerances, at least 1: where others have come between two labels, evidence may be this far from their faces, if it
   /// has the boundary of either within tolerance.
