@@ -258,7 +258,12 @@ TEST_F(SimplexMesherCLI, JoinsLeavesOutAndHollowsTissues)
     if (behind == 9 || front == 9)
       onShell.insert(surface.surface.triangles[t].begin(), surface.surface.triangles[t].end());
   }
-  for (const std::int32_t point : onShell) EXPECT_NEAR(surface.targetEdgeLength[point], 1.5, 1e-5);
+  // Constant within half a voxel of the shell's voxel faces; vertices may stand off them by a little more.
+  for (const std::int32_t point : onShell)
+  {
+    EXPECT_GE(surface.targetEdgeLength[point], 1.5 - 1e-5);
+    EXPECT_LE(surface.targetEdgeLength[point], 1.5 + 0.3 * 0.2);
+  }
 
   const rapidjson::Document report = parsed("r.json");
   const rapidjson::Value& selection = report["selection"];
