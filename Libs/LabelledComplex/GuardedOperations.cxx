@@ -714,6 +714,18 @@ void GuardedOperations::moveBack(std::int32_t v, const Vec3& p)
   --counts.moves;
 }
 
+void GuardedOperations::bringHome(std::int32_t v)
+{
+  if (!m_Complex.onInterface[v]) return;
+  const Sheet& now = sheet(v);
+  const auto isLost = [&](const SheetPoint& point)
+  { return squaredDistanceNow(now, point) > m_SquaredSlack * point.tolerance2; };
+  if (std::none_of(now.points.begin(), now.points.end(), isLost)) return;
+  addMovedFaces(v, m_Complex.points[v]);
+  for (SheetPoint& point : m_SheetAt.points) nearestFace(m_SheetAt, point);
+  attachMoved();
+}
+
 void GuardedOperations::place(std::int32_t v, const Vec3& p)
 {
   m_Complex.points[v] = p;

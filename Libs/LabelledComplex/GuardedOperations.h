@@ -114,6 +114,10 @@ public:
   /// Takes back a move of v from p, the latest first where there were several: nothing is asked of what was so before.
   void moveBack(std::int32_t v, const Vec3& p);
 
+  /// After several moves back: hands evidence of v's faces to the nearest of them if some is beyond its tolerance. What one
+  /// move has handed on to a face out of another's sight is still there.
+  void bringHome(std::int32_t v);
+
   /// Replaces the tetrahedra around edge ab by the best ones without it (Klincsek 1980, as Shewchuk uses it); an edge
   /// inside the sheet between two labels becomes the other diagonal of its two triangles.
   bool removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double minimumQuality);

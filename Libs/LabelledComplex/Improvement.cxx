@@ -357,6 +357,7 @@ private:
       return true;
     }
     for (auto m = moves.rbegin(); m != moves.rend(); ++m) m_Operations.moveBack(m->first, m->second);
+    for (std::int32_t v : vertices) m_Operations.bringHome(v);
     return false;
   }
 
