@@ -78,7 +78,7 @@ private:
   /// Length of ab over its target if that is short, else shortEdge.
   double ratio(std::int32_t a, std::int32_t b) const
   {
-    const double target = std::min(m_Level, 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b]));
+    const double target = std::min(m_Level, m_Complex.targetLength(a, b));
     const double length2 = squaredNorm(m_Complex.points[a] - m_Complex.points[b]), limit = m_Options.shortEdge * target;
     return length2 < limit * limit ? std::sqrt(length2) / target : m_Options.shortEdge;
   }

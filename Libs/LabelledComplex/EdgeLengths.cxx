@@ -36,10 +36,9 @@ private:
         f(v);
   }
 
-  double target(std::int32_t a, std::int32_t b) const { return 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b]); }
   double ratio(std::int32_t a, std::int32_t b) const
   {
-    return norm(m_Complex.points[a] - m_Complex.points[b]) / target(a, b);
+    return norm(m_Complex.points[a] - m_Complex.points[b]) / m_Complex.targetLength(a, b);
   }
   static bool isEven(double ratio) { return ratio >= shortestEven && ratio <= longestEven; }
   double floorAt(std::int32_t v) { return std::min(m_Good, m_Operations.qualityAt(v)); }
@@ -49,7 +48,8 @@ private:
   {
     double sum = 0;
     for (const auto& n : m_Operations.neighbours(v))
-      if (isEven(norm(m_Complex.points[n.vertex] - p) / target(v, n.vertex))) sum += n.alongInterface ? 1 : insideLabel;
+      if (isEven(norm(m_Complex.points[n.vertex] - p) / m_Complex.targetLength(v, n.vertex)))
+        sum += n.alongInterface ? 1 : insideLabel;
     return sum;
   }
 
@@ -78,7 +78,7 @@ private:
     if (along < 0.3) return;
     for (const double times : { 1.0, 1.25 })
     {
-      const Vec3 to = p + (times * lacking * target(v, u) / along) * direction;
+      const Vec3 to = p + (times * lacking * m_Complex.targetLength(v, u) / along) * direction;
       if (moveNear(v, onSheet(v, u, to), held)) return;
     }
   }

@@ -492,7 +492,7 @@ bool GuardedOperations::keepsLength(std::int32_t end, std::int32_t x, std::int32
                                     double maximumRatio) const
 {
   const auto& c = m_Complex;
-  const double limit = maximumRatio * 0.5 * (c.lengths[x] + c.lengths[v]);
+  const double limit = maximumRatio * c.targetLength(x, v);
   const double length2 = squaredNorm(c.points[x] - p);
   return length2 <= limit * limit || length2 <= squaredNorm(c.points[x] - c.points[end]);
 }
@@ -679,7 +679,7 @@ bool GuardedOperations::spansGap(const Sheet& sheet, std::int32_t v, const Vec3&
       const std::int32_t x = f.vertices[(k + 1) % 3];
       if (f.vertices[k] != v && x != v) continue;
       const Vec3 &a = f.corners[k], &b = f.corners[(k + 1) % 3];
-      const double target = 0.5 * (m_Complex.lengths[f.vertices[k]] + m_Complex.lengths[x]);
+      const double target = m_Complex.targetLength(f.vertices[k], x);
       if (squaredNorm(b - a) <= target * target) continue;
       const auto [point, distance2] = nearestPoint(sheet, 0.5 * (a + b));
       if (!point || distance2 <= m_Reach * m_Reach * point->tolerance2) continue;

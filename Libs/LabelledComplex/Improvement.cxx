@@ -53,7 +53,7 @@ private:
   Vec3 wish(std::int32_t v, std::int32_t x) const
   {
     const Vec3 d = m_Complex.points[x] - m_Complex.points[v];
-    const double target = 0.5 * (m_Complex.lengths[v] + m_Complex.lengths[x]);
+    const double target = m_Complex.targetLength(v, x);
     return (m_Options.spread * (1 - target / norm(d)) + 1 - m_Options.spread) * d;
   }
 
@@ -465,8 +465,7 @@ private:
                        [&](std::int32_t a, std::int32_t b)
                        {
                          const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
-                         if (length > m_Options.shortEdge * 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b]))
-                           return false;
+                         if (length > m_Options.shortEdge * m_Complex.targetLength(a, b)) return false;
                          for (const auto& [u, v] : { std::pair(a, b), std::pair(b, a) })
                          {
                            if (m_Complex.locked[u]) continue;
@@ -490,8 +489,7 @@ private:
                        {
                          if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
                          const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
-                         if (length < m_Options.splitEdge * 0.5 * (m_Complex.lengths[a] + m_Complex.lengths[b]))
-                           return false;
+                         if (length < m_Options.splitEdge * m_Complex.targetLength(a, b)) return false;
                          if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
                          return splitAtBest(a, b, t);
                        });

@@ -62,6 +62,8 @@ public:
     return x[0] == v ? 0 : x[1] == v ? 1 : x[2] == v ? 2 : x[3] == v ? 3 : -1;
   }
   bool contains(std::int32_t t, std::int32_t v) const { return indexOf(t, v) >= 0; }
+  /// Of edge ab, mm: the mean of its ends'.
+  double targetLength(std::int32_t a, std::int32_t b) const { return 0.5 * (lengths[a] + lengths[b]); }
   double quality(std::int32_t t) const;
   /// Quality of tetrahedron t with vertex v at position p.
   double qualityWith(std::int32_t t, std::int32_t v, const Vec3& p) const;

@@ -220,7 +220,7 @@ struct Step
   double pullAngle = 0;   ///< degrees; see SpikeOptions
   double relabelling = 0; ///< degrees; see relabelBlock; 0: none
   ImprovementOptions improvement = improvementTo(0, 0, 0);
-  int evenings = 0; ///< rounds of evenLengthsOfBlock
+  int lengthRounds = 0; ///< of evenLengthsOfBlock
   EdgeLengthOptions lengths;
   bool balance = false; ///< tissues' volumes first; not under a bound on the distance to the boundary as it is
   bool whole = false;   ///< in one block: borders are locked, and what is still bad lies at them
@@ -319,9 +319,9 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     step.quarterCollapses = evens;
     steps.push_back(step);
   };
-  const auto evenLengths = [&](int times, double goodAngle)
+  const auto evenLengths = [&](int rounds, double goodAngle)
   {
-    steps.back().evenings = times;
+    steps.back().lengthRounds = rounds;
     steps.back().lengths = { goodAngle, 2 * voxel, 0.1 * voxel }; // not where surface and map are to lie closest
   };
   add(0.4, longest, 1, Step::improvementTo(effort.first, 8, effort.passes));
@@ -414,11 +414,11 @@ void work(const Guarded& guarded, const Step& step, double maximumDistance)
   }
   guarded({ step.rmsLimit, step.slack, step.triangleWeight, step.reach },
           [&](auto& operations) { coarsenAndImprove(operations, step); });
-  if (step.evenings > 0)
+  if (step.lengthRounds > 0)
     guarded({ lengthsRms, lengthsSlack, step.triangleWeight, step.reach },
             [&](auto& operations)
             {
-              for (int i = 0; i < step.evenings; ++i) evenLengthsOfBlock(operations, step.lengths);
+              for (int i = 0; i < step.lengthRounds; ++i) evenLengthsOfBlock(operations, step.lengths);
             });
   if (step.relabelling > 0)
     guarded({ 1, relabelSlack, step.triangleWeight },

@@ -955,6 +955,40 @@ TEST(Move, TakenBackLeavesPlaceAndDistancesAsTheyWere)
   }
 }
 
+TEST(Move, ManyTakenBackLeaveNoEvidenceBeyondItsTolerance)
+{
+  constexpr float tolerance = 0.3f;
+  std::map<bool, long> lost; // with evidence brought home, and without
+  for (const bool isBroughtHome : { true, false })
+    for (unsigned seed = 1; seed <= 100; ++seed)
+    {
+      std::mt19937 random(seed);
+      const TissueMap map = randomWellComposedMap(random, { 4, 4, 4 }, 1 + int(seed % 3));
+      TetComplex complex = complexOf(tetrahedraOf(map), 1, tolerance);
+      GuardedOperations operations(complex, unitScale, { anyDistance });
+      const auto uniform = [&] { return random() / 2147483648.0 - 1; };
+      std::vector<std::pair<std::int32_t, Vec3>> moves;
+      std::set<std::int32_t> moved;
+      for (int n = 0; n < 3000; ++n)
+      {
+        const auto v = std::int32_t(random() % complex.points.size());
+        const Vec3 from = complex.points[v], to = from + Vec3{ uniform(), uniform(), uniform() };
+        if (!operations.move(v, to, anyQuality)) continue;
+        moves.push_back({ v, from });
+        moved.insert(v);
+      }
+      for (auto m = moves.rbegin(); m != moves.rend(); ++m) operations.moveBack(m->first, m->second);
+      if (isBroughtHome)
+        for (const std::int32_t v : moved) operations.bringHome(v);
+      EXPECT_EQ(operations.counts.moves, 0);
+      ASSERT_TRUE(isConsistent(complex));
+      for (const EvidencePlace& place : evidencePlaces(complex))
+        lost[isBroughtHome] += place.distance > tolerance * (1 + 1e-6);
+    }
+  EXPECT_EQ(lost[true], 0);
+  EXPECT_GT(lost[false], 0);
+}
+
 TEST(LockedVertices, NeverMoveOrGo)
 {
   TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 3, 3, 3 }, [](int i, int, int) { return i < 2; })));

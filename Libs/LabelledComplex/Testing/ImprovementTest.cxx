@@ -139,7 +139,7 @@ double evenEdges(const TetComplex& c, GuardedOperations& operations)
     if (c.vertexTet[v] < 0) continue;
     for (const auto& n : operations.neighbours(v))
     {
-      const double ratio = norm(c.points[n.vertex] - c.points[v]) / (0.5 * (c.lengths[v] + c.lengths[n.vertex]));
+      const double ratio = norm(c.points[n.vertex] - c.points[v]) / c.targetLength(v, n.vertex);
       if (n.vertex > v && ratio >= shortestEven && ratio <= longestEven) sum += n.alongInterface ? 1 : insideLabel;
     }
   }
