@@ -92,10 +92,9 @@ FeatureOptions readFeatures(const CommandLine& line, const TissueSettings& setti
 }
 
 /// Makes the map what the surface is to be faithful to.
-void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const Progress& progress,
-             SurfaceReport& results)
+void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const FeatureOptions& features,
+             const Progress& progress, SurfaceReport& results)
 {
-  const FeatureOptions features = readFeatures(line, results.settings);
   results.featureScale = features.featureScale;
   results.preparation = prepareAtScale(map, followTissues(scale, map, results.settings, line.number("gradation")),
                                        readPreparation(line, results.settings), features, progress);
@@ -200,12 +199,13 @@ void run(CommandLine& line)
   TissueMap map = readMap(line, results);
   const ScaleField asked = readScaleFor(line, map.grid);
   completeShells(results.settings, map, asked);
-  prepare(line, map, asked, subProgress(progress, 0.02, 0.06), results);
+  SurfaceMesherOptions options;
+  options.maximumDistance = line.number("maximumDistance");
+  options.features = readFeatures(line, results.settings);
+  prepare(line, map, asked, options.features, subProgress(progress, 0.02, 0.06), results);
   const ScaleField scale = lengthsFor(line, map, asked, results);
   requireMemory(estimateSurfaceMemory(map, scale), availableMemory(), line.text("labelMap"));
 
-  SurfaceMesherOptions options;
-  options.maximumDistance = line.number("maximumDistance");
   const Grid world = map.grid;
   map.grid = inOwnFrame(world);
   SurfaceMesh mesh = meshTissues(map, inFrameOf(world, scale), options, subProgress(progress, 0.06, 0.9));

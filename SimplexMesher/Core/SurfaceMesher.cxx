@@ -126,18 +126,33 @@ double roomFor(const AmbientMesh& ambient, const TissueMap& map)
   return std::clamp(ratio * ratio, 0.5, 1.0);
 }
 
-/// `ambient` as the lattice made it: with its evidence at the centres of voxel faces. The same drift that nobody sees on a
-/// thick tissue takes a third of a thin one's volume.
+/// How far the boundary of each tissue may drift, mm: what nobody sees on a thick tissue takes a third of a thin one's
+/// volume. A thin tissue that simplification has left is held the less closely, as what is of its size elsewhere has gone.
+std::map<Label, double> mostDrifts(const std::map<Label, double>& thickness, double voxel,
+                                   const FeatureOptions& features)
+{
+  constexpr double share = 0.28, perScale = 0.08, most = 0.4; // of the thickness
+  std::map<Label, double> result;
+  for (const auto& [label, mm] : thickness)
+  {
+    const double scale = features.protectedLabels.count(label) ? 0 : features.featureScale;
+    result[label] = std::max(0.6 * voxel, std::min(share + perScale * scale, most) * mm);
+  }
+  return result;
+}
+
+/// `ambient` as the lattice made it: with its evidence at the centres of voxel faces.
 void setTolerances(AmbientMesh& ambient, const TissueMap& map, const std::map<Label, double>& thickness,
-                   const ScaleFunction& scale, double bound)
+                   const ScaleFunction& scale, const SurfaceMesherOptions& options)
 {
   const double voxel = std::max({ map.grid.spacing.x, map.grid.spacing.y, map.grid.spacing.z });
-  const double room = roomFor(ambient, map);
+  const double room = roomFor(ambient, map), bound = options.maximumDistance;
+  const std::map<Label, double> drifts = mostDrifts(thickness, voxel, options.features);
   for (auto& e : ambient.evidence)
   {
     double tolerance = room * (0.42 * voxel + 0.095 * scale(e.position));
     for (const Label label : labelsBeside(map, e.position))
-      if (label != 0) tolerance = std::min(tolerance, std::max(0.6 * voxel, 0.28 * thickness.at(label)));
+      if (label != 0) tolerance = std::min(tolerance, drifts.at(label));
     e.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
   }
 }
@@ -435,7 +450,7 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
   const ScaleField scale = followFlatTissues(wanted, map, thickness);
   const ScaleFunction lengthAt = [&](const Vec3& p) { return float(scale(map.grid.gridToWorld(p))); };
   AmbientLattice lattice = ambientLattice(map, scale, {}, subProgress(progress, 0, 0.06));
-  setTolerances(lattice.ambient, map, thickness, lengthAt, options.maximumDistance);
+  setTolerances(lattice.ambient, map, thickness, lengthAt, options);
   smoothInterface(lattice, map.grid.spacing);
   result.ambient = std::move(lattice.ambient);
 

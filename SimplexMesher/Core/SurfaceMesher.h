@@ -2,6 +2,7 @@
 /// From a prepared tissue map to the graded ambient complex whose interface is the surface of all tissues.
 
 #include "BlockSweep.h"
+#include "FeatureSimplification.h"
 #include "GuardedOperations.h"
 #include "Progress.h"
 #include "ScaleField.h"
@@ -15,10 +16,11 @@ namespace surgicalmesher
 
 struct SurfaceMesherOptions
 {
-  /// mm; bound on the distance of any boundary point of the map to the surface. 0: automatic: 0.4 voxel + 0.088 L, on thin
+  /// mm; bound on the distance of any boundary point of the map to the surface. 0: automatic: 0.42 voxel + 0.095 L, on thin
   /// tissues 0.28 of their thickness if that is less (0.6 voxel at least); 2.1 times as much (2.4 in maps full of noise)
   /// where an angle can't be mended otherwise; and up to a voxel more where that keeps a tissue's volume.
   double maximumDistance = 0;
+  FeatureOptions features; ///< what the map was simplified by; of the thickness of what is not protected, 0.08 F more
 };
 
 /// The mesh after one step.

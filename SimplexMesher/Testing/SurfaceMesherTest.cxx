@@ -192,6 +192,25 @@ TEST(SurfaceMesher, KeepsTheDistanceAskedFor)
   EXPECT_LE(mesh.evolution.back().maximumDistance, std::max(0.4, mesh.evolution.front().maximumDistance) * (1 + 1e-6));
 }
 
+TEST(SurfaceMesher, HoldsThinTissuesLessCloselyOnceSimplifiedUnlessProtected)
+{
+  const TissueMap map = paintedMap({ 12, 12, 12 }, [](int, int, int k) { return k < 3 ? 1 : 2; });
+  const auto mostDrift = [&](const FeatureOptions& features)
+  {
+    SurfaceMesherOptions options;
+    options.features = features;
+    float most = 0;
+    for (const auto& e : meshTissues(map, uniformScale(9), options).ambient.evidence)
+      if (e.position.z < 2.9) most = std::max(most, e.tolerance);
+    return most;
+  };
+  const float usual = mostDrift({});
+  EXPECT_LT(usual, 1.f); // not as far as L allows
+  EXPECT_FLOAT_EQ(mostDrift({ 0.5, {} }), usual * 0.32f / 0.28f);
+  EXPECT_FLOAT_EQ(mostDrift({ 9, {} }), usual * 0.4f / 0.28f);
+  EXPECT_FLOAT_EQ(mostDrift({ 0.5, { 1 } }), usual);
+}
+
 TEST(SurfaceMesher, EveryTissueOfAnAtlasIsAsInTheMap)
 {
   const TissueMap map = atlasPart();
