@@ -16,7 +16,7 @@ def wrong_tissues(report):
 
 
 def compared(number, estimate):
-    return f"{number:,} (estimated {estimate:,}, {100 * (estimate / number - 1):+.0f} %)"
+    return f"{number:,} (estimated {estimate:,}, {round(100 * (estimate / number - 1)):+} %)"
 
 
 def rows(report):
