@@ -32,6 +32,13 @@ struct TissueMap
   TissueTable table;         ///< names and colours the file itself carried (.seg.nrrd), else empty
 };
 
+/// The label of a voxel, 0 outside the grid.
+inline Label labelAt(const TissueMap& map, const std::array<int, 3>& voxel)
+{
+  const auto [i, j, k] = voxel;
+  return map.grid.contains(i, j, k) ? map.labels[map.grid.index(i, j, k)] : Label(0);
+}
+
 /// Labels present in the map, ascending, without background.
 std::vector<Label> presentLabels(const TissueMap& map);
 

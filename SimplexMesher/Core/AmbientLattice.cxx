@@ -210,11 +210,6 @@ private:
     return cell < 0 ? -1 : cell / m_Layout.cells[axis];
   }
 
-  Label labelAt(int i, int j, int k) const
-  {
-    return m_Map.grid.contains(i, j, k) ? m_Map.labels[m_Map.grid.index(i, j, k)] : 0;
-  }
-
   bool mixed(const Index& corner, int side) const
   {
     Index low, high;
@@ -223,11 +218,11 @@ private:
       low[a] = voxel(corner[a], a);
       high[a] = voxel(corner[a] + side - 0.5, a);
     }
-    const Label first = labelAt(low[0], low[1], low[2]);
+    const Label first = labelAt(m_Map, low);
     for (int k = low[2]; k <= high[2]; ++k)
       for (int j = low[1]; j <= high[1]; ++j)
         for (int i = low[0]; i <= high[0]; ++i)
-          if (labelAt(i, j, k) != first) return true;
+          if (labelAt(m_Map, { i, j, k }) != first) return true;
     return false;
   }
 
@@ -298,12 +293,12 @@ private:
   Label labelOf(const Tet& t) const
   {
     const auto middle = [&](int a) { return 0.25 * (t[0][a] + t[1][a] + t[2][a] + t[3][a]); };
-    return labelAt(voxel(middle(0), 0), voxel(middle(1), 1), voxel(middle(2), 2));
+    return labelAt(m_Map, { voxel(middle(0), 0), voxel(middle(1), 1), voxel(middle(2), 2) });
   }
 
   bool isTissue(const Index& corner) const
   {
-    return labelAt(voxel(corner[0], 0), voxel(corner[1], 1), voxel(corner[2], 2)) != 0;
+    return labelAt(m_Map, { voxel(corner[0], 0), voxel(corner[1], 1), voxel(corner[2], 2) }) != 0;
   }
 
   /// Whatever the vertices of one level of bisection rest on: an edge's midpoint on the centres of the faces around it, a
@@ -432,7 +427,7 @@ private:
           here[k] = voxel(middle + (k == axis ? inward : 0), k);
           beyond[k] = voxel(middle - (k == axis ? inward : 0), k);
         }
-        if (here[axis] == beyond[axis] || labelAt(beyond[0], beyond[1], beyond[2]) >= label) continue;
+        if (here[axis] == beyond[axis] || labelAt(m_Map, beyond) >= label) continue;
         out.interfaceFaces.push_back({ id, f });
         Index low = here, high = here; // voxels beside the face
         for (int k = 0; k < 3; ++k)

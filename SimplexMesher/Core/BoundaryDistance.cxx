@@ -14,11 +14,6 @@ namespace
 
 using Voxel = std::array<int, 3>;
 
-Label labelAt(const TissueMap& map, const Voxel& v)
-{
-  return map.grid.contains(v[0], v[1], v[2]) ? map.labels[map.grid.index(v[0], v[1], v[2])] : Label(0);
-}
-
 /// Squared distance from p, mm from the first voxel's centre, to the face between v and the next voxel along the axis.
 double squaredDistanceToFace(const Vec3& p, const Voxel& v, int axis, const Vec3& spacing)
 {

@@ -108,9 +108,7 @@ std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
     voxels[0][a] = int(std::lround(at - 0.01));
     voxels[1][a] = int(std::lround(at + 0.01));
   }
-  const auto labelOf = [&](const std::array<int, 3>& v)
-  { return map.grid.contains(v[0], v[1], v[2]) ? map.labels[map.grid.index(v[0], v[1], v[2])] : Label(0); };
-  return { labelOf(voxels[0]), labelOf(voxels[1]) };
+  return { labelAt(map, voxels[0]), labelAt(map, voxels[1]) };
 }
 
 /// What share of the usual tolerance a map allows: the voxels that a drift of the surfaces puts into wrong tissues are as many
@@ -279,20 +277,36 @@ std::vector<Step> coarseningSteps(const Grid& grid, double longest)
   return steps;
 }
 
-/// What is tried for: dihedral angles in degrees, first, in the end, and those that must not be lost again; how hard, while
-/// sizes still change; sweeps that still coarsen, and rounds of balance after the repairs.
+constexpr double as28Degrees = 1.033; // of a triangle, beside 28.5 between faces
+
+/// What is tried for, and how hard.
 struct Effort
 {
-  double first, aim, kept;
-  double mostSlack;      ///< times the tolerance, where an angle can't be mended otherwise
-  double shortEdge;      ///< see CoarseningOptions
-  double triangleWeight; ///< see Guards; 0: neither triangles nor spikes are worked on, which noise is made of
-  int passes, trials;
-  int coarsenings, rounds;
+  double first = 25;                   ///< degrees, dihedral: aimed at before the final angle is
+  double aim = 28.8;                   ///< degrees, dihedral: aimed at in the end
+  double kept = usualAngle;            ///< degrees, dihedral: not to be lost again
+  double mostSlack = 2.1;              ///< times the tolerance, where an angle can't be mended otherwise
+  double shortEdge = 0.82;             ///< see CoarseningOptions
+  double triangleWeight = as28Degrees; ///< see Guards; 0: neither triangles, spikes nor lengths are worked on
+  int trials = 10;                     ///< see ImprovementOptions, once sizes no longer change
+  int coarsenings = 3;                 ///< sweeps that still coarsen
+  int rounds = 2;                      ///< of balance after the repairs
 };
-constexpr double as28Degrees = 1.033; // of a triangle, beside 28.5 between faces
-constexpr Effort usualEffort{ 25, 28.8, usualAngle, 2.1, 0.82, as28Degrees, 1, 10, 3, 2 };
-constexpr Effort modestEffort{ 22, 23.5, modestAngle, 2.4, 0.75, 0, 1, 12, 1, 1 };
+
+/// Where features are of the map's own size, as noise makes them: see isCrowded.
+Effort modestEffort()
+{
+  Effort effort;
+  effort.first = 22;
+  effort.aim = 23.5;
+  effort.kept = modestAngle;
+  effort.mostSlack = 2.4;
+  effort.shortEdge = 0.75;
+  effort.triangleWeight = 0;
+  effort.trials = 12;
+  effort.coarsenings = effort.rounds = 1;
+  return effort;
+}
 
 /// Whether coarsening has left so many bad tetrahedra that features of the map's own size, as noise makes them, have no room
 /// for good ones: to try for them all would take most of the time and be in vain.
@@ -339,10 +353,10 @@ std::vector<Step> improvementSteps(double voxel, double longest, const Effort& e
     steps.back().lengthRounds = rounds;
     steps.back().lengths = { goodAngle, 2 * voxel, 0.1 * voxel }; // not where surface and map are to lie closest
   };
-  add(0.4, longest, 1, Step::improvementTo(effort.first, 8, effort.passes));
+  add(0.4, longest, 1, Step::improvementTo(effort.first, 8, 1));
   for (int sweep = 1; sweep < effort.coarsenings; ++sweep)
   {
-    add(0.35, longest, 1, Step::improvementTo(sweep == 1 ? between : aim, 8, sweep == 1 ? effort.passes : 1));
+    add(0.35, longest, 1, Step::improvementTo(sweep == 1 ? between : aim, 8, 1));
     steps.back().balance = true;
     steps.back().relabelling = evens ? kept : 0;
     if (evens) evenLengths(2, 20); // sizes still change
@@ -459,7 +473,7 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
   evolution.record("lattice");
   std::vector<Step> steps = coarseningSteps(map.grid, *std::max_element(scale.lengths.begin(), scale.lengths.end()));
   const double voxel = shortestSpacing(map.grid), longest = steps.back().level;
-  const double most = double(steps.size() + improvementSteps(voxel, longest, usualEffort).size());
+  const double most = double(steps.size() + improvementSteps(voxel, longest, {}).size());
   std::size_t coarsenings = steps.size();
   bool crowded = false;
   for (std::size_t i = 0; i < steps.size(); ++i)
@@ -490,7 +504,7 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
       coarsenings = steps.size();
     }
     if (i + 1 != coarsenings) continue;
-    const std::vector<Step> improving = improvementSteps(voxel, longest, crowded ? modestEffort : usualEffort);
+    const std::vector<Step> improving = improvementSteps(voxel, longest, crowded ? modestEffort() : Effort());
     steps.insert(steps.end(), improving.begin(), improving.end());
   }
   return result;

@@ -26,8 +26,7 @@ std::multiset<Centre> faceCentres(const TissueMap& map)
 {
   std::multiset<Centre> centres;
   const Grid& grid = map.grid;
-  const auto at = [&](int i, int j, int k)
-  { return grid.contains(i, j, k) ? map.labels[grid.index(i, j, k)] : Label(0); };
+  const auto at = [&](int i, int j, int k) { return labelAt(map, { i, j, k }); };
   for (int k = -1; k < grid.size[2]; ++k)
   {
     for (int j = -1; j < grid.size[1]; ++j)

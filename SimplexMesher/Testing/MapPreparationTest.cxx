@@ -23,11 +23,6 @@ TissueMap makeMap(int sizeI, int sizeJ, int sizeK, std::vector<Label> labels = {
   return map;
 }
 
-Label at(const TissueMap& map, int i, int j, int k)
-{
-  return map.grid.contains(i, j, k) ? map.labels[map.grid.index(i, j, k)] : Label(0);
-}
-
 TissueMap noise(std::mt19937& random, int maximumSize)
 {
   const auto size = [&] { return 1 + int(random() % maximumSize); };
@@ -50,9 +45,9 @@ bool blockIsCritical(const TissueMap& map, int i, int j, int k)
 {
   for (int reference = 0; reference < 8; ++reference)
   {
-    const Label label = at(map, i + (reference & 1), j + (reference >> 1 & 1), k + (reference >> 2));
+    const Label label = labelAt(map, { i + (reference & 1), j + (reference >> 1 & 1), k + (reference >> 2) });
     std::array<bool, 8> inside;
-    for (int c = 0; c < 8; ++c) inside[c] = at(map, i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)) == label;
+    for (int c = 0; c < 8; ++c) inside[c] = labelAt(map, { i + (c & 1), j + (c >> 1 & 1), k + (c >> 2) }) == label;
     for (int c = 0; c < 8; ++c)
     {
       for (const auto& [u, v] : { std::pair{ 1, 2 }, { 2, 4 }, { 1, 4 } })
@@ -194,9 +189,9 @@ TEST(MapPreparation, IslandsUnderTheVolumeGoToWhatSurroundsThem)
   for (const int i : { 8, 9, 10 }) map.labels[map.grid.index(i, 2, 2)] = 2; // and of 6
   map.labels[map.grid.index(6, 0, 0)] = 0;
   const PreparationReport report = prepareMap(map, islandsUnder(4));
-  EXPECT_EQ(at(map, 1, 2, 2), 1);
-  EXPECT_EQ(at(map, 4, 2, 2), 2);
-  EXPECT_EQ(at(map, 6, 0, 0), 0);
+  EXPECT_EQ(labelAt(map, { 1, 2, 2 }), 1);
+  EXPECT_EQ(labelAt(map, { 4, 2, 2 }), 2);
+  EXPECT_EQ(labelAt(map, { 6, 0, 0 }), 0);
   EXPECT_EQ(report.changes.at(2).islandsRemoved, 1u);
   EXPECT_EQ(report.changes.at(2).islandVoxels, 1u);
   EXPECT_EQ(report.contactVoxelsChanged, 0u);
@@ -247,8 +242,8 @@ TEST(MapPreparation, IslandsAndPocketsGoOrStayAsAsked)
 
   options.cavityVolumes = { { 1, 1.5 } };
   const PreparationReport report = prepareMap(map, options);
-  EXPECT_EQ(at(map, 5, 2, 2), 1);
-  EXPECT_EQ(at(map, 2, 2, 2), 2);
+  EXPECT_EQ(labelAt(map, { 5, 2, 2 }), 1);
+  EXPECT_EQ(labelAt(map, { 2, 2, 2 }), 2);
   EXPECT_EQ(report.changes.at(0).islandsRemoved, 1u);
   EXPECT_EQ(report.changes.at(0).islandVoxels, 1u);
 }

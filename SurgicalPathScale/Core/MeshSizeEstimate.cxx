@@ -52,10 +52,7 @@ public:
   double voxelVolume() const { return m_VoxelVolume; }
   double faceArea(int axis) const { return m_FaceArea[axis]; }
 
-  Label label(int i, int j, int k) const
-  {
-    return m_Map.grid.contains(i, j, k) ? m_Map.labels[m_Map.grid.index(i, j, k)] : Label(0);
-  }
+  Label label(int i, int j, int k) const { return labelAt(m_Map, { i, j, k }); }
 
   /// visit(i, j, k, label) of the block's voxels.
   template <typename Visit>

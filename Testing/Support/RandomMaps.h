@@ -40,8 +40,7 @@ inline bool wellComposed(const TissueMap& map)
         std::array<int, 8> block;
         for (int c = 0; c < 8; ++c)
         {
-          const int x = i + (c & 1), y = j + (c >> 1 & 1), z = k + (c >> 2);
-          block[c] = grid.contains(x, y, z) ? map.labels[grid.index(x, y, z)] : 0;
+          block[c] = labelAt(map, { i + (c & 1), j + (c >> 1 & 1), k + (c >> 2) });
         }
         for (int label : block)
         {

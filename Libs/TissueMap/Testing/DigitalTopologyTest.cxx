@@ -49,7 +49,7 @@ VoxelSet paddedSet(const TissueMap& map, const std::function<bool(Label)>& insid
     {
       for (int i = -1; i <= n[0]; ++i)
       {
-        set.voxels.push_back(inside(map.grid.contains(i, j, k) ? map.labels[map.grid.index(i, j, k)] : Label(0)));
+        set.voxels.push_back(inside(labelAt(map, { i, j, k })));
       }
     }
   }
