@@ -385,6 +385,14 @@ private:
 
 } // namespace
 
+std::size_t fairBlock(const TetraMesh& mesh)
+{
+  constexpr std::size_t usual = 65000, small = 16000;
+  const auto outside = std::count(mesh.labels.begin(), mesh.labels.end(), 0);
+  const double worth = double(mesh.labels.size()) - (1 - backgroundCost) * double(outside);
+  return worth > usual ? usual : small;
+}
+
 void sweepBlocks(AmbientMesh& ambient, int round, std::size_t tetrahedraPerBlock,
                  const std::function<void(TetComplex&)>& work, const Progress& progress)
 {

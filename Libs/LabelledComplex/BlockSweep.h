@@ -30,9 +30,12 @@ struct AmbientMesh
   AcrossFaces neighbours;
 };
 
-constexpr std::size_t fairBlock = 65000; ///< a few megabytes, enough blocks for the threads, and not too much border
-/// Of a tetrahedron of label 0, which is let off much, in tetrahedra of a tissue.
+/// What a tetrahedron of label 0, which is let off much, is worth in tetrahedra of a tissue.
 constexpr double backgroundCost = 0.35;
+
+/// Size of blocks that have not too much border, are a few megabytes, and enough for two processors at least: small
+/// meshes on large maps take long, too.
+std::size_t fairBlock(const TetraMesh& mesh);
 constexpr std::size_t oneBlock = std::numeric_limits<std::size_t>::max();
 
 /// Cuts the mesh into blocks worth at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs `work` on

@@ -160,7 +160,7 @@ void improveMesh(TetraMesh& mesh, const ScaleFunction& scale, const MeshImprovem
     // The surface stage has put its surface where it belongs: only repairs may take it away.
     const double held = good && step.rmsLimit < 0.5 ? 0.6 : 1;
     sweepBlocks(
-      ambient, int(i), step.whole ? oneBlock : fairBlock,
+      ambient, int(i), step.whole ? oneBlock : fairBlock(ambient.mesh),
       [&](TetComplex& block)
       {
         GuardedOperations operations(block, scale, { held * step.rmsLimit, step.slack });

@@ -482,7 +482,7 @@ SurfaceMesh meshTissues(const TissueMap& map, const ScaleField& wanted, const Su
     if (step.balance && options.maximumDistance == 0) balance.apply(result.ambient);
     const Progress part = subProgress(progress, 0.1 + 0.9 * double(i) / most, 0.1 + 0.9 * double(i + 1) / most);
     sweepBlocks(
-      result.ambient, int(i), step.whole ? oneBlock : fairBlock,
+      result.ambient, int(i), step.whole ? oneBlock : fairBlock(result.ambient.mesh),
       [&](TetComplex& block)
       {
         const auto guarded = [&](Guards guards, const auto& change)

@@ -277,6 +277,22 @@ TEST(BlockSweep, AThrowPropagatesAndLeavesTheMeshAsItWas)
   vtkSMPTools::Initialize(0);
 }
 
+TEST(BlockSweep, FairBlocksOfASmallMeshAreSmaller)
+{
+  const auto fairBlockOf = [](std::size_t tissue, std::size_t background)
+  {
+    TetraMesh mesh;
+    mesh.labels.assign(tissue, 7);
+    mesh.labels.resize(tissue + background, 0);
+    return fairBlock(mesh);
+  };
+  const std::size_t large = fairBlockOf(1000000, 0), small = fairBlockOf(40000, 0);
+  EXPECT_LT(2 * small, 40000u);
+  EXPECT_LT(2 * small, large);
+  EXPECT_EQ(fairBlockOf(40000, 50000), small) << "background is worth little";
+  EXPECT_EQ(fairBlockOf(40000, 100000), large);
+}
+
 TEST(BlockSweep, ProgressRisesWithinItsRange)
 {
   AmbientMesh ambient = randomAmbient(8, 2);
