@@ -98,8 +98,8 @@ inline void StarQuality::measure(const Group& g, const Vec3& p, double* quality)
     const double least = lesser(lesser(lesser(squaredNorm(b) * ab, squaredNorm(c) * (na2 * nc2)),
                                        lesser(squaredNorm(d) * (na2 * nd2), squaredNorm(c - b) * (nb2 * nc2))),
                                 lesser(squaredNorm(d - b) * (nb2 * nd2), squaredNorm(d - c) * cd));
-    const double q = g.weight[k] * (v6 * v6 * least / (ab * cd));
-    quality[k] = v6 > 0 ? q : -1;
+    const double q = v6 > 0 ? g.weight[k] * (v6 * v6 * least / (ab * cd)) : -1;
+    quality[k] = q > 0 ? q : -1; // not a number where a face has no area, but rounding leaves a volume
   }
 }
 

@@ -46,6 +46,28 @@ class Stars : public ::testing::TestWithParam<std::size_t>
 
 } // namespace
 
+/// A tetrahedron with two corners and its vertex in line has no area on one side, but a volume as rounding will have it. What
+/// was not a number then hid whatever was wound negatively beside it.
+TEST(StarQuality, OfTheFlatIsANumberAndNotGood)
+{
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto place = [&] { return Vec3{ uniform(random), uniform(random), uniform(random) }; };
+  for (int trial = 0; trial < 100; ++trial)
+  {
+    const Vec3 inLine = place();
+    const std::vector<Vec3> points{ place(), place(), inLine, 2.0 * inLine };
+    const bool isPositive = orient(points[0], points[1], points[2], points[3]) > 0;
+    const TetComplex complex(points, { 1, 1, 1, 1 },
+                             { isPositive ? TetComplex::Tet{ 0, 1, 2, 3 } : TetComplex::Tet{ 0, 1, 3, 2 } }, { 1 });
+    StarQuality quality;
+    quality.gather(complex, 0, { 0 });
+    EXPECT_GT(quality.each(points[0])[0], 0);
+    EXPECT_LT(quality.each({})[0], 1e-12);
+    EXPECT_LT(quality.worst({}, 0), 1e-12);
+  }
+}
+
 TEST_P(Stars, AreMeasuredAsTheirTetrahedraOneByOne)
 {
   std::mt19937 random(1);
