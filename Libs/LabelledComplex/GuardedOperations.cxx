@@ -764,6 +764,7 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
   int choice[maximumRing + 1][maximumRing + 1];
   const auto triangulate = [&](int from, int to) // the polygon from, from + 1, ..., to
   {
+    constexpr double none = -1; // all triangulations are flat or wound negatively: no better than what may be there
     const Label label = c.labels[m_Ring[from]];
     for (int i = from; i < to; ++i) best[i - from][i + 1 - from] = std::numeric_limits<double>::max();
     for (int gap = 2; gap <= to - from; ++gap)
@@ -771,7 +772,7 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
       {
         const int k = i + gap;
         double& value = best[i - from][k - from];
-        value = -1;
+        value = none;
         for (int j = i + 1; j < k; ++j)
         {
           double q = std::min(best[i - from][j - from], best[j - from][k - from]);
@@ -781,7 +782,7 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
           q = std::min(q, lenient(label, worstSine2(at(i), at(k), at(j), pa)));
           if (q > value) value = q, choice[i - from][k - from] = j;
         }
-        if (gap == to - from && value < minimumQuality) return false;
+        if (gap == to - from && (value == none || value < minimumQuality)) return false;
       }
     const std::function<void(int, int)> emit = [&](int i, int k)
     {

@@ -817,6 +817,23 @@ TEST(EdgeRemoval, RefusesWhatQualityOrEvidenceForbids)
   }
 }
 
+TEST(EdgeRemoval, NeedsAPositiveTriangulationWhateverQualityIsAskedFor)
+{
+  // Both ends of the edge lie below the triangle around it.
+  TetraMesh mesh;
+  mesh.points = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 5 }, { -0.5, 0.8, 5 }, { -0.5, -0.8, 5 } };
+  mesh.tetrahedra = { { 0, 1, 2, 3 }, { 0, 1, 3, 4 }, { 0, 1, 4, 2 } };
+  for (const Label label : { Label(0), Label(1) })
+  {
+    mesh.labels.assign(3, label);
+    TetComplex complex = complexOf(mesh);
+    ASSERT_TRUE(isConsistent(complex));
+    GuardedOperations operations(complex, unitScale);
+    EXPECT_FALSE(operations.removeEdge(0, 1, 0, -100)); // as beside a flat tetrahedron
+    EXPECT_EQ(operations.counts.flips, 0);
+  }
+}
+
 TEST(EdgeRemoval, RefusesAnEdgeOnTheBorder)
 {
   TetComplex complex = octahedron({ 1, 1, 0, 0 });
