@@ -20,7 +20,9 @@ struct SurfaceMesherOptions
   /// tissues 0.28 of their thickness if that is less (0.6 voxel at least); 2.1 times as much (2.4 in maps full of noise)
   /// where an angle can't be mended otherwise; and up to a voxel more where that keeps a tissue's volume.
   double maximumDistance = 0;
-  FeatureOptions features; ///< what the map was simplified by; of the thickness of what is not protected, 0.08 F more
+  /// What the map was simplified by. Thin tissues, but the protected ones, are then let off 0.08 F of their thickness more,
+  /// 0.4 at most.
+  FeatureOptions features;
 };
 
 /// The mesh after one step.
