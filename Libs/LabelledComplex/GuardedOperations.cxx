@@ -702,14 +702,17 @@ bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
   return true;
 }
 
+/// Hands the evidence of v's faces to the nearest of them as they are with v at p, however far.
+void GuardedOperations::handToNearest(std::int32_t v, const Vec3& p)
+{
+  addMovedFaces(v, p);
+  for (SheetPoint& point : m_SheetAt.points) nearestFace(m_SheetAt, point);
+  attachMoved();
+}
+
 void GuardedOperations::moveBack(std::int32_t v, const Vec3& p)
 {
-  if (m_Complex.onInterface[v])
-  {
-    addMovedFaces(v, p);
-    for (SheetPoint& point : m_SheetAt.points) nearestFace(m_SheetAt, point);
-    attachMoved();
-  }
+  if (m_Complex.onInterface[v]) handToNearest(v, p);
   place(v, p);
   --counts.moves;
 }
@@ -721,9 +724,7 @@ void GuardedOperations::bringHome(std::int32_t v)
   const auto isLost = [&](const SheetPoint& point)
   { return squaredDistanceNow(now, point) > m_SquaredSlack * point.tolerance2; };
   if (std::none_of(now.points.begin(), now.points.end(), isLost)) return;
-  addMovedFaces(v, m_Complex.points[v]);
-  for (SheetPoint& point : m_SheetAt.points) nearestFace(m_SheetAt, point);
-  attachMoved();
+  handToNearest(v, m_Complex.points[v]);
 }
 
 void GuardedOperations::place(std::int32_t v, const Vec3& p)

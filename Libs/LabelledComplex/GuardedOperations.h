@@ -211,6 +211,7 @@ private:
   void attachEvidence(const std::vector<std::int32_t>& around = {});
   void attach(const std::vector<SheetPoint>& points, const std::vector<std::pair<std::int32_t, int>>& holders);
   void attachMoved();
+  void handToNearest(std::int32_t v, const Vec3& p);
   void clearEvidence();
   static bool has(LabelPair pair, Label label) { return (pair & 0xffff) == label || pair >> 16 == label; }
   std::uint32_t bitOf(Label label);
