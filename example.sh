@@ -35,7 +35,7 @@ if [[ -z ${SURGICALMESHER_BIN:-} ]]; then
   "$root/CMake/build.sh" SurgicalPathScaleCLI SimplexMesherCLI FuchsTetrahedralizerCLI
 fi
 export PATH="${SURGICALMESHER_BIN:-$root/build/bin}:$PATH"
-options=$(/usr/bin/python3 "$root/Docs/Example/options.py" "${@:3}") || exit
+options=$(/usr/bin/python3 "$root/workflow/example/options.py" "${@:3}") || exit
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 cd "$folder"
@@ -84,9 +84,9 @@ mesh_own_map()
 
 illustrate_and_report()
 {
-  stage pictures xvfb-run -a /usr/bin/python3 "$root/Docs/Example/pictures.py" .
+  stage pictures xvfb-run -a /usr/bin/python3 "$root/workflow/example/pictures.py" .
   echo
-  /usr/bin/python3 "$root/Docs/Example/report.py" . "${seconds[@]}"
+  /usr/bin/python3 "$root/workflow/example/report.py" . "${seconds[@]}"
   echo
   echo "Written to $folder: scale.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu report.json and five pictures"
 }

@@ -25,7 +25,7 @@ from scipy import ndimage, sparse
 from scipy.sparse.csgraph import connected_components
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
+sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
 from elasticity import Cholesky, stiffness, unknowns, weight  # noqa: E402
 from fidelity import around, boundary_of_map, boundary_of_mesh, hausdorff, hausdorff_by_tissue  # noqa: E402
 from measures import TETRAHEDRON_FACES, dihedral_angles, euler_numbers_of_map, euler_numbers_of_mesh  # noqa: E402

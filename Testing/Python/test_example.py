@@ -13,7 +13,7 @@ import numpy as np
 from vtk.util.numpy_support import vtk_to_numpy
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
+sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
 from measures import (TETRAHEDRON_FACES, dihedral_angles, edge_ratios, euler_numbers_of_map,  # noqa: E402
                       euler_numbers_of_mesh, signed_volumes, valences)
 from meshfiles import cell_array, interpolated, read_dataset, read_mesh, read_nrrd  # noqa: E402

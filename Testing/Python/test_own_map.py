@@ -12,7 +12,7 @@ import unittest
 import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
+sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
 from maps import cut_out, write_nrrd  # noqa: E402
 from measures import euler_numbers_of_map, euler_numbers_of_mesh, signed_volumes  # noqa: E402
 from meshfiles import cell_array, read_dataset, read_mesh, read_nrrd  # noqa: E402

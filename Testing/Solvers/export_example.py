@@ -11,7 +11,7 @@ import sys
 import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
+sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
 from meshfiles import cell_array, read_dataset  # noqa: E402
 
 BIN, EXAMPLE, OUTDIR = map(os.path.abspath, sys.argv[1:4])

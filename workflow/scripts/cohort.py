@@ -6,7 +6,7 @@ import sys
 
 from snakemake.exceptions import WorkflowError
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Docs", "Example"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "example"))
 from options import PROGRAMS, OptionError, check_value, flag_named, flags_by_stage, is_taken  # noqa: E402
 
 SETTINGS = {"folder", "threads", "options", "patients"}

@@ -9,7 +9,7 @@ import os
 import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
+sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
 from report import wrong_tissues  # noqa: E402
 
 STAGES = ("scale", "surface", "mesh")
