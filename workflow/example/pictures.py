@@ -3,168 +3,83 @@
 
 Reads scale.nrrd, prepared.nrrd, surface.vtp, mesh.vtu and the three stages' reports in FOLDER and writes surface.png,
 tetrahedra.png, scale.png, evolution.png and histograms.png beside them. Cuts are made at the first target, or where
-the first path ends. Needs a display: on a machine without one, run it by xvfb-run.
+the first path ends; where that is not in tissue, the pictures say so. Needs a display: run it by display.py. A picture
+that cannot be drawn is one line on stderr and exit status 1, and the others are drawn all the same.
 """
 import json
 import os
 import sys
+from types import SimpleNamespace
 
-import matplotlib
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-import numpy as np
-import vtk
-from matplotlib.collections import LineCollection
-from PIL import Image
-from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+try:
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    import numpy as np
+    import vtk
+    from matplotlib.collections import LineCollection
+    from matplotlib.patches import Patch, Rectangle
+    from PIL import Image
+    from vtk.util.numpy_support import vtk_to_numpy
+except ImportError as error:
+    sys.exit(f"pictures: {error}, expected the packages that CMake/debian-packages.txt has for the example")
 
+from focus import label_at, nearest, points_of_interest, sentence
 from meshfiles import cell_array, interpolated, read_dataset, read_nrrd
+from palette import tissue_colors, tissue_names
+from views import (FOCUS_COLOR, INK, View, actor_of, cell_centers, extracted, lines_of, mark, paint, put, unit)
 
 DPI = 100
-SUPERSAMPLING = 2
-INK = "#22262e"
-CHILD_COLOR = (0.89, 0.34, 0.26)
+CHILD_COLOR = (0.84, 0.10, 0.16)
 BAR_COLOR, IDEAL_COLOR = "#4c78a8", "#d1495b"
+SLICE_SAMPLES = 500
+NAMES_SHOWN, NAME_LENGTH = 8, 24
 
 
-# ---- colours
+# ---- what is drawn
 
-def from_oklch(lightness, chroma, hue):
-    """sRGB in 0..1 of OKLCh colours (B. Ottosson, 2020); hue in turns."""
-    a, b = chroma * np.cos(2 * np.pi * hue), chroma * np.sin(2 * np.pi * hue)
-    lms = np.stack([lightness + 0.3963377774 * a + 0.2158037573 * b,
-                    lightness - 0.1055613458 * a - 0.0638541728 * b,
-                    lightness - 0.0894841775 * a - 1.2914855480 * b], axis=-1) ** 3
-    linear = np.clip(lms @ np.transpose([[4.0767416621, -3.3077115913, 0.2309699292],
-                                         [-1.2684380046, 2.6097574011, -0.3413193965],
-                                         [-0.0041960863, -0.7034186147, 1.7076147010]]), 0, 1)
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+def read_json(file):
+    with open(file, encoding="utf-8") as stream:
+        return json.load(stream)
 
 
-def tissue_colors(dataset):
-    """(labels + 1, 3) bytes by label: the file's own colours, or hues of even lightness if it has none."""
-    fields = dataset.GetFieldData()
-    ids, colors = vtk_to_numpy(fields.GetArray("TissueIds")), vtk_to_numpy(fields.GetArray("TissueColors"))
-    if len(ids) > 1 and np.all(colors == colors[0]):
-        n = np.arange(len(ids))
-        colors = from_oklch(np.array([0.66, 0.77, 0.86])[n % 3], 0.105, 0.618034 * n % 1)
-    elif colors.max() > 1:
-        colors = colors / 255
-    table = np.full((ids.max() + 1, 3), 200, np.uint8)
-    table[ids] = np.rint(255 * colors)
-    return table
+def case_of(files):
+    """All that the pictures show. `files` has the paths of scale, prepared, surface, mesh, and of scaleReport."""
+    report = read_json(files["scaleReport"])
+    labels, affine = read_nrrd(files["prepared"])
+    surface = read_dataset(files["surface"])
+    points = vtk_to_numpy(surface.GetPoints().GetData())
+    what, target = points_of_interest(report)[0]
+    label = label_at(labels, affine, target)
+    return SimpleNamespace(
+        labels=labels, affine=affine, surface=surface, files=files, target=target,
+        paths=[np.array(path["points"], float) for path in report["paths"]],
+        oddity=sentence(what, target, labels, affine, points),
+        anchor=target if label else nearest(points, target)[0],
+        colors=tissue_colors(surface, cell_array(surface, "BoundaryLabels")))
 
 
-# ---- views of meshes
-
-def paint(dataset, colors):
-    dataset.GetCellData().SetScalars(numpy_to_vtk(np.ascontiguousarray(colors), deep=True))
-
-
-def extracted(dataset, keep):
-    """The cells where `keep` is true, whole."""
-    ids = vtk.vtkIdList()
-    for cell in np.flatnonzero(keep):
-        ids.InsertNextId(int(cell))
-    extract = vtk.vtkExtractCells()
-    extract.SetInputData(dataset)
-    extract.SetCellList(ids)
-    extract.Update()
-    return extract.GetOutput()
+def shown_target(case):
+    """The target, or where it is too far for a picture, a point on the way there from the tissue."""
+    low, high = (f(vtk_to_numpy(case.surface.GetPoints().GetData()), axis=0) for f in (np.min, np.max))
+    way, farthest = case.target - case.anchor, 0.6 * np.linalg.norm(high - low)
+    distance = np.linalg.norm(way)
+    return case.target if distance <= farthest else case.anchor + way * farthest / distance
 
 
-def cell_centers(dataset):
-    centers = vtk.vtkCellCenters()
-    centers.SetInputData(dataset)
-    centers.VertexCellsOff()
-    centers.Update()
-    return vtk_to_numpy(centers.GetOutput().GetPoints().GetData())
+def also_shown(case):
+    return [shown_target(case)] if case.oddity else []
 
 
-def actor_of(dataset, edge_width=0.0, color=None):
-    surface = vtk.vtkDataSetSurfaceFilter()
-    surface.SetInputData(dataset)
-    surface.Update()
-    mapper = vtk.vtkPolyDataMapper()
-    mapper.SetInputData(surface.GetOutput())
-    mapper.SetScalarVisibility(color is None)
-    mapper.SetColorModeToDirectScalars()
-    actor = vtk.vtkActor()
-    actor.SetMapper(mapper)
-    look = actor.GetProperty()
-    look.SetInterpolationToFlat()
-    look.SetAmbient(0.35)
-    look.SetDiffuse(0.7)
-    if color:
-        look.SetColor(color)
-    if edge_width:
-        look.EdgeVisibilityOn()
-        look.SetEdgeColor(0.2, 0.22, 0.26)
-        look.SetLineWidth(edge_width * SUPERSAMPLING)
-    return actor
+def mark_target(axes, view, case):
+    """Where there is no tissue around it, with a line to the tissue that the cut is made in."""
+    mark(axes, view, shown_target(case), toward=case.anchor if case.oddity else None)
 
 
-def lines_of(dataset, width):
-    actor = actor_of(dataset, color=(0.13, 0.15, 0.18))
-    actor.GetProperty().SetLineWidth(width * SUPERSAMPLING)
-    actor.GetProperty().LightingOff()
-    return actor
-
-
-def marker(position, radius):
-    sphere = vtk.vtkSphereSource()
-    sphere.SetCenter(position)
-    sphere.SetRadius(radius)
-    sphere.SetThetaResolution(32)
-    sphere.SetPhiResolution(32)
-    sphere.Update()
-    return actor_of(sphere.GetOutput(), color=CHILD_COLOR)
-
-
-def place_camera(renderer, direction, size):
-    """Looks along `direction`, cranial side up, in parallel, so that all actors just fit."""
-    right = np.cross(direction, (0, 0, 1))
-    right /= np.linalg.norm(right)
-    frame = np.stack([right, np.cross(right, direction), direction])
-    corners = np.concatenate([vtk_to_numpy(actor.GetMapper().GetInput().GetPoints().GetData())
-                              for actor in renderer.GetActors()]) @ frame.T
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    margin = 12
-    mm_per_pixel = max((high - low)[:2] / (np.array(size) - 2 * margin))
-    focus = (low + high) / 2 @ frame
-    camera = renderer.GetActiveCamera()
-    camera.ParallelProjectionOn()
-    camera.SetFocalPoint(focus)
-    camera.SetPosition(focus - 1000 * direction)
-    camera.SetViewUp(frame[1])
-    camera.SetParallelScale(mm_per_pixel * size[1] / 2)
-    renderer.ResetCameraClippingRange()
-
-
-def rendered(actors, direction, size):
-    """The actors seen along `direction`, as an image of size (width, height)."""
-    renderer = vtk.vtkRenderer()
-    renderer.SetBackground(1, 1, 1)
-    for actor in actors:
-        renderer.AddActor(actor)
-    place_camera(renderer, unit(direction), size)
-    window = vtk.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(0)
-    window.SetSize([SUPERSAMPLING * n for n in size])
-    window.AddRenderer(renderer)
-    window.Render()
-    grab = vtk.vtkWindowToImageFilter()
-    grab.SetInput(window)
-    grab.ReadFrontBufferOff()
-    grab.Update()
-    width, height, _ = grab.GetOutput().GetDimensions()
-    pixels = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).reshape(height, width, 3)[::-1]
-    return Image.fromarray(pixels).resize(size, Image.BOX)
-
-
-def unit(vector):
-    return np.asarray(vector, float) / np.linalg.norm(vector)
+def lying_ahead(dataset, case):
+    """Cells behind a coronal plane through the anchor; all of them where that leaves none."""
+    behind = cell_centers(dataset)[:, 1] > case.anchor[1]
+    return behind if behind.any() else np.ones(len(behind), bool)
 
 
 # ---- figures
@@ -173,28 +88,32 @@ def new_figure(width, height):
     return plt.figure(figsize=(width / DPI, height / DPI), dpi=DPI)
 
 
-def save(figure, file):
-    """As a PNG of 256 colours, which is enough here and a fraction of the size."""
+def save(figure, file, colors=256):
+    """As a PNG of so many colours, which are enough for meshes and a fraction of the size; None keeps all."""
     figure.canvas.draw()
     image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3])
-    image.quantize(256, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE).save(file, optimize=True)
+    if colors:
+        image = image.quantize(colors, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    image.save(file, optimize=True)
     plt.close(figure)
 
 
-def headline(figure, x, title, remark):
-    """Title and remark below it, from `x` pixels on, at the top of a figure."""
+def headline(figure, x, title, remark, oddity=None):
+    """Title and remark below it, from `x` pixels on, at the top of a figure; then in red what is odd."""
     width, height = figure.get_size_inches() * DPI
     figure.text(x / width, 1 - 42 / height, title, fontsize=18, color=INK)
     figure.text(x / width, 1 - 70 / height, remark, fontsize=13, color="#5a6170")
+    if oddity:
+        figure.text(x / width, 1 - 94 / height, oddity, fontsize=12, color=FOCUS_COLOR)
 
 
-def cut_open(target):
-    """Implicit function, negative in the part that is taken away: anterior of the target and left of it."""
+def cut_open(anchor):
+    """Implicit function, negative in the part that is taken away: anterior of the anchor and left of it."""
     quarter = vtk.vtkImplicitBoolean()
     quarter.SetOperationTypeToIntersection()
     for normal in ((0, 1, 0), (-1, 0, 0)):
         plane = vtk.vtkPlane()
-        plane.SetOrigin(target)
+        plane.SetOrigin(anchor)
         plane.SetNormal(normal)
         quarter.AddFunction(plane)
     return quarter
@@ -211,147 +130,254 @@ def seen_labels(surface, direction):
     return np.where(near != 0, near, far)
 
 
-def draw_surface(folder, target):
-    surface = read_dataset(os.path.join(folder, "surface.vtp"))
+def draw_surface(case, file):
+    surface = case.surface
     view = unit((-0.75, 1, -0.42))
-    paint(surface, tissue_colors(surface)[seen_labels(surface, view)])
-    clip = vtk.vtkClipPolyData()
-    clip.SetInputData(surface)
-    clip.SetClipFunction(cut_open(target))
-    clip.Update()
-    rim = vtk.vtkCutter()
-    rim.SetInputData(surface)
-    rim.SetCutFunction(cut_open(target))
-    rim.Update()
-    actors = [actor_of(clip.GetOutput(), edge_width=0.5), lines_of(rim.GetOutput(), 1.4), marker(target, 2)]
+    paint(surface, case.colors[seen_labels(surface, view)])
+    clip, rim = vtk.vtkClipPolyData(), vtk.vtkCutter()
+    clip.SetClipFunction(cut_open(case.anchor))
+    rim.SetCutFunction(cut_open(case.anchor))
+    for cut in (clip, rim):
+        cut.SetInputData(surface)
+        cut.Update()
+    open_ = clip.GetOutput() if clip.GetOutput().GetNumberOfCells() else surface
+    actors = [actor_of(open_, edge_width=0.5), lines_of(rim.GetOutput(), 1.4)]
+    view = View(actors, view, (1160, 870), also_shown(case))
     figure = new_figure(1200, 1000)
-    figure.figimage(rendered(actors, view, (1160, 880)), 20, 15)
+    mark_target(put(figure, view, 20, 15), view, case)
     labels = cell_array(surface, "BoundaryLabels")
     headline(figure, 30, f"The surface: {len(labels):,} triangles bound {len(np.setdiff1d(labels, [0]))} tissues",
-             "a quarter cut away at the target (red); walls in the colour of the tissue that one looks into")
-    save(figure, os.path.join(folder, "surface.png"))
+             "a quarter cut away at the target (+); walls in the colour of the tissue that one looks into", case.oddity)
+    save(figure, file)
 
 
-def draw_tetrahedra(folder, target):
-    mesh = read_dataset(os.path.join(folder, "mesh.vtu"))
-    child = cell_array(mesh, "SubMesh") > 0
-    behind = cell_centers(mesh)[:, 1] > target[1]
-    paint(mesh, tissue_colors(mesh)[cell_array(mesh, "TissueLabel")])
-    view = (-0.25, 1, -0.2)
-    whole = [actor_of(extracted(mesh, behind & ~child), edge_width=0.5),
-             actor_of(extracted(mesh, behind & child), edge_width=0.25, color=CHILD_COLOR)]
-    apart = [actor_of(extracted(mesh, behind & child), edge_width=0.7)]
+def put_names(figure, x, y, mesh, labels, colors):
+    """The colours of the tissues with most tetrahedra among `labels`, by name, from pixel (x, y) downwards."""
+    found, counts = np.unique(labels, return_counts=True)
+    names = tissue_names(mesh)
+    patches = []
+    for label in found[np.argsort(-counts, kind="stable")][:NAMES_SHOWN]:
+        name = names.get(int(label), f"tissue {label}")
+        name = name if len(name) <= NAME_LENGTH else name[:NAME_LENGTH - 1] + "…"
+        patches.append(Patch(facecolor=colors[label] / 255, edgecolor=INK, linewidth=0.5, label=name))
+    width, height = figure.get_size_inches() * DPI
+    figure.legend(handles=patches, loc="upper left", bbox_to_anchor=(x / width, y / height), ncol=2, frameon=False,
+                  fontsize=12, handlelength=1.2, borderaxespad=0, columnspacing=1.5)
+
+
+def frame_of(view, dataset, margin=4):
+    """The rectangle around what is seen of a data set: x, y, width, height in pixels of the view."""
+    seen = view.pixels(vtk_to_numpy(dataset.GetPoints().GetData()))
+    low, high = seen.min(axis=0) - margin, seen.max(axis=0) + margin
+    return (*low, *(high - low))
+
+
+def put_child(figure, whole_axes, whole, mesh, child, case):
+    """The child apart, enlarged, with a frame around it in the whole and lines from there."""
+    part = extracted(mesh, child)
+    view = View([actor_of(part, edge_width=0.7)], whole.frame[2], (530, 500))
+    axes = put(figure, view, 955, 220)
+    x, y, width, height = frame_of(whole, part)
+    whole_axes.add_patch(Rectangle((x, y), width, height, fill=False, edgecolor=INK, linewidth=1.6))
+    for corner, at in (((x + width, y + height), (955, 720)), ((x + width, y), (955, 220))):
+        ends = whole_axes.transData.inverted().transform(at)
+        whole_axes.plot(*np.transpose([corner, ends]), color=INK, linewidth=0.7, clip_on=False)
+    axes.add_patch(Rectangle((0, 0), 1, 1, transform=axes.transAxes, fill=False, edgecolor=INK, linewidth=1.6,
+                             clip_on=False))
+    put_names(figure, 955, 195, mesh, cell_array(mesh, "TissueLabel")[child], case.colors)
+
+
+def draw_tetrahedra(case, file):
+    mesh = read_dataset(case.files["mesh"])
+    children = cell_array(mesh, "SubMesh") > 0
+    behind = lying_ahead(mesh, case)
+    child = behind & children
+    paint(mesh, case.colors[cell_array(mesh, "TissueLabel")])
+    actors = [actor_of(extracted(mesh, behind & ~children), edge_width=0.5)] if np.any(behind & ~children) else []
+    if child.any():
+        actors.append(actor_of(extracted(mesh, child), color=CHILD_COLOR))
+    whole = View(actors, (-0.25, 1, -0.2), (910, 760), also_shown(case))
     figure = new_figure(1500, 900)
-    figure.figimage(rendered(whole, view, (920, 790)), 10, 10)
-    figure.figimage(rendered(apart, view, (520, 520)), 960, 145)
-    headline(figure, 30, f"The mesh: {len(child):,} tetrahedra",
-             "behind a coronal plane through the target, coloured by tissue; the child mesh in red")
-    headline(figure, 960, f"The child mesh: {child.sum():,} of them", "same cut, enlarged")
-    save(figure, os.path.join(folder, "tetrahedra.png"))
+    axes = put(figure, whole, 15, 15)
+    remark = "behind a coronal plane through the target, coloured by tissue" + ("; the child mesh in red" if child.any() else "")
+    headline(figure, 30, f"The mesh: {len(children):,} tetrahedra", remark, case.oddity)
+    if child.any():
+        headline(figure, 955, f"The child mesh: {children.sum():,} of them", "same cut, enlarged, coloured by tissue")
+        put_child(figure, axes, whole, mesh, child, case)
+    else:
+        headline(figure, 955, "No child mesh" + (" behind the plane" if children.any() else ""),
+                 "" if children.any() else "no part of it is much finer than the rest")
+        put_names(figure, 955, 700, mesh, cell_array(mesh, "TissueLabel"), case.colors)
+    if case.oddity or not child.any():
+        mark_target(axes, whole, case)
+    save(figure, file)
 
 
-def draw_slice(axes, labels, affine, lengths_at, target, paths, normal):
-    """Target edge lengths and tissue boundaries on the voxel layer through the target, across grid axis `normal`."""
-    at = int(np.rint(np.linalg.solve(affine, [*target, 1])[normal]))
-    layer = np.take(labels, min(max(at, 0), labels.shape[normal] - 1), axis=normal)
+def slice_positions(case, normal):
+    """World positions (n, m, 3) of a regular grid across LPS axis `normal` through the target, as wide as the map and
+    the target, and its spacing."""
+    corners = np.array([[*corner, 1] for corner in np.ndindex(2, 2, 2)], float)
+    corners[:, :3] = corners[:, :3] * case.labels.shape - 0.5
+    corners = (corners @ case.affine.T)[:, :3]
+    beyond = [shown_target(case) + step * 0.05 * np.ptp(corners, axis=0) for step in (-1, 1)] if case.oddity else []
+    corners = np.vstack([corners, *beyond])
+    low, high = corners.min(axis=0), corners.max(axis=0)
     u, v = [axis for axis in range(3) if axis != normal]
-    index = np.zeros(layer.shape + (4,))
-    index[..., u], index[..., v] = np.indices(layer.shape)
-    index[..., normal], index[..., 3] = at, 1
-    world = (index @ affine.T)[..., :3]
-    lengths = lengths_at(world)
+    spacing = max((high - low)[[u, v]].max() / SLICE_SAMPLES, 1e-6)
+    positions = np.meshgrid(*(np.arange(low[a] + spacing / 2, high[a], spacing) for a in (u, v)), indexing="ij")
+    world = np.empty(positions[0].shape + (3,))
+    world[..., u], world[..., v] = positions
+    world[..., normal] = plane_through(case)[normal]
+    return world, spacing
+
+
+def plane_through(case):
+    """The target, or where it lies outside of the map, the middle of the voxel nearest to the tissue's next point."""
+    if label_at(case.labels, case.affine, case.target) is not None:
+        return case.target
+    index = np.rint(np.linalg.solve(case.affine, [*case.anchor, 1])[:3])
+    return (case.affine @ [*np.clip(index, 0, np.array(case.labels.shape) - 1), 1])[:3]
+
+
+def labels_on(case, world):
+    """The label of the voxel at each position; -1 outside of the map."""
+    index = np.rint((world - case.affine[:3, 3]) @ np.linalg.inv(case.affine[:3, :3]).T).astype(int)
+    last = np.array(case.labels.shape) - 1
+    at = np.clip(index, 0, last)
+    found = case.labels[at[..., 0], at[..., 1], at[..., 2]].astype(int)
+    return np.where(np.all(index == at, axis=-1), found, -1)
+
+
+def borders_of(found, x, y, spacing):
+    """Segments (n, 2, 2) between grid positions of different labels."""
+    segments = []
+    for axis in (0, 1):
+        differs = np.diff(found, axis=axis) != 0
+        middles = np.stack([x, y], axis=-1)[:differs.shape[0], :differs.shape[1]][differs]
+        ahead, across = np.eye(2)[axis] * spacing / 2, np.eye(2)[1 - axis] * spacing / 2
+        segments.append(np.stack([middles + ahead - across, middles + ahead + across], axis=1))
+    return np.concatenate(segments)
+
+
+def draw_slice(axes, case, scale, normal):
+    """Target edge lengths and tissue boundaries on the plane through the target, across LPS axis `normal`."""
+    world, spacing = slice_positions(case, normal)
+    u, v = [axis for axis in range(3) if axis != normal]
+    lengths, found = interpolated(*scale, world), labels_on(case, world)
+    inside = found >= 0 if np.any(found >= 0) else np.ones(found.shape, bool)
+    lengths = np.where(inside, lengths, np.nan)
+    low, high = lengths[inside].min(), lengths[inside].max()
+    varies = high - low > 1e-3 * high
     x, y = world[..., u], world[..., v]
-    shown = axes.pcolormesh(x, y, lengths, cmap="viridis", shading="gouraud", rasterized=True)
-    borders = []
-    for axis, other in ((0, 1), (1, 0)):
-        ahead, across = (np.array([(affine[u, g], affine[v, g]) for g in (u, v)])[a] / 2 for a in (axis, other))
-        differs = np.diff(layer.astype(int), axis=axis) != 0
-        middles = np.stack([x, y], axis=-1)[:differs.shape[0], :differs.shape[1]][differs] + ahead
-        borders.append(np.stack([middles - across, middles + across], axis=1))
-    axes.add_collection(LineCollection(np.concatenate(borders), colors="white", linewidths=0.5, alpha=0.8))
-    levels = np.arange(np.floor(lengths.min()) + 1, np.ceil(lengths.max()))
-    if len(levels):
+    extent = (x.min() - spacing / 2, x.max() + spacing / 2, y.min() - spacing / 2, y.max() + spacing / 2)
+    shown = axes.imshow(lengths.T, extent=extent, origin="lower", cmap="viridis", interpolation="nearest",
+                        vmin=low if varies else 0.9 * low, vmax=high if varies else 1.1 * high)
+    axes.add_collection(LineCollection(borders_of(found, x, y, spacing), colors="white", linewidths=0.5, alpha=0.8))
+    levels = np.arange(np.floor(low) + 1, np.ceil(high))
+    if varies and len(levels) and min(lengths.shape) > 1:
         contours = axes.contour(x, y, lengths, levels=levels, colors=INK, linewidths=1.1)
         axes.clabel(contours, levels=levels[len(levels) // 2:], fmt="%g mm", fontsize=9)  # nearer in they would overlap
-    for path in paths:
+    for path in case.paths:
         axes.plot(path[:, u], path[:, v], color=CHILD_COLOR, linewidth=2)
-    axes.plot(target[u], target[v], "+", color=CHILD_COLOR, markersize=15, markeredgewidth=2.5)
-    axes.set(aspect="equal", xlim=(x.min(), x.max()), ylim=(y.min(), y.max()))
-    axes.set_xlabel("LPS"[u] + " (mm)")
-    axes.set_ylabel("LPS"[v] + " (mm)")
+    at = shown_target(case)
+    axes.plot(at[u], at[v], "+", color=CHILD_COLOR, markersize=15, markeredgewidth=2.5)
+    axes.set(aspect="equal", xlim=extent[:2], ylim=extent[2:])
+    axes.set_xlabel(("right <  L (mm)  > left", "anterior <  P (mm)  > posterior")[u])
+    axes.set_ylabel(("", "anterior <  P (mm)  > posterior", "S (mm)")[v])
     return shown
 
 
-def draw_scale(folder, target, paths):
-    scale, scale_affine = read_nrrd(os.path.join(folder, "scale.nrrd"))
-    labels, affine = read_nrrd(os.path.join(folder, "prepared.nrrd"))
+def draw_scale(case, file):
+    scale = read_nrrd(case.files["scale"])
     figure = new_figure(1500, 830)
-    axial = figure.add_axes((0.05, 0.08, 0.37, 0.80))
-    sagittal = figure.add_axes((0.47, 0.08, 0.43, 0.80))
+    axial = figure.add_axes((0.05, 0.08, 0.37, 0.78))
+    sagittal = figure.add_axes((0.48, 0.08, 0.42, 0.78))
     for axes, normal in ((axial, 2), (sagittal, 0)):
-        shown = draw_slice(axes, labels, affine, lambda at: interpolated(scale, scale_affine, at), target,
-                           paths, normal)
+        axes.set_facecolor("#d9d9d9")  # outside of the map
+        shown = draw_slice(axes, case, scale, normal)
     axial.invert_yaxis()
+    axial.set_ylabel("posterior <  P (mm)  > anterior")
     figure.colorbar(shown, cax=figure.add_axes((0.925, 0.15, 0.013, 0.66)), label="target edge length (mm)")
-    around = "the target (+) and along the path" if paths else "the target (+)"
+    around = "the target (+) and along the path" if case.paths else "the target (+)"
     headline(figure, 30, f"The scale: target edge length around {around}",
-             "axial slice, anterior at the top; sagittal slice, anterior to the left; tissue boundaries in white")
-    save(figure, os.path.join(folder, "scale.png"))
+             "axial slice, anterior at the top; sagittal slice, anterior to the left; tissue boundaries in white",
+             case.oddity)
+    save(figure, file, colors=None)
 
 
-def draw_histograms(folder):
+def share_within(histogram, low, high):
+    """Of a histogram's counts, the share (%) of bars whose middles lie in an interval."""
+    counts = np.array(histogram["counts"], float)
+    edges = np.linspace(histogram["low"], histogram["high"], len(counts) + 1)
+    middles = (edges[1:] + edges[:-1]) / 2
+    return 100 * counts[(middles >= low) & (middles <= high)].sum() / max(counts.sum(), 1)
+
+
+def histogram_notes(whole, histograms):
+    """For each histogram: what it shows, and where that differs from the ideal."""
+    angles, ratio, valence = whole["dihedral"], whole["edgeOverTarget"], whole["valence"]
+    near = share_within(histograms["dihedral"], 45, 105)
+    short, long_ = (share_within(histograms["edgeOverTarget"], *bounds) for bounds in ((0, 0.7), (1.4, np.inf)))
+    usual = share_within(histograms["valence"], 18, 30)
+    return {
+        "dihedral": (f"{angles['minimum']:.1f} to {angles['maximum']:.1f} degrees",
+                     f"ideal: 4 of 6 at 60, 2 at 90; here one hump, {near:.0f} % in 45..105"),
+        "edgeOverTarget": (f"{100 * whole['edgesNearTarget']:.1f} % within 0.7 to 1.4",
+                           f"ideal: 1; here the median is {ratio['median']:.2f}, {short:.0f} % shorter, {long_:.0f} % longer"),
+        "valence": (f"median {valence['median']:.0f}",
+                    f"ideal: 24; here {usual:.0f} % have 18 to 30") if sum(histograms["valence"]["counts"]) else
+                   ("no such vertex", "ideal: 24"),
+    }
+
+
+def draw_histograms(report, file):
     """The three histograms of Audette et al. 2007, figure 10, from the mesh's report."""
-    with open(os.path.join(folder, "mesh.json"), encoding="utf-8") as file:
-        quality = json.load(file)["quality"]
-    whole, histograms = quality["whole"], quality["histograms"]
-    angles, valence = whole["dihedral"], whole["valence"]
-    panels = [
-        ("dihedral", "Dihedral angle (degrees)", (60, 90),
-         f"{angles['minimum']:.1f} to {angles['maximum']:.1f} degrees"),
-        ("edgeOverTarget", "Edge length over target", (1,),
-         f"{100 * whole['edgesNearTarget']:.1f} % within 0.7 to 1.4"),
-        ("valence", "Tetrahedra at a vertex inside a tissue", (24,), f"median {valence['median']:.0f}"),
-    ]
-    figure = new_figure(1500, 560)
-    for n, (name, title, ideals, note) in enumerate(panels):
-        axes = figure.add_axes((0.05 + 0.325 * n, 0.12, 0.28, 0.63))
+    whole, histograms = report["quality"]["whole"], report["quality"]["histograms"]
+    notes = histogram_notes(whole, histograms)
+    panels = [("dihedral", "Dihedral angle (degrees)", (60, 90)),
+              ("edgeOverTarget", "Edge length over target", (1,)),
+              ("valence", "Tetrahedra at a vertex inside a tissue", (24,))]
+    figure = new_figure(1500, 600)
+    for n, (name, title, ideals) in enumerate(panels):
+        axes = figure.add_axes((0.05 + 0.325 * n, 0.11, 0.28, 0.60))
         counts, low, high = (histograms[name][key] for key in ("counts", "low", "high"))
         if name == "valence":  # always even: two per bar, centred on the even number
             counts, low, high = np.reshape(counts, (-1, 2)).sum(axis=1), low - 1, high - 1
         edges = np.linspace(low, high, len(counts) + 1)
-        axes.bar(edges[:-1], 100 * np.array(counts) / sum(counts), np.diff(edges), align="edge", color=BAR_COLOR,
-                 edgecolor="white", linewidth=0.4)
+        axes.bar(edges[:-1], 100 * np.array(counts) / max(sum(counts), 1), np.diff(edges), align="edge",
+                 color=BAR_COLOR, edgecolor="white", linewidth=0.4)
         for ideal in ideals:
             axes.axvline(ideal, color=IDEAL_COLOR, linestyle="--", linewidth=1.3)
-        axes.set_title(note, fontsize=13, color=INK)
+        figure.text(0.05 + 0.325 * n, 0.785, notes[name][0], fontsize=14, color=INK)
+        figure.text(0.05 + 0.325 * n, 0.74, notes[name][1], fontsize=11, color="#5a6170")
         axes.set_xlabel(title, fontsize=12)
         axes.set_ylabel("share (%)", fontsize=11)
         axes.spines[["top", "right"]].set_visible(False)
     headline(figure, 30, f"The quality of {whole['tetrahedra']:,} tetrahedra",
-             "dashed: the canonical tetrahedron, with which space can be filled (edges: the target)")
-    save(figure, os.path.join(folder, "histograms.png"))
+             "dashed: the ideal, a lattice of canonical tetrahedra, edges as long as their target; tissue boundaries and "
+             "changing lengths keep from it")
+    save(figure, file)
 
 
-def draw_evolution(folder):
+def draw_evolution(report, file):
     """Size, distance to the map and operations of the surface stage, step by step, from its report."""
-    with open(os.path.join(folder, "surface.json"), encoding="utf-8") as file:
-        report = json.load(file)
     steps = report["evolution"]
     number = np.arange(len(steps))
-    figure = new_figure(1500, 560)
-    panels = [figure.add_axes((0.05 + 0.325 * n, 0.12, 0.28, 0.63)) for n in range(3)]
+    figure = new_figure(1500, 600)
+    panels = [figure.add_axes((0.05 + 0.325 * n, 0.11, 0.28, 0.62)) for n in range(3)]
     size, distance, operations = panels
     size.bar(number, [step["faces"] / 1000 for step in steps], color=BAR_COLOR, edgecolor="white", linewidth=0.4)
     size.set_ylabel("faces between tissues (thousands)", fontsize=11)
     distance.plot(number, [step["maximumDistance"] for step in steps], color=IDEAL_COLOR, marker="o", label="maximum")
     distance.plot(number, [step["meanDistance"] for step in steps], color=BAR_COLOR, marker="o", label="mean")
-    distance.set_ylabel("distance to the boundary (mm)", fontsize=11)
+    distance.set_ylabel("from the map's boundary to the surface (mm)", fontsize=11)
     distance.set_ylim(bottom=0)
-    for name, kind, color in (("T1: collapses", "collapses", BAR_COLOR), ("T2: splits", "splits", INK),
-                              ("T7: flips", "flips", IDEAL_COLOR), ("relabels", "relabels", "#54a24b")):
-        counts = np.array([step[kind] for step in steps], float)
-        operations.plot(number, np.where(counts > 0, counts, np.nan), color=color, marker="o", label=name)
-    operations.set_yscale("log")
+    for name, kind, color in (("edges collapsed (T1)", "collapses", BAR_COLOR), ("edges split (T2)", "splits", INK),
+                              ("edges flipped (T7)", "flips", IDEAL_COLOR),
+                              ("tetrahedra relabelled", "relabels", "#54a24b")):
+        operations.plot(number, [step[kind] for step in steps], color=color, marker="o", label=name)
+    operations.set_yscale("symlog", linthresh=1)
+    operations.set_ylim(bottom=0)
     operations.set_ylabel("operations in the step", fontsize=11)
     for axes, title in zip(panels, ("Size", "Fidelity", "Operations")):
         axes.set_title(title, fontsize=13, color=INK)
@@ -362,23 +388,47 @@ def draw_evolution(folder):
         axes.legend(frameon=False)
     first = next((n for n, step in enumerate(steps) if step["stage"] == "improvement"), len(steps))
     headline(figure, 30, f"The evolution of the surface: {report['triangles']:,} triangles in the end",
-             f"steps 1 to {first - 1} coarsen, the others improve")
-    save(figure, os.path.join(folder, "evolution.png"))
+             f"steps 1 to {first - 1} coarsen, the others improve; T1, T2 and T7 are the names of these operations on "
+             "the dual simplex mesh")
+    save(figure, file)
+
+
+def draw_all(folder):
+    """(file, function that draws it) of each picture; what they have in common is read when it is first asked for."""
+    inside = lambda name: os.path.join(folder, name)
+    files = {"scale": inside("scale.nrrd"), "prepared": inside("prepared.nrrd"), "surface": inside("surface.vtp"),
+             "mesh": inside("mesh.vtu"), "scaleReport": inside("scale.json")}
+    case = []
+
+    def of_case(draw):
+        if not case:
+            case.append(case_of(files))
+        return lambda file: draw(case[0], file)
+
+    yield "scale.png", lambda file: of_case(draw_scale)(file)
+    yield "evolution.png", lambda file: draw_evolution(read_json(inside("surface.json")), file)
+    yield "histograms.png", lambda file: draw_histograms(read_json(inside("mesh.json")), file)
+    yield "surface.png", lambda file: of_case(draw_surface)(file)
+    yield "tetrahedra.png", lambda file: of_case(draw_tetrahedra)(file)
+
+
+def drawn(name, draw, file):
+    """Whether it was; if not, a line on stderr says why. Nothing that a picture stumbles over is worth losing the run."""
+    try:
+        draw(file)
+        return True
+    except Exception as error:  # pylint: disable=broad-except
+        print(f"pictures: {name} cannot be drawn: {type(error).__name__}: {' '.join(str(error).split())}",
+              file=sys.stderr)
+        return False
 
 
 def main():
     if len(sys.argv) != 2:
         sys.exit("usage: pictures.py FOLDER")
     folder = sys.argv[1]
-    with open(os.path.join(folder, "scale.json"), encoding="utf-8") as file:
-        focus = json.load(file)
-    paths = [np.array(path["points"], float) for path in focus["paths"]]
-    target = np.array(focus["targets"][0] if focus["targets"] else paths[0][-1], float)
-    draw_scale(folder, target, paths)
-    draw_evolution(folder)
-    draw_histograms(folder)
-    draw_surface(folder, target)
-    draw_tetrahedra(folder, target)
+    done = [drawn(name, draw, os.path.join(folder, name)) for name, draw in draw_all(folder)]
+    sys.exit(not all(done))
 
 
 if __name__ == "__main__":
