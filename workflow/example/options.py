@@ -137,13 +137,18 @@ def parsed(words, stages):
             yield name, None
 
 
+def values_of_list(flag, value):
+    """The files or texts that a value names: those of a flag that is repeated may be joined by commas."""
+    return value.split(",") if flag.is_list and flag.kind != "point" else [value]
+
+
 def values_passed_on(flag, value):
     """Of an option's value, what each use of the flag gets; files to read become absolute."""
     if value is None:
         return [""]
     if not flag.is_input:
         return [value]
-    return [os.path.abspath(file) for file in (value.split(",") if flag.is_list else [value])]
+    return [os.path.abspath(file) for file in values_of_list(flag, value)]
 
 
 def main():

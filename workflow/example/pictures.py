@@ -274,6 +274,7 @@ def draw_slice(axes, case, scale, normal):
                         vmin=low if varies else 0.9 * low, vmax=high if varies else 1.1 * high)
     axes.add_collection(LineCollection(borders_of(found, x, y, spacing), colors="white", linewidths=0.5, alpha=0.8))
     levels = np.arange(np.floor(low) + 1, np.ceil(high))
+    levels = levels[(levels > low + 1e-3) & (levels < high - 1e-3)]  # none in the noise of what is constant
     if varies and len(levels) and min(lengths.shape) > 1:
         contours = axes.contour(x, y, lengths, levels=levels, colors=INK, linewidths=1.1)
         axes.clabel(contours, levels=levels[len(levels) // 2:], fmt="%g mm", fontsize=9)  # nearer in they would overlap
