@@ -171,6 +171,11 @@ class OwnMapTest(unittest.TestCase):
         names = [process.communicate()[0] for process in begun]
         self.assertEqual([process.returncode for process in begun], [0] * 4)
         self.assertEqual(len(set(names)), 4, names)
+        windows = ("import vtk\nfor _ in range(40):\n    window = vtk.vtkRenderWindow()\n    window.SetOffScreenRendering(1)\n"
+                   "    window.AddRenderer(vtk.vtkRenderer())\n    window.Render()\n    window.Finalize()\n    del window\n")
+        many = subprocess.run([sys.executable, DISPLAY, sys.executable, "-c", windows], stderr=subprocess.PIPE, text=True,
+                              check=False)
+        self.assertEqual((many.returncode, many.stderr), (0, ""), "one window after the other")
         none = subprocess.run([sys.executable, DISPLAY, "true"], env={"PATH": "/nowhere"}, stderr=subprocess.PIPE,
                               text=True, check=False)
         self.assertEqual((none.returncode, none.stderr.count("\n")), (1, 1), none.stderr)

@@ -4,6 +4,7 @@
 Ends with the command's status, or with 1 and one line on stderr if there is no display to be had.
 """
 import os
+import random
 import select
 import shutil
 import signal
@@ -11,29 +12,41 @@ import subprocess
 import sys
 
 SECONDS = 30
+ATTEMPTS = 5
+NUMBERS = (1000, 50000)
 
 
 class DisplayError(RuntimeError):
     """One line."""
 
 
-def start():
-    """An X server without a screen and its name. The server itself chooses a display that is free, and says so once it
-    answers; several that begin together take different ones."""
+def start(number):
+    """An X server without a screen as display `number`; None if that one is taken. It says so itself once it answers,
+    and stays as it is when a client leaves: while it resets, it refuses the next one."""
     reading, writing = os.pipe()
-    with os.fdopen(reading) as number:
+    with os.fdopen(reading) as answer:
         try:
             server = subprocess.Popen(
-                ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
+                ["Xvfb", f":{number}", "-displayfd", str(writing), "-screen", "0", "1280x1024x24", "-nolisten", "tcp",
+                 "-noreset"],
                 pass_fds=[writing], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                 start_new_session=True)
         finally:
             os.close(writing)
-        name = number.readline().strip() if select.select([number], [], [], SECONDS)[0] else ""
-    if name:
-        return server, ":" + name
+        if select.select([answer], [], [], SECONDS)[0] and answer.readline().strip() == str(number):
+            return server
     stop(server)
     return None
+
+
+def start_somewhere():
+    """(server, number). Numbers are drawn: one that was just given back loses its socket to the server that leaves it."""
+    for _ in range(ATTEMPTS):
+        number = random.randrange(*NUMBERS)
+        server = start(number)
+        if server:
+            return server, number
+    raise DisplayError("Xvfb does not start")
 
 
 def stop(server):
@@ -52,12 +65,9 @@ def run(command):
         if not os.environ.get("DISPLAY"):
             raise DisplayError("no display to draw on, expected Xvfb (Debian's package xvfb)")
         return subprocess.run(command, check=False).returncode
-    begun = start() or start() or start()
-    if begun is None:
-        raise DisplayError("Xvfb does not start")
-    server, name = begun
+    server, number = start_somewhere()
     try:
-        return subprocess.run(command, env={**os.environ, "DISPLAY": name}, check=False).returncode
+        return subprocess.run(command, env={**os.environ, "DISPLAY": f":{number}"}, check=False).returncode
     finally:
         stop(server)
 
