@@ -16,7 +16,11 @@ import numpy as np
 import vtk
 from matplotlib.colorbar import ColorbarBase
 from matplotlib.colors import LinearSegmentedColormap, Normalize
+from PIL import Image
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "workflow", "example"))
+from views import save_image  # noqa: E402
 
 INK = "#22262e"
 PANEL = 620
@@ -191,7 +195,7 @@ def sheet(panels, path, note, curves=None):
     width, tall = 3.6 * len(panels), 3.5
     height = tall + 1.05 + (2.6 if curves else 0)
     figure = plt.figure(figsize=(width, height), dpi=100)
-    figure.text(0.15 / width, 1 - 0.3 / height, note, fontsize=11, color="#5a6170")
+    figure.text(0.15 / width, 1 - 0.3 / height, note, fontsize=10, color="#5a6170")
     for n, (title, pixels) in enumerate(panels):
         axes = figure.add_axes(((3.6 * n + 0.1) / width, (height - 1.0 - tall) / height, 3.4 / width, tall / height))
         axes.imshow(pixels)
@@ -210,9 +214,9 @@ def sheet(panels, path, note, curves=None):
             axes.xaxis.get_major_locator().set_params(integer=True)
             axes.grid(alpha=0.3)
             axes.set_ylim(bottom=0)
-    figure.savefig(path, pil_kwargs={"optimize": True})
+    figure.canvas.draw()
+    save_image(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3]), path)
     plt.close(figure)
-    quantize(path)
 
 
 def add_color_bar(figure, left, bottom, width, height):
@@ -221,11 +225,6 @@ def add_color_bar(figure, left, bottom, width, height):
                        orientation="horizontal", extend="max", ticks=[0, FARTHEST / 2, FARTHEST])
     bar.ax.tick_params(labelsize=8, length=2, pad=1)
     bar.ax.set_title("edges of simplex mesh: distance to boundary (mm)", fontsize=8, color=INK, pad=3)
-
-
-def quantize(path):
-    from PIL import Image
-    Image.open(path).convert("RGB").quantize(160, dither=Image.Dither.NONE).save(path, optimize=True)
 
 
 def evolution(folder, name):
@@ -302,7 +301,7 @@ def main(folder):
                     front, plane=((31.5, 31.5, 31.5), (0, 1, 0))),
           path("simplex-cube.png"), "Half cut away. Red faces: around the gland, the target, where the scale is constant")
     sheet(panels_of(folder, "brain", [("to begin with", "to begin with", "before"), *mesh_and_dual], below),
-          path("simplex-brain.png"), "Seen from below. Red faces: around the target, where the scale is constant",
+          path("simplex-brain.png"), "Seen from below; the target lies inside, and faces that are near it are red",
           curves=evolution(folder, "brain"))
     red, yellow, blue, orange = (205, 92, 82), (228, 196, 98), (122, 152, 190), (222, 150, 92)
     dense = [("dense boundary", "dense", "dense"), *mesh_and_dual]
@@ -311,8 +310,8 @@ def main(folder):
     middle = np.asarray(read(path("path-after.vtp")).GetCenter())
     sheet(panels_of(folder, "path", dense, ((-1, 0.15, -0.1), (0, 0, 1)), plane=(middle, (-1, 0, 0)),
                     palette=[(0, 0, 0), yellow, blue, orange], path=PATH),
-          path("simplex-path.png"), "Half cut away. Red: path to the gland. Blue: brain. Yellow: head near the path. "
-                                    "Orange: null displacement")
+          path("simplex-path.png"), "Half cut away. Red: path to the gland. Blue: brain. Yellow: near the path. "
+                                    "Orange: held still")
     table(folder)
 
 

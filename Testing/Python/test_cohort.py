@@ -148,7 +148,7 @@ class ConfigurationTest(unittest.TestCase):
         os.makedirs(root)
         shutil.copytree(os.path.join(ROOT, "workflow"), os.path.join(root, "workflow"))
         os.rename("p0.nrrd", "the 'first' map.nrrd")
-        folder = "my $cohort's {folder}"
+        folder = "my $cohort's folder"
         write_config({"folder": folder, "options": cohorts.OPTIONS,
                       "patients": {"a": {"map": "the 'first' map.nrrd", "targetPoint": self.point}}})
         self.assertEqual(self.meshed(run(root=root), folder), {"a"})
@@ -275,7 +275,8 @@ class RefusalTest(unittest.TestCase):
         self.assert_refused({"patients": {"p0": {"targetPoint": "0,0,0"}}}, "p0 has no map")
         self.assert_refused({"patients": {"../p0": patient}}, "'../p0'")
         self.assert_refused({"patients": {"p0": patient}, "threads": 1.5}, "threads")
-        self.assert_refused({"patients": {"p0": patient}, "folder": ""}, "folder")
+        for folder in ("", "out/{patient}", ["out"]):
+            self.assert_refused({"patients": {"p0": patient}, "folder": folder}, "folder")
 
     def test_options_of_other_types(self):
         patient = {"map": "p0.nrrd", "targetPoint": "0,0,0"}

@@ -27,7 +27,7 @@ except ImportError as error:
 from focus import label_at, nearest, points_of_interest, sentence
 from meshfiles import cell_array, interpolated, read_dataset, read_nrrd
 from palette import tissue_colors, tissue_names
-from views import (FOCUS_COLOR, INK, View, actor_of, cell_centers, extracted, lines_of, mark, paint, put, unit)
+from views import (FOCUS_COLOR, INK, View, actor_of, cell_centers, extracted, lines_of, mark, paint, put, save_image, unit)
 
 DPI = 100
 CHILD_COLOR = (0.84, 0.10, 0.16)
@@ -88,13 +88,9 @@ def new_figure(width, height):
     return plt.figure(figsize=(width / DPI, height / DPI), dpi=DPI)
 
 
-def save(figure, file, colors=256):
-    """As a PNG of so many colours, which are enough for meshes and a fraction of the size; None keeps all."""
+def save(figure, file, palette=False):
     figure.canvas.draw()
-    image = Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3])
-    if colors:
-        image = image.quantize(colors, Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
-    image.save(file, optimize=True)
+    save_image(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3]), file, palette)
     plt.close(figure)
 
 
@@ -148,7 +144,7 @@ def draw_surface(case, file):
     labels = cell_array(surface, "BoundaryLabels")
     headline(figure, 30, f"The surface: {len(labels):,} triangles bound {len(np.setdiff1d(labels, [0]))} tissues",
              "a quarter cut away at the target (+); walls in the colour of the tissue that one looks into", case.oddity)
-    save(figure, file)
+    save(figure, file, palette=True)
 
 
 def put_names(figure, x, y, mesh, labels, colors):
@@ -210,7 +206,7 @@ def draw_tetrahedra(case, file):
         put_names(figure, 955, 700, mesh, cell_array(mesh, "TissueLabel"), case.colors)
     if case.oddity or not child.any():
         mark_target(axes, whole, case)
-    save(figure, file)
+    save(figure, file, palette=True)
 
 
 def slice_positions(case, normal):
@@ -303,7 +299,7 @@ def draw_scale(case, file):
     headline(figure, 30, f"The scale: target edge length around {around}",
              "axial slice, anterior at the top; sagittal slice, anterior to the left; tissue boundaries in white",
              case.oddity)
-    save(figure, file, colors=None)
+    save(figure, file)
 
 
 def share_within(histogram, low, high):

@@ -11,6 +11,7 @@ from options import (PROGRAMS, TRUTHS, OptionError, check_value, flag_named, fla
 
 SETTINGS = {"folder", "threads", "options", "patients"}
 PATIENT_NAME = re.compile(r"[A-Za-z0-9][\w.-]*", re.ASCII)
+NO_WILDCARDS = re.compile(r"[^{}]*")  # which braces are to Snakemake
 TABLES = ("summary.csv", "summary.md", "volumes.csv")
 
 
@@ -38,8 +39,8 @@ class Cohort:
             if name not in SETTINGS:
                 raise ConfigurationError(f"unknown member {name}, expected {', '.join(sorted(SETTINGS))}")
         self.folder = config.get("folder", "cohort")
-        if not isinstance(self.folder, str) or not self.folder.strip():
-            raise ConfigurationError("folder: expected the name of a folder for the results")
+        if not isinstance(self.folder, str) or not self.folder.strip() or not NO_WILDCARDS.fullmatch(self.folder):
+            raise ConfigurationError("folder: expected the name of a folder for the results, without { and }")
         self.threads = threads_of(config.get("threads", "2"))
         common = config.get("options") or {}
         if not isinstance(common, dict):
