@@ -295,13 +295,13 @@ def main(folder):
         return os.path.join(folder, name)
 
     mesh_and_dual = [("simplex mesh", "simplex", "after-simplex"), ("its dual", "simplex", "after")]
-    front, below = ((0.5, 1, -0.35), (0, 0, 1)), ((0.5, 1, 0.45), (0, 0, 1))
+    front, below = ((0.5, 1, -0.35), (0, 0, 1)), ((0.3, 0.25, 1), (0, 1, 0))
     sheet(panels_of(folder, "cube", [("dense boundary", "dense", "dense"),
                                      ("vtkDecimatePro", "vtkDecimatePro", "decimated"), *mesh_and_dual],
                     front, plane=((31.5, 31.5, 31.5), (0, 1, 0))),
           path("simplex-cube.png"), "Half cut away. Red faces: around the gland, the target, where the scale is constant")
     sheet(panels_of(folder, "brain", [("to begin with", "to begin with", "before"), *mesh_and_dual], below),
-          path("simplex-brain.png"), "Seen from below; the target lies inside, and faces that are near it are red",
+          path("simplex-brain.png"), "Seen from below. Red faces: around the target, where the scale is constant",
           curves=evolution(folder, "brain"))
     red, yellow, blue, orange = (205, 92, 82), (228, 196, 98), (122, 152, 190), (222, 150, 92)
     dense = [("dense boundary", "dense", "dense"), *mesh_and_dual]
