@@ -206,7 +206,8 @@ def sheet(panels, path, note, curves=None):
     if curves:
         steps, data = curves
         for n, (key, label) in enumerate((("faces", "simplex faces"), ("meanDistance", "mean distance (mm)"))):
-            axes = figure.add_axes(((0.6 + n * width / 2) / width, 0.5 / height, (width / 2 - 0.9) / width, 1.9 / height))
+            left = 0.6 + n * width / 2
+            axes = figure.add_axes((left / width, 0.5 / height, (width / 2 - 0.9) / width, 1.9 / height))
             axes.plot(steps, data[key], color="#4c78a8", marker=".", markersize=4)
             axes.set_xlabel("iteration", fontsize=9, color=INK)
             axes.set_title(label, fontsize=10, color=INK)
@@ -221,8 +222,8 @@ def sheet(panels, path, note, curves=None):
 
 def add_color_bar(figure, left, bottom, width, height):
     """Of the distance that edges of simplex meshes are coloured by."""
-    bar = ColorbarBase(figure.add_axes((left, bottom, width, height)), cmap=white_to_red()[0], norm=Normalize(0, FARTHEST),
-                       orientation="horizontal", extend="max", ticks=[0, FARTHEST / 2, FARTHEST])
+    bar = ColorbarBase(figure.add_axes((left, bottom, width, height)), cmap=white_to_red()[0],
+                       norm=Normalize(0, FARTHEST), orientation="horizontal", extend="max", ticks=[0, FARTHEST / 2, FARTHEST])
     bar.ax.tick_params(labelsize=8, length=2, pad=1)
     bar.ax.set_title("edges of simplex mesh: distance to boundary (mm)", fontsize=8, color=INK, pad=3)
 
@@ -299,7 +300,7 @@ def main(folder):
     sheet(panels_of(folder, "cube", [("dense boundary", "dense", "dense"),
                                      ("vtkDecimatePro", "vtkDecimatePro", "decimated"), *mesh_and_dual],
                     front, plane=((31.5, 31.5, 31.5), (0, 1, 0))),
-          path("simplex-cube.png"), "Half cut away. Red faces: around the gland, the target, where the scale is constant")
+          path("simplex-cube.png"), "Half cut away. Red faces: around the gland, where the scale is constant")
     sheet(panels_of(folder, "brain", [("to begin with", "to begin with", "before"), *mesh_and_dual], below),
           path("simplex-brain.png"), "Seen from below. Red faces: around the target, where the scale is constant",
           curves=evolution(folder, "brain"))

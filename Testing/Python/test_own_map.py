@@ -159,8 +159,8 @@ class OwnMapTest(unittest.TestCase):
         process = run("small", "small.nrrd", "--targetPoint", "8,8,8", "--minimumEdgeLength", "6")
         self.assertEqual(process.returncode, 0, process.stderr)
         os.remove("small/mesh.vtu")
-        process = subprocess.run([sys.executable, DISPLAY, sys.executable, os.path.join(SCRIPTS, "pictures.py"), "small"],
-                                 stderr=subprocess.PIPE, text=True, check=False)
+        command = [sys.executable, DISPLAY, sys.executable, os.path.join(SCRIPTS, "pictures.py"), "small"]
+        process = subprocess.run(command, stderr=subprocess.PIPE, text=True, check=False)
         self.assertEqual(process.returncode, 1)
         self.assertIn("pictures: tetrahedra.png cannot be drawn", process.stderr)
         self.assertNotIn("Traceback", process.stderr)
@@ -171,10 +171,11 @@ class OwnMapTest(unittest.TestCase):
         names = [process.communicate()[0] for process in begun]
         self.assertEqual([process.returncode for process in begun], [0] * 4)
         self.assertEqual(len(set(names)), 4, names)
-        windows = ("import vtk\nfor _ in range(40):\n    window = vtk.vtkRenderWindow()\n    window.SetOffScreenRendering(1)\n"
-                   "    window.AddRenderer(vtk.vtkRenderer())\n    window.Render()\n    window.Finalize()\n    del window\n")
-        many = subprocess.run([sys.executable, DISPLAY, sys.executable, "-c", windows], stderr=subprocess.PIPE, text=True,
-                              check=False)
+        windows = ("import vtk\nfor _ in range(40):\n    window = vtk.vtkRenderWindow()\n"
+                   "    window.SetOffScreenRendering(1)\n    window.AddRenderer(vtk.vtkRenderer())\n"
+                   "    window.Render()\n    window.Finalize()\n    del window\n")
+        many = subprocess.run([sys.executable, DISPLAY, sys.executable, "-c", windows], stderr=subprocess.PIPE,
+                              text=True, check=False)
         self.assertEqual((many.returncode, many.stderr), (0, ""), "one window after the other")
         none = subprocess.run([sys.executable, DISPLAY, "true"], env={"PATH": "/nowhere"}, stderr=subprocess.PIPE,
                               text=True, check=False)

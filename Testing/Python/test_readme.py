@@ -63,7 +63,8 @@ class ReadmeTest(unittest.TestCase):
             for before, line in zip(lines, lines[1:]):
                 if re.match(r" {5,}--\w", line):  # a command goes on
                     self.assertTrue(before.endswith(" \\"), f"{page}: {line}")
-        for command in re.findall(r"^    (?:\./|\w+CLI |run_).*$", text_of("README.md") + text_of("Docs/Solvers.md"), re.M):
+        text = text_of("README.md") + text_of("Docs/Solvers.md")
+        for command in re.findall(r"^    (?:\./|\w+CLI |run_).*$", text, re.M):
             self.assertNotIn("...", command)
 
     def test_first_words_say_which_map_and_which_algorithms(self):
@@ -86,7 +87,8 @@ class ReadmeTest(unittest.TestCase):
     def test_the_example_installs_no_more_than_it_needs(self):
         self.assertIn("--for build,example", text_of("example.sh"))
         sections = re.split(r"^# \[(\w+)\].*\n", text_of("CMake", "debian-packages.txt"), flags=re.M)
-        packages = {name: set(re.findall(r"^[\w.+-]+", text, re.M)) for name, text in zip(sections[1::2], sections[2::2])}
+        packages = {name: set(re.findall(r"^[\w.+-]+", text, re.M))
+                    for name, text in zip(sections[1::2], sections[2::2])}
         self.assertEqual(set(packages), {"build", "example", "cohorts", "tests"})
         self.assertFalse((packages["build"] | packages["example"]) & (packages["cohorts"] | packages["tests"]))
         self.assertTrue({"slurmctld", "freefem++", "libgtest-dev"} <= packages["tests"])

@@ -40,7 +40,7 @@ def start(number):
 
 
 def start_somewhere():
-    """(server, number). Numbers are drawn: one that was just given back loses its socket to the server that leaves it."""
+    """(server, number). Numbers are drawn: one just given back loses its socket to the server that leaves it."""
     for _ in range(ATTEMPTS):
         number = random.randrange(*NUMBERS)
         server = start(number)

@@ -105,8 +105,7 @@ def is_taken(stage, name, given):
 def check_value(name, flag, value):
     """Raises OptionError if a module would not take it, or if it would write elsewhere."""
     if not value:
-        raise OptionError(f"{name} has no value, expected {flag.expected()}"
-                          if flag.kind in ("boolean", "integer", "float", "double", "point") else f"{name} has no value")
+        raise OptionError(f"{name} has no value")
     if not flag.accepts(value):
         raise OptionError(f"{name} {value}: expected {flag.expected()}")
     if not value.isprintable():

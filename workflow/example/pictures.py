@@ -27,7 +27,8 @@ except ImportError as error:
 from focus import label_at, nearest, points_of_interest, sentence
 from meshfiles import cell_array, interpolated, read_dataset, read_nrrd
 from palette import tissue_colors, tissue_names
-from views import (FOCUS_COLOR, INK, View, actor_of, cell_centers, extracted, lines_of, mark, paint, put, save_image, unit)
+from views import (FOCUS_COLOR, INK, View, actor_of, cell_centers, extracted, lines_of, mark, paint, put, save_image,
+                   unit)
 
 DPI = 100
 CHILD_COLOR = (0.84, 0.10, 0.16)
@@ -195,7 +196,9 @@ def draw_tetrahedra(case, file):
     whole = View(actors, (-0.25, 1, -0.2), (910, 760), also_shown(case))
     figure = new_figure(1500, 900)
     axes = put(figure, whole, 15, 15)
-    remark = "behind a coronal plane through the target, coloured by tissue" + ("; the child mesh in red" if child.any() else "")
+    remark = "behind a coronal plane through the target, coloured by tissue"
+    if child.any():
+        remark += "; the child mesh in red"
     headline(figure, 30, f"The mesh: {len(children):,} tetrahedra", remark, case.oddity)
     if child.any():
         headline(figure, 955, f"The child mesh: {children.sum():,} of them", "same cut, enlarged, coloured by tissue")
@@ -320,7 +323,8 @@ def histogram_notes(whole, histograms):
         "dihedral": (f"{angles['minimum']:.1f} to {angles['maximum']:.1f} degrees",
                      f"ideal: 4 of 6 at 60, 2 at 90; here one hump, {near:.0f} % in 45..105"),
         "edgeOverTarget": (f"{100 * whole['edgesNearTarget']:.1f} % within 0.7 to 1.4",
-                           f"ideal: 1; here the median is {ratio['median']:.2f}, {short:.0f} % shorter, {long_:.0f} % longer"),
+                           f"ideal: 1; here the median is {ratio['median']:.2f}, {short:.0f} % shorter, "
+                           f"{long_:.0f} % longer"),
         "valence": (f"median {valence['median']:.0f}",
                     f"ideal: 24; here {usual:.0f} % have 18 to 30") if sum(histograms["valence"]["counts"]) else
                    ("no such vertex", "ideal: 24"),
@@ -351,8 +355,8 @@ def draw_histograms(report, file):
         axes.set_ylabel("share (%)", fontsize=11)
         axes.spines[["top", "right"]].set_visible(False)
     headline(figure, 30, f"The quality of {whole['tetrahedra']:,} tetrahedra",
-             "dashed: the ideal, a lattice of canonical tetrahedra, edges as long as their target; tissue boundaries and "
-             "changing lengths keep from it")
+             "dashed: the ideal, a lattice of canonical tetrahedra, edges as long as their target; tissue boundaries "
+             "and changing lengths keep from it")
     save(figure, file)
 
 
@@ -410,7 +414,7 @@ def draw_all(folder):
 
 
 def drawn(name, draw, file):
-    """Whether it was; if not, a line on stderr says why. Nothing that a picture stumbles over is worth losing the run."""
+    """Whether it was; if not, a line on stderr says why. Nothing that a picture stumbles over is worth the run."""
     try:
         draw(file)
         return True

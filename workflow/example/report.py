@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Merges the example's reports and prints its figures. usage: report.py FOLDER STAGE=SECONDS...
 
-Reads scale.json, surface.json and mesh.json in FOLDER, writes report.json beside them (one member per stage, the seconds
-of each, and all warnings), and prints a table of figures that ends in the warnings. Those on targets and paths that lie
-in no tissue, which no stage else tells, are lines on stderr as well; they need prepared.nrrd and surface.vtp.
+Reads scale.json, surface.json and mesh.json in FOLDER, writes report.json beside them (one member per stage, the
+seconds of each, and all warnings), and prints a table of figures that ends in the warnings. Those on targets and paths
+that lie in no tissue are lines on stderr as well; they need prepared.nrrd and surface.vtp.
 """
 import json
 import os

@@ -26,8 +26,8 @@ def threads_of(text):
 
 
 class Cohort:
-    """`config` is of texts, lists and mappings, with the members folder, threads, options (of all patients) and patients
-    (name -> map and options of its own, or where to find them). Raises ConfigurationError on anything else, and on
+    """`config` is of texts, lists and mappings, with the members folder, threads, options (of all patients) and
+    patients (name -> map and options of its own, or where to find them). Raises ConfigurationError on anything else, and on
     options that no program takes."""
 
     def __init__(self, config):

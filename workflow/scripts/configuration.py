@@ -128,8 +128,8 @@ def patients_of(wanted):
             return from_table(wanted)
         return from_maps(wanted, glob.glob(wanted, recursive=True))
     if not isinstance(wanted, dict) or not wanted:
-        raise ConfigurationError("no patients, expected --configfile FILE with `patients`: a mapping, a pattern of label "
-                                 "maps, a .csv file or a BIDS folder")
+        raise ConfigurationError("no patients, expected --configfile FILE with `patients`: a mapping, a pattern of "
+                                 "label maps, a .csv file or a BIDS folder")
     return wanted
 
 

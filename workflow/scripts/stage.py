@@ -59,7 +59,8 @@ def run(arguments):
             end = f"signal {-process.returncode}" if process.returncode < 0 else f"status {process.returncode}"
             log.write(f"{arguments.command[0]} ended by {end}\n")
             sys.exit(1)
-    return {"stage": arguments.stage, "status": process.returncode, "error": last_line(said) if process.returncode else "",
+    return {"stage": arguments.stage, "status": process.returncode,
+            "error": last_line(said) if process.returncode else "",
             "seconds": round(time.monotonic() - start, 2),
             "peakMemory": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024}
 

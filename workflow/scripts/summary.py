@@ -120,7 +120,9 @@ def write_csv(file, columns, rows):
 
 def markdown(name, row):
     cell = printable(row.get(name, "")).replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
-    return f"[![]({cell})]({cell})" if name == "picture" and cell else f"[log]({cell})" if name == "log" and cell else cell
+    if cell and name in ("picture", "log"):
+        return f"[![]({cell})]({cell})" if name == "picture" else f"[log]({cell})"
+    return cell
 
 
 def write_markdown(file, rows):
@@ -135,7 +137,7 @@ def main():
     rows = [row for row, _ in found]
     os.makedirs(folder, exist_ok=True)
     write_csv(os.path.join(folder, "summary.csv"), COLUMNS, rows)
-    write_csv(os.path.join(folder, "volumes.csv"), VOLUME_COLUMNS, [tissue for _, tissues in found for tissue in tissues])
+    write_csv(os.path.join(folder, "volumes.csv"), VOLUME_COLUMNS, [row for _, tissues in found for row in tissues])
     write_markdown(os.path.join(folder, "summary.md"), rows)
     failed = [row for row in rows if row["state"] != "meshed"]
     print(f"{len(rows) - len(failed)} of {len(rows)} patients meshed, see {os.path.join(folder, 'summary.md')}")
