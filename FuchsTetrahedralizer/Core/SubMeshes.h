@@ -30,7 +30,7 @@ struct SubMeshes
 SubMeshes divideIntoSubMeshes(const TetraMesh& mesh, const EdgeLength& edgeLength, const SubMeshOptions& options = {});
 
 /// Constitutive model of each tetrahedron: 1 (nonlinear) in children, 0 (linear) in the parent, 2 (null displacement)
-/// in tissues named "null displacement", upper or lower case.
+/// in null-displacement tissue.
 std::vector<std::int32_t> constitutiveModels(const TetraMesh& mesh, const std::vector<std::int32_t>& subMesh,
                                              const TissueTable& tissues);
 

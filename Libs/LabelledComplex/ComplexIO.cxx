@@ -58,6 +58,8 @@ constexpr const char* kTissueIds = "TissueIds";
 constexpr const char* kTissueNames = "TissueNames";
 constexpr const char* kTissueColors = "TissueColors";
 constexpr const char* kTissueRoles = "TissueRoles";
+constexpr const char* kShell = "shell"; // a role, as the next
+constexpr const char* kNullDisplacement = "null displacement";
 
 /// Keeps the first error VTK reports while it lives: readers tell of damaged content in no other way.
 class ErrorWindow : public vtkOutputWindow
@@ -433,13 +435,14 @@ void addFieldData(vtkFieldData* data, const std::set<Label>& present, const Tiss
     ids.push_back(label);
     names.push_back(tissue.name.empty() ? "tissue " + std::to_string(label) : tissue.name);
     colors.insert(colors.end(), tissue.color.begin(), tissue.color.end());
-    roles.push_back(tissue.isShell ? "shell" : "mesh");
+    roles.push_back(tissue.isShell ? kShell : tissue.isNullDisplacement ? kNullDisplacement : "mesh");
   }
   if (ids.empty()) return;
   addArray<vtkIntArray>(data, kTissueIds, ids);
   addStrings(data, kTissueNames, names);
   addArray<vtkDoubleArray>(data, kTissueColors, colors, 3);
-  if (std::count(roles.begin(), roles.end(), "shell") > 0) addStrings(data, kTissueRoles, roles);
+  const bool hasRoles = std::any_of(roles.begin(), roles.end(), [](const std::string& role) { return role != "mesh"; });
+  if (hasRoles) addStrings(data, kTissueRoles, roles);
 }
 
 void removeStrings(vtkFieldData* data)
@@ -676,7 +679,9 @@ TissueTable tissuesOf(vtkFieldData* data)
     if (!(id >= 0 && id <= kHighestLabel)) continue;
     Tissue& tissue = table[static_cast<Label>(id)];
     if (names && i < names->GetNumberOfValues()) tissue.name = names->GetValue(i);
-    tissue.isShell = roles && i < roles->GetNumberOfValues() && roles->GetValue(i) == "shell";
+    const std::string role = roles && i < roles->GetNumberOfValues() ? roles->GetValue(i) : std::string();
+    tissue.isShell = role == kShell;
+    tissue.isNullDisplacement = role == kNullDisplacement;
     if (colors && colors->GetNumberOfComponents() == 3 && i < colors->GetNumberOfTuples())
     {
       colors->GetTuple(i, tissue.color.data());

@@ -34,8 +34,8 @@ struct SurfaceFile
 SurfaceFile readSurface(const std::string& file);
 
 /// Writes a .vtp: BoundaryLabels (if any), TargetEdgeLength and BoundaryDistance (if not empty), SPACE, TissueIds,
-/// TissueNames, TissueColors (RGB in 0..1) and, where there is a shell, TissueRoles ("mesh", "shell") of the tissues that
-/// occur.
+/// TissueNames, TissueColors (RGB in 0..1) and, where not all are meshed alike, TissueRoles ("mesh", "shell",
+/// "null displacement") of the tissues that occur.
 void writeSurface(const SurfaceFile& content, const std::string& file);
 
 /// Polygons of one tissue each, a simplex mesh for one, and what travels with them in their file.

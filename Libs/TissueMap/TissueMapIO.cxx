@@ -29,13 +29,16 @@ namespace
 
 using MetaData = std::map<std::string, std::string>;
 
+/// Of a segment, as Slicer keeps tags: key:value|
+const char* const nullDisplacementTag = "SurgicalMesher.Role:null displacement|";
+
 constexpr double maximumVoxelCount = 2147483648.0; // 2^31: 4 GB of labels
 
 /// An image file as it lies in memory after reading, and how to walk it in the order of the canonical grid.
 struct Volume : CanonicalGrid
 {
   std::string file;
-  int components = 1;                   ///< values per voxel, interleaved
+  int components = 1; ///< values per voxel, interleaved
   itk::IOComponentEnum type = itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE;
   std::unique_ptr<char[]> data;
   MetaData metaData;
@@ -371,6 +374,8 @@ std::vector<Segment> readSegments(const Volume& volume)
       const std::vector<std::string> words = text::splitWords(*color);
       for (std::size_t c = 0; c < 3 && c < words.size(); ++c) text::parseNumber(words[c], segment.tissue.color[c]);
     }
+    const std::string* tags = find(volume.metaData, prefix + "_Tags");
+    segment.tissue.isNullDisplacement = tags && tags->find(nullDisplacementTag) != std::string::npos;
     segments.push_back(segment);
   }
   return segments;
@@ -482,6 +487,7 @@ MetaData segmentMetaData(const TissueTable& table)
     metaData[prefix + "_Layer"] = "0";
     metaData[prefix + "_Name"] = entry.second.name.empty() ? std::to_string(entry.first) : entry.second.name;
     metaData[prefix + "_Color"] = asText(color[0]) + " " + asText(color[1]) + " " + asText(color[2]);
+    if (entry.second.isNullDisplacement) metaData[prefix + "_Tags"] = nullDisplacementTag;
   }
   return metaData;
 }
@@ -508,6 +514,8 @@ TissueMap readTissueMap(const std::string& file)
   }
   return map;
 }
+
+bool keepsTissues(const std::string& file) { return itk::NrrdImageIO::New()->CanWriteFile(file.c_str()); }
 
 void writeTissueMap(const TissueMap& map, const std::string& file)
 {

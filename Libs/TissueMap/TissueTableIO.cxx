@@ -58,7 +58,7 @@ std::string comparable(std::string name)
 
 } // namespace
 
-TissueTable readTissueTable(const std::string& file)
+TissueTable readTissueTable(const std::string& file, std::vector<std::string>* warnings)
 {
   TissueTable table;
   const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
@@ -74,17 +74,27 @@ TissueTable readTissueTable(const std::string& file)
       throw InputError(file + ":" + std::to_string(n + 1) + ": \"" + line.substr(0, 60) +
                        "\", expected a label from 0 to 65535, a name and a colour");
     }
-    if (label != 0) table[Label(label)] = tissue;
+    if (label == 0) continue;
+    const bool isNew = table.count(Label(label)) == 0;
+    if (!isNew && warnings && table[Label(label)].name != tissue.name)
+      warnings->push_back(file + ":" + std::to_string(n + 1) + ": label " + std::to_string(label) +
+                          " is listed for the second time, this row counts");
+    table[Label(label)] = tissue;
   }
   if (table.empty()) throw InputError(file + ": no tissue, expected lines of a label, a name and a colour");
   return table;
 }
 
-void completeTissueTable(TissueMap& map, const std::string& file)
+void completeTissueTable(TissueMap& map, const std::string& file, std::vector<std::string>* warnings)
 {
-  if (!file.empty())
+  const TissueTable given = file.empty() ? TissueTable() : readTissueTable(file, warnings);
+  const bool mapSays =
+    std::any_of(map.table.begin(), map.table.end(), [](const auto& entry) { return entry.second.isNullDisplacement; });
+  for (const auto& [label, tissue] : given)
   {
-    for (const auto& entry : readTissueTable(file)) map.table[entry.first] = entry.second;
+    if (map.table[label].isNullDisplacement) continue;
+    map.table[label] = tissue;
+    map.table[label].isNullDisplacement = !mapSays && comparable(tissue.name) == "null displacement";
   }
   TissueTable present;
   for (const Label label : presentLabels(map))
