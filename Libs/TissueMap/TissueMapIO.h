@@ -16,6 +16,7 @@ namespace surgicalmesher
 /// colours come from the header; several layers become one map, in which the later segment wins where two overlap, and
 /// labels are the header's values unless two layers share one: then 1, 2, 3 ... in the header's order. A segment's tag
 /// says whether it is null displacement, as writeTissueMap has it.
+/// Floating-point values within 1e-4 of a label are that label, as resampling and arithmetic leave them.
 /// Refused: missing file, directory, truncated data, more than three dimensions (a fourth of size 1 is dropped), several
 /// components, non-integers, negative labels, labels over 65535, no voxel but background, more than 2^31 voxels, spacing
 /// that is not positive, axes that are not finite and perpendicular.
@@ -32,8 +33,8 @@ void writeScale(const ScaleField& scale, const std::string& file);
 /// Throws InputError if the volume of `scale` (voxel centres plus half a voxel) leaves out part of `grid`.
 void requireCover(const ScaleField& scale, const Grid& grid, const std::string& scaleFile);
 
-/// Names and colours from a Slicer colour table (.ctbl, .txt), an ITK-SNAP label file or an atlas's list of labels and
-/// names. Background (label 0) is left out; underscores in names become blanks again. Where a label comes twice, the
+/// Names and colours from a Slicer colour table (.ctbl, .txt, .csv), an ITK-SNAP label file, a BIDS look-up table (.tsv),
+/// FSL's description of an atlas (.xml) or an atlas's list of labels and names. Background (label 0) is left out; underscores in names become blanks again. Where a label comes twice, the
 /// last counts, and `warnings` says so.
 TissueTable readTissueTable(const std::string& file, std::vector<std::string>* warnings = nullptr);
 
