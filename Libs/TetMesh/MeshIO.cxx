@@ -1,6 +1,7 @@
 #include "MeshIO.h"
 
 #include "Errors.h"
+#include "HeaderClaims.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -37,6 +38,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <set>
 
 namespace surgicalmesher
@@ -147,7 +149,14 @@ run(Reader* reader, const std::string& file, const std::string& format)
 {
   ErrorCatcher errors;
   reader->SetFileName(file.c_str());
-  reader->Update();
+  try
+  {
+    reader->Update();
+  }
+  catch (const std::bad_alloc&)
+  {
+    refuse(file, "not enough memory for what its " + format + " header promises");
+  }
   if (errors.any()) refuse(file, "not a readable " + format + " file (" + errors.message() + ")");
   if (reader->GetErrorCode() != 0) refuse(file, "not a readable " + format + " file");
   return reader->GetOutput();
@@ -475,13 +484,15 @@ void writeXML(Writer* writer, vtkDataSet* data, const std::string& file)
   writeBytes(writer->GetOutputString(), file);
 }
 
-void writeLegacy(vtkUnstructuredGrid* grid, const std::string& file)
+void writeLegacy(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts texts)
 {
   ErrorCatcher errors;
   vtkNew<vtkUnstructuredGridWriter> writer;
   writer->SetInputData(grid);
   writer->SetHeader("SurgicalMesher tetrahedra; SPACE=LPS");
-  writer->SetFileTypeToBinary();
+  // What other readers stumble over is left out: bytes to swap, and field data before the points.
+  if (texts == FieldTexts::LeftOut) writer->SetFileTypeToASCII();
+  else writer->SetFileTypeToBinary();
   writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2); // what solvers and older readers understand
   writer->WriteToOutputStringOn();
   if (!writer->Write() || errors.any()) refuse(file, "can't be composed (" + errors.message() + ")");
@@ -556,6 +567,7 @@ void requireSound(const TetMesh& mesh, const std::string& file)
 SurfaceFile readSurface(const std::string& file)
 {
   requireReadable(file);
+  requireCredibleHeader(file);
   const PolyDataFromFile source = readPolyData(file);
   const vtkSmartPointer<vtkPolyData> data = trianglesOf(source.data, file);
   requireIdRange(data->GetNumberOfPoints(), "points", file);
@@ -646,6 +658,7 @@ void writePolygons(const PolygonFile& content, const std::string& file)
 MeshFile readMesh(const std::string& file)
 {
   requireReadable(file);
+  requireCredibleHeader(file);
   bool ras = false;
   const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(file, ras);
   return meshOfGrid(grid, ras, file);
@@ -721,7 +734,8 @@ void writeMesh(const MeshFile& content, const std::string& file, FieldTexts text
   const std::string extension = extensionOf(file);
   if (extension == ".vtk")
   {
-    writeLegacy(grid, file);
+    if (texts == FieldTexts::LeftOut) grid->GetFieldData()->Initialize();
+    writeLegacy(grid, file, texts);
     return;
   }
   if (extension != ".vtu") refuse(file, "tetrahedra are written as .vtu or .vtk");

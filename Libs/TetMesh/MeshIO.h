@@ -78,14 +78,16 @@ MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name
 /// on them.
 TissueTable tissuesOf(vtkFieldData* data);
 
-/// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them.
+/// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them. Legacy files without
+/// them are text, to eleven digits, and have no field data at all: Gmsh 4.8 refuses it before the points, and SOFA does not
+/// swap the bytes of cell data.
 enum class FieldTexts
 {
   Written,
   LeftOut
 };
 
-/// Writes a .vtu (compressed) or a legacy .vtk (binary), by the file's extension.
+/// Writes a .vtu (compressed) or a legacy .vtk (binary, unless texts are left out), by the file's extension.
 void writeMesh(const MeshFile& content, const std::string& file, FieldTexts texts = FieldTexts::Written);
 
 /// Writes `bytes` to `file`, and throws InputError unless all of them arrived there.
