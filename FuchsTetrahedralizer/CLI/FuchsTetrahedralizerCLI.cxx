@@ -4,6 +4,7 @@
 #include "AvailableMemory.h"
 #include "CommandLine.h"
 #include "ConstitutiveTags.h"
+#include "EdgeDivision.h"
 #include "Errors.h"
 #include "Export.h"
 #include "FaceAdjacency.h"
@@ -92,6 +93,7 @@ void prepareSurface(CommandLine& line, const SizingFunction& edgeLength, Surface
     line.message(name + " is the surface of tissue " + std::to_string(*sole) + " alone: its neighbours become outside");
   if (labelled) requireFillable(surface, name);
   requireMemoryFor(estimateTetrahedra(surface, edgeLength), availableMemory(), name);
+  surface = withDividedEdges(surface, edgeLength);
 }
 
 /// A refusal's triangles go beside the mesh that was to be, for the user to look at.
