@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <random>
 
 #ifdef __unix__
@@ -564,4 +565,19 @@ TEST(Scale, HasToCoverTheMap)
   expectInputError([&] { requireCover(scale, map, "scale.nrrd"); }, "scale.nrrd", "leaves out part of the label map");
   map = rotated(map, { 0, 0, 1 }, 0.5);
   expectInputError([&] { requireCover(scale, map, "scale.nrrd"); }, "scale.nrrd", "leaves out part of the label map");
+}
+
+TEST(Images, ComeBackAsTheyWereAndHaveNoHoles)
+{
+  const TemporaryFolder folder;
+  ScalarImage image;
+  image.grid = noisyMap().grid;
+  for (std::size_t n = 0; n < image.grid.voxelCount(); ++n) image.values.push_back(0.25f * float(n) - 7);
+  writeImage(image, folder.file("image.nrrd"));
+  const ScalarImage read = readImage(folder.file("image.nrrd"));
+  EXPECT_EQ(read.values, image.values);
+  EXPECT_EQ(read.grid.size, image.grid.size);
+  image.values[3] = std::numeric_limits<float>::infinity();
+  folder.write("hole.nrrd", nrrd("float", nrrdGeometry(image.grid), image.values));
+  expectInputError([&] { readImage(folder.file("hole.nrrd")); }, folder.file("hole.nrrd"), "a voxel of value inf");
 }
