@@ -2,12 +2,12 @@
 
 #include "AmbientMatch.h"
 #include "CommandLine.h"
-#include "ComplexChecks.h"
-#include "ComplexIO.h"
+#include "MeshChecks.h"
+#include "MeshIO.h"
 #include "ConstitutiveTags.h"
 #include "Errors.h"
 #include "Export.h"
-#include "FaceNeighbours.h"
+#include "FaceAdjacency.h"
 #include "FuchsTetrahedralizerCLIXML.h"
 #include "JsonMember.h"
 #include "MaterialTable.h"
@@ -44,8 +44,8 @@ using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 /// elsewhere in the world have the same numbers.
 struct Lengths
 {
-  EdgeLength inWorld;
-  EdgeLength inFrame; ///< the same as inWorld without a frame
+  SizingFunction inWorld;
+  SizingFunction inFrame; ///< the same as inWorld without a frame
   std::optional<Grid> frame;
 };
 
@@ -55,7 +55,7 @@ Lengths readLengths(const CommandLine& line, const SurfaceFile& content)
   const double uniform = line.number("edgeLength");
   if (!scaleFile.empty() && uniform > 0)
     throw UsageError("--scale and --edgeLength are both given, expected one of them");
-  const auto anywhere = [](const EdgeLength& edgeLength) { return Lengths{ edgeLength, edgeLength, {} }; };
+  const auto anywhere = [](const SizingFunction& edgeLength) { return Lengths{ edgeLength, edgeLength, {} }; };
   if (uniform > 0) return anywhere([uniform](const Vec3&) { return uniform; });
   if (!scaleFile.empty())
   {
@@ -105,16 +105,16 @@ void prepareSurface(const CommandLine& line, SurfaceFile& content)
   throw InputError(std::string(refusal.what()) + "; these triangles are in " + file);
 }
 
-TetraMesh ambientTetrahedra(const CommandLine& line, const SurfaceComplex& surface, const EdgeLength& edgeLength)
+TetMesh ambientTetrahedra(const CommandLine& line, const SurfaceComplex& surface, const SizingFunction& edgeLength)
 {
   const std::string surfaceName = line.text("surface"), ambientName = line.text("ambient");
   if (ambientName.empty()) return fillWithTetrahedra(surface, edgeLength, surfaceName);
-  TetraMesh ambient = readMesh(ambientName).mesh;
+  TetMesh ambient = readMesh(ambientName).mesh;
   requireInterfacesAre(surface, surfaceName, ambient, ambientName);
   return ambient;
 }
 
-void improve(TetraMesh& ambient, const Lengths& lengths, const Progress& progress)
+void improve(TetMesh& ambient, const Lengths& lengths, const Progress& progress)
 {
   const std::optional<Grid>& frame = lengths.frame;
   for (Vec3& p : ambient.points) p = frame ? inFrameOf(*frame, p) : p;
@@ -199,7 +199,7 @@ void writeExports(CommandLine& line, const MeshFile& content, const FiniteElemen
   }
 }
 
-MeshFile assemble(const TetraMesh& ambient, const EdgeLength& edgeLength, const TissueTable& tissues,
+MeshFile assemble(const TetMesh& ambient, const SizingFunction& edgeLength, const TissueTable& tissues,
                   const ConstitutiveRule& rule, SubMeshes& division)
 {
   MeshFile result;
@@ -247,7 +247,7 @@ void writeSubMeshes(JsonWriter& json, const SubMeshes& division)
   json.EndObject();
 }
 
-void writeTopology(JsonWriter& json, const TetraMesh& mesh)
+void writeTopology(JsonWriter& json, const TetMesh& mesh)
 {
   json.Key("topology");
   json.StartArray();
@@ -314,11 +314,11 @@ void mesh(CommandLine& line)
   const ConstitutiveRule rule = readConstitutiveRule(line);
   SurfaceFile content = readSurface(line.text("surface"));
   const Lengths lengths = readLengths(line, content);
-  const EdgeLength& edgeLength = lengths.inWorld;
+  const SizingFunction& edgeLength = lengths.inWorld;
   report(progress, 0.1, "tetrahedra");
   prepareSurface(line, content);
   const FiniteElementOptions options = readFiniteElementOptions(line, content);
-  TetraMesh ambient = ambientTetrahedra(line, content.surface, edgeLength);
+  TetMesh ambient = ambientTetrahedra(line, content.surface, edgeLength);
   improve(ambient, lengths, subProgress(progress, 0.3, 0.8));
   report(progress, 0.8, "sub-meshes");
   SubMeshes division;

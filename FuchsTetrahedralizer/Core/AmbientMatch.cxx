@@ -1,8 +1,8 @@
 #include "AmbientMatch.h"
 
-#include "ComplexChecks.h"
+#include "MeshChecks.h"
 #include "Errors.h"
-#include "FaceNeighbours.h"
+#include "FaceAdjacency.h"
 
 #include <algorithm>
 #include <tuple>
@@ -64,7 +64,7 @@ void requireSubset(const std::vector<Placed>& part, const std::string& partName,
 
 } // namespace
 
-void requireInterfacesAre(const SurfaceComplex& surface, const std::string& surfaceName, const TetraMesh& ambient,
+void requireInterfacesAre(const SurfaceComplex& surface, const std::string& surfaceName, const TetMesh& ambient,
                           const std::string& ambientName)
 {
   const std::vector<Placed> wanted = placedTriangles(surface), found = placedTriangles(interfaceOf(ambient));

@@ -1,7 +1,7 @@
 #pragma once
 /// Does an ambient complex belong to a surface?
 
-#include "TetraMesh.h"
+#include "TetMesh.h"
 
 #include <string>
 
@@ -10,7 +10,7 @@ namespace surgicalmesher
 
 /// Throws InputError, with both names and the place in mm, unless the label interfaces of `ambient` are exactly the
 /// triangles of `surface`: the same positions and the same labels on the same sides.
-void requireInterfacesAre(const SurfaceComplex& surface, const std::string& surfaceName, const TetraMesh& ambient,
+void requireInterfacesAre(const SurfaceComplex& surface, const std::string& surfaceName, const TetMesh& ambient,
                           const std::string& ambientName);
 
 } // namespace surgicalmesher

@@ -178,7 +178,7 @@ Histogram histogramOf(const Json& json)
   return histogram;
 }
 
-Histogram radiusRatios(const TetraMesh& mesh)
+Histogram radiusRatios(const TetMesh& mesh)
 {
   constexpr int bins = 50;
   Histogram histogram{ 0, 1, std::vector<std::size_t>(bins, 0) };

@@ -2,7 +2,7 @@
 /// Model nodes of the scene as the module and its command-line part take them: in world coordinates, with parent
 /// transforms applied. Nothing here changes a node.
 
-#include "ComplexIO.h"
+#include "MeshIO.h"
 
 #include <vtkSmartPointer.h>
 

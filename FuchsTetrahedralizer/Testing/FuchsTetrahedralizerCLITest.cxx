@@ -1,6 +1,6 @@
-#include "ComplexIO.h"
+#include "MeshIO.h"
 #include "ExecutableTest.h"
-#include "FaceNeighbours.h"
+#include "FaceAdjacency.h"
 #include "Shapes.h"
 
 #include <limits>

@@ -1,8 +1,8 @@
 // Improvement where it is needed most: on the slivers of a constrained Delaunay tetrahedralization.
 
 #include "MeshImprovement.h"
-#include "ComplexChecks.h"
-#include "FaceNeighbours.h"
+#include "MeshChecks.h"
+#include "FaceAdjacency.h"
 #include "MeshQuality.h"
 #include "Shapes.h"
 #include "SurfaceTetrahedralization.h"
@@ -38,7 +38,7 @@ std::vector<Shape> shapes()
 }
 
 /// Of the tissues, in degrees: the worst dihedral angle, 150 counting as 30.
-double worstAngle(const TetraMesh& mesh)
+double worstAngle(const TetMesh& mesh)
 {
   double worst = 90;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
@@ -59,11 +59,11 @@ TEST(MeshImprovement, RaisesTheWorstAngleOfADelaunayMeshAndKeepsItsTissues)
   {
     SCOPED_TRACE(shape.name);
     const auto edgeLength = [&](const Vec3&) { return shape.edgeLength; };
-    const TetraMesh before = fillWithTetrahedra(shape.surface, edgeLength, shape.name);
+    const TetMesh before = fillWithTetrahedra(shape.surface, edgeLength, shape.name);
     const auto volumes = checkSurface(interfaceOf(before));
     for (double tolerance : { 0.02, 0.12 })
     {
-      TetraMesh after = before;
+      TetMesh after = before;
       MeshImprovementOptions options;
       options.surfaceTolerance = tolerance;
       improveMesh(

@@ -1,12 +1,12 @@
 // From label maps and surfaces to tetrahedra through every stage: what angles simple shapes get, and what the lattice's
 // tetrahedra look like where nothing disturbs them.
 
-#include "ComplexChecks.h"
-#include "FaceNeighbours.h"
+#include "MeshChecks.h"
+#include "FaceAdjacency.h"
 #include "MapPreparation.h"
 #include "MeshImprovement.h"
 #include "MeshQuality.h"
-#include "SurfaceMesher.h"
+#include "TissueMesher.h"
 #include "SurfaceTetrahedralization.h"
 #include "VoxelMesh.h"
 
@@ -57,7 +57,7 @@ std::vector<Shape> shapes()
 }
 
 /// Degrees, of the tissues.
-Distribution anglesOf(const TetraMesh& mesh) { return assessQuality(withoutOutside(mesh), {}, {}).whole.dihedral; }
+Distribution anglesOf(const TetMesh& mesh) { return assessQuality(withoutOutside(mesh), {}, {}).whole.dihedral; }
 
 /// The middle of the most frequent bin between two values.
 double modeOf(const Histogram& histogram, double from, double to)
@@ -76,9 +76,9 @@ double modeOf(const Histogram& histogram, double from, double to)
 }
 
 /// The tetrahedra of `mesh` all of whose corners are in the cube of half edge `reach` around the origin.
-TetraMesh coreOf(const TetraMesh& mesh, double reach)
+TetMesh coreOf(const TetMesh& mesh, double reach)
 {
-  TetraMesh core = mesh;
+  TetMesh core = mesh;
   for (std::size_t t = 0; t < core.labels.size(); ++t)
   {
     for (const std::int32_t id : core.tetrahedra[t])
@@ -101,7 +101,7 @@ SurfaceComplex cube(int size)
   return surface;
 }
 
-void expectGoodAngles(const TetraMesh& mesh)
+void expectGoodAngles(const TetMesh& mesh)
 {
   const Distribution angles = anglesOf(mesh);
   EXPECT_GE(angles.minimum, 25);
@@ -118,10 +118,10 @@ TEST(ShapeQuality, NoAngleIsBadWhateverTheStart)
     {
       SCOPED_TRACE(shape.name + " at " + std::to_string(length) + " mm");
       const auto scale = [&](const Vec3&) { return float(length); };
-      TetraMesh ambient = meshTissues(shape.map, uniformScale(length), {}).ambient.mesh;
+      TetMesh ambient = meshTissues(shape.map, uniformScale(length), {}).ambient.mesh;
       const auto topology = meshTopology(ambient);
-      TetraMesh delaunay = fillWithTetrahedra(interfaceOf(ambient), scale, shape.name);
-      for (TetraMesh* mesh : { &ambient, &delaunay })
+      TetMesh delaunay = fillWithTetrahedra(interfaceOf(ambient), scale, shape.name);
+      for (TetMesh* mesh : { &ambient, &delaunay })
       {
         SCOPED_TRACE(mesh == &ambient ? "from ambient tetrahedra" : "from constrained Delaunay");
         improveMesh(*mesh, scale);
@@ -136,7 +136,7 @@ TEST(ShapeQuality, NoAngleIsBadWhateverTheStart)
 TEST(ShapeQuality, TheLatticeSurvivesAwayFromSurfaces)
 {
   const auto scale = [](const Vec3&) { return 1.2f; };
-  TetraMesh mesh = fillWithTetrahedra(cube(16), scale, "cube");
+  TetMesh mesh = fillWithTetrahedra(cube(16), scale, "cube");
   improveMesh(mesh, scale);
   const MeshQuality all = assessQuality(withoutOutside(mesh), {}, scale);
   const MeshQuality core = assessQuality(coreOf(mesh, 8 - 2 * 1.2), {}, scale);

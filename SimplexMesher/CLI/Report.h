@@ -4,7 +4,7 @@
 #include "LocalThickness.h"
 #include "ScaledPreparation.h"
 #include "Structures.h"
-#include "SurfaceMesher.h"
+#include "TissueMesher.h"
 #include "TissueSettings.h"
 
 #include <map>

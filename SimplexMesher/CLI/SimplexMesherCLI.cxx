@@ -3,10 +3,10 @@
 #include "AvailableMemory.h"
 #include "BoundaryDistance.h"
 #include "CommandLine.h"
-#include "ComplexChecks.h"
-#include "ComplexIO.h"
+#include "MeshChecks.h"
+#include "MeshIO.h"
 #include "Errors.h"
-#include "FaceNeighbours.h"
+#include "FaceAdjacency.h"
 #include "MemoryEstimate.h"
 #include "Report.h"
 #include "SimplexMesh.h"
@@ -39,7 +39,7 @@ ScaleField readScaleFor(const CommandLine& line, const Grid& grid)
 }
 
 /// Every tissue of the mesh has the Betti numbers it has in the map.
-void requireTopology(const TetraMesh& mesh, const std::map<Label, Betti>& wanted)
+void requireTopology(const TetMesh& mesh, const std::map<Label, Betti>& wanted)
 {
   const auto got = meshTopology(mesh);
   for (const auto& [label, betti] : wanted)
@@ -50,7 +50,7 @@ void requireTopology(const TetraMesh& mesh, const std::map<Label, Betti>& wanted
   }
 }
 
-TetraMesh toWorld(TetraMesh mesh, const Grid& grid)
+TetMesh toWorld(TetMesh mesh, const Grid& grid)
 {
   for (Vec3& p : mesh.points) p = grid.gridToWorld(p);
   return mesh;
@@ -123,7 +123,7 @@ ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField&
 }
 
 /// What is written of a surface in the grid frame of `map`, which lies at `world`.
-SurfaceFile surfaceFile(const TetraMesh& ambient, const TissueMap& map, const Grid& world, const ScaleField& scale)
+SurfaceFile surfaceFile(const TetMesh& ambient, const TissueMap& map, const Grid& world, const ScaleField& scale)
 {
   SurfaceFile content;
   content.surface = interfaceOf(ambient);
@@ -166,7 +166,7 @@ void writeTissueSurfaces(CommandLine& line, const SurfaceFile& content)
   writeBytes(multiBlockIndex(files, content.tissues), index);
 }
 
-void writeAmbient(CommandLine& line, TetraMesh&& mesh, const Grid& world, const TissueTable& tissues,
+void writeAmbient(CommandLine& line, TetMesh&& mesh, const Grid& world, const TissueTable& tissues,
                   const ScaleField& scale)
 {
   const std::string file = line.outputFile("ambient");
@@ -199,7 +199,7 @@ void run(CommandLine& line)
   TissueMap map = readMap(line, results);
   const ScaleField asked = readScaleFor(line, map.grid);
   completeShells(results.settings, map, asked);
-  SurfaceMesherOptions options;
+  TissueMesherOptions options;
   options.maximumDistance = line.number("maximumDistance");
   options.features = readFeatures(line, results.settings);
   prepare(line, map, asked, options.features, subProgress(progress, 0.02, 0.06), results);

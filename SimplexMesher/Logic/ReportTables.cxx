@@ -1,6 +1,6 @@
 #include "ReportTables.h"
 
-#include "ComplexIO.h"
+#include "MeshIO.h"
 #include "Errors.h"
 #include "HostDifferences.h"
 #include "TextFile.h"

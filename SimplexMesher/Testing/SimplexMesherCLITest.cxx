@@ -1,4 +1,4 @@
-#include "ComplexIO.h"
+#include "MeshIO.h"
 #include "ExecutableTest.h"
 #include "TissueMapIO.h"
 #include "VoxelMesh.h"

@@ -6,7 +6,7 @@
 // Mesh_3 interpolates; perturbation and exudation may take timeLimit (60 s) each, 0 for no limit. Prints one JSON object:
 // seconds of each phase, sizes, peak memory. CGAL's own chatter is on stderr.
 
-#include "ComplexIO.h"
+#include "MeshIO.h"
 #include "Driver.h"
 #include "Errors.h"
 #include "TissueMapIO.h"
@@ -122,9 +122,9 @@ struct EdgeLengthField
   }
 };
 
-TetraMesh meshOf(const Complex& complex, const TissueMap& map, const std::vector<Label>& present)
+TetMesh meshOf(const Complex& complex, const TissueMap& map, const std::vector<Label>& present)
 {
-  TetraMesh mesh;
+  TetMesh mesh;
   std::unordered_map<const void*, std::int32_t> ids;
   for (auto cell = complex.cells_in_complex_begin(); cell != complex.cells_in_complex_end(); ++cell)
   {

@@ -8,10 +8,10 @@
 // at the surface's points for its sizes (-m).
 // Prints one JSON object: seconds of each phase, sizes, peak memory.
 
-#include "ComplexIO.h"
+#include "MeshIO.h"
 #include "Driver.h"
 #include "Errors.h"
-#include "FaceNeighbours.h"
+#include "FaceAdjacency.h"
 #include "TissueMapIO.h"
 
 #include <tetgen.h>
@@ -74,9 +74,9 @@ void runTetGen(tetgenio& input, tetgenio& output)
   }
 }
 
-TetraMesh meshOf(const tetgenio& output)
+TetMesh meshOf(const tetgenio& output)
 {
-  TetraMesh mesh;
+  TetMesh mesh;
   for (int i = 0; i < output.numberofpoints; ++i)
   {
     mesh.points.push_back({ output.pointlist[3 * i], output.pointlist[3 * i + 1], output.pointlist[3 * i + 2] });
@@ -111,7 +111,7 @@ Vec3 normalOf(const std::vector<Vec3>& points, const Triangle& t)
 }
 
 /// Each region between triangles takes the label that most of its faces ask for.
-void labelRegions(const SurfaceComplex& surface, const std::map<Triangle, std::int32_t>& onSurface, TetraMesh& mesh)
+void labelRegions(const SurfaceComplex& surface, const std::map<Triangle, std::int32_t>& onSurface, TetMesh& mesh)
 {
   const auto faceOf = [&](std::size_t t, int f)
   {
@@ -119,7 +119,7 @@ void labelRegions(const SurfaceComplex& surface, const std::map<Triangle, std::i
     for (int c = 0; c < 3; ++c) face[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
     return face;
   };
-  const std::vector<std::int32_t> region = faceRegions(faceNeighbours(mesh), [&](std::int32_t t, int f)
+  const std::vector<std::int32_t> region = faceRegions(faceAdjacency(mesh), [&](std::int32_t t, int f)
                                                        { return onSurface.count(ascending(faceOf(t, f))) == 0; });
   std::map<std::int32_t, std::map<Label, int>> votes;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
@@ -164,7 +164,7 @@ void run(const std::string& surfaceFile, const std::string& scaleFile, const std
   tetgenio input, output;
   fillInput(surface, scale, input);
   runTetGen(input, output);
-  TetraMesh mesh = meshOf(output);
+  TetMesh mesh = meshOf(output);
   labelRegions(surface, facesOnSurface(output), mesh);
   stopwatch.lap("TetGen");
   MeshFile file;

@@ -6,8 +6,8 @@
 // FOLDER receives surfaces, simplex meshes, the evolution of each and table.csv; TEMPLATES holds mricron's atlases.
 // NAMEs choose among cube, brain, tubes and path.
 
-#include "ComplexChecks.h"
-#include "ComplexIO.h"
+#include "MeshChecks.h"
+#include "MeshIO.h"
 #include "Errors.h"
 #include "MapPreparation.h"
 #include "MeshQuality.h"

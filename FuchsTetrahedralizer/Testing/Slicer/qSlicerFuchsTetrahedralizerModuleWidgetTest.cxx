@@ -1,7 +1,7 @@
 // The panel as a user meets it: it says what is missing, runs the module off the interface, and shows, measures and
 // exports the same tetrahedra that the command line writes.
 
-#include "ComplexIO.h"
+#include "MeshIO.h"
 #include "HostApplication.h"
 #include "HostScene.h"
 #include "MeshComparison.h"

@@ -2,7 +2,7 @@
 // scene brings back.
 
 #include "vtkSlicerFuchsTetrahedralizerLogic.h"
-#include "ComplexIO.h"
+#include "MeshIO.h"
 #include "HostApplication.h"
 #include "HostScene.h"
 #include "MeshComparison.h"

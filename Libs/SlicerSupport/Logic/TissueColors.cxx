@@ -1,6 +1,6 @@
 #include "TissueColors.h"
 
-#include "ComplexIO.h"
+#include "MeshIO.h"
 #include "HostDifferences.h"
 
 #include <vtkMRMLColorTableNode.h>

@@ -1,7 +1,7 @@
 // The panel as a user meets it: it says what is missing, lists the tissues, and its runs leave the nodes that they
 // should, with the very mesh that the command line writes.
 
-#include "ComplexIO.h"
+#include "MeshIO.h"
 #include "MeshComparison.h"
 #include "Panel.h"
 

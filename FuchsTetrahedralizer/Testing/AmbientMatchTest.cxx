@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "AmbientMatch.h"
+#include "Errors.h"
+#include "FaceAdjacency.h"
+#include "Shapes.h"
+#include "VoxelMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+TEST(RequireInterfacesAre, AcceptsOnlyTheAmbientsOwnSurface)
+{
+  const TetMesh ambient = test::tetrahedraOf(test::paintedMap({ 4, 3, 3 }, [](int i, int, int) { return i % 3; }));
+  SurfaceComplex surface = interfaceOf(ambient);
+  EXPECT_NO_THROW(requireInterfacesAre(surface, "s.vtp", ambient, "a.vtu"));
+  SurfaceComplex renumbered = surface;
+  std::reverse(renumbered.triangles.begin(), renumbered.triangles.end());
+  std::reverse(renumbered.labels.begin(), renumbered.labels.end());
+  for (std::size_t t = 0; t < renumbered.triangles.size(); ++t)
+  {
+    std::swap(renumbered.triangles[t][0], renumbered.triangles[t][1]);
+    std::swap(renumbered.labels[t][0], renumbered.labels[t][1]);
+  }
+  EXPECT_NO_THROW(requireInterfacesAre(renumbered, "s.vtp", ambient, "a.vtu")) << "the same, told differently";
+
+  SurfaceComplex moved = surface, relabelled = surface, missing = surface;
+  moved.points[5].x += 1e-9;
+  relabelled.labels[3] = { 7, 0 };
+  missing.triangles.pop_back();
+  missing.labels.pop_back();
+  for (const SurfaceComplex& other : { moved, relabelled, missing })
+  {
+    EXPECT_THROW(requireInterfacesAre(other, "s.vtp", ambient, "a.vtu"), InputError);
+  }
+}
+
+} // namespace
+} // namespace surgicalmesher

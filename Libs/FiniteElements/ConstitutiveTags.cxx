@@ -1,0 +1,68 @@
+#include "ConstitutiveTags.h"
+
+#include "Errors.h"
+
+#include <algorithm>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+constexpr std::int32_t kLinear = 0, kNonlinear = 1, kNullDisplacement = 2;
+
+bool isNear(const Vec3& x, const ConstitutiveRule& rule)
+{
+  return std::min(distanceToPoints(x, rule.targets), distanceToPaths(x, rule.paths)) <= rule.nonlinearDistance;
+}
+
+bool isHeldStill(const Vec3& x, const ConstitutiveRule& rule)
+{
+  if (rule.nullTargetRadius == 0 && rule.nullPathDistance == 0) return false;
+  if (rule.nullTargetRadius > 0 && distanceToPoints(x, rule.targets) <= rule.nullTargetRadius) return false;
+  if (rule.nullPathDistance == 0) return true;
+  const double atTarget = rule.nullPathDistanceAtTarget > 0 ? rule.nullPathDistanceAtTarget : rule.nullPathDistance;
+  return std::all_of(rule.paths.begin(), rule.paths.end(),
+                     [&](const Path& path) { return distanceToTube(x, path, rule.nullPathDistance, atTarget) > 0; });
+}
+
+} // namespace
+
+void checkConstitutiveRule(const ConstitutiveRule& rule)
+{
+  for (const double distance :
+       { rule.nonlinearDistance, rule.nullTargetRadius, rule.nullPathDistance, rule.nullPathDistanceAtTarget })
+  {
+    if (!(std::isfinite(distance) && distance >= 0))
+    {
+      throw UsageError("a constitutive distance is negative or not finite, expected 0 mm or more");
+    }
+  }
+  const bool hasPlace = !rule.targets.empty() || !rule.paths.empty();
+  const bool hasDistance = rule.nonlinearDistance > 0 || rule.nullTargetRadius > 0 || rule.nullPathDistance > 0;
+  if (rule.nonlinearDistance > 0 && !hasPlace) throw UsageError("a nonlinear distance is given, but no target or path");
+  if (rule.nullTargetRadius > 0 && rule.targets.empty())
+    throw UsageError("a null-displacement radius is given, but no target");
+  if (rule.nullPathDistance > 0 && rule.paths.empty())
+    throw UsageError("a null-displacement path distance is given, but no path");
+  if (rule.nullPathDistanceAtTarget > 0 && rule.nullPathDistance == 0)
+    throw UsageError("a null-displacement path distance at the target is given, but none at the entry");
+  if (hasPlace && !hasDistance)
+    throw UsageError("a target or path is given, but neither a nonlinear nor a null-displacement distance");
+}
+
+void tagByDistance(const TetMesh& mesh, const ConstitutiveRule& rule, std::vector<std::int32_t>& constitutive)
+{
+  checkConstitutiveRule(rule);
+  for (std::size_t t = 0; t < constitutive.size(); ++t)
+  {
+    std::int32_t& tag = constitutive[t];
+    if (tag == kNullDisplacement) continue;
+    const auto& [a, b, c, d] = mesh.tetrahedra[t];
+    const Vec3 centroid = 0.25 * (mesh.points[a] + mesh.points[b] + mesh.points[c] + mesh.points[d]);
+    if (rule.nonlinearDistance > 0) tag = isNear(centroid, rule) ? kNonlinear : kLinear;
+    if (isHeldStill(centroid, rule)) tag = kNullDisplacement;
+  }
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,395 @@
+#include "FiniteElementModel.h"
+
+#include "Errors.h"
+#include "FaceAdjacency.h"
+#include "SetNames.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <utility>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+constexpr std::size_t kHalfName = 34; ///< of two names joined into one
+constexpr std::int32_t kNonlinear = 1, kNullDisplacement = 2;
+
+using Ids = std::vector<std::int32_t>;
+
+/// The two sides of an interface: faces of the group with the higher id, and of the other.
+struct Interface
+{
+  std::vector<TetrahedronFace> high, low; ///< `low` is empty at the mesh's own boundary
+};
+
+/// Interfaces between groups of tetrahedra by [higher, lower] group; `outside` is the group beyond the mesh.
+using Interfaces = std::map<std::array<std::int32_t, 2>, Interface>;
+
+std::int32_t faceTowards(const FaceAdjacency& neighbours, std::int32_t tetrahedron, std::int32_t beyond)
+{
+  const auto& across = neighbours.across[tetrahedron];
+  return static_cast<std::int32_t>(std::find(across.begin(), across.end(), beyond) - across.begin());
+}
+
+template <class Group>
+Interfaces interfacesOf(const FaceAdjacency& neighbours, const std::vector<Group>& group, std::int32_t outside)
+{
+  Interfaces result;
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(group.size()); ++t)
+  {
+    for (std::int32_t f = 0; f < 4; ++f)
+    {
+      const std::int32_t beyond = neighbours.across[t][f], here = group[t],
+                         there = beyond < 0 ? outside : group[beyond];
+      if (here <= there) continue;
+      Interface& interface = result[{ here, there }];
+      interface.high.push_back({ t, f });
+      if (beyond >= 0) interface.low.push_back({ beyond, faceTowards(neighbours, beyond, t) });
+    }
+  }
+  return result;
+}
+
+template <class Group>
+std::map<std::int32_t, Ids> membersOf(const std::vector<Group>& group)
+{
+  std::map<std::int32_t, Ids> result;
+  for (std::size_t t = 0; t < group.size(); ++t) result[group[t]].push_back(static_cast<std::int32_t>(t));
+  return result;
+}
+
+std::array<std::int32_t, 3> triangleOf(const TetMesh& mesh, const TetrahedronFace& face)
+{
+  const auto& corners = kFaceCorners[face.face];
+  const auto& ids = mesh.tetrahedra[face.tetrahedron];
+  return { ids[corners[0]], ids[corners[1]], ids[corners[2]] };
+}
+
+Ids sortedUnique(Ids ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+Ids pointsOf(const std::vector<std::array<std::int32_t, 3>>& triangles)
+{
+  Ids ids;
+  for (const auto& triangle : triangles) ids.insert(ids.end(), triangle.begin(), triangle.end());
+  return sortedUnique(std::move(ids));
+}
+
+/// Points where tetrahedra of several groups meet, ascending.
+Ids pointsOfSeveral(const TetMesh& mesh, const Ids& group)
+{
+  Ids first(mesh.points.size(), -1), result;
+  for (std::size_t t = 0; t < group.size(); ++t)
+  {
+    for (const std::int32_t id : mesh.tetrahedra[t])
+    {
+      if (first[id] < 0) first[id] = group[t];
+      else if (first[id] != group[t]) result.push_back(id);
+    }
+  }
+  return sortedUnique(std::move(result));
+}
+
+const char* nameOfLaw(MaterialLaw law) { return law == MaterialLaw::NeoHookean ? "neo_hookean" : "linear_elastic"; }
+
+std::string tissueTitle(std::int32_t label, const TissueTable& tissues)
+{
+  if (label == 0) return "outside";
+  const auto found = tissues.find(static_cast<Label>(label));
+  const bool named = found != tissues.end() && !found->second.name.empty();
+  return named ? found->second.name : "tissue " + std::to_string(label);
+}
+
+std::string subMeshTitle(std::int32_t id) { return id == 0 ? "parent" : "child " + std::to_string(id); }
+
+std::string classTitle(std::int32_t id)
+{
+  return id == kNullDisplacement ? "null displacement" : id == kNonlinear ? "nonlinear" : "linear";
+}
+
+class Builder
+{
+public:
+  Builder(const MeshFile& content, const FiniteElementOptions& options)
+    : m_Options(options), m_Mesh(m_Model.content.mesh), m_Tissues(m_Model.content.tissues)
+  {
+    m_Model.content = content;
+    m_Model.content.subMesh.resize(m_Mesh.tetrahedra.size(), 0);
+    m_Model.content.constitutive.resize(m_Mesh.tetrahedra.size(), 0);
+    m_Neighbours = faceAdjacency(m_Mesh);
+    reserveNames();
+  }
+
+  FiniteElementModel build()
+  {
+    addElementSets();
+    addOuterBoundary();
+    addTissueInterfaces();
+    addSubMeshInterfaces();
+    addNullDisplacement();
+    addSections();
+    for (const ShellChoice& choice : m_Options.shells) addShell(choice);
+    return std::move(m_Model);
+  }
+
+private:
+  /// Names that mean the same in every file come first: no tissue may take them.
+  void reserveNames()
+  {
+    for (const char* name : { "all_nodes", "all_elements", "outer_boundary", "outer_boundary_nodes",
+                              "null_displacement_nodes", "submesh_interface_nodes", "outside" })
+    {
+      m_Names.unique(name);
+    }
+    for (const auto& [id, members] : membersOf(m_Model.content.subMesh))
+    {
+      m_SubMeshName[id] = m_Names.unique("submesh " + subMeshTitle(id));
+    }
+    for (const auto& [id, members] : membersOf(m_Model.content.constitutive))
+    {
+      m_ClassName[id] = m_Names.unique("constitutive " + classTitle(id));
+    }
+    m_TissueName[0] = "outside";
+    for (const auto& [label, members] : membersOf(m_Mesh.labels))
+    {
+      m_TissueName[label] = m_Names.unique(tissueTitle(label, m_Tissues), "tissue_" + std::to_string(label));
+    }
+  }
+
+  SetInfo info(std::string name, std::string original, SetKind kind, Ids ids) const
+  {
+    SetInfo result{ std::move(name), std::move(original), kind, std::move(ids), {} };
+    const bool ofTissue = kind == SetKind::Tissue || kind == SetKind::TissueMaterial ||
+                          kind == SetKind::TissueInterface || kind == SetKind::Shell;
+    const auto tissue = ofTissue ? m_Tissues.find(static_cast<Label>(result.ids[0])) : m_Tissues.end();
+    result.color = tissue == m_Tissues.end() ? Tissue().color : tissue->second.color;
+    return result;
+  }
+
+  void addElementSets()
+  {
+    const auto add = [&](SetInfo info, const Ids& members) {
+      m_Model.elementSets.push_back({ std::move(info), members });
+    };
+    for (const auto& [label, members] : membersOf(m_Mesh.labels))
+    {
+      add(info(m_TissueName[label], tissueTitle(label, m_Tissues), SetKind::Tissue, { label }), members);
+    }
+    for (const auto& [id, members] : membersOf(m_Model.content.subMesh))
+    {
+      add(info(m_SubMeshName[id], subMeshTitle(id), SetKind::SubMesh, { id }), members);
+    }
+    for (const auto& [id, members] : membersOf(m_Model.content.constitutive))
+    {
+      add(info(m_ClassName[id], classTitle(id), SetKind::Constitutive, { id }), members);
+    }
+  }
+
+  /// The triangles of `like`, turned round, if it is given: both sides list them alike.
+  void addSurface(SetInfo info, const std::vector<TetrahedronFace>& faces, const std::string& nodeSet,
+                  const SurfaceSet* like = nullptr)
+  {
+    SurfaceSet surface;
+    static_cast<SetInfo&>(surface) = std::move(info);
+    surface.faces = faces;
+    surface.nodeSet = nodeSet;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+    {
+      if (!like) surface.triangles.push_back(triangleOf(m_Mesh, faces[i]));
+      else surface.triangles.push_back({ like->triangles[i][0], like->triangles[i][2], like->triangles[i][1] });
+    }
+    m_Model.surfaces.push_back(std::move(surface));
+  }
+
+  void addNodeSet(SetInfo info, Ids points)
+  {
+    if (!points.empty()) m_Model.nodeSets.push_back({ std::move(info), std::move(points) });
+  }
+
+  void addOuterBoundary()
+  {
+    const auto whole = interfacesOf(m_Neighbours, Ids(m_Mesh.tetrahedra.size(), 1), 0);
+    if (whole.empty()) return;
+    addSurface(info("outer_boundary", "outer boundary", SetKind::OuterBoundary, {}), whole.begin()->second.high,
+               "outer_boundary_nodes");
+    addNodeSet(info("outer_boundary_nodes", "outer boundary", SetKind::OuterBoundary, {}),
+               pointsOf(m_Model.surfaces.back().triangles));
+  }
+
+  /// Two surfaces and the set of the nodes that both have.
+  void addInterface(const std::array<std::int32_t, 2>& ids, const Interface& interface, SetKind kind,
+                    std::map<std::int32_t, std::string>& names, const std::string& original)
+  {
+    const std::string high = validName(names[ids[0]], kHalfName), low = validName(names[ids[1]], kHalfName);
+    const std::string nodes = m_Names.unique(high + "_and_" + low);
+    addSurface(info(m_Names.unique(high + "_to_" + low), original, kind, { ids[0], ids[1] }), interface.high, nodes);
+    addNodeSet(info(nodes, original, kind, { ids[0], ids[1] }), pointsOf(m_Model.surfaces.back().triangles));
+    if (interface.low.empty()) return;
+    const SurfaceSet side = m_Model.surfaces.back();
+    addSurface(info(m_Names.unique(low + "_to_" + high), original, kind, { ids[1], ids[0] }), interface.low, nodes,
+               &side);
+  }
+
+  void addTissueInterfaces()
+  {
+    for (const auto& [ids, interface] : interfacesOf(m_Neighbours, m_Mesh.labels, 0))
+    {
+      addInterface(ids, interface, SetKind::TissueInterface, m_TissueName,
+                   tissueTitle(ids[0], m_Tissues) + " | " + tissueTitle(ids[1], m_Tissues));
+    }
+  }
+
+  void addSubMeshInterfaces()
+  {
+    for (const auto& [ids, interface] : interfacesOf(m_Neighbours, m_Model.content.subMesh, -1))
+    {
+      if (ids[1] < 0) continue;
+      addInterface(ids, interface, SetKind::SubMeshInterface, m_SubMeshName,
+                   subMeshTitle(ids[0]) + " | " + subMeshTitle(ids[1]));
+    }
+    addNodeSet(info("submesh_interface_nodes", "all sub-mesh interfaces", SetKind::SubMeshInterface, {}),
+               pointsOfSeveral(m_Mesh, m_Model.content.subMesh));
+  }
+
+  void addNullDisplacement()
+  {
+    Ids points;
+    for (std::size_t t = 0; t < m_Mesh.tetrahedra.size(); ++t)
+    {
+      const auto& ids = m_Mesh.tetrahedra[t];
+      if (m_Model.content.constitutive[t] == kNullDisplacement) points.insert(points.end(), ids.begin(), ids.end());
+    }
+    addNodeSet(info("null_displacement_nodes", "null displacement", SetKind::NullDisplacement, {}),
+               sortedUnique(std::move(points)));
+  }
+
+  /// Index of the material of a tissue under `law`; made when first asked for.
+  std::int32_t materialOf(std::int32_t label, MaterialLaw law)
+  {
+    const auto row = m_Options.materials.find(static_cast<Label>(label));
+    const bool listed = row != m_Options.materials.end();
+    const auto [entry, isNew] = m_MaterialIndex.emplace(std::make_pair(listed ? label : -1, law),
+                                                        static_cast<std::int32_t>(m_Model.materials.size()));
+    if (!isNew) return entry->second;
+    const TissueMaterial properties = listed ? row->second : TissueMaterial();
+    const std::string title = listed ? "material_" + validName(m_TissueName[label], kHalfName) : "default_material";
+    m_Model.materials.push_back({ m_Names.unique(title + "_" + nameOfLaw(law)), law, properties.youngsModulus,
+                                  properties.poissonsRatio, properties.density });
+    return entry->second;
+  }
+
+  MaterialLaw lawOf(std::int32_t tetrahedron) const
+  {
+    if (m_Model.content.constitutive[tetrahedron] != kNonlinear) return MaterialLaw::LinearElastic;
+    const auto row = m_Options.materials.find(m_Mesh.labels[tetrahedron]);
+    return row == m_Options.materials.end() ? TissueMaterial().nonlinearLaw : row->second.nonlinearLaw;
+  }
+
+  void addSections()
+  {
+    const std::map<std::int32_t, Ids> tissues = membersOf(m_Mesh.labels);
+    std::int32_t tissueSet = 0;
+    for (const auto& [label, members] : tissues)
+    {
+      std::map<MaterialLaw, Ids> byLaw;
+      for (const std::int32_t t : members) byLaw[lawOf(t)].push_back(t);
+      for (const auto& [law, some] : byLaw)
+      {
+        const std::int32_t set = byLaw.size() == 1 ? tissueSet : addTissueMaterialSet(label, law, some);
+        m_Model.sections.push_back({ set, materialOf(label, law) });
+      }
+      ++tissueSet;
+    }
+  }
+
+  std::int32_t addTissueMaterialSet(std::int32_t label, MaterialLaw law, const Ids& members)
+  {
+    const std::int32_t id = law == MaterialLaw::NeoHookean ? kNonlinear : 0;
+    const std::string name = m_Names.unique(validName(m_TissueName[label], kHalfName) + "_" + classTitle(id));
+    m_Model.elementSets.push_back(
+      { info(name, tissueTitle(label, m_Tissues) + ", " + classTitle(id), SetKind::TissueMaterial, { label, id }),
+        members });
+    return static_cast<std::int32_t>(m_Model.elementSets.size() - 1);
+  }
+
+  Shell emptyShell(const ShellChoice& choice)
+  {
+    const bool one = choice.neighbour >= 0;
+    const std::string half = validName(m_TissueName[choice.label], kHalfName);
+    Ids ids{ choice.label };
+    if (one) ids.push_back(choice.neighbour);
+    Shell shell;
+    static_cast<SetInfo&>(shell) =
+      info(m_Names.unique(half + (one ? "_to_" + validName(m_TissueName[choice.neighbour], kHalfName) : "") + "_shell"),
+           tissueTitle(choice.label, m_Tissues) + (one ? " | " + tissueTitle(choice.neighbour, m_Tissues) : ""),
+           SetKind::Shell, ids);
+    shell.thickness = choice.thickness;
+    shell.material = materialOf(choice.label, MaterialLaw::LinearElastic);
+    return shell;
+  }
+
+  void addShell(const ShellChoice& choice)
+  {
+    Shell shell = emptyShell(choice);
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(m_Mesh.tetrahedra.size()); ++t)
+    {
+      for (std::int32_t f = 0; m_Mesh.labels[t] == choice.label && f < 4; ++f)
+      {
+        const std::int32_t beyond = m_Neighbours.across[t][f], there = beyond < 0 ? 0 : m_Mesh.labels[beyond];
+        if (there == choice.label || (choice.neighbour >= 0 && there != choice.neighbour)) continue;
+        const auto triangle = triangleOf(m_Mesh, { t, f });
+        auto corners = triangle;
+        std::sort(corners.begin(), corners.end());
+        if (m_ShellFaces.insert(corners).second) shell.triangles.push_back(triangle);
+      }
+    }
+    if (shell.triangles.empty())
+    {
+      throw InputError("shell of " + shell.original + ": no face of the mesh is left for it, at least one expected");
+    }
+    m_Model.shells.push_back(std::move(shell));
+  }
+
+  const FiniteElementOptions& m_Options;
+  FiniteElementModel m_Model;
+  const TetMesh& m_Mesh;
+  const TissueTable& m_Tissues;
+  FaceAdjacency m_Neighbours;
+  SetNames m_Names;
+  std::map<std::int32_t, std::string> m_TissueName, m_SubMeshName, m_ClassName;
+  std::map<std::pair<std::int32_t, MaterialLaw>, std::int32_t> m_MaterialIndex; ///< label, -1 for the default
+  std::set<std::array<std::int32_t, 3>> m_ShellFaces;
+};
+
+} // namespace
+
+std::string nameOf(SetKind kind)
+{
+  switch (kind)
+  {
+  case SetKind::Tissue: return "tissue";
+  case SetKind::SubMesh: return "subMesh";
+  case SetKind::Constitutive: return "constitutive";
+  case SetKind::TissueMaterial: return "tissueMaterial";
+  case SetKind::OuterBoundary: return "outerBoundary";
+  case SetKind::TissueInterface: return "tissueInterface";
+  case SetKind::SubMeshInterface: return "subMeshInterface";
+  case SetKind::NullDisplacement: return "nullDisplacement";
+  case SetKind::Shell: return "shell";
+  }
+  return {};
+}
+
+FiniteElementModel finiteElementModel(const MeshFile& content, const FiniteElementOptions& options)
+{
+  return Builder(content, options).build();
+}
+
+} // namespace surgicalmesher

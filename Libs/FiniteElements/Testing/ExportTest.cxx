@@ -1,0 +1,487 @@
+#include "Export.h"
+
+#include "../../Libs/TissueMap/Testing/TestFiles.h"
+#include "LabelledBlocks.h"
+#include "VtkExport.h"
+
+#include <gtest/gtest.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUtilities.h>
+
+#include <map>
+#include <sstream>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using Ids = std::vector<std::int32_t>;
+using Numbers = std::vector<double>;
+
+/// Numbers with anything else between them.
+Numbers numbersIn(std::string text)
+{
+  for (char& c : text) c = c == ',' ? ' ' : c;
+  std::istringstream stream(text);
+  Numbers numbers;
+  for (double number; stream >> number;) numbers.push_back(number);
+  return numbers;
+}
+
+/// Ids that count from 1, as they count from 0.
+Ids idsIn(const std::string& text)
+{
+  Ids ids;
+  for (const double number : numbersIn(text)) ids.push_back(static_cast<std::int32_t>(number) - 1);
+  return ids;
+}
+
+/// A model with all there is: several materials, shells, null displacement.
+FiniteElementModel richModel()
+{
+  MeshFile content = test::randomBlocks(2);
+  content.mesh.points[0].x += 1e-7; // digits to keep
+  FiniteElementOptions options;
+  options.materials[1] = { MaterialLaw::NeoHookean, 0.004, 0.4, 1.1e-9 };
+  options.shells = { { 1, -1, 0.5 }, { 2, 0, 0.75 } };
+  return finiteElementModel(content, options);
+}
+
+/// The cards of an input deck: keyword line and data lines.
+struct Card
+{
+  std::string keyword; ///< "ELEMENT"
+  std::map<std::string, std::string> parameters;
+  std::vector<std::string> lines;
+
+  std::string data() const
+  {
+    std::string text;
+    for (const std::string& line : lines) text += line + "\n";
+    return text;
+  }
+};
+
+std::vector<Card> cardsOf(const std::string& deck)
+{
+  std::vector<Card> cards;
+  std::istringstream stream(deck);
+  for (std::string line; std::getline(stream, line);)
+  {
+    EXPECT_LE(line.size(), 256u);
+    if (line[0] != '*')
+    {
+      cards.back().lines.push_back(line);
+      continue;
+    }
+    std::istringstream fields(line.substr(1));
+    cards.emplace_back();
+    std::getline(fields, cards.back().keyword, ',');
+    for (std::string field; std::getline(fields, field, ',');)
+    {
+      const std::size_t equals = field.find('=');
+      cards.back().parameters[field.substr(1, equals - 1)] = equals == field.npos ? "" : field.substr(equals + 1);
+    }
+  }
+  return cards;
+}
+
+std::string written(const FiniteElementModel& model, const std::string& name)
+{
+  const test::TemporaryFolder folder;
+  exportModel(model, folder.file(name));
+  return test::readBytes(folder.file(name));
+}
+
+/// The corners of faces S1 to S4 of a C3D4 element, counted from 1 (CalculiX's manual).
+constexpr int kAbaqusFaces[4][3] = { { 1, 2, 3 }, { 1, 4, 2 }, { 2, 4, 3 }, { 3, 4, 1 } };
+
+class AbaqusDeck : public testing::Test
+{
+protected:
+  AbaqusDeck() : model(richModel()), cards(cardsOf(written(model, "m.inp"))) {}
+
+  /// The only card with this keyword whose parameter has this value.
+  const Card& card(const std::string& keyword, const std::string& parameter, const std::string& value) const
+  {
+    const Card* found = nullptr;
+    for (const Card& candidate : cards)
+    {
+      const auto entry = candidate.parameters.find(parameter);
+      if (candidate.keyword != keyword || entry == candidate.parameters.end() || entry->second != value) continue;
+      EXPECT_EQ(found, nullptr) << keyword << " " << value << " is there twice";
+      found = &candidate;
+    }
+    if (!found) throw std::out_of_range(keyword + " " + value);
+    return *found;
+  }
+
+  FiniteElementModel model;
+  std::vector<Card> cards;
+};
+
+TEST_F(AbaqusDeck, HasThePointsAndTetrahedra)
+{
+  const TetMesh& mesh = model.content.mesh;
+  const Card& nodes = card("NODE", "NSET", "all_nodes");
+  ASSERT_EQ(nodes.lines.size(), mesh.points.size());
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    const Vec3& p = mesh.points[i];
+    EXPECT_EQ(numbersIn(nodes.lines[i]), (Numbers{ double(i + 1), p.x, p.y, p.z }));
+  }
+  const Card& elements = card("ELEMENT", "TYPE", "C3D4");
+  ASSERT_EQ(elements.lines.size(), mesh.tetrahedra.size());
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    const auto& [a, b, c, d] = mesh.tetrahedra[t];
+    EXPECT_EQ(idsIn(elements.lines[t]), (Ids{ std::int32_t(t), a, b, c, d }));
+  }
+}
+
+TEST_F(AbaqusDeck, HasTheSets)
+{
+  for (const ElementSet& set : model.elementSets)
+    EXPECT_EQ(idsIn(card("ELSET", "ELSET", set.name).data()), set.tetrahedra);
+  for (const NodeSet& set : model.nodeSets) EXPECT_EQ(idsIn(card("NSET", "NSET", set.name).data()), set.points);
+  for (const SurfaceSet& set : model.surfaces)
+  {
+    const Card& surface = card("SURFACE", "NAME", set.name);
+    ASSERT_EQ(surface.lines.size(), set.triangles.size());
+    for (std::size_t i = 0; i < surface.lines.size(); ++i)
+    {
+      const std::size_t comma = surface.lines[i].find(", S");
+      const auto& ids = model.content.mesh.tetrahedra.at(std::stoul(surface.lines[i].substr(0, comma)) - 1);
+      std::set<std::int32_t> corners;
+      for (const int corner : kAbaqusFaces[surface.lines[i].at(comma + 3) - '1']) corners.insert(ids[corner - 1]);
+      EXPECT_EQ(corners, std::set<std::int32_t>(set.triangles[i].begin(), set.triangles[i].end()));
+    }
+  }
+}
+
+TEST_F(AbaqusDeck, GivesEveryElementOneMaterial)
+{
+  std::vector<int> count(model.content.mesh.tetrahedra.size(), 0);
+  for (const Card& section : cards)
+  {
+    if (section.keyword != "SOLID SECTION") continue;
+    for (const std::int32_t t : idsIn(card("ELSET", "ELSET", section.parameters.at("ELSET")).data())) ++count.at(t);
+    card("MATERIAL", "NAME", section.parameters.at("MATERIAL"));
+  }
+  EXPECT_EQ(count, std::vector<int>(count.size(), 1));
+}
+
+TEST_F(AbaqusDeck, MaterialsHaveTheModuliOfTheTable)
+{
+  std::map<std::string, Card> laws, densities;
+  std::string name;
+  for (const Card& entry : cards)
+  {
+    if (entry.keyword == "MATERIAL") name = entry.parameters.at("NAME");
+    if (entry.keyword == "ELASTIC" || entry.keyword == "HYPERELASTIC") laws[name] = entry;
+    if (entry.keyword == "DENSITY") densities[name] = entry;
+  }
+  ASSERT_EQ(laws.size(), model.materials.size());
+  for (const Material& material : model.materials)
+  {
+    const Numbers values = numbersIn(laws.at(material.name).data());
+    ASSERT_EQ(values.size(), 2u);
+    double young = values[0], poisson = values[1];
+    if (laws.at(material.name).keyword == "HYPERELASTIC")
+    {
+      const double shear = 2 * values[0], bulk = 2 / values[1];
+      young = 9 * bulk * shear / (3 * bulk + shear);
+      poisson = (3 * bulk - 2 * shear) / (2 * (3 * bulk + shear));
+    }
+    EXPECT_EQ(laws.at(material.name).keyword == "HYPERELASTIC", material.law == MaterialLaw::NeoHookean);
+    EXPECT_NEAR(young, material.youngsModulus, 1e-10 * young);
+    EXPECT_NEAR(poisson, material.poissonsRatio, 1e-10);
+    EXPECT_EQ(numbersIn(densities.at(material.name).data()), Numbers{ material.density });
+  }
+}
+
+TEST_F(AbaqusDeck, ShellsShareTheNodes)
+{
+  auto next = static_cast<std::int32_t>(model.content.mesh.tetrahedra.size());
+  for (const Shell& shell : model.shells)
+  {
+    const Card& elements = card("ELEMENT", "ELSET", shell.name);
+    EXPECT_EQ(elements.parameters.at("TYPE"), "S3");
+    ASSERT_EQ(elements.lines.size(), shell.triangles.size());
+    for (std::size_t i = 0; i < elements.lines.size(); ++i)
+    {
+      const auto& [a, b, c] = shell.triangles[i];
+      EXPECT_EQ(idsIn(elements.lines[i]), (Ids{ next++, a, b, c }));
+    }
+    EXPECT_EQ(numbersIn(card("SHELL SECTION", "ELSET", shell.name).data()), Numbers{ shell.thickness });
+  }
+}
+
+TEST_F(AbaqusDeck, ClampsNullDisplacement)
+{
+  std::vector<std::string> clamps;
+  for (const Card& entry : cards)
+  {
+    if (entry.keyword == "BOUNDARY") clamps.insert(clamps.end(), entry.lines.begin(), entry.lines.end());
+  }
+  EXPECT_EQ(clamps, std::vector<std::string>{ "null_displacement_nodes, 1, 3" });
+}
+
+/// CalculiX reads the first 20 characters of a field.
+TEST(Abaqus, NumbersFitTheFieldsOfCalculiX)
+{
+  MeshFile content = test::randomBlocks(1);
+  content.mesh.points[0] = { -1.2345678901234567e-5, -123.45678901234567, 1.0 / 3 };
+  for (const Card& card : cardsOf(written(finiteElementModel(content), "m.inp")))
+  {
+    if (card.keyword != "NODE") continue;
+    std::istringstream fields(card.lines.at(0));
+    std::string field;
+    std::getline(fields, field, ',');
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      std::getline(fields, field, ',');
+      EXPECT_LE(field.size() - 1, 20u) << field;
+      EXPECT_NEAR(std::stod(field), content.mesh.points[0][axis], 1e-12 * std::abs(content.mesh.points[0][axis]));
+    }
+  }
+}
+
+class FebioModel : public testing::Test
+{
+protected:
+  FebioModel() : model(richModel())
+  {
+    const test::TemporaryFolder folder;
+    exportModel(model, folder.file("m.feb"));
+    root.TakeReference(vtkXMLUtilities::ReadElementFromFile(folder.file("m.feb").c_str()));
+    if (!root) throw std::runtime_error("not well-formed");
+    mesh = root->FindNestedElementWithName("Mesh");
+  }
+
+  /// The only child of `parent` with this tag and name.
+  vtkXMLDataElement* child(vtkXMLDataElement* parent, const std::string& tag, const std::string& name) const
+  {
+    vtkXMLDataElement* found = nullptr;
+    for (int i = 0; i < parent->GetNumberOfNestedElements(); ++i)
+    {
+      vtkXMLDataElement* candidate = parent->GetNestedElement(i);
+      if (candidate->GetName() != tag || candidate->GetAttribute("name") != name) continue;
+      EXPECT_EQ(found, nullptr) << tag << " " << name << " is there twice";
+      found = candidate;
+    }
+    if (!found) throw std::out_of_range(tag + " " + name);
+    return found;
+  }
+
+  static std::vector<Ids> rowsOf(vtkXMLDataElement* parent)
+  {
+    std::vector<Ids> rows;
+    for (int i = 0; i < parent->GetNumberOfNestedElements(); ++i)
+    {
+      rows.push_back(idsIn(parent->GetNestedElement(i)->GetCharacterData()));
+    }
+    return rows;
+  }
+
+  static Ids attributesOf(vtkXMLDataElement* parent)
+  {
+    Ids ids;
+    for (int i = 0; i < parent->GetNumberOfNestedElements(); ++i)
+    {
+      ids.push_back(std::stoi(parent->GetNestedElement(i)->GetAttribute("id")) - 1);
+    }
+    return ids;
+  }
+
+  FiniteElementModel model;
+  vtkSmartPointer<vtkXMLDataElement> root;
+  vtkXMLDataElement* mesh = nullptr;
+};
+
+template <class Rows>
+std::vector<Ids> asIds(const Rows& rows)
+{
+  std::vector<Ids> result;
+  for (const auto& row : rows) result.push_back(Ids(row.begin(), row.end()));
+  return result;
+}
+
+TEST_F(FebioModel, HasThePoints)
+{
+  EXPECT_STREQ(root->GetAttribute("version"), "4.0");
+  vtkXMLDataElement* nodes = child(mesh, "Nodes", "all_nodes");
+  const auto& points = model.content.mesh.points;
+  ASSERT_EQ(nodes->GetNumberOfNestedElements(), static_cast<int>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    vtkXMLDataElement* node = nodes->GetNestedElement(static_cast<int>(i));
+    EXPECT_EQ(std::stoul(node->GetAttribute("id")), i + 1);
+    EXPECT_EQ(numbersIn(node->GetCharacterData()), (Numbers{ points[i].x, points[i].y, points[i].z }));
+  }
+}
+
+TEST_F(FebioModel, EveryElementIsInOnePartWithADomain)
+{
+  std::vector<int> count(model.content.mesh.tetrahedra.size(), 0);
+  vtkXMLDataElement* domains = root->FindNestedElementWithName("MeshDomains");
+  vtkXMLDataElement* materials = root->FindNestedElementWithName("Material");
+  for (const Section& section : model.sections)
+  {
+    const ElementSet& set = model.elementSets[section.elementSet];
+    vtkXMLDataElement* part = child(mesh, "Elements", set.name);
+    EXPECT_STREQ(part->GetAttribute("type"), "tet4");
+    EXPECT_EQ(attributesOf(part), set.tetrahedra);
+    const std::vector<Ids> rows = rowsOf(part);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+    {
+      const auto& ids = model.content.mesh.tetrahedra[set.tetrahedra[i]];
+      EXPECT_EQ(rows[i], Ids(ids.begin(), ids.end()));
+      ++count[set.tetrahedra[i]];
+    }
+    child(materials, "material", child(domains, "SolidDomain", set.name)->GetAttribute("mat"));
+  }
+  EXPECT_EQ(count, std::vector<int>(count.size(), 1));
+}
+
+TEST_F(FebioModel, HasTheSetsAndNoNameTwice)
+{
+  std::set<std::int32_t> parts;
+  for (const Section& section : model.sections) parts.insert(section.elementSet);
+  for (std::size_t i = 0; i < model.elementSets.size(); ++i)
+  {
+    const ElementSet& set = model.elementSets[i];
+    if (parts.count(static_cast<std::int32_t>(i)) > 0)
+      EXPECT_THROW(child(mesh, "ElementSet", set.name), std::out_of_range);
+    else EXPECT_EQ(idsIn(child(mesh, "ElementSet", set.name)->GetCharacterData()), set.tetrahedra);
+  }
+  for (const NodeSet& set : model.nodeSets)
+  {
+    EXPECT_EQ(idsIn(child(mesh, "NodeSet", set.name)->GetCharacterData()), set.points);
+  }
+  for (const SurfaceSet& set : model.surfaces)
+  {
+    EXPECT_EQ(rowsOf(child(mesh, "Surface", set.name)), asIds(set.triangles));
+  }
+}
+
+TEST_F(FebioModel, HasMaterialsShellsAndClamps)
+{
+  for (const Material& material : model.materials)
+  {
+    vtkXMLDataElement* entry = child(root->FindNestedElementWithName("Material"), "material", material.name);
+    const auto value = [&](const char* tag)
+    { return numbersIn(entry->FindNestedElementWithName(tag)->GetCharacterData()); };
+    EXPECT_STREQ(entry->GetAttribute("type"),
+                 material.law == MaterialLaw::NeoHookean ? "neo-Hookean" : "isotropic elastic");
+    EXPECT_EQ(value("E"), Numbers{ material.youngsModulus });
+    EXPECT_EQ(value("v"), Numbers{ material.poissonsRatio });
+    EXPECT_EQ(value("density"), Numbers{ material.density });
+  }
+  for (const Shell& shell : model.shells)
+  {
+    EXPECT_EQ(rowsOf(child(mesh, "Elements", shell.name)), asIds(shell.triangles));
+    vtkXMLDataElement* domain = child(root->FindNestedElementWithName("MeshDomains"), "ShellDomain", shell.name);
+    EXPECT_EQ(numbersIn(domain->FindNestedElementWithName("shell_thickness")->GetCharacterData()),
+              Numbers{ shell.thickness });
+  }
+  EXPECT_STREQ(root->FindNestedElementWithName("Boundary")->GetNestedElement(0)->GetAttribute("node_set"),
+               "null_displacement_nodes");
+}
+
+TEST(Export, VtkFilesHoldTheMesh)
+{
+  const test::TemporaryFolder folder;
+  const FiniteElementModel model = richModel();
+  for (const char* name : { "m.vtu", "m.vtk" })
+  {
+    exportModel(model, folder.file(name));
+    const MeshFile read = readMesh(folder.file(name));
+    EXPECT_EQ(read.mesh.tetrahedra, model.content.mesh.tetrahedra);
+    EXPECT_EQ(read.mesh.labels, model.content.mesh.labels);
+    EXPECT_EQ(read.subMesh, model.content.subMesh);
+    EXPECT_EQ(read.constitutive, model.content.constitutive);
+  }
+}
+
+TEST(Export, ShellFilesShareThePointsOfTheVolume)
+{
+  const test::TemporaryFolder folder;
+  const FiniteElementModel model = richModel();
+  writeShells(model, folder.file("s.vtp"));
+  vtkNew<vtkXMLPolyDataReader> reader;
+  reader->SetFileName(folder.file("s.vtp").c_str());
+  reader->Update();
+  vtkPolyData* data = reader->GetOutput();
+  vtkDataArray* volumeId = data->GetPointData()->GetArray("VolumePointId");
+  ASSERT_NE(volumeId, nullptr);
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i)
+  {
+    const Vec3& p = model.content.mesh.points.at(static_cast<std::size_t>(volumeId->GetComponent(i, 0)));
+    const double* q = data->GetPoint(i);
+    EXPECT_TRUE(q[0] == p.x && q[1] == p.y && q[2] == p.z);
+  }
+  vtkIdType cell = 0;
+  for (const Shell& shell : model.shells)
+  {
+    for (const auto& triangle : shell.triangles)
+    {
+      EXPECT_EQ(data->GetCellData()->GetArray("TissueLabel")->GetComponent(cell, 0), shell.ids[0]);
+      EXPECT_EQ(data->GetCellData()->GetArray("Thickness")->GetComponent(cell, 0), shell.thickness);
+      vtkIdType size;
+      const vtkIdType* ids;
+      data->GetPolys()->GetCellAtId(cell++, size, ids);
+      ASSERT_EQ(size, 3);
+      for (int i = 0; i < 3; ++i) EXPECT_EQ(volumeId->GetComponent(ids[i], 0), triangle[i]);
+    }
+  }
+  EXPECT_EQ(cell, data->GetNumberOfPolys());
+}
+
+TEST(Export, EveryFormatGivesTheSameBytesTwiceAndASidecar)
+{
+  const FiniteElementModel model = richModel();
+  for (const ExportFormat& format : exportFormats())
+  {
+    std::vector<std::string> names, contents;
+    for (int run = 0; run < 2; ++run)
+    {
+      const test::TemporaryFolder folder;
+      exportModel(model, folder.file("m" + format.extension));
+      names = folder.files();
+      std::string all;
+      for (const std::string& name : names) all += test::readBytes(folder.file(name));
+      contents.push_back(all);
+    }
+    EXPECT_EQ(contents[0], contents[1]) << format.extension;
+    EXPECT_EQ(std::count(names.begin(), names.end(), "m" + format.extension + ".names.json"), 1);
+  }
+}
+
+TEST(Export, RefusesUnknownExtensionsWithTheKnownOnes)
+{
+  for (const char* file : { "m.foo", "m", "m.inp.gz" })
+  {
+    try
+    {
+      exportFormatOf(file);
+      ADD_FAILURE() << file;
+    }
+    catch (const UsageError& error)
+    {
+      for (const ExportFormat& format : exportFormats())
+        EXPECT_NE(std::string(error.what()).find(format.extension), std::string::npos);
+    }
+  }
+  EXPECT_EQ(exportFormatOf("folder.vtu/M.INP").extension, ".inp");
+}
+
+} // namespace
+} // namespace surgicalmesher

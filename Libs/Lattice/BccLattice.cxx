@@ -1,0 +1,266 @@
+#include "BccLattice.h"
+
+#include "Place.h"
+#include "Errors.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+/// Answers where a point lies with respect to the surface; safe to ask from several threads. Approximate arithmetic is
+/// good enough: a wrong answer costs a point, nothing else.
+class SurfaceLocator
+{
+public:
+  explicit SurfaceLocator(const SurfaceComplex& surface) : m_Surface(surface)
+  {
+    m_Triangles.reserve(surface.triangles.size());
+    for (const auto& [a, b, c] : surface.triangles)
+    {
+      m_Triangles.emplace_back(cgal(surface.points[a]), cgal(surface.points[b]), cgal(surface.points[c]));
+    }
+    m_Tree.insert(m_Triangles.begin(), m_Triangles.end());
+    m_Tree.build();
+    m_Tree.accelerate_distance_queries();
+  }
+
+  struct Answer
+  {
+    double distance; ///< to the surface, mm
+    bool inside;     ///< of some tissue
+  };
+
+  Answer ask(const Vec3& p) const
+  {
+    const auto [closest, primitive] = m_Tree.closest_point_and_primitive(cgal(p));
+    const double squared = CGAL::squared_distance(cgal(p), closest);
+    return { std::sqrt(squared), labelTowards(p, primitive) != 0 };
+  }
+
+private:
+  using Kernel = CGAL::Simple_cartesian<double>;
+  using Triangles = std::vector<Kernel::Triangle_3>;
+  using Iterator = Triangles::const_iterator;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Iterator>>>;
+
+  static Kernel::Point_3 cgal(const Vec3& p) { return { p.x, p.y, p.z }; }
+
+  /// The label at p: on the near side of the first triangle on the way to the middle of the closest one. (The closest
+  /// triangle itself can't be asked: where it is closest with an edge, p may lie on either side of its plane.)
+  Label labelTowards(const Vec3& p, Iterator closest) const
+  {
+    const Kernel::Ray_3 ray(cgal(p), CGAL::centroid(*closest));
+    const auto hit = m_Tree.first_intersected_primitive(ray);
+    const Iterator first = hit ? *hit : closest;
+    const auto& [i, j, k] = m_Surface.triangles[first - m_Triangles.begin()];
+    const bool front = orient(m_Surface.points[i], m_Surface.points[j], m_Surface.points[k], p) > 0;
+    return m_Surface.labels[first - m_Triangles.begin()][front ? 1 : 0];
+  }
+
+  const SurfaceComplex& m_Surface;
+  Triangles m_Triangles;
+  Tree m_Tree;
+};
+
+double checkedLength(const SizingFunction& edgeLength, const Vec3& p)
+{
+  const double length = edgeLength(p);
+  if (!(length > 0) || !std::isfinite(length))
+  {
+    throw InputError("the target edge length at " + place(p) + " is " + std::to_string(length) +
+                     ", expected more than 0");
+  }
+  return length;
+}
+
+/// Places on the lattice, counted in halves of the finest cube there can be.
+using Place = std::int64_t;
+using Places = std::array<Place, 3>;
+
+/// Is the place a vertex of the lattice of cubes of this size: a corner of a cube or its centre?
+bool onLattice(const Places& place, Place size)
+{
+  const auto remainder = [&](int axis) { return ((place[axis] % size) + size) % size; };
+  const Place first = remainder(0);
+  return (first == 0 || 2 * first == size) && remainder(1) == first && remainder(2) == first;
+}
+
+/// The lattice's mean edge over L(x) is between half of this and this: collapses mend what is too short, but only splits
+/// what is too long. Where L(x) is the same everywhere, the lattice has just that length.
+constexpr double kCoarsest = 1.000001;
+
+/// An octree of lattice cubes in a box around the surface, every cube as large as L(x) allows.
+class LatticeOctree
+{
+public:
+  LatticeOctree(const Vec3& low, const Vec3& high, double finest, double coarsest, const SizingFunction& edgeLength)
+    : m_EdgeLength(edgeLength)
+  {
+    const double extent = std::max({ high.x - low.x, high.y - low.y, high.z - low.z });
+    double block = finest / kLatticeMeanEdge;
+    while (2 * block < extent / 4) block *= 2;
+    const double margin = std::max(block / 2, 2 * coarsest);
+    double root = block;
+    while (root < extent + 2 * (margin + block)) root *= 2;
+    m_Unit = root / double(Place(2) << kMaximumDepth);
+    m_Block = std::llround(block / m_Unit);
+    m_Origin = 0.5 * (low + high) - Vec3{ root / 2, root / 2, root / 2 };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      m_BoxLow[axis] = static_cast<Place>(std::floor((low[axis] - margin - m_Origin[axis]) / block)) * m_Block;
+      m_BoxHigh[axis] = static_cast<Place>(std::ceil((high[axis] + margin - m_Origin[axis]) / block)) * m_Block;
+    }
+    visit({ 0, 0, 0 }, Place(2) << kMaximumDepth);
+    std::sort(m_Places.begin(), m_Places.end());
+    m_Places.erase(std::unique(m_Places.begin(), m_Places.end()), m_Places.end());
+  }
+
+  const std::vector<Places>& places() const { return m_Places; }
+
+  Vec3 positionOf(const Places& place) const
+  {
+    return m_Origin + m_Unit * Vec3{ double(place[0]), double(place[1]), double(place[2]) };
+  }
+
+  /// Does the place belong to the lattice with mean edge `length`, or with the box's own blocks if these are smaller?
+  bool hasPlaceAt(const Places& place, double length) const
+  {
+    Place size = m_Block;
+    while (size > 2 && double(size) * m_Unit * kLatticeMeanEdge > std::sqrt(2.0) * length) size /= 2;
+    return onLattice(place, size);
+  }
+
+private:
+  static constexpr int kMaximumDepth = 20;
+
+  /// Too coarse at the cube's centre, or by more than half an octave at a corner.
+  bool tooCoarse(const Places& corner, Place size) const
+  {
+    const double meanEdge = m_Unit * double(size) * kLatticeMeanEdge;
+    const auto lengthAt = [&](Place i, Place j, Place k) {
+      return checkedLength(m_EdgeLength, positionOf({ corner[0] + i, corner[1] + j, corner[2] + k }));
+    };
+    if (meanEdge > kCoarsest * lengthAt(size / 2, size / 2, size / 2)) return true;
+    for (int c = 0; c < 8; ++c)
+    {
+      const double length = lengthAt((c & 1) * size, (c >> 1 & 1) * size, (c >> 2) * size);
+      if (meanEdge > std::sqrt(2.0) * kCoarsest * length) return true;
+    }
+    return false;
+  }
+
+  void add(const Places& place)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (place[axis] < m_BoxLow[axis] || place[axis] > m_BoxHigh[axis]) return;
+    }
+    m_Places.push_back(place);
+  }
+
+  void visit(const Places& corner, Place size)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (corner[axis] > m_BoxHigh[axis] || corner[axis] + size < m_BoxLow[axis]) return;
+    }
+    const bool split = size > 2 && (size > m_Block || tooCoarse(corner, size));
+    const Place step = split ? size / 2 : size;
+    for (int c = 0; c < 8; ++c)
+    {
+      const Places at{ corner[0] + (c & 1) * step, corner[1] + (c >> 1 & 1) * step, corner[2] + (c >> 2) * step };
+      if (split) visit(at, step);
+      else add(at);
+    }
+    if (!split) add({ corner[0] + size / 2, corner[1] + size / 2, corner[2] + size / 2 });
+  }
+
+  Vec3 m_Origin;
+  double m_Unit = 1;
+  Place m_Block = 1;
+  Places m_BoxLow, m_BoxHigh;
+  const SizingFunction& m_EdgeLength;
+  std::vector<Places> m_Places;
+};
+
+/// Points nearer to the surface than this many L(x) are moved off the lattice, by this share of L(x) at most. Shapes
+/// made by symmetry otherwise have places in common with the lattice's planes and spheres, and TetGen stumbles over
+/// coincidences.
+constexpr double kNear = 1.5;
+constexpr double kOffLattice = 0.01;
+
+/// A number in [-1, 1) that depends on the place and the axis alone, scattered by the finalizer of MurmurHash3.
+double scatter(const Places& place, int axis)
+{
+  auto bits = static_cast<std::uint64_t>(axis);
+  for (const Place coordinate : place)
+  {
+    bits = (bits ^ static_cast<std::uint64_t>(coordinate)) * 0xff51afd7ed558ccdULL;
+    bits = (bits ^ (bits >> 33)) * 0xc4ceb9fe1a85ec53ULL;
+    bits ^= bits >> 33;
+  }
+  return double(bits >> 11) / double(std::uint64_t(1) << 52) - 1;
+}
+
+/// Outside the tissues the lattice's edges grow by this much per distance from the surface.
+constexpr double kOutsideGrowth = 0.5;
+
+} // namespace
+
+std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunction& edgeLength, double clearance)
+{
+  if (surface.triangles.empty()) return {};
+  Vec3 low = surface.points.front(), high = low;
+  double finest = std::numeric_limits<double>::infinity(), coarsest = 0;
+  for (const Vec3& p : surface.points)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      low[axis] = std::min(low[axis], p[axis]);
+      high[axis] = std::max(high[axis], p[axis]);
+    }
+    const double length = checkedLength(edgeLength, p);
+    finest = std::min(finest, length);
+    coarsest = std::max(coarsest, length);
+  }
+  const LatticeOctree octree(low, high, finest, coarsest, edgeLength);
+  const std::vector<Places>& places = octree.places();
+  const SurfaceLocator locator(surface);
+  std::vector<char> keep(places.size());
+  std::vector<Vec3> points(places.size());
+  const auto decide = [&](vtkIdType i)
+  {
+    Vec3& p = points[i] = octree.positionOf(places[i]);
+    const double length = edgeLength(p);
+    const SurfaceLocator::Answer answer = locator.ask(p);
+    const bool dense = answer.inside || octree.hasPlaceAt(places[i], length + kOutsideGrowth * answer.distance);
+    keep[i] = dense && answer.distance >= clearance * length;
+    if (answer.distance >= kNear * length) return;
+    for (int axis = 0; axis < 3; ++axis) p[axis] += kOffLattice * length * scatter(places[i], axis);
+  };
+  vtkSMPTools::For(0, static_cast<vtkIdType>(places.size()),
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (vtkIdType i = begin; i < end; ++i) decide(i);
+                   });
+  std::vector<Vec3> result;
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    if (keep[i]) result.push_back(points[i]);
+  }
+  return result;
+}
+
+} // namespace surgicalmesher

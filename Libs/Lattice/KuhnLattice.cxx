@@ -1,0 +1,485 @@
+#include "KuhnLattice.h"
+
+#include "Errors.h"
+
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <atomic>
+#include <bitset>
+#include <cmath>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+using Index = std::array<int, 3>;
+using Tet = std::array<Index, 4>;
+
+/// Which points of the finest grid are vertices of the complex. Numbered in the order of the grid, x fastest.
+class ActivePoints
+{
+public:
+  explicit ActivePoints(const Index& size) : m_Size(size), m_Words((count() + 63) / 64) {}
+
+  std::size_t count() const { return std::size_t(m_Size[0]) * m_Size[1] * m_Size[2]; }
+  bool inside(const Index& p) const
+  {
+    return p[0] >= 0 && p[1] >= 0 && p[2] >= 0 && p[0] < m_Size[0] && p[1] < m_Size[1] && p[2] < m_Size[2];
+  }
+  std::size_t at(const Index& p) const { return (std::size_t(p[2]) * m_Size[1] + p[1]) * m_Size[0] + p[0]; }
+  bool test(const Index& p) const { return word(at(p) >> 6) >> (at(p) & 63) & 1; }
+  /// From several threads at once.
+  void set(const Index& p)
+  {
+    if (inside(p) && !test(p))
+      m_Words[at(p) >> 6].fetch_or(std::uint64_t(1) << (at(p) & 63), std::memory_order_relaxed);
+  }
+  void number()
+  {
+    m_Before.resize(m_Words.size() + 1, 0);
+    for (std::size_t w = 0; w < m_Words.size(); ++w) m_Before[w + 1] = m_Before[w] + bitCount(word(w));
+  }
+  std::int32_t id(const Index& p) const
+  {
+    const std::size_t a = at(p);
+    return m_Before[a >> 6] + bitCount(word(a >> 6) & ((std::uint64_t(1) << (a & 63)) - 1));
+  }
+  std::int32_t numbered() const { return m_Before.back(); }
+  template <class F>
+  void forEach(F&& f) const
+  {
+    std::int32_t n = 0;
+    for (std::size_t w = 0; w < m_Words.size(); ++w)
+      for (std::uint64_t bits = word(w); bits; bits &= bits - 1)
+      {
+        const std::size_t a = w * 64 + bitCount((bits & -bits) - 1);
+        f(n++, Index{ int(a % m_Size[0]), int(a / m_Size[0] % m_Size[1]), int(a / m_Size[0] / m_Size[1]) });
+      }
+  }
+
+private:
+  static int bitCount(std::uint64_t bits) { return int(std::bitset<64>(bits).count()); }
+  std::uint64_t word(std::size_t w) const { return m_Words[w].load(std::memory_order_relaxed); }
+
+  Index m_Size;
+  std::vector<std::atomic<std::uint64_t>> m_Words;
+  std::vector<std::int32_t> m_Before;
+};
+
+/// Lattice coordinates are whole numbers of `unit`s; a cell is `cellUnits` of them, and a voxel `cells` cells along each axis
+/// (so that cells are nearly cubes where voxels are not).
+struct Layout
+{
+  Index cells{ 1, 1, 1 };
+  int levelsBelow = 0; ///< cellUnits = 2^levelsBelow
+  int rootLevels = 5;  ///< a root cube is 2^rootLevels cells
+  Index roots{};       ///< root cubes along each axis
+  Index pad{};         ///< cells before the map's first voxel
+  Vec3 unit;           ///< mm
+
+  int cellUnits() const { return 1 << levelsBelow; }
+  int rootUnits() const { return 1 << (levelsBelow + rootLevels); }
+};
+
+Layout makeLayout(const Grid& grid, double shortest, const LatticeOptions& options)
+{
+  constexpr int margin = 6; // cells of background on every side at least, so that the box never presses on a tissue
+  Layout l;
+  const double least = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+  double cell = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    l.cells[a] = std::max(1, int(std::lround(grid.spacing[a] / least)));
+    cell = std::max(cell, grid.spacing[a] / l.cells[a]);
+  }
+  while (l.levelsBelow < options.mostLevelsBelowVoxel && cell / l.cellUnits() > options.relativeSize * shortest)
+    ++l.levelsBelow;
+  for (int a = 0; a < 3; ++a)
+  {
+    const int cells = grid.size[a] * l.cells[a], root = 1 << l.rootLevels;
+    l.roots[a] = (cells + 2 * margin + root - 1) / root;
+    l.pad[a] = (l.roots[a] * root - cells) / 2;
+    l.unit[a] = grid.spacing[a] / l.cells[a] / l.cellUnits();
+  }
+  return l;
+}
+
+class Lattice
+{
+public:
+  Lattice(const TissueMap& map, const ScaleField& scale, const LatticeOptions& options)
+    : m_Map(map), m_Scale(scale), m_Options(options),
+      m_Layout(makeLayout(map.grid, *std::min_element(scale.lengths.begin(), scale.lengths.end()), options)),
+      m_Active(gridSize(m_Layout))
+  {
+  }
+
+  void activate()
+  {
+    const Index r = m_Layout.roots;
+    const int side = m_Layout.rootUnits();
+    vtkSMPTools::For(0, vtkIdType(r[0]) * r[1] * r[2], 1,
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType i = begin; i < end; ++i)
+                       {
+                         const Index c = root(i);
+                         activateCube({ c[0] * side, c[1] * side, c[2] * side }, side);
+                       }
+                     });
+    for (int k = 0; k <= r[2]; ++k)
+      for (int j = 0; j <= r[1]; ++j)
+        for (int i = 0; i <= r[0]; ++i) m_Active.set({ i * side, j * side, k * side });
+    for (int half = 1; half < side; half *= 2) close(half);
+    m_Active.number();
+  }
+
+  KuhnLattice generate(const Progress& progress)
+  {
+    KuhnLattice lattice;
+    BackgroundMesh& out = lattice.ambient;
+    out.mesh.points.resize(m_Active.numbered());
+    out.lengths.resize(m_Active.numbered());
+    m_Active.forEach([&](std::int32_t id, const Index& p) { out.mesh.points[id] = position(p); });
+    vtkSMPTools::For(0, m_Active.numbered(),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType v = begin; v < end; ++v)
+                         out.lengths[v] = float(m_Scale(m_Map.grid.gridToWorld(out.mesh.points[v])));
+                     });
+    const Index r = m_Layout.roots;
+    const int n = r[0] * r[1] * r[2];
+    std::vector<KuhnLattice> parts(n);
+    vtkSMPTools::For(0, n, 1,
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType i = begin; i < end; ++i) generateRoot(root(i), parts[i]);
+                     });
+    for (KuhnLattice& part : parts)
+    {
+      const std::int32_t shift = std::int32_t(out.mesh.tetrahedra.size());
+      for (auto& e : part.ambient.samples) e.tetrahedron += shift;
+      for (auto& f : part.interfaceFaces) f.first += shift;
+      append(out.samples, part.ambient.samples);
+      append(out.mesh.tetrahedra, part.ambient.mesh.tetrahedra);
+      append(out.mesh.labels, part.ambient.mesh.labels);
+      append(lattice.interfaceFaces, part.interfaceFaces);
+      part = {};
+    }
+    report(progress, 1, "lattice");
+    return lattice;
+  }
+
+private:
+  template <class T>
+  static void append(std::vector<T>& to, const std::vector<T>& from)
+  {
+    to.insert(to.end(), from.begin(), from.end());
+  }
+
+  static Index gridSize(const Layout& l)
+  {
+    const int side = l.rootUnits();
+    const Index size{ l.roots[0] * side + 1, l.roots[1] * side + 1, l.roots[2] * side + 1 };
+    if (double(size[0]) * size[1] * size[2] > 6e10)
+      throw EngineError("lattice: the map has too many cells at the scale asked for; use a larger minimum edge length");
+    return size;
+  }
+
+  Index root(vtkIdType i) const
+  {
+    const Index& r = m_Layout.roots;
+    return { int(i % r[0]), int(i / r[0] % r[1]), int(i / r[0] / r[1]) };
+  }
+
+  Vec3 position(const Index& p) const
+  {
+    Vec3 x;
+    for (int a = 0; a < 3; ++a)
+      x[a] = (p[a] - m_Layout.pad[a] * m_Layout.cellUnits()) * m_Layout.unit[a] - 0.5 * m_Map.grid.spacing[a];
+    return x;
+  }
+
+  /// Voxel index along an axis of the cell that holds lattice coordinate p (in units, possibly between lattice points).
+  int voxel(double p, int axis) const
+  {
+    const int cell = int(std::floor(p / m_Layout.cellUnits())) - m_Layout.pad[axis];
+    return cell < 0 ? -1 : cell / m_Layout.cells[axis];
+  }
+
+  bool mixed(const Index& corner, int side) const
+  {
+    Index low, high;
+    for (int a = 0; a < 3; ++a)
+    {
+      low[a] = voxel(corner[a], a);
+      high[a] = voxel(corner[a] + side - 0.5, a);
+    }
+    const Label first = labelAt(m_Map, low);
+    for (int k = low[2]; k <= high[2]; ++k)
+      for (int j = low[1]; j <= high[1]; ++j)
+        for (int i = low[0]; i <= high[0]; ++i)
+          if (labelAt(m_Map, { i, j, k }) != first) return true;
+    return false;
+  }
+
+  bool tooLarge(const Index& corner, int side) const
+  {
+    const Index middle{ corner[0] + side / 2, corner[1] + side / 2, corner[2] + side / 2 };
+    const double mm = side * std::max({ m_Layout.unit.x, m_Layout.unit.y, m_Layout.unit.z });
+    Vec3 p = position(middle);
+    if (side == 1) p += 0.5 * m_Layout.unit;
+    return mm > m_Options.relativeSize * m_Scale(m_Map.grid.gridToWorld(p));
+  }
+
+  bool insideMap(const Index& corner, int side) const
+  {
+    for (int a = 0; a < 3; ++a)
+      if (voxel(corner[a] + side - 0.5, a) < 0 || voxel(corner[a], a) >= m_Map.grid.size[a]) return false;
+    return true;
+  }
+
+  void activateCube(const Index& corner, int side)
+  {
+    if (side == 1) return;
+    if (!insideMap(corner, side)) return;
+    const bool isMixed = side > m_Layout.cellUnits() && mixed(corner, side);
+    // Background is thrown away in the end: only its boundary with tissue needs small elements.
+    const bool isTooLarge = isTissue(corner) && tooLarge(corner, side);
+    if (!isMixed && !isTooLarge) return;
+    if (side <= mostTetrahedralCells * m_Layout.cellUnits() && !tooLarge(corner, side))
+      return activateMixedTetrahedra(corner, side);
+    const int h = side / 2;
+    for (int k = 0; k <= 2; ++k)
+      for (int j = 0; j <= 2; ++j)
+        for (int i = 0; i <= 2; ++i)
+          if ((i | j | k) & 1) m_Active.set({ corner[0] + i * h, corner[1] + j * h, corner[2] + k * h });
+    for (int k = 0; k < 2; ++k)
+      for (int j = 0; j < 2; ++j)
+        for (int i = 0; i < 2; ++i) activateCube({ corner[0] + i * h, corner[1] + j * h, corner[2] + k * h }, h);
+  }
+
+  /// In cells, the largest cube that is cut by tetrahedra; larger ones nearly always hold mixed ones everywhere.
+  static constexpr int mostTetrahedralCells = 4;
+
+  /// Only the tetrahedra that voxels of different labels share are cut: half of those in a cube that a boundary crosses lie
+  /// on one side of it.
+  void activateMixedTetrahedra(const Index& corner, int side)
+  {
+    forEachKuhnTetrahedron({ corner[0] / side, corner[1] / side, corner[2] / side }, side,
+                           [&](const Tet& t) { activateMixed(t, 3, side); });
+  }
+
+  static constexpr int mixedLabel = -1;
+
+  /// The label of all voxels that t, out of a cube of `side`, reaches into, or mixedLabel; then t's bisection, with tag d,
+  /// is active.
+  int activateMixed(const Tet& t, int d, int side)
+  {
+    Tet left, right;
+    const Index z = bisection(t, d, left, right);
+    const int nextTag = d > 1 ? d - 1 : 3, nextSide = d > 1 ? side : side / 2;
+    const bool last = nextSide == m_Layout.cellUnits(); // the halves lie in one cell each
+    const int inLeft = last ? labelOf(left) : activateMixed(left, nextTag, nextSide);
+    const int inRight = last ? labelOf(right) : activateMixed(right, nextTag, nextSide);
+    if (inLeft == inRight && inLeft != mixedLabel) return inLeft;
+    m_Active.set(z);
+    return mixedLabel;
+  }
+
+  Label labelOf(const Tet& t) const
+  {
+    const auto middle = [&](int a) { return 0.25 * (t[0][a] + t[1][a] + t[2][a] + t[3][a]); };
+    return labelAt(m_Map, { voxel(middle(0), 0), voxel(middle(1), 1), voxel(middle(2), 2) });
+  }
+
+  bool isTissue(const Index& corner) const
+  {
+    return labelAt(m_Map, { voxel(corner[0], 0), voxel(corner[1], 1), voxel(corner[2], 2) }) != 0;
+  }
+
+  /// Whatever the vertices of one level of bisection rest on: an edge's midpoint on the centres of the faces around it, a
+  /// face's centre on the centres of its two cubes, a cube's centre on the cube's corners.
+  void close(int half)
+  {
+    const Index n{ m_Layout.roots[0] * m_Layout.rootUnits(), m_Layout.roots[1] * m_Layout.rootUnits(),
+                   m_Layout.roots[2] * m_Layout.rootUnits() };
+    const auto closeLayer = [&](int k, int kind)
+    {
+      for (int j = 0; j <= n[1]; j += half)
+      {
+        const int odd = (k / half & 1) + (j / half & 1);
+        if (odd > kind || odd < kind - 1) continue;
+        for (int i = odd == kind ? 0 : half; i <= n[0]; i += 2 * half)
+          if (m_Active.test({ i, j, k })) restOn({ i, j, k }, half, kind);
+      }
+    };
+    for (int kind = 1; kind <= 3; ++kind) // odd multiples of half: 1 edge midpoint, 2 face centre, 3 cube centre
+      vtkSMPTools::For(0, n[2] / half + 1,
+                       [&](vtkIdType begin, vtkIdType end)
+                       {
+                         for (vtkIdType k = begin; k < end; ++k) closeLayer(int(k) * half, kind);
+                       });
+  }
+
+  void restOn(const Index& p, int half, int kind)
+  {
+    if (kind == 3)
+    {
+      for (int c = 0; c < 8; ++c)
+        m_Active.set({ p[0] + (c & 1 ? half : -half), p[1] + (c & 2 ? half : -half), p[2] + (c & 4 ? half : -half) });
+      return;
+    }
+    for (int a = 0; a < 3; ++a)
+      if (!(p[a] / half & 1))
+        for (int s : { -half, half })
+        {
+          Index q = p;
+          q[a] += s;
+          m_Active.set(q);
+        }
+  }
+
+  /// The six tetrahedra of cube number `cube` of a side. Their paths lead from the corner whose numbers are all even to the
+  /// one where all are odd.
+  template <class F>
+  static void forEachKuhnTetrahedron(const Index& cube, int side, F&& f)
+  {
+    Index from, to;
+    for (int a = 0; a < 3; ++a)
+    {
+      from[a] = (cube[a] + (cube[a] & 1)) * side;
+      to[a] = (cube[a] + 1 - (cube[a] & 1)) * side;
+    }
+    std::array<int, 3> axes{ 0, 1, 2 };
+    do {
+      Tet t;
+      t[0] = t[1] = t[2] = from;
+      t[3] = to;
+      t[1][axes[0]] = t[2][axes[0]] = to[axes[0]];
+      t[2][axes[1]] = to[axes[1]];
+      f(t);
+    } while (std::next_permutation(axes.begin(), axes.end()));
+  }
+
+  void generateRoot(const Index& root, KuhnLattice& out) const
+  {
+    forEachKuhnTetrahedron(root, m_Layout.rootUnits(), [&](const Tet& t) { bisect(t, 3, out); });
+  }
+
+  /// Maubach's bisection of t with tag d, at the point returned.
+  static Index bisection(const Tet& t, int d, Tet& left, Tet& right)
+  {
+    Index z;
+    for (int a = 0; a < 3; ++a) z[a] = (t[0][a] + t[d][a]) / 2;
+    left = right = t;
+    left[d] = z;
+    for (int i = 0; i < d; ++i) right[i] = t[i + 1];
+    right[d] = z;
+    return z;
+  }
+
+  void bisect(const Tet& t, int d, KuhnLattice& out) const
+  {
+    Tet left, right;
+    const Index z = bisection(t, d, left, right);
+    for (int a = 0; a < 3; ++a)
+      if ((t[0][a] + t[d][a]) & 1) return emit(t, out);
+    if (!m_Active.test(z)) return emit(t, out);
+    const int next = d > 1 ? d - 1 : 3;
+    bisect(left, next, out);
+    bisect(right, next, out);
+  }
+
+  void emit(const Tet& t, KuhnLattice& out) const
+  {
+    std::array<std::int32_t, 4> ids;
+    for (int i = 0; i < 4; ++i) ids[i] = m_Active.id(t[i]);
+    Vec3 p[4];
+    for (int i = 0; i < 4; ++i) p[i] = { double(t[i][0]), double(t[i][1]), double(t[i][2]) };
+    Tet x = t;
+    if (orient(p[0], p[1], p[2], p[3]) < 0) std::swap(ids[2], ids[3]), std::swap(x[2], x[3]);
+    const Label label = labelOf(t);
+    const std::int32_t id = std::int32_t(out.ambient.mesh.tetrahedra.size());
+    out.ambient.mesh.tetrahedra.push_back(ids);
+    out.ambient.mesh.labels.push_back(label);
+    if (label != 0) placeSamples(x, id, label, out);
+  }
+
+  /// Every face of a tetrahedron that lies between voxels, towards a smaller label, is an interface face. It takes the
+  /// samples at the centres of the voxel faces that it covers: none, one or, between large tetrahedra, several.
+  void placeSamples(const Tet& t, std::int32_t id, Label label, KuhnLattice& out) const
+  {
+    for (int f = 0; f < 4; ++f)
+    {
+      const Index &a = t[(f + 1) & 3], &b = t[(f + 2) & 3], &c = t[(f + 3) & 3];
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        if (a[axis] != b[axis] || a[axis] != c[axis]) continue;
+        const double inward = t[f][axis] > a[axis] ? 0.25 : -0.25;
+        Index here, beyond;
+        for (int k = 0; k < 3; ++k)
+        {
+          const double middle = (a[k] + b[k] + c[k]) / 3.0;
+          here[k] = voxel(middle + (k == axis ? inward : 0), k);
+          beyond[k] = voxel(middle - (k == axis ? inward : 0), k);
+        }
+        if (here[axis] == beyond[axis] || labelAt(m_Map, beyond) >= label) continue;
+        out.interfaceFaces.push_back({ id, f });
+        Index low = here, high = here; // voxels beside the face
+        for (int k = 0; k < 3; ++k)
+        {
+          if (k == axis) continue;
+          low[k] = voxel(std::min({ a[k], b[k], c[k] }), k);
+          high[k] = voxel(std::max({ a[k], b[k], c[k] }) - 0.5, k);
+        }
+        Index at;
+        for (at[2] = low[2]; at[2] <= high[2]; ++at[2])
+          for (at[1] = low[1]; at[1] <= high[1]; ++at[1])
+            for (at[0] = low[0]; at[0] <= high[0]; ++at[0])
+            {
+              if (!coversCentre(a, b, c, axis, at)) continue;
+              Vec3 p{ double(at[0]), double(at[1]), double(at[2]) };
+              p[axis] = 0.5 * (here[axis] + beyond[axis]);
+              for (int k = 0; k < 3; ++k) p[k] *= m_Map.grid.spacing[k];
+              out.ambient.samples.push_back({ p, 0, id, f });
+            }
+      }
+    }
+  }
+
+  /// Whether triangle abc, in the face of `voxel` across `axis`, covers the face's centre. The centre lies on lattice edges:
+  /// moved off them by a fixed bit, exactly one triangle covers it.
+  bool coversCentre(const Index& a, const Index& b, const Index& c, int axis, const Index& voxel) const
+  {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto middle = [&](int k)
+    { return ((voxel[k] + 0.5) * m_Layout.cells[k] + m_Layout.pad[k]) * m_Layout.cellUnits(); };
+    const double x = middle(u) - 0.11, y = middle(v) - 0.03;
+    const auto side = [&](const Index& p, const Index& q)
+    { return (q[u] - p[u]) * (y - p[v]) - (q[v] - p[v]) * (x - p[u]) > 0; };
+    return side(a, b) == side(b, c) && side(b, c) == side(c, a);
+  }
+
+  const TissueMap& m_Map;
+  const ScaleField& m_Scale;
+  const LatticeOptions& m_Options;
+  const Layout m_Layout;
+  ActivePoints m_Active;
+};
+
+} // namespace
+
+KuhnLattice kuhnLattice(const TissueMap& map, const ScaleField& scale, const LatticeOptions& options,
+                              const Progress& progress)
+{
+  Lattice lattice(map, scale, options);
+  lattice.activate();
+  report(progress, 0.3, "lattice");
+  return lattice.generate(progress);
+}
+
+} // namespace surgicalmesher

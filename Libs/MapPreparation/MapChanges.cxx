@@ -1,0 +1,204 @@
+#include "MapChanges.h"
+
+#include "DigitalTopology.h"
+#include "PaddedMap.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using Voxels = std::vector<std::size_t>; // ascending where it serves as a set
+
+constexpr int centre = 13;
+
+bool holds(const Voxels& set, std::size_t voxel) { return std::binary_search(set.begin(), set.end(), voxel); }
+
+bool isFace(int neighbour)
+{
+  return std::find(sixNeighbours.begin(), sixNeighbours.end(), neighbour) != sixNeighbours.end();
+}
+
+/// The parts that `set` falls into, each ascending, in the order of their first voxels.
+std::vector<Voxels> partsOf(const Voxels& set, const std::array<std::ptrdiff_t, 27>& steps, bool throughFacesOnly)
+{
+  std::vector<Voxels> parts;
+  std::vector<bool> taken(set.size(), false);
+  std::vector<std::size_t> open;
+  for (std::size_t first = 0; first < set.size(); ++first)
+  {
+    if (taken[first]) continue;
+    taken[first] = true;
+    open.assign(1, first);
+    Voxels part;
+    while (!open.empty())
+    {
+      const std::size_t voxel = set[open.back()];
+      open.pop_back();
+      part.push_back(voxel);
+      for (int n = 0; n < 27; ++n)
+      {
+        if (n == centre || (throughFacesOnly && !isFace(n))) continue;
+        const auto at = std::lower_bound(set.begin(), set.end(), voxel + steps[n]);
+        if (at == set.end() || *at != voxel + steps[n] || taken[at - set.begin()]) continue;
+        taken[at - set.begin()] = true;
+        open.push_back(at - set.begin());
+      }
+    }
+    std::sort(part.begin(), part.end());
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+/// Regions of a map by voxel.
+class RegionLookup
+{
+public:
+  explicit RegionLookup(const TissueMap& map) : m_Regions(connectedRegions(map)), m_RowSize(map.grid.size[0]) {}
+
+  std::uint32_t at(std::size_t voxel) const
+  {
+    const std::size_t row = voxel / m_RowSize;
+    const auto begin = m_Regions.runs.begin() + m_Regions.rowBegins[row];
+    const auto end = m_Regions.runs.begin() + m_Regions.rowBegins[row + 1];
+    const auto startsLater = [](std::size_t i, const Run& run) { return i < run.begin; };
+    return std::prev(std::upper_bound(begin, end, voxel % m_RowSize, startsLater))->region;
+  }
+
+private:
+  Regions m_Regions;
+  std::size_t m_RowSize;
+};
+
+/// Pieces of two padded maps.
+class PieceFinder
+{
+public:
+  PieceFinder(const TissueMap& before, const TissueMap& after)
+    : m_Before(before), m_After(after), m_Steps(neighbourSteps(before.grid)), m_RegionsAfter(after)
+  {
+  }
+
+  std::vector<MapChange> find() const
+  {
+    std::vector<MapChange> changes;
+    for (const auto& [label, voxels] : changedBy(m_Before))
+    {
+      for (const Voxels& piece : partsOf(voxels, m_Steps, true)) changes.push_back(lost(label, piece));
+    }
+    for (const auto& [label, voxels] : changedBy(m_After))
+    {
+      for (const Voxels& piece : partsOf(voxels, m_Steps, false)) changes.push_back(gained(label, piece));
+    }
+    std::stable_sort(changes.begin(), changes.end(),
+                     [](const MapChange& a, const MapChange& b)
+                     { return std::tie(a.label, a.kind) < std::tie(b.label, b.kind); });
+    return changes;
+  }
+
+private:
+  /// The voxels that differ, by their labels in `map`.
+  std::vector<std::pair<Label, Voxels>> changedBy(const TissueMap& map) const
+  {
+    std::map<Label, Voxels> byLabel;
+    for (std::size_t v = 0; v < m_Before.labels.size(); ++v)
+    {
+      if (m_Before.labels[v] != m_After.labels[v]) byLabel[map.labels[v]].push_back(v);
+    }
+    return { byLabel.begin(), byLabel.end() };
+  }
+
+  /// Voxels beside a piece, across corners too, that `belongs` accepts.
+  template <typename Predicate>
+  Voxels around(const Voxels& piece, const Predicate& belongs) const
+  {
+    Voxels result;
+    for (const std::size_t voxel : piece)
+    {
+      for (const std::ptrdiff_t step : m_Steps)
+      {
+        if (belongs(voxel + step)) result.push_back(voxel + step);
+      }
+    }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  bool touchesByFace(const Voxels& part, const Voxels& piece) const
+  {
+    return std::any_of(part.begin(), part.end(),
+                       [&](std::size_t voxel)
+                       {
+                         return std::any_of(sixNeighbours.begin(), sixNeighbours.end(),
+                                            [&](int face) { return holds(piece, voxel + m_Steps[face]); });
+                       });
+  }
+
+  MapChange lost(Label label, const Voxels& piece) const
+  {
+    const auto remains = [&](std::size_t v) { return m_Before.labels[v] == label && m_After.labels[v] == label; };
+    std::vector<std::uint32_t> regions; // that the piece joined
+    for (const Voxels& part : partsOf(around(piece, remains), m_Steps, true))
+    {
+      if (touchesByFace(part, piece)) regions.push_back(m_RegionsAfter.at(part.front()));
+    }
+    const bool areOne =
+      std::count(regions.begin(), regions.end(), regions.empty() ? 0 : regions[0]) == std::ptrdiff_t(regions.size());
+    const ChangeKind kind = regions.empty()       ? ChangeKind::Island
+                            : regions.size() == 1 ? ChangeKind::End
+                            : areOne              ? ChangeKind::Handle
+                                                  : ChangeKind::Neck;
+    return { label, kind, piece.size(), placeOf(piece) };
+  }
+
+  MapChange gained(Label label, const Voxels& piece) const
+  {
+    const auto remains = [&](std::size_t v) { return m_Before.labels[v] != label && m_After.labels[v] != label; };
+    const std::size_t parts = partsOf(around(piece, remains), m_Steps, false).size();
+    const ChangeKind kind = parts == 0 ? ChangeKind::Cavity : parts == 1 ? ChangeKind::Cleft : ChangeKind::Tunnel;
+    return { label, kind, piece.size(), placeOf(piece) };
+  }
+
+  Vec3 placeOf(const Voxels& piece) const
+  {
+    const std::size_t voxel = piece[piece.size() / 2];
+    const auto& [sizeI, sizeJ, sizeK] = m_Before.grid.size;
+    (void)sizeK;
+    const Vec3& s = m_Before.grid.spacing;
+    const double i = double(voxel % sizeI) - 1, j = double(voxel / sizeI % sizeJ) - 1;
+    const double k = double(voxel / sizeI / sizeJ) - 1; // the margin shifts voxels by one
+    return m_Before.grid.gridToWorld({ i * s.x, j * s.y, k * s.z });
+  }
+
+  const TissueMap& m_Before;
+  const TissueMap& m_After;
+  std::array<std::ptrdiff_t, 27> m_Steps;
+  RegionLookup m_RegionsAfter;
+};
+
+} // namespace
+
+const char* nameOf(ChangeKind kind)
+{
+  constexpr std::array<const char*, changeKinds> names{ "islands",  "necks",   "handles", "ends",
+                                                        "cavities", "tunnels", "clefts" };
+  return names[int(kind)];
+}
+
+std::vector<MapChange> mapChanges(const TissueMap& before, const TissueMap& after)
+{
+  // A piece at the border has its neighbours, and theirs are not looked at.
+  const TissueMap paddedBefore = padded(before, 1), paddedAfter = padded(after, 1);
+  return PieceFinder(paddedBefore, paddedAfter).find();
+}
+
+} // namespace surgicalmesher

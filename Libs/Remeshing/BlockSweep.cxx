@@ -1,0 +1,431 @@
+#include "BlockSweep.h"
+
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <numeric>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+struct Range
+{
+  std::size_t begin, end; ///< into the permutation of tetrahedra
+};
+
+using Centroid = std::array<float, 3>;
+
+/// A frame that is turned differently in each round, so that what the cuts of one round lock is free in the next: what they
+/// lock stays fine, which would draw the medians along the same axes to the same planes.
+std::array<Vec3, 3> frameOfRound(int round)
+{
+  const auto spread = [&](double step) { return 2 * (round * step - std::floor(round * step)) - 1; };
+  const double a = spread(0.8191725), b = spread(0.6710436), c = spread(0.5497005);
+  const double n = 1 + a * a + b * b + c * c; // of the quaternion (1, a, b, c)
+  return { Vec3{ 1 + a * a - b * b - c * c, 2 * (a * b - c), 2 * (a * c + b) } / n,
+           Vec3{ 2 * (a * b + c), 1 - a * a + b * b - c * c, 2 * (b * c - a) } / n,
+           Vec3{ 2 * (a * c - b), 2 * (b * c + a), 1 - a * a - b * b + c * c } / n };
+}
+
+/// Recursive cuts in halves, each across the longest way.
+class Cuts
+{
+public:
+  /// `sample`: some of the centroids, each standing for `weight` of them.
+  Cuts(std::vector<Centroid> sample, double weight, std::size_t most) : m_Weight(weight), m_Most(most)
+  {
+    cut(sample.data(), sample.data() + sample.size());
+  }
+
+  std::int32_t blockCount() const { return m_Blocks; }
+
+  std::int32_t blockOf(const Centroid& c) const
+  {
+    std::int32_t n = 0;
+    while (m_Nodes[n].axis >= 0) n = c[m_Nodes[n].axis] < m_Nodes[n].at ? n + 1 : m_Nodes[n].next;
+    return m_Nodes[n].next;
+  }
+
+private:
+  struct Node
+  {
+    std::int32_t axis; ///< -1: a block
+    float at;          ///< below it, the node that follows
+    std::int32_t next; ///< from it on, this node; or the block's number
+  };
+
+  void cut(Centroid* begin, Centroid* end)
+  {
+    const std::size_t n = std::size_t(end - begin);
+    const std::size_t node = m_Nodes.size();
+    const int axis = n < 2 || m_Weight * double(n) <= double(m_Most) ? -1 : longestAxis(begin, end);
+    m_Nodes.push_back({ axis, 0, axis < 0 ? m_Blocks : 0 });
+    if (axis < 0)
+    {
+      ++m_Blocks;
+      return;
+    }
+    Centroid* middle = begin + n / 2;
+    std::nth_element(begin, middle, end, [&](const Centroid& a, const Centroid& b) { return a[axis] < b[axis]; });
+    m_Nodes[node].at = (*middle)[axis];
+    cut(begin, middle);
+    m_Nodes[node].next = std::int32_t(m_Nodes.size());
+    cut(middle, end);
+  }
+
+  static int longestAxis(const Centroid* begin, const Centroid* end)
+  {
+    Centroid low = *begin, high = low;
+    for (const Centroid* c = begin; c != end; ++c)
+      for (int k = 0; k < 3; ++k)
+      {
+        low[k] = std::min(low[k], (*c)[k]);
+        high[k] = std::max(high[k], (*c)[k]);
+      }
+    int axis = 0;
+    for (int k = 1; k < 3; ++k)
+      if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+    return axis;
+  }
+
+  const double m_Weight;
+  const std::size_t m_Most;
+  std::vector<Node> m_Nodes;
+  std::int32_t m_Blocks = 0;
+};
+
+/// What a block gives back: ids below `known` are the mesh's own, the others its new vertices.
+struct BlockResult
+{
+  struct Moved
+  {
+    std::int32_t id;
+    Vec3 position;
+    float length;
+  };
+  std::vector<std::array<std::int32_t, 4>> tets, neighbours; ///< numbers of neighbours are the block's own
+  std::vector<Label> labels;
+  std::vector<BackgroundMesh::Sample> samples;
+  std::vector<Moved> moved; ///< the mesh's own points; applied only when all blocks have succeeded
+  std::vector<Vec3> newPoints;
+  std::vector<float> newLengths;
+};
+
+class Sweep
+{
+public:
+  Sweep(BackgroundMesh& ambient, int round, std::size_t most) : m_Ambient(ambient)
+  {
+    const auto& mesh = ambient.mesh;
+    const std::array<Vec3, 3> frame = frameOfRound(round);
+    std::vector<Centroid> centroids(mesh.tetrahedra.size());
+    vtkSMPTools::For(0, vtkIdType(centroids.size()),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType t = begin; t < end; ++t)
+                       {
+                         const auto& x = mesh.tetrahedra[t];
+                         const Vec3 c = mesh.points[x[0]] + mesh.points[x[1]] + mesh.points[x[2]] + mesh.points[x[3]];
+                         centroids[t] = { float(dot(frame[0], c)), float(dot(frame[1], c)), float(dot(frame[2], c)) };
+                       }
+                     });
+    divide(centroids, most);
+    sortSamples();
+    m_Results.resize(m_Blocks.size());
+  }
+
+  /// The blocks, those with the most samples first: it takes most of the time, and what comes last leaves threads idle.
+  std::vector<std::size_t> longestFirst() const
+  {
+    std::vector<std::size_t> order(m_Blocks.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    const auto samples = [&](std::size_t b) { return m_SampleStart[b + 1] - m_SampleStart[b]; };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return samples(a) > samples(b); });
+    return order;
+  }
+
+  void run(std::size_t b, const std::function<void(TetComplex&)>& work)
+  {
+    std::vector<std::int32_t> globalIds;
+    TetComplex complex = extract(b, globalIds);
+    work(complex);
+    collect(b, complex, globalIds);
+  }
+
+  void merge()
+  {
+    auto& mesh = m_Ambient.mesh;
+    std::vector<Start> starts(m_Results.size() + 1);
+    starts[0].point = mesh.points.size();
+    for (std::size_t b = 0; b < m_Results.size(); ++b)
+    {
+      const BlockResult& r = m_Results[b];
+      const Start& s = starts[b];
+      starts[b + 1] = { s.point + r.newPoints.size(), s.tetrahedron + r.tets.size(), s.samples + r.samples.size() };
+    }
+    mesh.points.resize(starts.back().point);
+    m_Ambient.lengths.resize(starts.back().point);
+    mesh.tetrahedra.resize(starts.back().tetrahedron);
+    mesh.labels.resize(starts.back().tetrahedron);
+    m_Ambient.neighbours.resize(starts.back().tetrahedron);
+    m_Ambient.samples.resize(starts.back().samples);
+    vtkSMPTools::For(0, vtkIdType(m_Results.size()), 1,
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType b = begin; b < end; ++b) place(m_Results[b], starts[b]);
+                     });
+    matchOpenFaces(mesh, m_Ambient.neighbours); // between blocks
+    dropUnusedPoints();
+  }
+
+private:
+  struct Start ///< of a block's result in the mesh
+  {
+    std::size_t point = 0, tetrahedron = 0, samples = 0;
+  };
+
+  void place(BlockResult& r, const Start& start)
+  {
+    auto& mesh = m_Ambient.mesh;
+    for (const auto& [id, position, length] : r.moved) // of no other block: not on its border
+    {
+      mesh.points[id] = position;
+      m_Ambient.lengths[id] = length;
+    }
+    std::copy(r.newPoints.begin(), r.newPoints.end(), mesh.points.begin() + start.point);
+    std::copy(r.newLengths.begin(), r.newLengths.end(), m_Ambient.lengths.begin() + start.point);
+    std::copy(r.labels.begin(), r.labels.end(), mesh.labels.begin() + start.tetrahedron);
+    const std::int32_t shift = std::int32_t(start.point) - m_Known, first = std::int32_t(start.tetrahedron);
+    for (std::size_t t = 0; t < r.tets.size(); ++t)
+      for (int i = 0; i < 4; ++i)
+      {
+        const std::int32_t v = r.tets[t][i], n = r.neighbours[t][i];
+        mesh.tetrahedra[first + t][i] = v < m_Known ? v : v + shift;
+        m_Ambient.neighbours[first + t][i] = n < 0 ? -1 : n + first;
+      }
+    for (auto& e : r.samples) e.tetrahedron += first;
+    std::copy(r.samples.begin(), r.samples.end(), m_Ambient.samples.begin() + start.samples);
+    r = {};
+  }
+
+  void divide(const std::vector<Centroid>& centroids, std::size_t most)
+  {
+    constexpr std::size_t sampleSize = 100000; // places each cut to within a percent of a block
+    const double stride = std::max(1.0, double(centroids.size()) / sampleSize);
+    std::vector<Centroid> sample;
+    double cost = 0;
+    for (std::size_t t = 0; t < centroids.size(); ++t)
+    {
+      cost += m_Ambient.mesh.labels[t] == 0 ? backgroundCost : 1;
+      if (cost < stride) continue;
+      cost -= stride;
+      sample.push_back(centroids[t]);
+    }
+    const Cuts cuts(std::move(sample), stride, most);
+    m_BlockOf.resize(centroids.size());
+    vtkSMPTools::For(0, vtkIdType(centroids.size()),
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType t = begin; t < end; ++t) m_BlockOf[t] = cuts.blockOf(centroids[t]);
+                     });
+    std::vector<std::size_t> start(cuts.blockCount() + 1, 0);
+    for (const std::int32_t b : m_BlockOf) ++start[b + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    for (std::int32_t b = 0; b < cuts.blockCount(); ++b) m_Blocks.push_back({ start[b], start[b + 1] });
+    m_Order.resize(centroids.size());
+    m_LocalTet.resize(centroids.size());
+    for (std::size_t t = 0; t < centroids.size(); ++t)
+    {
+      const std::size_t at = start[m_BlockOf[t]]++;
+      m_Order[at] = std::int32_t(t);
+      m_LocalTet[t] = std::int32_t(at - m_Blocks[m_BlockOf[t]].begin);
+    }
+  }
+
+  void sortSamples()
+  {
+    const std::size_t n = m_Ambient.samples.size();
+    const std::vector<std::int32_t>& block = m_BlockOf;
+    m_SampleStart.assign(m_Blocks.size() + 1, 0);
+    for (const auto& e : m_Ambient.samples) ++m_SampleStart[block[e.tetrahedron] + 1];
+    std::partial_sum(m_SampleStart.begin(), m_SampleStart.end(), m_SampleStart.begin());
+    m_SampleOrder.resize(n);
+    std::vector<std::size_t> at(m_SampleStart.begin(), m_SampleStart.end() - 1);
+    for (std::size_t e = 0; e < n; ++e)
+      m_SampleOrder[at[block[m_Ambient.samples[e].tetrahedron]]++] = std::int32_t(e);
+    m_Known = std::int32_t(m_Ambient.mesh.points.size());
+  }
+
+  TetComplex extract(std::size_t b, std::vector<std::int32_t>& globalIds)
+  {
+    const auto& mesh = m_Ambient.mesh;
+    // All -1 between blocks; one per thread, because it is as long as the whole mesh has points.
+    static thread_local std::vector<std::int32_t> local;
+    if (local.size() < std::size_t(m_Known)) local.resize(m_Known, -1);
+    const Range range = m_Blocks[b];
+    std::vector<TetComplex::Tet> tets, neighbours;
+    std::vector<Label> labels;
+    tets.reserve(range.end - range.begin);
+    labels.reserve(range.end - range.begin);
+    if (!m_Ambient.neighbours.empty()) neighbours.reserve(range.end - range.begin);
+    for (std::size_t i = range.begin; i < range.end; ++i)
+    {
+      auto t = mesh.tetrahedra[m_Order[i]];
+      for (auto& v : t)
+      {
+        if (local[v] < 0)
+        {
+          local[v] = std::int32_t(globalIds.size());
+          globalIds.push_back(v);
+        }
+        v = local[v];
+      }
+      tets.push_back(t);
+      labels.push_back(mesh.labels[m_Order[i]]);
+      if (m_Ambient.neighbours.empty()) continue;
+      auto across = m_Ambient.neighbours[m_Order[i]];
+      for (auto& n : across) n = n >= 0 && m_BlockOf[n] == std::int32_t(b) ? m_LocalTet[n] : -1;
+      neighbours.push_back(across);
+    }
+    std::vector<Vec3> points;
+    std::vector<float> lengths;
+    for (std::int32_t v : globalIds)
+    {
+      points.push_back(mesh.points[v]);
+      lengths.push_back(m_Ambient.lengths[v]);
+      local[v] = -1;
+    }
+    TetComplex complex(std::move(points), std::move(lengths), std::move(tets), std::move(labels),
+                       std::move(neighbours));
+    complex.samples.reserve(m_SampleStart[b + 1] - m_SampleStart[b]);
+    for (std::size_t i = m_SampleStart[b]; i < m_SampleStart[b + 1]; ++i)
+    {
+      const auto& e = m_Ambient.samples[m_SampleOrder[i]];
+      complex.addSample(m_LocalTet[e.tetrahedron], e.face, e.position, e.tolerance);
+    }
+    return complex;
+  }
+
+  void collect(std::size_t b, const TetComplex& complex, const std::vector<std::int32_t>& globalIds)
+  {
+    BlockResult& r = m_Results[b];
+    const std::int32_t own = std::int32_t(globalIds.size());
+    std::vector<std::int32_t> ids(complex.points.size(), -1);
+    std::copy(globalIds.begin(), globalIds.end(), ids.begin());
+    for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+    {
+      if (complex.vertexTet[v] < 0) continue;
+      if (v < own)
+      {
+        if (!(complex.points[v] == m_Ambient.mesh.points[ids[v]]) || complex.lengths[v] != m_Ambient.lengths[ids[v]])
+          r.moved.push_back({ ids[v], complex.points[v], complex.lengths[v] });
+        continue;
+      }
+      ids[v] = m_Known + std::int32_t(r.newPoints.size());
+      r.newPoints.push_back(complex.points[v]);
+      r.newLengths.push_back(complex.lengths[v]);
+    }
+    std::vector<std::int32_t> number(complex.tets.size(), -1);
+    std::int32_t count = 0;
+    for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+      if (complex.alive(t)) number[t] = count++;
+    for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+    {
+      if (!complex.alive(t)) continue;
+      auto x = complex.tets[t], across = complex.neighbours[t];
+      for (auto& v : x) v = ids[v];
+      for (auto& n : across) n = n < 0 ? -1 : number[n];
+      r.neighbours.push_back(across);
+      for (std::int32_t i = 0; i < 4; ++i)
+        for (std::int32_t e = complex.sampleHeads[t][i]; e >= 0; e = complex.samples[e].next)
+          r.samples.push_back(
+            { complex.samples[e].position, complex.samples[e].tolerance, std::int32_t(r.tets.size()), i });
+      r.tets.push_back(x);
+      r.labels.push_back(complex.labels[t]);
+    }
+  }
+
+  void dropUnusedPoints()
+  {
+    auto& mesh = m_Ambient.mesh;
+    std::vector<std::int32_t> id(mesh.points.size(), -1);
+    std::vector<Vec3> points;
+    std::vector<float> lengths;
+    for (auto& t : mesh.tetrahedra)
+      for (auto& v : t)
+      {
+        if (id[v] < 0)
+        {
+          id[v] = std::int32_t(points.size());
+          points.push_back(mesh.points[v]);
+          lengths.push_back(m_Ambient.lengths[v]);
+        }
+        v = id[v];
+      }
+    mesh.points = std::move(points);
+    m_Ambient.lengths = std::move(lengths);
+  }
+
+  BackgroundMesh& m_Ambient;
+  std::int32_t m_Known = 0;
+  std::vector<std::int32_t> m_BlockOf, m_Order, m_LocalTet, m_SampleOrder;
+  std::vector<Range> m_Blocks;
+  std::vector<std::size_t> m_SampleStart;
+  std::vector<BlockResult> m_Results;
+};
+
+} // namespace
+
+std::size_t fairBlock(const TetMesh& mesh)
+{
+  constexpr std::size_t usual = 65000, small = 16000;
+  const auto outside = std::count(mesh.labels.begin(), mesh.labels.end(), 0);
+  const double worth = double(mesh.labels.size()) - (1 - backgroundCost) * double(outside);
+  return worth > usual ? usual : small;
+}
+
+void sweepBlocks(BackgroundMesh& ambient, int round, std::size_t tetrahedraPerBlock,
+                 const std::function<void(TetComplex&)>& work, const Progress& progress)
+{
+  Sweep sweep(ambient, round, std::max<std::size_t>(1, tetrahedraPerBlock));
+  const std::vector<std::size_t> order = sweep.longestFirst();
+  const std::size_t n = order.size();
+  std::mutex mutex;
+  std::exception_ptr failure; // an exception must not leave a worker thread
+  std::atomic<std::size_t> begun{ 0 }, done{ 0 };
+  vtkSMPTools::For(0, vtkIdType(n), 1,
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (vtkIdType i = begin; i < end; ++i)
+                     {
+                       try
+                       {
+                         {
+                           const std::lock_guard<std::mutex> lock(mutex);
+                           if (failure) return;
+                           report(progress, double(done) / double(n), "");
+                         }
+                         sweep.run(order[begun++], work); // in this order, whichever the threads are handed
+                         ++done;
+                       }
+                       catch (...)
+                       {
+                         const std::lock_guard<std::mutex> lock(mutex);
+                         if (!failure) failure = std::current_exception();
+                       }
+                     }
+                   });
+  if (failure) std::rethrow_exception(failure);
+  sweep.merge();
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,137 @@
+#include "EvenLengths.h"
+
+#include "VertexSteps.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+class EdgeLengths
+{
+public:
+  EdgeLengths(GuardedOperations& operations, const EdgeLengthOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Good(sine2OfDegrees(options.goodAngle))
+  {
+  }
+
+  void run()
+  {
+    forEachVertex([&](std::int32_t v) { stretchAt(v); });
+    forEachVertex([&](std::int32_t v) { settle(v); });
+  }
+
+private:
+  template <class F>
+  void forEachVertex(const F& f)
+  {
+    for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
+      if (m_Complex.vertexTet[v] >= 0 && !m_Complex.locked[v] && m_Complex.onInterface[v] &&
+          m_Complex.lengths[v] >= m_Options.from)
+        f(v);
+  }
+
+  double ratio(std::int32_t a, std::int32_t b) const
+  {
+    return norm(m_Complex.points[a] - m_Complex.points[b]) / m_Complex.targetLength(a, b);
+  }
+  static bool isEven(double ratio) { return ratio >= shortestEven && ratio <= longestEven; }
+  double floorAt(std::int32_t v) { return std::min(m_Good, m_Operations.qualityAt(v)); }
+
+  /// How many edges at v would have even lengths, were it at p.
+  double evenEdges(std::int32_t v, const Vec3& p)
+  {
+    double sum = 0;
+    for (const auto& n : m_Operations.neighbours(v))
+      if (isEven(norm(m_Complex.points[n.vertex] - p) / m_Complex.targetLength(v, n.vertex)))
+        sum += n.alongInterface ? 1 : insideLabel;
+    return sum;
+  }
+
+  void stretchAt(std::int32_t v)
+  {
+    constexpr double least = 0.5, most = 1.6; // beyond that no single move makes up for it
+    const auto neighbours = m_Operations.neighbours(v);
+    for (const auto& n : neighbours)
+    {
+      if (!n.alongInterface) continue;
+      const double r = ratio(v, n.vertex);
+      if (r > least && r < most && !isEven(r)) stretch(v, n.vertex, r);
+    }
+  }
+
+  /// Moves v so that its edge to u gets an even length.
+  void stretch(std::int32_t v, std::int32_t u, double ratio)
+  {
+    constexpr double ease = 0.02, margin = 0.005;
+    const Vec3 p = m_Complex.points[v], edge = p - m_Complex.points[u];
+    const Fit held = heldAt(m_Operations, v, ease);
+    const bool isShort = ratio < shortestEven;
+    const double lacking = isShort ? shortestEven + margin - ratio : ratio - longestEven + margin;
+    const Vec3 direction = easiest(held, isShort ? edge : -1.0 * edge);
+    const double along = std::abs(dot(direction, edge)) / norm(edge);
+    if (along < 0.3) return;
+    for (const double times : { 1.0, 1.25 })
+    {
+      const Vec3 to = p + (times * lacking * m_Complex.targetLength(v, u) / along) * direction;
+      if (moveNear(v, onSheet(v, u, to), held)) return;
+    }
+  }
+
+  /// Where the samples would like v, were it at p, without a change of its distance to u.
+  Vec3 onSheet(std::int32_t v, std::int32_t u, const Vec3& p)
+  {
+    Fit fit = fitAt(m_Complex, v, p, m_Operations.sheet(v), m_Options.robust);
+    fit.addToDiagonal(0.05 * fit.trace());
+    const Vec3 edge = p - m_Complex.points[u], free = fit.solve(fit.g);
+    const Vec3 step = free - (dot(free, edge) / squaredNorm(edge)) * edge;
+    const double length = norm(step), most = 0.3 * m_Complex.lengths[v];
+    return p + (length > most ? most / length : 1) * step;
+  }
+
+  /// Moves v to p, or from there uphill to where its angles are good enough, if more lengths are then even.
+  bool moveNear(std::int32_t v, Vec3 p, const Fit& held)
+  {
+    constexpr int trials = 8;
+    const double floor = floorAt(v), now = evenEdges(v, m_Complex.points[v]);
+    if (!(evenEdges(v, p) > now)) return false;
+    for (int trial = 0; trial <= trials; ++trial)
+    {
+      const double quality = m_Operations.qualityAt(v, p, -1);
+      if (quality >= floor) return evenEdges(v, p) > now && m_Operations.moveWithin(v, p);
+      p += (0.03 * m_Complex.lengths[v]) * easiest(held, m_Uphill(m_Operations, v, p, quality));
+    }
+    return false;
+  }
+
+  /// Moves v to the fit of its faces to their samples, where that costs no even length.
+  void settle(std::int32_t v)
+  {
+    Fit fit = fitOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
+    fit.addToDiagonal(0.005 * fit.trace());
+    const Vec3 p = m_Complex.points[v], step = fit.solve(fit.g);
+    const double floor = floorAt(v), now = evenEdges(v, p);
+    for (const double share : { 1.0, 0.5, 0.25 })
+      if (evenEdges(v, p + share * step) >= now && m_Operations.move(v, p + share * step, floor)) return;
+  }
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const EdgeLengthOptions& m_Options;
+  const double m_Good;
+  Uphill m_Uphill;
+};
+
+} // namespace
+
+void evenLengthsOfBlock(GuardedOperations& operations, const EdgeLengthOptions& options)
+{
+  EdgeLengths(operations, options).run();
+}
+
+} // namespace surgicalmesher

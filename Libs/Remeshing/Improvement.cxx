@@ -1,0 +1,552 @@
+#include "Improvement.h"
+
+#include "TetQuality.h"
+#include "VertexSteps.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+class Relaxation
+{
+public:
+  Relaxation(GuardedOperations& operations, const RelaxationOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Good(sine2OfDegrees(options.goodAngle))
+  {
+  }
+
+  void run()
+  {
+    for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
+      if (m_Complex.vertexTet[v] >= 0 && !m_Complex.locked[v]) relax(v);
+  }
+
+private:
+  void relax(std::int32_t v)
+  {
+    const Vec3 step = m_Complex.onInterface[v] ? onInterface(v) : towardsMiddle(v);
+    const double before = m_Operations.qualityAt(v);
+    const double floor = std::min(m_Good, before);
+    for (double share : { 1.0, 0.5, 0.25 })
+      if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : floor)) return;
+  }
+
+  /// Where the edges at v would like it: the mean, over its neighbours x, of the point at the target distance from x in the
+  /// direction of v. A descent step of the sum of (|vx| - L)^2.
+  Vec3 towardsMiddle(std::int32_t v)
+  {
+    const auto& neighbours = m_Operations.neighbours(v);
+    Vec3 sum;
+    for (const auto& n : neighbours) sum += wish(v, n.vertex);
+    return sum / double(neighbours.size());
+  }
+
+  /// The way of v towards (for x too far) or from (for x too near) its target distance to x, and half the way to x itself,
+  /// which evens out the directions.
+  Vec3 wish(std::int32_t v, std::int32_t x) const
+  {
+    const Vec3 d = m_Complex.points[x] - m_Complex.points[v];
+    const double target = m_Complex.targetLength(v, x);
+    return (m_Options.spread * (1 - target / norm(d)) + 1 - m_Options.spread) * d;
+  }
+
+  /// Least squares over the samples of the faces at v, held by a spring to the middle of the neighbours on the interface.
+  Vec3 onInterface(std::int32_t v)
+  {
+    Fit fit = fitOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
+    if (!(fit.trace() > 0)) return {};
+    const double spring = 0.05 * fit.trace() / m_Options.fit;
+    fit.addToDiagonal(spring);
+    return fit.solve(fit.g + spring * alongInterface(v));
+  }
+
+  /// Towards the middle of the neighbours on the same curve, or on the sheet; nothing where curves meet.
+  Vec3 alongInterface(std::int32_t v)
+  {
+    m_Degree.clear();
+    for (const SheetFace& f : m_Operations.sheet(v).faces)
+      for (std::int32_t u : f.vertices)
+      {
+        if (u == v) continue;
+        auto at = std::find_if(m_Degree.begin(), m_Degree.end(), [&](const auto& d) { return d.first == u; });
+        if (at == m_Degree.end()) m_Degree.push_back({ u, 1 });
+        else ++at->second;
+      }
+    const auto curves = std::count_if(m_Degree.begin(), m_Degree.end(), [](const auto& d) { return d.second > 2; });
+    if (curves != 0 && curves != 2) return {};
+    Vec3 sum;
+    double total = 0;
+    for (const auto& [u, degree] : m_Degree)
+    {
+      if (curves && degree <= 2) continue;
+      sum += wish(v, u);
+      total += 1;
+    }
+    return sum / total;
+  }
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const RelaxationOptions& m_Options;
+  const double m_Good;
+  std::vector<std::pair<std::int32_t, int>> m_Degree;
+};
+
+class Polishing
+{
+public:
+  Polishing(GuardedOperations& operations, const PolishOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Good(sine2OfDegrees(options.goodAngle))
+  {
+  }
+
+  void run()
+  {
+    for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
+    {
+      if (m_Complex.vertexTet[v] < 0 || m_Complex.locked[v]) continue;
+      if (m_Complex.onInterface[v]) moveToSamples(v);
+      climb(v);
+    }
+  }
+
+private:
+  void moveToSamples(std::int32_t v)
+  {
+    Fit fit = fitOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
+    fit.addToDiagonal(0.05 * fit.trace() / m_Options.fit);
+    const Vec3 step = fit.solve(fit.g);
+    const double before = m_Operations.qualityAt(v);
+    for (double share : { 1.0, 0.5, 0.25 })
+      if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : std::min(m_Good, before)))
+        return;
+  }
+
+  /// Sum of the sines of the worst angles at v, if it were at p; -1 if one is under `floor`.
+  double sumOfSines(std::int32_t v, const Vec3& p, double floor)
+  {
+    double sum = 0;
+    StarQuality& star = m_Operations.measured(v);
+    const std::vector<double>& qualities = star.each(p);
+    for (std::size_t i = 0; i < star.size(); ++i)
+    {
+      if (qualities[i] < floor) return -1;
+      if (!star.isBackground(i)) sum += std::sqrt(std::max(0.0, qualities[i]));
+    }
+    return sum;
+  }
+
+  void climb(std::int32_t v)
+  {
+    const Vec3 p = m_Complex.points[v];
+    const double size = m_Complex.lengths[v], h = 1e-4 * size;
+    const double floor = std::min(m_Good, m_Operations.qualityAt(v));
+    const double now = sumOfSines(v, p, -1);
+    Vec3 direction;
+    for (int a = 0; a < 3; ++a)
+    {
+      Vec3 q = p;
+      q[a] += h;
+      direction[a] = sumOfSines(v, q, -1) - now;
+    }
+    direction = easiest(heldAt(m_Operations, v, m_Options.ease), direction);
+    for (double step : { 0.12, 0.06, 0.03 })
+    {
+      const Vec3 q = p + step * size * direction;
+      if (sumOfSines(v, q, floor) > now && m_Operations.moveWithin(v, q)) return;
+    }
+  }
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const PolishOptions& m_Options;
+  const double m_Good;
+};
+
+/// A fixed sequence of directions, for reproducible trials.
+class Directions
+{
+public:
+  Vec3 next()
+  {
+    for (;;)
+    {
+      const Vec3 d{ uniform(), uniform(), uniform() };
+      const double n = squaredNorm(d);
+      if (n > 1e-3 && n <= 1) return d / std::sqrt(n);
+    }
+  }
+
+private:
+  double uniform()
+  {
+    m_State = m_State * 6364136223846793005ull + 1442695040888963407ull;
+    return double(std::int64_t(m_State) >> 11) / 4503599627370496.0;
+  }
+  std::uint64_t m_State = 88172645463325252ull;
+};
+
+class Improvement
+{
+public:
+  Improvement(GuardedOperations& operations, const ImprovementOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Target(sine2OfDegrees(options.targetAngle))
+  {
+  }
+
+  void run()
+  {
+    m_Touched.assign(m_Complex.points.size(), 1);
+    for (int pass = 0; pass < m_Options.passes; ++pass)
+    {
+      std::vector<std::pair<double, std::int32_t>> bad;
+      for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
+        if (m_Complex.alive(t) && isTouched(t))
+          if (const double q = m_Operations.quality(t); q < m_Target) bad.push_back({ q, t });
+      if (bad.empty()) break;
+      std::sort(bad.begin(), bad.end());
+      bad.resize(std::min(bad.size(), shareOf(m_Options.worstShare)));
+      m_Touched.assign(m_Complex.points.size(), 0);
+      m_TogetherLeft = m_Options.together > 0 ? shareOf(m_Options.togetherShare) : 0;
+      for (const auto& [q, t] : bad)
+        if (m_Complex.alive(t) && m_Operations.quality(t) < m_Target) improve(t);
+    }
+  }
+
+private:
+  std::size_t shareOf(double share) const
+  {
+    return std::max<std::size_t>(100, std::size_t(share * double(m_Complex.tets.size())));
+  }
+
+  /// Whether anything near t has changed since it was last tried.
+  bool isTouched(std::int32_t t) const
+  {
+    const auto& x = m_Complex.tets[t];
+    return m_Touched[x[0]] || m_Touched[x[1]] || m_Touched[x[2]] || m_Touched[x[3]];
+  }
+
+  void touchStar(std::int32_t v)
+  {
+    m_Touched.resize(m_Complex.points.size(), 1);
+    for (std::int32_t t : m_Operations.star(v))
+      for (std::int32_t x : m_Complex.tets[t]) m_Touched[x] = 1;
+  }
+
+  void improve(std::int32_t t)
+  {
+    for (int round = 0; round < 4; ++round)
+    {
+      const bool done = removeAnEdge(t) || moveAVertex(t) || collapseAnEdge(t) || (m_Options.split && splitAnEdge(t)) ||
+                        moveTogether(t) || splitAndMoveTogether(t);
+      if (!done || !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target) return;
+    }
+  }
+
+  template <class F>
+  bool forEachEdge(std::int32_t t, F&& f)
+  {
+    static constexpr int ends[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
+    const auto x = m_Complex.tets[t];
+    for (const auto& e : ends)
+      if (f(x[e[0]], x[e[1]])) return true;
+    return false;
+  }
+
+  bool removeAnEdge(std::int32_t t)
+  {
+    return forEachEdge(t,
+                       [&](std::int32_t a, std::int32_t b)
+                       {
+                         if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
+                         if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
+                         if (!m_Operations.removeEdge(a, b, t, m_Operations.worstQuality(m_Ring) * 1.0001 + 1e-9))
+                           return false;
+                         m_Touched.resize(m_Complex.points.size(), 1);
+                         m_Touched[a] = m_Touched[b] = 1;
+                         for (std::int32_t v : m_RingVertices) m_Touched[v] = 1;
+                         return true;
+                       });
+  }
+
+  bool moveAVertex(std::int32_t t)
+  {
+    const auto x = m_Complex.tets[t];
+    bool any = false;
+    for (std::int32_t v : x)
+    {
+      if (optimise(v)) any = true;
+      if (any && m_Operations.quality(t) >= m_Target) return true;
+    }
+    return any;
+  }
+
+  /// Climbs the worst quality at v along the gradient of its worst tetrahedron and along trial directions.
+  bool optimise(std::int32_t v)
+  {
+    if (m_Complex.locked[v]) return false;
+    double best = m_Operations.qualityAt(v);
+    const double start = best;
+    const double size = m_Complex.lengths[v];
+    double step = 0.12 * size;
+    const Fit held = heldAt(m_Operations, v, m_Options.ease);
+    std::optional<Vec3> uphill; // from where v is now
+    for (int trial = 0; trial < m_Options.trials && best < m_Target && step > 0.004 * size; ++trial)
+    {
+      const Vec3 p = m_Complex.points[v];
+      const bool isRandom = trial % 3 == 2;
+      if (!isRandom && !uphill) uphill = easiest(held, m_Uphill(m_Operations, v, p, best));
+      const Vec3 q = p + step * (isRandom ? easiest(held, m_Directions.next()) : *uphill);
+      if (m_Operations.qualityAt(v, q, best) > best && m_Operations.moveWithin(v, q))
+      {
+        best = m_Operations.qualityAt(v);
+        uphill.reset();
+        step *= 1.3;
+      }
+      else step *= 0.8;
+    }
+    if (!(best > start * (1 + 1e-3))) return false;
+    touchStar(v);
+    return true;
+  }
+
+  /// Where no vertex alone can move without making another tetrahedron the worst: descends the sum of the squares of what
+  /// all tetrahedra around t lack, vertex by vertex, and keeps the result if the worst of them has become better.
+  bool moveTogether(std::int32_t t)
+  {
+    struct Reach
+    {
+      double near; ///< tetrahedra up to this many times as good as t take part
+      double dip;  ///< share of t's quality that they may fall to on the way
+    };
+    if (m_TogetherLeft == 0) return false;
+    --m_TogetherLeft;
+    for (const Reach& vertexDistance : { Reach{ 1.3, 0.8 }, Reach{ 2, 0.6 } })
+    {
+      const std::vector<std::int32_t> vertices = neighbourhood(t, vertexDistance.near);
+      if (const double before = worstAt(vertices); before > 0 && moveTogether(vertices, before, vertexDistance.dip)) return true;
+    }
+    return false;
+  }
+
+  /// To better than `before`, never falling to less than a share of it.
+  bool moveTogether(const std::vector<std::int32_t>& vertices, double before, double dip)
+  {
+    std::vector<std::pair<std::int32_t, Vec3>> moves;
+    double after = worstAt(vertices);
+    for (int round = 0; round < m_Options.together && after < m_Target; ++round)
+    {
+      const std::size_t soFar = moves.size();
+      for (std::int32_t v : vertices)
+        if (const Vec3 p = m_Complex.points[v]; descend(v, dip * before)) moves.push_back({ v, p });
+      if (moves.size() == soFar) break;
+      after = worstAt(vertices);
+    }
+    if (after > before * (1 + 1e-3))
+    {
+      for (std::int32_t v : vertices) touchStar(v);
+      return true;
+    }
+    for (auto m = moves.rbegin(); m != moves.rend(); ++m) m_Operations.moveBack(m->first, m->second);
+    for (std::int32_t v : vertices) m_Operations.bringHome(v);
+    return false;
+  }
+
+  /// Where the vertices are too few for good angles, wherever they lie, as around a tiny body: a new one in the middle of an
+  /// edge, and all around it move together. Taken back if that doesn't help.
+  bool splitAndMoveTogether(std::int32_t t)
+  {
+    if (!m_Options.split || m_TogetherLeft == 0) return false;
+    const auto x = m_Complex.tets[t];
+    return forEachEdge(t,
+                       [&](std::int32_t a, std::int32_t b)
+                       {
+                         if (m_Complex.locked[a]) std::swap(a, b);
+                         if (m_Complex.locked[a]) return false;
+                         const auto& star = m_Operations.star(a); // t may have come back under another number
+                         const auto isT = [&](std::int32_t s)
+                         { return std::is_permutation(x.begin(), x.end(), m_Complex.tets[s].begin()); };
+                         return splitAndMoveTogether(a, b, *std::find_if(star.begin(), star.end(), isT));
+                       });
+  }
+
+  bool splitAndMoveTogether(std::int32_t a, std::int32_t b, std::int32_t seed)
+  {
+    constexpr double dip = 0.3;
+    const double before = std::min(m_Operations.qualityAt(a), m_Operations.qualityAt(b));
+    const Vec3 middle = 0.5 * (m_Complex.points[a] + m_Complex.points[b]);
+    if (!(before > 0) || !m_Operations.split(a, b, seed, middle, dip * before)) return false;
+    const std::int32_t v = m_Operations.lastSplitVertex;
+    if (moveTogether(around(v), before, dip)) return true;
+    m_Operations.takeBackSplit(v, a);
+    return false;
+  }
+
+  /// v and its free neighbours.
+  std::vector<std::int32_t> around(std::int32_t v)
+  {
+    std::vector<std::int32_t> result{ v };
+    for (const auto& n : m_Operations.neighbours(v))
+      if (!m_Complex.locked[n.vertex]) result.push_back(n.vertex);
+    return result;
+  }
+
+  /// The free vertices of the tetrahedra that share a vertex with t and are at most `near` times as good.
+  std::vector<std::int32_t> neighbourhood(std::int32_t t, double near)
+  {
+    const double limit = near * m_Operations.quality(t);
+    std::vector<std::int32_t> result;
+    for (std::int32_t v : m_Complex.tets[t])
+      for (std::int32_t s : m_Operations.star(v))
+        if (m_Operations.quality(s) <= limit)
+          for (std::int32_t x : m_Complex.tets[s])
+            if (!m_Complex.locked[x]) result.push_back(x);
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+
+  double worstAt(const std::vector<std::int32_t>& vertices)
+  {
+    double worst = std::numeric_limits<double>::max();
+    for (std::int32_t v : vertices) worst = std::min(worst, m_Operations.qualityAt(v));
+    return worst;
+  }
+
+  /// Sum over the star of v, were it at p, of the squares of what the sines lack to somewhat more than the target.
+  double lack(std::int32_t v, const Vec3& p)
+  {
+    const double wanted = std::sqrt(1.15 * m_Target);
+    double sum = 0;
+    StarQuality& star = m_Operations.measured(v);
+    const std::vector<double>& qualities = star.each(p);
+    for (std::size_t i = 0; i < star.size(); ++i)
+    {
+      const double missing = wanted - std::sqrt(std::max(0.0, qualities[i]));
+      if (missing > 0) sum += missing * missing;
+    }
+    return sum;
+  }
+
+  /// A step of v down the gradient of what its tetrahedra lack, along the interface rather than across.
+  bool descend(std::int32_t v, double floor)
+  {
+    const Vec3 p = m_Complex.points[v];
+    const double now = lack(v, p), size = m_Complex.lengths[v], h = 1e-4 * size;
+    if (!(now > 0)) return false;
+    Vec3 direction;
+    for (int a = 0; a < 3; ++a)
+    {
+      Vec3 q = p;
+      q[a] += h;
+      direction[a] = now - lack(v, q);
+    }
+    direction = easiest(heldAt(m_Operations, v, m_Options.ease), direction);
+    for (double step : { 0.1, 0.03, 0.01, 0.003 })
+    {
+      const Vec3 q = p + step * size * direction;
+      if (lack(v, q) < now && m_Operations.move(v, q, floor)) return true;
+    }
+    return false;
+  }
+
+  bool collapseAnEdge(std::int32_t t)
+  {
+    return forEachEdge(t,
+                       [&](std::int32_t a, std::int32_t b)
+                       {
+                         const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
+                         if (length > m_Options.shortEdge * m_Complex.targetLength(a, b)) return false;
+                         for (const auto& [u, v] : { std::pair(a, b), std::pair(b, a) })
+                         {
+                           if (m_Complex.locked[u]) continue;
+                           const double before = m_Operations.qualityAt(u) * 1.0001 + 1e-9;
+                           const Vec3 from = m_Complex.points[u], to = m_Complex.points[v];
+                           for (double share : { 1.0, 0.5 })
+                             if (m_Operations.collapse(u, v, from + share * (to - from), before, m_Options.longEdge))
+                             {
+                               touchStar(v);
+                               return true;
+                             }
+                         }
+                         return false;
+                       });
+  }
+
+  bool splitAnEdge(std::int32_t t)
+  {
+    return forEachEdge(t,
+                       [&](std::int32_t a, std::int32_t b)
+                       {
+                         if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
+                         const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
+                         if (length < m_Options.splitEdge * m_Complex.targetLength(a, b)) return false;
+                         if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
+                         return splitAtBest(a, b, t);
+                       });
+  }
+
+  /// Splits ab where the halves of its ring are best, if that beats the ring as it is.
+  bool splitAtBest(std::int32_t a, std::int32_t b, std::int32_t seed)
+  {
+    const double before = m_Operations.worstQuality(m_Ring);
+    const auto halves = [&](const Vec3& p)
+    {
+      double worst = std::numeric_limits<double>::max();
+      for (std::int32_t t : m_Ring)
+      {
+        const double w = m_Complex.labels[t] == 0 ? backgroundLeniency : 1;
+        worst = std::min({ worst, w * m_Complex.qualityWith(t, a, p), w * m_Complex.qualityWith(t, b, p) });
+        if (worst <= 0) break;
+      }
+      return worst;
+    };
+    Vec3 p = 0.5 * (m_Complex.points[a] + m_Complex.points[b]);
+    double best = halves(p);
+    double step = 0.2 * norm(m_Complex.points[a] - m_Complex.points[b]);
+    for (int trial = 0; trial < 16; ++trial)
+    {
+      const Vec3 q = p + step * m_Directions.next();
+      if (const double value = halves(q); value > best) best = value, p = q;
+      else step *= 0.85;
+    }
+    if (!(best > before * 1.0001 + 1e-9) || !m_Operations.split(a, b, seed, p, before * 1.0001 + 1e-9)) return false;
+    touchStar(m_Operations.lastSplitVertex);
+    return true;
+  }
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const ImprovementOptions& m_Options;
+  const double m_Target;
+  Directions m_Directions;
+  Uphill m_Uphill;
+  std::vector<std::uint8_t> m_Touched; ///< per vertex
+  std::size_t m_TogetherLeft = 0;      ///< in this pass
+  std::vector<std::int32_t> m_Ring, m_RingVertices;
+};
+
+} // namespace
+
+void relaxBlock(GuardedOperations& operations, const RelaxationOptions& options)
+{
+  Relaxation(operations, options).run();
+}
+
+void polishBlock(GuardedOperations& operations, const PolishOptions& options) { Polishing(operations, options).run(); }
+
+void improveBlock(GuardedOperations& operations, const ImprovementOptions& options)
+{
+  Improvement(operations, options).run();
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,141 @@
+#include "Relabelling.h"
+
+#include <optional>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+constexpr double anyQuality = 0;
+
+std::vector<std::int32_t> tissuesAt(GuardedOperations& operations, std::int32_t v)
+{
+  std::vector<std::int32_t> result;
+  for (std::int32_t t : operations.star(v))
+    if (operations.complex().labels[t] != 0) result.push_back(t);
+  return result;
+}
+
+/// Gives all at v to `label`, in whatever order that allows. What leads nowhere is given back, if the samples has not come to
+/// lie too well for that.
+bool takeOff(GuardedOperations& operations, std::int32_t v, Label label, double quality)
+{
+  std::vector<std::int32_t> others;
+  for (std::int32_t t : operations.star(v))
+    if (operations.complex().labels[t] != label) others.push_back(t);
+  for (std::int32_t t : others)
+  {
+    const Label own = operations.complex().labels[t];
+    if (!operations.relabel(t, label, quality)) continue;
+    if (others.size() == 1 || takeOff(operations, v, label, quality)) return true;
+    if (operations.relabel(t, own, anyQuality)) operations.counts.relabels -= 2;
+  }
+  return false;
+}
+
+/// Gives background at v that faces of one tissue enclose on two or three sides to that tissue, until v has enough.
+void fillBeside(GuardedOperations& operations, std::int32_t v, std::size_t few)
+{
+  const TetComplex& c = operations.complex();
+  const double least = sine2OfDegrees(usualAngle); // what is let off as background no longer is
+  const std::vector<std::int32_t> star = operations.star(v);
+  for (std::int32_t t : star)
+  {
+    if (c.labels[t] != 0) continue;
+    if (tissuesAt(operations, v).size() > few) return;
+    int sides = 0;
+    Label tissue = 0;
+    for (int i = 0; i < 4; ++i)
+      if (c.isInterface(t, i)) ++sides, tissue = c.labels[c.neighbours[t][i]];
+    if (sides >= 2) operations.relabel(t, tissue, least);
+  }
+}
+
+/// The labels at v if they are two, that of fewer tetrahedra first, and how many these are.
+struct TwoLabels
+{
+  Label fewer, more;
+  std::size_t count;
+};
+
+std::optional<TwoLabels> twoLabelsAt(GuardedOperations& operations, std::int32_t v)
+{
+  const TetComplex& c = operations.complex();
+  const std::vector<std::int32_t>& star = operations.star(v);
+  const Label a = c.labels[star.front()];
+  Label b = a;
+  std::size_t ofA = 0;
+  for (std::int32_t t : star)
+  {
+    if (c.labels[t] == a) ++ofA;
+    else if (b == a) b = c.labels[t];
+    else if (c.labels[t] != b) return {};
+  }
+  if (b == a) return {};
+  const std::size_t ofB = star.size() - ofA;
+  return ofA < ofB ? TwoLabels{ a, b, ofA } : TwoLabels{ b, a, ofB };
+}
+
+/// The label beyond two or three faces of t, if there is one.
+std::optional<Label> beyondMostFaces(const TetComplex& c, std::int32_t t)
+{
+  const auto isBeyond = [&](int i, int k)
+  { return c.neighbours[t][k] >= 0 && c.labels[c.neighbours[t][k]] == c.labels[c.neighbours[t][i]]; };
+  for (int i = 0; i < 3; ++i)
+  {
+    if (!c.isInterface(t, i)) continue;
+    for (int k = i + 1; k < 4; ++k)
+      if (isBeyond(i, k)) return c.labels[c.neighbours[t][i]];
+  }
+  return std::nullopt;
+}
+
+/// Moves v towards its samples, if there is any left, as far as quality allows.
+void pull(GuardedOperations& operations, std::int32_t v, double quality)
+{
+  const auto to = operations.nearestSample(v);
+  if (!to) return;
+  const Vec3 from = operations.complex().points[v];
+  quality = std::min(quality, operations.qualityAt(v));
+  for (const double share : { 1.0, 0.7, 0.5, 0.35, 0.2, 0.1 })
+    if (operations.move(v, from + share * (*to - from), quality)) return;
+}
+
+} // namespace
+
+void removeEarsOfBlock(GuardedOperations& operations, std::size_t few)
+{
+  const TetComplex& c = operations.complex();
+  for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+    if (c.vertexTet[v] >= 0 && !c.locked[v] && c.onInterface[v] && tissuesAt(operations, v).size() <= few)
+      if (!takeOff(operations, v, 0, anyQuality)) fillBeside(operations, v, few);
+}
+
+void cutSpikesOfBlock(GuardedOperations& operations, const SpikeOptions& options)
+{
+  const TetComplex& c = operations.complex();
+  const double least = sine2OfDegrees(options.keptAngle);
+  for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+  {
+    if (c.vertexTet[v] < 0 || c.locked[v] || !c.onInterface[v]) continue;
+    const auto labels = twoLabelsAt(operations, v);
+    if (!labels || labels->count > options.few || !operations.isSpike(v, options.vertexDistance)) continue;
+    operations.setLeastTolerance(std::min(options.maximumDistance, norm(*operations.nearestSample(v) - c.points[v])));
+    const bool isCut = takeOff(operations, v, labels->more, labels->more == 0 ? anyQuality : least);
+    operations.setLeastTolerance(0);
+    if (!isCut && options.pullAngle > 0) pull(operations, v, sine2OfDegrees(options.pullAngle));
+  }
+}
+
+void relabelBlock(GuardedOperations& operations, double keptAngle, double mostLeft)
+{
+  const TetComplex& c = operations.complex();
+  const double least = sine2OfDegrees(keptAngle);
+  for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
+    if (c.alive(t))
+      if (const auto label = beyondMostFaces(c, t)) operations.relabel(t, *label, least, mostLeft);
+}
+
+} // namespace surgicalmesher

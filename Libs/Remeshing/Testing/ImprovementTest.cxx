@@ -1,0 +1,414 @@
+#include "Improvement.h"
+#include "Coarsening.h"
+#include "ComplexInvariants.h"
+#include "EvenLengths.h"
+#include "MeshImprovement.h"
+#include "RandomMaps.h"
+#include "Relabelling.h"
+
+#include <gtest/gtest.h>
+#include <vtkSMPTools.h>
+
+#include <numeric>
+#include <stdexcept>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using namespace test;
+
+const SizingFunction scale = [](const Vec3&) { return 1.5f; };
+
+/// Shaken so that bad angles are about, yet positive.
+TetMesh shaken(TetMesh mesh, std::mt19937& random, double vertexDistance)
+{
+  TetComplex complex = complexOf(mesh);
+  const auto uniform = [&] { return random() / 2147483648.0 - 1; };
+  std::vector<std::int32_t> star;
+  for (std::int32_t v = 0; v < std::int32_t(mesh.points.size()); ++v)
+  {
+    if (complex.locked[v]) continue;
+    complex.star(v, star);
+    const Vec3 p = complex.points[v] + vertexDistance * Vec3{ uniform(), uniform(), uniform() };
+    if (std::all_of(star.begin(), star.end(), [&](std::int32_t t) { return complex.qualityWith(t, v, p) > 1e-4; }))
+      complex.points[v] = p;
+  }
+  mesh.points = complex.points;
+  return mesh;
+}
+
+double worstOf(const GuardedOperations& operations, const TetComplex& complex)
+{
+  double worst = 1e9;
+  for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+  {
+    if (complex.alive(t)) worst = std::min(worst, operations.quality(t));
+  }
+  return worst;
+}
+
+double worstOf(const TetMesh& mesh)
+{
+  double worst = 1;
+  for (const auto& [a, b, c, d] : mesh.tetrahedra)
+    worst = std::min(worst, worstSine2(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
+  return worst;
+}
+
+/// Runs `work` on shaken random lattices and checks what no work on a block may break.
+void expectPromisesKept(double worstMayFallTo, bool mustImprove, const std::function<void(GuardedOperations&)>& work)
+{
+  int improved = 0;
+  for (unsigned seed = 1; seed <= 10; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const TissueMap map = randomWellComposedMap(random, { 5, 5, 5 }, 1 + int(seed % 4));
+    TetComplex complex = complexOf(shaken(tetrahedraOf(map), random, 0.35), 1.5f, 0.4f);
+    GuardedOperations operations(complex, scale);
+    const double before = worstOf(operations, complex);
+    const auto topology = meshTopology(withBackgroundAsTissue(meshOf(complex)));
+    const double volume = volumeOf(meshOf(complex));
+    const ComplexState start(complex);
+    const auto places = samplePlaces(complex);
+    work(operations);
+    ASSERT_TRUE(isConsistent(complex));
+    EXPECT_GE(worstOf(operations, complex), std::min(before, worstMayFallTo));
+    improved += worstOf(operations, complex) > before;
+    EXPECT_EQ(meshTopology(withBackgroundAsTissue(meshOf(complex))), topology);
+    EXPECT_NEAR(volumeOf(meshOf(complex)), volume, 1e-9 * volume);
+    for (const auto& [label, tissue] : checkSurface(interfaceOf(withBackgroundAsTissue(meshOf(complex)))))
+      EXPECT_TRUE(tissue.manifold()) << "label " << label;
+    for (std::size_t v = 0; v < start.points.size(); ++v)
+      EXPECT_TRUE(!start.locked[v] || complex.points[v] == start.points[v]);
+    const auto after = samplePlaces(complex);
+    for (std::size_t e = 0; e < places.size(); ++e)
+    {
+      if (after[e].tet < 0) continue;
+      EXPECT_EQ(after[e].pair, places[e].pair);
+      EXPECT_LE(after[e].distance, std::max<double>(places[e].distance, complex.samples[e].tolerance) * (1 + 1e-6));
+    }
+  }
+  EXPECT_TRUE(improved == 10 || !mustImprove) << improved << " of 10";
+}
+
+} // namespace
+
+TEST(Relaxation, KeepsEveryPromiseAndAnglesGoodEnough)
+{
+  const RelaxationOptions options;
+  expectPromisesKept(sine2OfDegrees(options.goodAngle), false,
+                     [&](GuardedOperations& operations) { relaxBlock(operations, options); });
+}
+
+TEST(Improvement, KeepsEveryPromiseAndRaisesTheWorstAngle)
+{
+  expectPromisesKept(1, true, [](GuardedOperations& operations) { improveBlock(operations); });
+}
+
+TEST(Improvement, MovingTogetherKeepsEveryPromiseAndGetsFarther)
+{
+  const auto sumOfWorst = [](int together, bool split)
+  {
+    double sum = 0;
+    expectPromisesKept(1, true,
+                       [&](GuardedOperations& operations)
+                       {
+                         ImprovementOptions options;
+                         options.split = split;
+                         options.splitEdge = 1e9; // by itself no split is good enough
+                         options.targetAngle = 40;
+                         options.together = together;
+                         improveBlock(operations, options);
+                         sum += worstOf(operations, operations.complex());
+                       });
+    return sum;
+  };
+  EXPECT_GT(sumOfWorst(20, false), sumOfWorst(0, false));
+  EXPECT_GT(sumOfWorst(20, true), sumOfWorst(20, false));
+}
+
+/// Edges of even length, those inside a label counted as evenLengthsOfBlock does.
+double evenEdges(const TetComplex& c, GuardedOperations& operations)
+{
+  double sum = 0;
+  for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+  {
+    if (c.vertexTet[v] < 0) continue;
+    for (const auto& n : operations.neighbours(v))
+    {
+      const double ratio = norm(c.points[n.vertex] - c.points[v]) / c.targetLength(v, n.vertex);
+      if (n.vertex > v && ratio >= shortestEven && ratio <= longestEven) sum += n.alongInterface ? 1 : insideLabel;
+    }
+  }
+  return sum;
+}
+
+TEST(EdgeLengths, KeepEveryPromiseAndBecomeMoreEven)
+{
+  double before = 0, after = 0;
+  expectPromisesKept(sine2OfDegrees(usualAngle), false,
+                     [&](GuardedOperations& operations)
+                     {
+                       const double start = evenEdges(operations.complex(), operations);
+                       evenLengthsOfBlock(operations);
+                       const double end = evenEdges(operations.complex(), operations);
+                       EXPECT_GE(end, start - 1e-9);
+                       EXPECT_EQ(operations.counts.collapses + operations.counts.splits + operations.counts.flips, 0);
+                       before += start;
+                       after += end;
+                     });
+  EXPECT_GT(after, 1.01 * before);
+}
+
+TEST(EdgeLengths, StayWhereTheTargetIsSmall)
+{
+  std::mt19937 random(1);
+  TetComplex complex =
+    complexOf(shaken(tetrahedraOf(randomWellComposedMap(random, { 5, 5, 5 }, 3)), random, 0.35), 1.5f);
+  const ComplexState before(complex);
+  GuardedOperations operations(complex, scale);
+  EdgeLengthOptions options;
+  options.from = 1.6;
+  evenLengthsOfBlock(operations, options);
+  EXPECT_EQ(before.points, complex.points);
+  options.from = 1.5;
+  evenLengthsOfBlock(operations, options);
+  EXPECT_GT(operations.counts.moves, 0);
+}
+
+TEST(Improvement, WithoutSplitsAddsNoVertex)
+{
+  ImprovementOptions options;
+  options.split = false;
+  expectPromisesKept(1, true,
+                     [&](GuardedOperations& operations)
+                     {
+                       const std::size_t vertices = operations.complex().points.size();
+                       improveBlock(operations, options);
+                       EXPECT_EQ(operations.counts.splits, 0);
+                       EXPECT_EQ(operations.complex().points.size(), vertices);
+                     });
+}
+
+TEST(Improvement, LeavesAGoodLatticeAlone)
+{
+  TetComplex complex =
+    complexOf(tetrahedraOf(paintedMap({ 4, 4, 4 }, [](int i, int, int) { return i < 2 ? 1 : 2; })), 1.5f);
+  GuardedOperations operations(complex, scale);
+  const ComplexState before(complex);
+  improveBlock(operations); // all angles of the lattice are 45 degrees or more
+  EXPECT_TRUE(ComplexState(complex) == before);
+}
+
+TEST(Relaxation, BringsADisturbedSheetBackToItsSamples)
+{
+  std::mt19937 random(3);
+  const auto uniform = [&] { return random() / 2147483648.0 - 1; };
+  TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int, int, int k) { return k < 3; })), 1.5f, 1);
+  const auto rms = [&]
+  {
+    double sum = 0;
+    const auto places = samplePlaces(complex);
+    for (const SamplePlace& p : places) sum += p.distance * p.distance;
+    return std::sqrt(sum / double(places.size()));
+  };
+  GuardedOperations operations(complex, scale);
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+    operations.move(v, complex.points[v] + 0.3 * Vec3{ uniform(), uniform(), uniform() }, sine2OfDegrees(5));
+  const double before = rms();
+  ASSERT_GT(before, 0.03);
+  for (int i = 0; i < 5; ++i) relaxBlock(operations);
+  EXPECT_LT(rms(), before / 4);
+}
+
+TEST(Coarsening, KeepsEveryPromiseAndTheAngleAsked)
+{
+  CoarseningOptions options;
+  expectPromisesKept(sine2OfDegrees(options.minimumAngle), false,
+                     [&](GuardedOperations& operations)
+                     {
+                       const std::size_t before = meshOf(operations.complex()).tetrahedra.size();
+                       coarsenBlock(operations, 3, options);
+                       EXPECT_LT(meshOf(operations.complex()).tetrahedra.size(), before);
+                     });
+}
+
+TEST(MeshImprovement, KeepsTissuesAndHullAndRaisesTheWorstAngle)
+{
+  for (unsigned seed = 1; seed <= 4; ++seed)
+  {
+    std::mt19937 random(seed);
+    const TissueMap map = randomWellComposedMap(random, { 6, 6, 6 }, 3);
+    const TetMesh before = shaken(tetrahedraOf(map), random, 0.35);
+    TetMesh after = before;
+    improveMesh(after, scale);
+    requireSound(after, "improvement");
+    EXPECT_GT(worstOf(withoutOutside(after)), worstOf(withoutOutside(before)));
+    EXPECT_EQ(meshTopology(withBackgroundAsTissue(after)), meshTopology(withBackgroundAsTissue(before)));
+    EXPECT_NEAR(volumeOf(after), volumeOf(before), 1e-9 * volumeOf(before));
+  }
+}
+
+void relabelAtRandom(GuardedOperations& operations, std::mt19937& random)
+{
+  const TetComplex& c = operations.complex();
+  for (int n = 0; n < 300; ++n)
+  {
+    const auto t = std::int32_t(random() % c.tets.size());
+    if (const std::int32_t across = c.neighbours[t][n % 4]; across >= 0) operations.relabel(t, c.labels[across], 0);
+  }
+}
+
+TEST(Relabelling, BringsTheSurfaceBackToItsSamples)
+{
+  constexpr float anyDistance = 10;
+  const auto sumOfSquares = [](const TetComplex& complex)
+  {
+    double sum = 0;
+    for (const auto& place : samplePlaces(complex))
+      if (place.tet >= 0) sum += place.distance * place.distance;
+    return sum;
+  };
+  for (unsigned seed = 1; seed <= 10; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const TissueMap map = randomWellComposedMap(random, { 5, 5, 5 }, 1 + int(seed % 4));
+    TetComplex complex = complexOf(tetrahedraOf(map), 1.5f, anyDistance);
+    const auto topology = meshTopology(withBackgroundAsTissue(meshOf(complex)));
+    GuardedOperations operations(complex, scale, { 1 });
+    relabelAtRandom(operations, random);
+    const double before = sumOfSquares(complex);
+    ASSERT_GT(before, 0.1);
+    relabelBlock(operations, 0, 0.9);
+    EXPECT_LT(sumOfSquares(complex), 0.8 * before);
+    EXPECT_EQ(meshTopology(withBackgroundAsTissue(meshOf(complex))), topology);
+    ASSERT_TRUE(isConsistent(complex));
+  }
+}
+
+/// How far each spike of a block stands off its samples.
+std::vector<double> depthsOfSpikes(GuardedOperations& operations, double vertexDistance)
+{
+  const TetComplex& c = operations.complex();
+  std::vector<double> depths;
+  for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+    if (c.vertexTet[v] >= 0 && !c.locked[v] && c.onInterface[v] && operations.isSpike(v, vertexDistance))
+      depths.push_back(norm(*operations.nearestSample(v) - c.points[v]));
+  return depths;
+}
+
+double sumOf(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+
+TEST(Spikes, AreCutWhereTopologyAllowsAndElseDrawnIn)
+{
+  std::size_t before = 0, cut = 0;
+  double left = 0, drawnIn = 0;
+  for (const double pullAngle : { 0, 1 })
+  {
+    const SpikeOptions options{ 1.2, 8, 1, pullAngle, 0 };
+    expectPromisesKept(0, false,
+                       [&](GuardedOperations& operations)
+                       {
+                         const std::size_t spikes = depthsOfSpikes(operations, options.vertexDistance).size();
+                         cutSpikesOfBlock(operations, options);
+                         const auto after = depthsOfSpikes(operations, options.vertexDistance);
+                         EXPECT_LE(after.size(), spikes);
+                         (pullAngle > 0 ? drawnIn : left) += sumOf(after);
+                         before += spikes;
+                         cut += spikes - after.size();
+                       });
+  }
+  EXPECT_GT(before, 0u);
+  EXPECT_GT(cut, 0u);
+  EXPECT_LT(drawnIn, left);
+}
+
+TEST(Spikes, LeaveNoSampleFartherOffThanTheyWere)
+{
+  const auto leftWith = [](double maximumDistance)
+  {
+    std::size_t left = 0;
+    for (unsigned seed = 1; seed <= 10; ++seed)
+    {
+      std::mt19937 random(seed);
+      const TissueMap map = randomWellComposedMap(random, { 5, 5, 5 }, 1 + int(seed % 4));
+      TetComplex complex = complexOf(tetrahedraOf(map), 1.5f, 0.2f);
+      GuardedOperations unguarded(complex, scale, { 1, 100 });
+      relabelAtRandom(unguarded, random);
+      GuardedOperations operations(complex, scale, { 1 });
+      const SpikeOptions options{ 1.2, 8, 1, 0, maximumDistance };
+      const auto depths = depthsOfSpikes(operations, options.vertexDistance);
+      const double deepest = depths.empty() ? 0 : *std::max_element(depths.begin(), depths.end());
+      const auto places = samplePlaces(complex);
+      cutSpikesOfBlock(operations, options);
+      const auto after = samplePlaces(complex);
+      for (std::size_t e = 0; e < places.size(); ++e)
+      {
+        const double most = std::max({ places[e].distance, 0.2, std::min(deepest, maximumDistance) });
+        EXPECT_LE(after[e].tet < 0 ? 0 : after[e].distance, most * (1 + 1e-6));
+      }
+      left += depthsOfSpikes(operations, options.vertexDistance).size();
+    }
+    return left;
+  };
+  EXPECT_LT(leftWith(10), leftWith(0));
+}
+
+TEST(Trimming, KeepsEveryPromiseAndLeavesFewerTips)
+{
+  const auto tips = [](GuardedOperations& operations)
+  {
+    const TetComplex& c = operations.complex();
+    long count = 0;
+    for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+    {
+      if (c.vertexTet[v] < 0) continue;
+      const auto& star = operations.star(v);
+      const auto tissue = std::count_if(star.begin(), star.end(), [&](std::int32_t t) { return c.labels[t] != 0; });
+      count += tissue > 0 && tissue <= 5;
+    }
+    return count;
+  };
+  long before = 0, after = 0, relabels = 0;
+  expectPromisesKept(1, false,
+                     [&](GuardedOperations& operations)
+                     {
+                       before += tips(operations);
+                       removeEarsOfBlock(operations, 5);
+                       after += tips(operations);
+                       relabels += operations.counts.relabels;
+                     });
+  EXPECT_GT(relabels, 0);
+  EXPECT_LT(after, before);
+}
+
+TEST(MeshImprovement, BytesDoNotDependOnThreadsAndCancellingLeavesTheMesh)
+{
+  std::mt19937 random(9);
+  const TetMesh before = shaken(tetrahedraOf(randomWellComposedMap(random, { 6, 6, 6 }, 3)), random, 0.35);
+  std::vector<TetMesh> results;
+  for (int threads : { 1, 2, 2 })
+  {
+    vtkSMPTools::Initialize(threads);
+    results.push_back(before);
+    improveMesh(results.back(), scale);
+    EXPECT_EQ(results.back().points, results[0].points);
+    EXPECT_EQ(results.back().tetrahedra, results[0].tetrahedra);
+    EXPECT_EQ(results.back().labels, results[0].labels);
+  }
+  vtkSMPTools::Initialize(0);
+  TetMesh cancelled = before;
+  const auto cancel = [](double fraction, const std::string&)
+  {
+    if (fraction > 0.5) throw std::runtime_error("cancelled");
+  };
+  EXPECT_THROW(improveMesh(cancelled, scale, {}, cancel), std::runtime_error);
+  EXPECT_EQ(cancelled.points, before.points);
+  EXPECT_EQ(cancelled.tetrahedra, before.tetrahedra);
+}
+
+} // namespace surgicalmesher

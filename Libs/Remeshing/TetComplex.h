@@ -1,0 +1,115 @@
+#pragma once
+/// A labelled tetrahedral complex that is changed by local, guarded operations only.
+///
+/// The complex fills a box: tetrahedra of label 0 are the space around the tissues. The *interface* is the set of faces
+/// between different labels. Three promises hold before and after every operation:
+///   - every tetrahedron is wound positively, so the complex is embedded and the interface cannot cross itself;
+///   - at every vertex, each label occupies one disc of the vertex's link, so each tissue's boundary is a 2-manifold and no
+///     operation changes any tissue's topology; only background that tissues enclose may vanish;
+///   - every samples point (a place where the map says that the boundary between two labels is) lies within its tolerance
+///     of a face between these two labels, or of the boundary of either and twice as far from such a face if there is one,
+///     once it does.
+///
+/// A complex may be a block cut out of a larger one. The vertices on its border, whose star may go on outside, are locked:
+/// no operation moves or removes them.
+
+#include "TetMesh.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+/// A place on the boundary between two labels, as the map or an input surface shows it.
+struct BoundarySample
+{
+  Vec3 position;
+  float tolerance = 0; ///< mm to the nearest face of its label pair
+  std::int32_t next = -1;
+  double distance2 = -1; ///< mm^2, to its face; -1 until somebody has asked
+};
+
+class TetComplex
+{
+public:
+  using Tet = std::array<std::int32_t, 4>;
+
+  /// `tets` must be positively wound and face-to-face. `lengths` is the target edge length at each point, mm. `neighbours`
+  /// may be empty: then they are found.
+  TetComplex(std::vector<Vec3> points, std::vector<float> lengths, std::vector<Tet> tets, std::vector<Label> labels,
+             std::vector<Tet> neighbours = {});
+
+  // --- the arrays; dead vertices have vertexTet -1, dead tetrahedra vertex 0 equal to -1
+  std::vector<Vec3> points;
+  std::vector<float> lengths;
+  std::vector<std::uint8_t> locked;
+  std::vector<std::uint8_t> onInterface; ///< per vertex: tetrahedra of different labels meet there
+  std::vector<std::int32_t> vertexTet;   ///< some tetrahedron at each vertex
+  std::vector<Tet> tets;                 ///< vertices
+  std::vector<Tet> neighbours;           ///< [i] across the face opposite vertex i; -1 beyond a block
+  std::vector<Label> labels;
+  std::vector<std::array<std::int32_t, 4>> sampleHeads; ///< per face, held by the side of the larger label (on a
+                                                          ///< block's border, by the block that has that side)
+  std::vector<BoundarySample> samples;
+
+  // --- queries
+  bool alive(std::int32_t t) const { return tets[t][0] >= 0; }
+  int indexOf(std::int32_t t, std::int32_t v) const
+  {
+    const Tet& x = tets[t];
+    return x[0] == v ? 0 : x[1] == v ? 1 : x[2] == v ? 2 : x[3] == v ? 3 : -1;
+  }
+  bool contains(std::int32_t t, std::int32_t v) const { return indexOf(t, v) >= 0; }
+  /// Of edge ab, mm: the mean of its ends'.
+  double targetLength(std::int32_t a, std::int32_t b) const { return 0.5 * (lengths[a] + lengths[b]); }
+  double quality(std::int32_t t) const;
+  /// Quality of tetrahedron t with vertex v at position p.
+  double qualityWith(std::int32_t t, std::int32_t v, const Vec3& p) const;
+
+  /// Tetrahedra at vertex v.
+  void star(std::int32_t v, std::vector<std::int32_t>& tetrahedra);
+  /// Tetrahedra around edge ab in cyclic order, and the vertices between them (ring[i] in tetrahedra i-1 and i).
+  /// False if the edge lies on the border of the block. `seed` is one tetrahedron at the edge.
+  bool ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::vector<std::int32_t>& tetrahedra,
+            std::vector<std::int32_t>& vertices) const;
+
+  /// Face i of t separates two labels (a border face of the block does not).
+  bool isInterface(std::int32_t t, int i) const
+  {
+    return neighbours[t][i] >= 0 && labels[neighbours[t][i]] != labels[t];
+  }
+
+  /// Whether t may have such a face at all: spares most tetrahedra the look at their neighbours.
+  bool mayHaveInterface(std::int32_t t) const
+  {
+    const Tet& x = tets[t];
+    return onInterface[x[0]] + onInterface[x[1]] + onInterface[x[2]] + onInterface[x[3]] >= 3;
+  }
+
+  // --- samples
+  /// Adds a point to face i of tetrahedron t, whose sides must differ in label, or which is on the block's border.
+  void addSample(std::int32_t t, int i, const Vec3& position, float tolerance);
+  /// (tetrahedron, face) that holds the samples of the interface face (t, i).
+  std::pair<std::int32_t, int> holder(std::int32_t t, int i) const;
+
+  // --- changes of the complex; no guard here
+  /// Replaces u by v in star(u); the ring of uv dies. BoundarySample of the faces at u must have been taken before.
+  void collapse(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& starOfU);
+  /// Replaces tetrahedra by others that fill the same cavity; every border face keeps its outer neighbour and, if its label
+  /// pair persists, its samples. BoundarySample of inner interface faces must have been taken before. Returns the new ids.
+  std::vector<std::int32_t> replace(const std::vector<std::int32_t>& old, const std::vector<Tet>& tetrahedra,
+                                    const std::vector<Label>& newLabels);
+  std::int32_t addVertex(const Vec3& p, float length, bool isOnInterface);
+
+private:
+  void matchFaces();
+  std::int32_t allocate();
+
+  std::vector<std::uint32_t> m_Mark; ///< per tetrahedron, for star()
+  std::uint32_t m_Stamp = 0;
+  std::vector<std::int32_t> m_Free;
+};
+
+} // namespace surgicalmesher

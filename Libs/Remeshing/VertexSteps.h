@@ -1,0 +1,28 @@
+#pragma once
+/// Directions for a vertex: where angles get better, and where its samples yields.
+
+#include "GuardedOperations.h"
+
+namespace surgicalmesher
+{
+
+/// How the samples resists a step of v: a share `ease` of all its resistance in every direction besides.
+Fit heldAt(GuardedOperations& operations, std::int32_t v, double ease);
+
+/// Turns `direction` at a vertex on the interface into one that its samples resists less; a unit vector, or zero.
+Vec3 easiest(const Fit& held, const Vec3& direction);
+
+/// The way up from the worst tetrahedra at a vertex.
+class Uphill
+{
+public:
+  /// Unit direction at v, were it at p, that lifts the worst tetrahedra, whose quality is `worst`: the sum of the unit
+  /// gradients of all that are nearly as bad.
+  Vec3 operator()(GuardedOperations& operations, std::int32_t v, const Vec3& p, double worst);
+
+private:
+  std::vector<double> m_Now;
+  std::vector<Vec3> m_Gradients;
+};
+
+} // namespace surgicalmesher

@@ -1,0 +1,20 @@
+#pragma once
+/// Target edge lengths for a surface: from its own points, or from a scale volume around it.
+
+#include "ScaleField.h"
+#include "SizingFunction.h"
+
+#include <string>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+/// L(x) is the length at the nearest of the points (the TargetEdgeLength of a surface), mm.
+SizingFunction edgeLengthFromPoints(const std::vector<Vec3>& points, const std::vector<double>& lengths);
+
+/// Throws InputError, with `scaleFile` and the place, if a point lies farther outside the scale's volume (voxel centres
+/// plus half a voxel) than half the edge length there: a mesher may have moved the surface a little way out of the map.
+void requireCover(const ScaleField& scale, const std::vector<Vec3>& points, const std::string& scaleFile);
+
+} // namespace surgicalmesher

@@ -1,0 +1,180 @@
+#include "FaceAdjacency.h"
+
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <mutex>
+#include <numeric>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+struct Face
+{
+  std::array<std::int32_t, 3> points; ///< ascending
+  std::int32_t tetrahedron;
+  std::int32_t local;
+};
+
+Face faceOf(const TetMesh& mesh, std::size_t t, int f)
+{
+  Face face{ {}, static_cast<std::int32_t>(t), f };
+  for (int c = 0; c < 3; ++c) face.points[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
+  std::sort(face.points.begin(), face.points.end());
+  return face;
+}
+
+bool operator<(const Face& a, const Face& b)
+{
+  if (a.points[1] != b.points[1]) return a.points[1] < b.points[1];
+  if (a.points[2] != b.points[2]) return a.points[2] < b.points[2];
+  return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.local < b.local;
+}
+
+/// Pairs the faces from `begin` to `end`, all with the same first point.
+void pairFaces(Face* begin, Face* end, AcrossFaces& across, std::vector<std::int32_t>& overused)
+{
+  std::sort(begin, end);
+  for (Face* next; begin != end; begin = next)
+  {
+    for (next = begin + 1; next != end && next->points == begin->points;) ++next;
+    if (next - begin == 2)
+    {
+      across[begin[0].tetrahedron][begin[0].local] = begin[1].tetrahedron;
+      across[begin[1].tetrahedron][begin[1].local] = begin[0].tetrahedron;
+    }
+    for (const Face* face = begin; next - begin > 2 && face != next; ++face) overused.push_back(face->tetrahedron);
+  }
+}
+
+} // namespace
+
+FaceAdjacency faceAdjacency(const TetMesh& mesh)
+{
+  FaceAdjacency result;
+  result.across.assign(mesh.tetrahedra.size(), { -1, -1, -1, -1 });
+  result.overused = matchOpenFaces(mesh, result.across);
+  return result;
+}
+
+std::vector<std::int32_t> matchOpenFaces(const TetMesh& mesh, AcrossFaces& across)
+{
+  // Sorted by their first points by counting: of all faces of a mesh, some twenty of each are left to compare.
+  const auto forEachOpen = [&](auto&& f)
+  {
+    for (std::size_t t = 0; t < across.size(); ++t)
+      for (int local = 0; local < 4; ++local)
+        if (across[t][local] < 0) f(faceOf(mesh, t, local));
+  };
+  std::vector<std::size_t> end(mesh.points.size() + 1, 0);
+  forEachOpen([&](const Face& face) { ++end[face.points[0] + 1]; });
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<Face> faces(end.back());
+  forEachOpen([&](const Face& face) { faces[end[face.points[0]]++] = face; });
+  std::vector<std::int32_t> overused;
+  std::mutex mutex;
+  vtkSMPTools::For(0, vtkIdType(mesh.points.size()),
+                   [&](vtkIdType first, vtkIdType last)
+                   {
+                     std::vector<std::int32_t> here;
+                     for (vtkIdType v = first; v < last; ++v)
+                       pairFaces(faces.data() + (v ? end[v - 1] : 0), faces.data() + end[v], across, here);
+                     const std::lock_guard<std::mutex> lock(mutex);
+                     overused.insert(overused.end(), here.begin(), here.end());
+                   });
+  std::sort(overused.begin(), overused.end());
+  overused.erase(std::unique(overused.begin(), overused.end()), overused.end());
+  return overused;
+}
+
+std::vector<std::int32_t> faceRegions(const FaceAdjacency& neighbours,
+                                      const std::function<bool(std::int32_t t, int f)>& joined)
+{
+  std::vector<std::int32_t> region(neighbours.across.size(), -1);
+  std::vector<std::int32_t> front;
+  std::int32_t count = 0;
+  for (std::size_t seed = 0; seed < region.size(); ++seed)
+  {
+    if (region[seed] >= 0) continue;
+    region[seed] = count;
+    front.assign(1, static_cast<std::int32_t>(seed));
+    while (!front.empty())
+    {
+      const std::int32_t t = front.back();
+      front.pop_back();
+      for (int f = 0; f < 4; ++f)
+      {
+        const std::int32_t next = neighbours.across[t][f];
+        if (next < 0 || region[next] >= 0 || !joined(t, f)) continue;
+        region[next] = count;
+        front.push_back(next);
+      }
+    }
+    ++count;
+  }
+  return region;
+}
+
+SurfaceComplex interfaceOf(const TetMesh& mesh, std::vector<std::int32_t>* pointIds)
+{
+  const FaceAdjacency neighbours = faceAdjacency(mesh);
+  SurfaceComplex surface;
+  std::vector<std::int32_t> surfaceId(mesh.points.size(), -1);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    for (int f = 0; f < 4; ++f)
+    {
+      const std::int32_t beyond = neighbours.across[t][f];
+      const Label front = beyond < 0 ? Label(0) : mesh.labels[beyond];
+      if (mesh.labels[t] <= front) continue;
+      std::array<std::int32_t, 3> triangle;
+      for (int c = 0; c < 3; ++c) triangle[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
+      for (const std::int32_t id : triangle) surfaceId[id] = 0;
+      surface.triangles.push_back(triangle);
+      surface.labels.push_back({ mesh.labels[t], front });
+    }
+  }
+  if (pointIds) pointIds->clear();
+  for (std::size_t i = 0; i < surfaceId.size(); ++i)
+  {
+    if (surfaceId[i] < 0) continue;
+    surfaceId[i] = static_cast<std::int32_t>(surface.points.size());
+    surface.points.push_back(mesh.points[i]);
+    if (pointIds) pointIds->push_back(static_cast<std::int32_t>(i));
+  }
+  for (auto& triangle : surface.triangles)
+  {
+    for (std::int32_t& id : triangle) id = surfaceId[id];
+  }
+  return surface;
+}
+
+TetMesh withoutOutside(const TetMesh& mesh, std::vector<std::int32_t>* pointIds)
+{
+  TetMesh result;
+  std::vector<std::int32_t> newId(mesh.points.size(), -1);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    if (mesh.labels[t] == 0) continue;
+    for (const std::int32_t id : mesh.tetrahedra[t]) newId[id] = 0;
+    result.tetrahedra.push_back(mesh.tetrahedra[t]);
+    result.labels.push_back(mesh.labels[t]);
+  }
+  if (pointIds) pointIds->clear();
+  for (std::size_t i = 0; i < newId.size(); ++i)
+  {
+    if (newId[i] < 0) continue;
+    newId[i] = static_cast<std::int32_t>(result.points.size());
+    result.points.push_back(mesh.points[i]);
+    if (pointIds) pointIds->push_back(static_cast<std::int32_t>(i));
+  }
+  for (auto& tetrahedron : result.tetrahedra)
+  {
+    for (std::int32_t& id : tetrahedron) id = newId[id];
+  }
+  return result;
+}
+
+} // namespace surgicalmesher

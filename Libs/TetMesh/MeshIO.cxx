@@ -1,0 +1,724 @@
+#include "MeshIO.h"
+
+#include "Errors.h"
+
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkLogger.h>
+#include <vtkNew.h>
+#include <vtkObjectFactory.h>
+#include <vtkOutputWindow.h>
+#include <vtkPLYReader.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataReader.h>
+#include <vtkSTLReader.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkTriangleFilter.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnsignedShortArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkUnstructuredGridWriter.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <set>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+constexpr const char* kSpace = "SPACE";
+constexpr const char* kBoundaryLabels = "BoundaryLabels";
+constexpr const char* kTissueLabel = "TissueLabel";
+constexpr const char* kSubMesh = "SubMesh";
+constexpr const char* kConstitutive = "Constitutive";
+constexpr const char* kInterface = "Interface";
+constexpr const char* kInterfaceId = "InterfaceId";
+constexpr const char* kVolumePointId = "VolumePointId";
+constexpr const char* kTargetEdgeLength = "TargetEdgeLength";
+constexpr const char* kBoundaryDistance = "BoundaryDistance";
+constexpr const char* kTissueIds = "TissueIds";
+constexpr const char* kTissueNames = "TissueNames";
+constexpr const char* kTissueColors = "TissueColors";
+constexpr const char* kTissueRoles = "TissueRoles";
+
+/// Keeps the first error VTK reports while it lives: readers tell of damaged content in no other way.
+class ErrorWindow : public vtkOutputWindow
+{
+public:
+  static ErrorWindow* New();
+  vtkTypeMacro(ErrorWindow, vtkOutputWindow);
+
+  void DisplayErrorText(const char* text) override
+  {
+    if (m_First.empty()) m_First = text;
+  }
+  void DisplayText(const char*) override {}
+  void DisplayWarningText(const char*) override {}
+  void DisplayGenericWarningText(const char*) override {}
+  void DisplayDebugText(const char*) override {}
+
+  const std::string& first() const { return m_First; }
+
+private:
+  std::string m_First;
+};
+vtkStandardNewMacro(ErrorWindow);
+
+class ErrorCatcher
+{
+public:
+  ErrorCatcher() : m_Previous(vtkOutputWindow::GetInstance()), m_Verbosity(vtkLogger::GetCurrentVerbosityCutoff())
+  {
+    vtkOutputWindow::SetInstance(m_Window);
+    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
+  }
+  ~ErrorCatcher()
+  {
+    vtkLogger::SetStderrVerbosity(m_Verbosity);
+    vtkOutputWindow::SetInstance(m_Previous);
+  }
+  ErrorCatcher(const ErrorCatcher&) = delete;
+  ErrorCatcher& operator=(const ErrorCatcher&) = delete;
+
+  bool any() const { return !m_Window->first().empty(); }
+
+  /// The message in one line, without VTK's own file name, line number and object address.
+  std::string message() const
+  {
+    std::string text = m_Window->first();
+    const std::size_t start = text.rfind("): ");
+    if (start != std::string::npos) text = text.substr(start + 3);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text;
+  }
+
+private:
+  vtkNew<ErrorWindow> m_Window;
+  vtkSmartPointer<vtkOutputWindow> m_Previous;
+  vtkLogger::Verbosity m_Verbosity;
+};
+
+std::string extensionOf(const std::string& file)
+{
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& what) { throw InputError(file + ": " + what); }
+
+void requireReadable(const std::string& file)
+{
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) refuse(file, "no such file");
+  if (std::filesystem::is_directory(file, error)) refuse(file, "is a folder, expected a file");
+  if (!std::ifstream(file).good()) refuse(file, "can't be opened for reading");
+}
+
+// ---- reading: VTK objects out of files ------------------------------------------------------------------------------
+
+/// Runs the reader; `saysRAS` is told where its format keeps a title.
+template <class Reader>
+vtkSmartPointer<typename std::remove_pointer<decltype(Reader::New()->GetOutput())>::type>
+run(Reader* reader, const std::string& file, const std::string& format)
+{
+  ErrorCatcher errors;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  if (errors.any()) refuse(file, "not a readable " + format + " file (" + errors.message() + ")");
+  if (reader->GetErrorCode() != 0) refuse(file, "not a readable " + format + " file");
+  return reader->GetOutput();
+}
+
+void readEverything(vtkDataReader* reader)
+{
+  reader->ReadAllScalarsOn();
+  reader->ReadAllVectorsOn();
+  reader->ReadAllFieldsOn();
+}
+
+bool titleSaysRAS(const char* title) { return title && std::strstr(title, "SPACE=RAS"); }
+
+bool saysRAS(vtkDataSet* data)
+{
+  const auto* space = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(kSpace));
+  return space && const_cast<vtkStringArray*>(space)->GetNumberOfValues() > 0 &&
+         const_cast<vtkStringArray*>(space)->GetValue(0) == "RAS";
+}
+
+struct PolyDataFromFile
+{
+  vtkSmartPointer<vtkPolyData> data;
+  bool ras = false;
+};
+
+PolyDataFromFile readPolyData(const std::string& file)
+{
+  PolyDataFromFile result;
+  const std::string extension = extensionOf(file);
+  if (extension == ".vtp")
+  {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    result.data = run(reader.Get(), file, "VTK XML polygonal data (.vtp)");
+  }
+  else if (extension == ".vtk")
+  {
+    vtkNew<vtkPolyDataReader> reader;
+    readEverything(reader);
+    result.data = run(reader.Get(), file, "legacy VTK polygonal data (.vtk)");
+    result.ras = titleSaysRAS(reader->GetHeader());
+  }
+  else if (extension == ".stl")
+  {
+    vtkNew<vtkSTLReader> reader;
+    result.data = run(reader.Get(), file, "STL");
+    result.ras = titleSaysRAS(reader->GetHeader());
+    if (vtkUnsignedCharArray* header = reader->GetBinaryHeader())
+    {
+      const std::string title(reinterpret_cast<const char*>(header->GetPointer(0)), header->GetNumberOfValues());
+      result.ras = result.ras || titleSaysRAS(title.c_str());
+    }
+  }
+  else if (extension == ".ply")
+  {
+    vtkNew<vtkPLYReader> reader;
+    result.data = run(reader.Get(), file, "PLY");
+    for (vtkIdType i = 0; i < reader->GetComments()->GetNumberOfValues(); ++i)
+    {
+      result.ras = result.ras || titleSaysRAS(reader->GetComments()->GetValue(i).c_str());
+    }
+  }
+  else
+  {
+    refuse(file, "unknown kind of surface file '" + extension + "', expected .vtp, .vtk, .stl or .ply");
+  }
+  result.ras = result.ras || saysRAS(result.data);
+  return result;
+}
+
+/// Offsets that don't ascend, or ids beyond the points, would lead VTK's filters outside their memory.
+void requireValidCells(vtkCellArray* cells, vtkIdType pointCount, const std::string& file)
+{
+  vtkDataArray* offsets = cells->GetOffsetsArray();
+  vtkDataArray* ids = cells->GetConnectivityArray();
+  const auto value = [](vtkDataArray* array, vtkIdType i) { return static_cast<vtkIdType>(array->GetComponent(i, 0)); };
+  for (vtkIdType i = 0; i < offsets->GetNumberOfTuples(); ++i)
+  {
+    const vtkIdType lowest = i == 0 ? 0 : value(offsets, i - 1);
+    if (value(offsets, i) < lowest || value(offsets, i) > ids->GetNumberOfTuples())
+    {
+      refuse(file, "cell offsets are damaged at cell " + std::to_string(i));
+    }
+  }
+  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
+  {
+    if (value(ids, i) < 0 || value(ids, i) >= pointCount)
+    {
+      refuse(file, "a cell refers to point " + std::to_string(value(ids, i)) + ", but there are " +
+                     std::to_string(pointCount) + " points");
+    }
+  }
+}
+
+vtkSmartPointer<vtkPolyData> trianglesOf(vtkPolyData* data, const std::string& file)
+{
+  vtkCellArray* polygons = data->GetPolys();
+  requireValidCells(polygons, data->GetNumberOfPoints(), file);
+  requireValidCells(data->GetStrips(), data->GetNumberOfPoints(), file);
+  vtkNew<vtkTriangleFilter> filter;
+  filter->SetInputData(data);
+  filter->PassLinesOff();
+  filter->PassVertsOff();
+  ErrorCatcher quiet;
+  filter->Update();
+  if (filter->GetOutput()->GetNumberOfPolys() == 0) refuse(file, "no triangles, expected a triangulated surface");
+  return filter->GetOutput();
+}
+
+// ---- reading: plain arrays out of VTK objects -----------------------------------------------------------------------
+
+std::vector<Vec3> pointsOf(vtkPointSet* data, bool ras, const std::string& file)
+{
+  std::vector<Vec3> points(data->GetNumberOfPoints());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    Vec3& p = points[i];
+    data->GetPoint(i, &p.x);
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+    {
+      refuse(file, "point " + std::to_string(i) + " has a coordinate that isn't a finite number");
+    }
+    if (ras) p = { 0 - p.x, 0 - p.y, p.z }; // of 0 comes 0, not -0
+  }
+  return points;
+}
+
+/// The named array with one tuple of `components` per item, or nullptr if there is none.
+vtkDataArray* arrayOf(vtkFieldData* data, const char* name, vtkIdType items, int components, const std::string& file)
+{
+  if (!data->GetAbstractArray(name)) return nullptr;
+  vtkDataArray* array = data->GetArray(name);
+  const std::string expected = std::to_string(components) + " numbers for each of " + std::to_string(items);
+  if (!array) refuse(file, std::string("array ") + name + " is not numeric, expected " + expected);
+  if (array->GetNumberOfTuples() != items || array->GetNumberOfComponents() != components)
+  {
+    refuse(file, std::string("array ") + name + " has " + std::to_string(array->GetNumberOfComponents()) +
+                   " components and " + std::to_string(array->GetNumberOfTuples()) + " tuples, expected " + expected);
+  }
+  return array;
+}
+
+/// Component c of tuple i as an integer in [lowest, highest].
+std::int32_t integerAt(vtkDataArray* array, vtkIdType i, int c, int lowest, int highest, const std::string& file)
+{
+  const double value = array->GetComponent(i, c);
+  if (!(value >= lowest && value <= highest) || value != std::floor(value))
+  {
+    refuse(file, std::string("array ") + array->GetName() + " has the value " + std::to_string(value) + " at " +
+                   std::to_string(i) + ", expected an integer from " + std::to_string(lowest) + " to " +
+                   std::to_string(highest));
+  }
+  return static_cast<std::int32_t>(value);
+}
+
+std::vector<double> numbersOf(vtkFieldData* data, const char* name, vtkIdType items, double lowest,
+                              const std::string& file)
+{
+  vtkDataArray* array = arrayOf(data, name, items, 1, file);
+  std::vector<double> numbers(array ? items : 0);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+  {
+    numbers[i] = array->GetComponent(i, 0);
+    if (!std::isfinite(numbers[i]) || !(numbers[i] > lowest))
+    {
+      refuse(file, std::string("array ") + name + " has the value " + std::to_string(numbers[i]) + " at " +
+                     std::to_string(i) + ", expected a finite number" + (lowest == 0 ? " over 0" : ""));
+    }
+  }
+  return numbers;
+}
+
+std::vector<std::int32_t> integersOf(vtkFieldData* data, const char* name, vtkIdType items, int highest,
+                                     const std::string& file, int lowest = 0)
+{
+  vtkDataArray* array = arrayOf(data, name, items, 1, file);
+  std::vector<std::int32_t> integers(array ? items : 0);
+  for (std::size_t i = 0; i < integers.size(); ++i)
+  {
+    integers[i] = integerAt(array, i, 0, lowest, highest, file);
+  }
+  return integers;
+}
+
+constexpr double kAnyNumber = -std::numeric_limits<double>::infinity();
+constexpr int kHighestLabel = std::numeric_limits<Label>::max();
+constexpr int kHighestInteger = std::numeric_limits<std::int32_t>::max();
+
+/// Drops the points that nothing refers to, in all arrays alike; the order of the others stays.
+template <class Cells>
+std::vector<std::size_t> compact(std::vector<Vec3>& points, Cells& cells)
+{
+  std::vector<std::int32_t> newId(points.size(), -1);
+  for (const auto& cell : cells)
+  {
+    for (const std::int32_t id : cell) newId[id] = 0;
+  }
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    if (newId[i] < 0) continue;
+    newId[i] = static_cast<std::int32_t>(kept.size());
+    points[kept.size()] = points[i];
+    kept.push_back(i);
+  }
+  points.resize(kept.size());
+  for (auto& cell : cells)
+  {
+    for (std::int32_t& id : cell) id = newId[id];
+  }
+  return kept;
+}
+
+void keepOnly(std::vector<double>& values, const std::vector<std::size_t>& kept)
+{
+  if (values.empty()) return;
+  for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
+  values.resize(kept.size());
+}
+
+void requireIdRange(vtkIdType count, const char* what, const std::string& file)
+{
+  if (count > kHighestInteger)
+  {
+    refuse(file, std::to_string(count) + " " + what + ", at most " + std::to_string(kHighestInteger) + " are handled");
+  }
+}
+
+// ---- writing --------------------------------------------------------------------------------------------------------
+
+vtkSmartPointer<vtkPoints> vtkPointsOf(const std::vector<Vec3>& points)
+{
+  auto result = vtkSmartPointer<vtkPoints>::New();
+  result->SetDataTypeToDouble();
+  result->SetNumberOfPoints(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) result->SetPoint(i, &points[i].x);
+  return result;
+}
+
+template <std::size_t N>
+vtkSmartPointer<vtkCellArray> vtkCellsOf(const std::vector<std::array<std::int32_t, N>>& cells)
+{
+  auto result = vtkSmartPointer<vtkCellArray>::New();
+  result->AllocateExact(cells.size(), N * cells.size());
+  for (const auto& cell : cells)
+  {
+    std::array<vtkIdType, N> ids;
+    std::copy(cell.begin(), cell.end(), ids.begin());
+    result->InsertNextCell(N, ids.data());
+  }
+  return result;
+}
+
+template <class Array, class Value>
+void addArray(vtkFieldData* data, const char* name, const std::vector<Value>& values, int components = 1)
+{
+  if (values.empty()) return;
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(values.size() / components);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  data->AddArray(array);
+}
+
+void addStrings(vtkFieldData* data, const char* name, const std::vector<std::string>& values)
+{
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const std::string& value : values) array->InsertNextValue(value);
+  data->AddArray(array);
+}
+
+void addFieldData(vtkFieldData* data, const std::set<Label>& present, const TissueTable& tissues)
+{
+  addStrings(data, kSpace, { "LPS" });
+  std::vector<int> ids;
+  std::vector<std::string> names, roles;
+  std::vector<double> colors;
+  for (const Label label : present)
+  {
+    if (label == 0) continue;
+    const auto found = tissues.find(label);
+    const Tissue tissue = found == tissues.end() ? Tissue() : found->second;
+    ids.push_back(label);
+    names.push_back(tissue.name.empty() ? "tissue " + std::to_string(label) : tissue.name);
+    colors.insert(colors.end(), tissue.color.begin(), tissue.color.end());
+    roles.push_back(tissue.isShell ? "shell" : "mesh");
+  }
+  if (ids.empty()) return;
+  addArray<vtkIntArray>(data, kTissueIds, ids);
+  addStrings(data, kTissueNames, names);
+  addArray<vtkDoubleArray>(data, kTissueColors, colors, 3);
+  if (std::count(roles.begin(), roles.end(), "shell") > 0) addStrings(data, kTissueRoles, roles);
+}
+
+void removeStrings(vtkFieldData* data)
+{
+  for (const char* name : { kSpace, kTissueNames, kTissueRoles }) data->RemoveArray(name);
+}
+
+/// Through memory, because VTK's writers don't notice every failure of the disk.
+template <class Writer>
+void writeXML(Writer* writer, vtkDataSet* data, const std::string& file)
+{
+  ErrorCatcher errors;
+  writer->SetInputData(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToZLib();
+  writer->SetHeaderTypeToUInt64();
+  writer->WriteToOutputStringOn();
+  if (!writer->Write() || errors.any()) refuse(file, "can't be composed (" + errors.message() + ")");
+  writeBytes(writer->GetOutputString(), file);
+}
+
+void writeLegacy(vtkUnstructuredGrid* grid, const std::string& file)
+{
+  ErrorCatcher errors;
+  vtkNew<vtkUnstructuredGridWriter> writer;
+  writer->SetInputData(grid);
+  writer->SetHeader("SurgicalMesher tetrahedra; SPACE=LPS");
+  writer->SetFileTypeToBinary();
+  writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2); // what solvers and older readers understand
+  writer->WriteToOutputStringOn();
+  if (!writer->Write() || errors.any()) refuse(file, "can't be composed (" + errors.message() + ")");
+  writeBytes(writer->GetOutputStdString(), file);
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& file, bool& ras)
+{
+  const std::string extension = extensionOf(file);
+  vtkSmartPointer<vtkUnstructuredGrid> grid;
+  if (extension == ".vtu")
+  {
+    vtkNew<vtkXMLUnstructuredGridReader> reader;
+    grid = run(reader.Get(), file, "VTK XML unstructured grid (.vtu)");
+  }
+  else if (extension == ".vtk")
+  {
+    vtkNew<vtkUnstructuredGridReader> reader;
+    readEverything(reader);
+    grid = run(reader.Get(), file, "legacy VTK unstructured grid (.vtk)");
+    ras = titleSaysRAS(reader->GetHeader());
+  }
+  else
+  {
+    refuse(file, "unknown kind of mesh file '" + extension + "', expected .vtu or .vtk");
+  }
+  ras = ras || saysRAS(grid);
+  return grid;
+}
+
+std::vector<std::array<std::int32_t, 4>> tetrahedraOf(vtkUnstructuredGrid* grid, const std::string& file)
+{
+  if (grid->GetNumberOfCells() == 0) refuse(file, "no cells, expected tetrahedra");
+  requireValidCells(grid->GetCells(), grid->GetNumberOfPoints(), file);
+  std::vector<std::array<std::int32_t, 4>> tetrahedra(grid->GetNumberOfCells());
+  for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    grid->GetCells()->GetCellAtId(i, size, ids);
+    if (grid->GetCellType(i) != VTK_TETRA || size != 4)
+    {
+      refuse(file, "cell " + std::to_string(i) + " is of VTK type " + std::to_string(grid->GetCellType(i)) +
+                     ", expected tetrahedra alone");
+    }
+    std::copy(ids, ids + 4, tetrahedra[i].begin());
+  }
+  return tetrahedra;
+}
+
+void requireSound(const TetMesh& mesh, const std::string& file)
+{
+  std::vector<bool> used(mesh.points.size(), false);
+  for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i)
+  {
+    const auto& t = mesh.tetrahedra[i];
+    for (const std::int32_t id : t) used[id] = true;
+    if (!(orient(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]], mesh.points[t[3]]) > 0))
+    {
+      refuse(file, "tetrahedron " + std::to_string(i) + " is flat or inverted, expected positive volumes");
+    }
+  }
+  const auto unused = std::find(used.begin(), used.end(), false);
+  if (unused != used.end())
+  {
+    refuse(file, "point " + std::to_string(unused - used.begin()) + " belongs to no tetrahedron");
+  }
+}
+
+} // namespace
+
+SurfaceFile readSurface(const std::string& file)
+{
+  requireReadable(file);
+  const PolyDataFromFile source = readPolyData(file);
+  const vtkSmartPointer<vtkPolyData> data = trianglesOf(source.data, file);
+  requireIdRange(data->GetNumberOfPoints(), "points", file);
+  requireIdRange(data->GetNumberOfCells(), "triangles", file);
+
+  SurfaceFile result;
+  SurfaceComplex& surface = result.surface;
+  surface.triangles.resize(data->GetNumberOfPolys());
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    data->GetPolys()->GetCellAtId(i, size, ids);
+    std::copy(ids, ids + 3, surface.triangles[i].begin());
+    if (ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0])
+    {
+      refuse(file, "triangle " + std::to_string(i) + " uses a point twice");
+    }
+  }
+  const vtkIdType triangleCount = data->GetNumberOfPolys();
+  if (vtkDataArray* labels = arrayOf(data->GetCellData(), kBoundaryLabels, triangleCount, 2, file))
+  {
+    surface.labels.resize(surface.triangles.size());
+    for (std::size_t i = 0; i < surface.labels.size(); ++i)
+    {
+      for (int side = 0; side < 2; ++side)
+      {
+        surface.labels[i][side] = static_cast<Label>(integerAt(labels, i, side, 0, kHighestLabel, file));
+      }
+      if (surface.labels[i][0] == surface.labels[i][1])
+      {
+        refuse(file, "triangle " + std::to_string(i) + " has label " + std::to_string(surface.labels[i][0]) +
+                       " on both sides");
+      }
+    }
+  }
+  const vtkIdType pointCount = data->GetNumberOfPoints();
+  surface.points = pointsOf(data, source.ras, file);
+  result.targetEdgeLength = numbersOf(data->GetPointData(), kTargetEdgeLength, pointCount, 0, file);
+  result.boundaryDistance = numbersOf(data->GetPointData(), kBoundaryDistance, pointCount, kAnyNumber, file);
+  result.tissues = tissuesOf(source.data->GetFieldData());
+  const std::vector<std::size_t> kept = compact(surface.points, surface.triangles);
+  keepOnly(result.targetEdgeLength, kept);
+  keepOnly(result.boundaryDistance, kept);
+  return result;
+}
+
+void writeSurface(const SurfaceFile& content, const std::string& file)
+{
+  if (extensionOf(file) != ".vtp") refuse(file, "surfaces are written as .vtp");
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(vtkPointsOf(content.surface.points));
+  data->SetPolys(vtkCellsOf(content.surface.triangles));
+  std::vector<int> labels;
+  std::set<Label> present;
+  for (const auto& pair : content.surface.labels)
+  {
+    labels.insert(labels.end(), pair.begin(), pair.end());
+    present.insert(pair.begin(), pair.end());
+  }
+  addArray<vtkIntArray>(data->GetCellData(), kBoundaryLabels, labels, 2);
+  addArray<vtkDoubleArray>(data->GetPointData(), kTargetEdgeLength, content.targetEdgeLength);
+  addArray<vtkDoubleArray>(data->GetPointData(), kBoundaryDistance, content.boundaryDistance);
+  addFieldData(data->GetFieldData(), present, content.tissues);
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writeXML(writer.Get(), data, file);
+}
+
+void writePolygons(const PolygonFile& content, const std::string& file)
+{
+  if (extensionOf(file) != ".vtp") refuse(file, "polygons are written as .vtp");
+  vtkNew<vtkCellArray> cells;
+  for (const auto& polygon : content.polygons)
+  {
+    const std::vector<vtkIdType> ids(polygon.begin(), polygon.end());
+    cells->InsertNextCell(vtkIdType(ids.size()), ids.data());
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(vtkPointsOf(content.points));
+  data->SetPolys(cells);
+  addArray<vtkIntArray>(data->GetCellData(), kTissueLabel,
+                        std::vector<int>(content.labels.begin(), content.labels.end()));
+  addFieldData(data->GetFieldData(), std::set<Label>(content.labels.begin(), content.labels.end()), content.tissues);
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writeXML(writer.Get(), data, file);
+}
+
+MeshFile readMesh(const std::string& file)
+{
+  requireReadable(file);
+  bool ras = false;
+  const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(file, ras);
+  return meshOfGrid(grid, ras, file);
+}
+
+MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name)
+{
+  const vtkIdType pointCount = grid->GetNumberOfPoints();
+  const vtkIdType cellCount = grid->GetNumberOfCells();
+  requireIdRange(pointCount, "points", name);
+  requireIdRange(cellCount, "cells", name);
+
+  MeshFile result;
+  result.mesh.tetrahedra = tetrahedraOf(grid, name);
+  result.mesh.points = pointsOf(grid, ras, name);
+  vtkCellData* cellData = grid->GetCellData();
+  const std::vector<std::int32_t> labels = integersOf(cellData, kTissueLabel, cellCount, kHighestLabel, name);
+  if (labels.empty()) refuse(name, std::string("no cell array ") + kTissueLabel);
+  result.mesh.labels.assign(labels.begin(), labels.end());
+  result.subMesh = integersOf(cellData, kSubMesh, cellCount, kHighestInteger, name);
+  result.constitutive = integersOf(cellData, kConstitutive, cellCount, 2, name);
+  result.subMeshInterface = integersOf(grid->GetPointData(), kInterface, pointCount, 1, name);
+  result.targetEdgeLength = numbersOf(grid->GetPointData(), kTargetEdgeLength, pointCount, 0, name);
+  result.volumePointId = integersOf(grid->GetPointData(), kVolumePointId, pointCount, kHighestInteger, name);
+  result.interfaceId = integersOf(grid->GetPointData(), kInterfaceId, pointCount, kHighestInteger, name, -1);
+  result.tissues = tissuesOf(grid->GetFieldData());
+  requireSound(result.mesh, name);
+  return result;
+}
+
+TissueTable tissuesOf(vtkFieldData* data)
+{
+  TissueTable table;
+  vtkDataArray* ids = data->GetArray(kTissueIds);
+  auto* names = vtkStringArray::SafeDownCast(data->GetAbstractArray(kTissueNames));
+  vtkDataArray* colors = data->GetArray(kTissueColors);
+  auto* roles = vtkStringArray::SafeDownCast(data->GetAbstractArray(kTissueRoles));
+  for (vtkIdType i = 0; ids && i < ids->GetNumberOfTuples(); ++i)
+  {
+    const double id = ids->GetComponent(i, 0);
+    if (!(id >= 0 && id <= kHighestLabel)) continue;
+    Tissue& tissue = table[static_cast<Label>(id)];
+    if (names && i < names->GetNumberOfValues()) tissue.name = names->GetValue(i);
+    tissue.isShell = roles && i < roles->GetNumberOfValues() && roles->GetValue(i) == "shell";
+    if (colors && colors->GetNumberOfComponents() == 3 && i < colors->GetNumberOfTuples())
+    {
+      colors->GetTuple(i, tissue.color.data());
+    }
+  }
+  return table;
+}
+
+void writeMesh(const MeshFile& content, const std::string& file, FieldTexts texts)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->SetPoints(vtkPointsOf(content.mesh.points));
+  grid->SetCells(VTK_TETRA, vtkCellsOf(content.mesh.tetrahedra));
+  addArray<vtkIntArray>(grid->GetCellData(), kTissueLabel, content.mesh.labels);
+  addArray<vtkIntArray>(grid->GetCellData(), kSubMesh, content.subMesh);
+  addArray<vtkIntArray>(grid->GetCellData(), kConstitutive, content.constitutive);
+  addArray<vtkIntArray>(grid->GetPointData(), kInterface, content.subMeshInterface);
+  addArray<vtkDoubleArray>(grid->GetPointData(), kTargetEdgeLength, content.targetEdgeLength);
+  addArray<vtkIntArray>(grid->GetPointData(), kVolumePointId, content.volumePointId);
+  addArray<vtkIntArray>(grid->GetPointData(), kInterfaceId, content.interfaceId);
+  const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
+  addFieldData(grid->GetFieldData(), present, content.tissues);
+  if (texts == FieldTexts::LeftOut) removeStrings(grid->GetFieldData());
+  const std::string extension = extensionOf(file);
+  if (extension == ".vtk")
+  {
+    writeLegacy(grid, file);
+    return;
+  }
+  if (extension != ".vtu") refuse(file, "tetrahedra are written as .vtu or .vtk");
+  vtkNew<vtkXMLUnstructuredGridWriter> writer;
+  writeXML(writer.Get(), grid, file);
+}
+
+void writeBytes(const std::string& bytes, const std::string& file)
+{
+  errno = 0;
+  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
+  if (!stream) refuse(file, std::string("can't be opened for writing (") + std::strerror(errno) + ")");
+  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  stream.close();
+  if (!stream) refuse(file, std::string("can't be written to its end (") + std::strerror(errno) + ")");
+}
+
+} // namespace surgicalmesher

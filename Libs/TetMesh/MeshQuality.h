@@ -1,0 +1,84 @@
+#pragma once
+/// How good a tetrahedral mesh is for finite elements: measures of one tetrahedron, and their distributions over the
+/// mesh, its tissues and its sub-meshes.
+
+#include "TetMesh.h"
+
+#include <functional>
+#include <map>
+#include <string>
+
+namespace surgicalmesher
+{
+
+/// The six dihedral angles in degrees, in the order of kEdgeCorners. Regular tetrahedron: 70.53; canonical: 4 x 60, 2 x
+/// 90.
+std::array<double, 6> dihedralAngles(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// Three times the inscribed over the circumscribed sphere's radius, in (0, 1]; 0 or less if flat or inverted.
+/// Regular: 1; canonical: sqrt(0.9).
+double radiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// sqrt(2) times the Jacobian over the largest product of the three edge lengths at a corner, in (0, 1] (Knupp, as in
+/// Verdict). Regular: 1.
+double scaledJacobian(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// All zero if there are no values.
+struct Distribution
+{
+  std::size_t count = 0;
+  double minimum = 0, percentile1 = 0, percentile5 = 0, median = 0, percentile95 = 0, percentile99 = 0, maximum = 0;
+  double mean = 0;
+};
+
+Distribution distributionOf(std::vector<double> values);
+
+/// Counts of values in equal bins from `low` to `high`; values beyond are in the first and last bin.
+struct Histogram
+{
+  double low = 0, high = 1;
+  std::vector<std::size_t> counts;
+};
+
+/// Some of the tetrahedra of a mesh: all, one tissue's or one sub-mesh's.
+struct QualityGroup
+{
+  std::size_t tetrahedra = 0;
+  std::size_t points = 0;
+  double volume = 0;            ///< mm^3
+  Distribution dihedral;        ///< degrees, six per tetrahedron
+  Distribution minimumDihedral; ///< degrees, of each tetrahedron
+  Distribution radiusRatio;
+  Distribution scaledJacobian;
+  Distribution tetrahedronVolume; ///< mm^3
+  Distribution edgeOverTarget;    ///< each edge once; empty if there is no target
+  double edgesNearTarget = 0;     ///< share of edges between 0.7 and 1.4 times their target
+  Distribution valence;           ///< tetrahedra at each point around which all are of the group and of one tissue
+};
+
+struct MeshQuality
+{
+  QualityGroup whole;
+  std::map<Label, QualityGroup> tissues;
+  std::map<std::int32_t, QualityGroup> subMeshes;
+  // The paper's three histograms (Audette et al. 2007, figure 10), over the whole mesh.
+  Histogram dihedral; ///< degrees
+  Histogram edgeOverTarget;
+  Histogram valence; ///< tetrahedra per inner point, one bin each
+};
+
+/// How many tetrahedra of tissues (label not 0) have a dihedral angle below `degrees` or above 180 minus it.
+std::size_t countBelow(const TetMesh& mesh, double degrees);
+
+/// Assesses the tetrahedra (label 0 included, if there are any). `subMesh` per tetrahedron, or empty. `edgeLength` is
+/// L(x) in mm, asked at the middle of each edge, or empty.
+MeshQuality assessQuality(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh,
+                          const std::function<double(const Vec3&)>& edgeLength);
+
+/// One JSON object: whole, tissues, subMeshes, histograms.
+std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues);
+
+/// One row per group: the whole mesh, every tissue, every sub-mesh; the first row names the columns.
+std::string qualityCSV(const MeshQuality& quality, const TissueTable& tissues);
+
+} // namespace surgicalmesher

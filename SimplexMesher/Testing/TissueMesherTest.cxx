@@ -1,0 +1,313 @@
+#include "TissueMesher.h"
+#include "MeshChecks.h"
+#include "DigitalTopology.h"
+#include "FaceAdjacency.h"
+#include "MapPreparation.h"
+#include "MeshedMapChecks.h"
+#include "RandomMaps.h"
+#include "ScaleMaps.h"
+#include "TissueMapIO.h"
+
+#include <gtest/gtest.h>
+#include <vtkSMPTools.h>
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using namespace test;
+
+/// Labels at the cubes of `size` voxels from (low) on; the grid stays where it was in the world.
+TissueMap cropped(const TissueMap& map, const std::array<int, 3>& low, const std::array<int, 3>& size)
+{
+  TissueMap part = map;
+  part.grid.size = size;
+  part.grid.origin =
+    map.grid.gridToWorld({ low[0] * map.grid.spacing.x, low[1] * map.grid.spacing.y, low[2] * map.grid.spacing.z });
+  part.labels.resize(part.grid.voxelCount());
+  for (int k = 0; k < size[2]; ++k)
+  {
+    for (int j = 0; j < size[1]; ++j)
+    {
+      for (int i = 0; i < size[0]; ++i)
+        part.labels[part.grid.index(i, j, k)] = map.labels[map.grid.index(low[0] + i, low[1] + j, low[2] + k)];
+    }
+  }
+  return part;
+}
+
+TissueMap atlasPart()
+{
+  TissueMap map = cropped(readTissueMap("/usr/share/mricron/templates/jhu189.nii.gz"), { 55, 70, 30 }, { 64, 64, 64 });
+  prepareMap(map, {});
+  return map;
+}
+
+double squareAt(int i, int j, int k, const Vec3& centre)
+{
+  return squaredNorm(Vec3{ double(i), double(j), double(k) } - centre);
+}
+
+struct Shape
+{
+  std::string name;
+  TissueMap map;
+};
+
+std::vector<Shape> shapes()
+{
+  const Vec3 middle{ 8, 8, 8 };
+  const auto within = [](int x, int low, int high) { return low <= x && x <= high; };
+  std::mt19937 random(1);
+  TissueMap noise = paintedMap({ 10, 10, 10 }, [&](int, int, int) { return int(random() % 3); });
+  TissueMap checkerboard = paintedMap({ 8, 8, 8 }, [](int i, int j, int k) { return 1 + ((i + j + k) & 1); });
+  std::vector<Shape> shapes{
+    { "sphere", paintedMap({ 17, 17, 17 }, [=](int i, int j, int k) { return squareAt(i, j, k, middle) <= 49; }) },
+    { "torus", paintedMap({ 21, 21, 9 },
+                          [](int i, int j, int k)
+                          {
+                            const double r = std::hypot(i - 10, j - 10) - 6.5;
+                            return r * r + (k - 4) * (k - 4) <= 7;
+                          }) },
+    { "nested spheres", paintedMap({ 17, 17, 17 },
+                                   [=](int i, int j, int k)
+                                   {
+                                     const double r = squareAt(i, j, k, middle);
+                                     return r <= 4 ? 0 : r <= 16 ? 3 : r <= 36 ? 2 : r <= 56 ? 1 : 0;
+                                   }) },
+    { "two touching cubes",
+      paintedMap({ 14, 8, 8 }, [=](int i, int j, int k)
+                 { return within(j, 2, 5) && within(k, 2, 5) && within(i, 2, 11) ? 1 + (i > 6) : 0; }) },
+    { "slab of one voxel", paintedMap({ 16, 16, 5 }, [](int, int, int k) { return k == 2; }) },
+    { "voxel", paintedMap({ 3, 3, 3 }, [](int i, int j, int k) { return i == 1 && j == 1 && k == 1; }) },
+    { "voxel that is all", paintedMap({ 1, 1, 1 }, [](int, int, int) { return 5; }) },
+    { "three tissues around a curve",
+      paintedMap({ 14, 14, 10 }, [](int i, int j, int) { return i < 7   ? 1
+                                                                : j < 7 ? 2
+                                                                        : 3; }) },
+    { "tissue cut by the border",
+      paintedMap({ 9, 17, 17 }, [=](int i, int j, int k) { return squareAt(i + 8, j, k, middle) <= 49; }) },
+    { "one label everywhere", paintedMap({ 12, 9, 7 }, [](int, int, int) { return 9; }) },
+    { "slices",
+      paintedMap({ 15, 15, 7 },
+                 [](int i, int j, int k) { return std::hypot(0.98 * (i - 7), 0.98 * (j - 7), 2.5 * (k - 3)) <= 6; },
+                 { 0.98, 0.98, 2.5 }) },
+    { "noise", noise },
+    { "checkerboard", checkerboard },
+  };
+  for (Shape& shape : shapes) prepareMap(shape.map, {});
+  return shapes;
+}
+
+SurfaceMesh meshed(const TissueMap& map, const ScaleField& scale) { return meshTissues(map, scale, {}); }
+
+void expectSameBytes(const SurfaceMesh& a, const SurfaceMesh& b)
+{
+  EXPECT_EQ(a.ambient.mesh.points, b.ambient.mesh.points);
+  EXPECT_EQ(a.ambient.mesh.tetrahedra, b.ambient.mesh.tetrahedra);
+  EXPECT_EQ(a.ambient.mesh.labels, b.ambient.mesh.labels);
+  EXPECT_EQ(a.ambient.lengths, b.ambient.lengths);
+}
+
+/// The map with axes turned and flipped in memory, in the same place of the world: axis a of the copy runs along axis
+/// order[a] of the map, backwards if flips[a].
+TissueMap rearranged(const TissueMap& map, const std::array<int, 3>& order, const std::array<bool, 3>& flips)
+{
+  TissueMap copy;
+  const Grid& from = map.grid;
+  Vec3 first;
+  for (int a = 0; a < 3; ++a)
+  {
+    copy.grid.size[a] = from.size[order[a]];
+    copy.grid.spacing[a] = from.spacing[order[a]];
+    copy.grid.axes[a] = flips[a] ? -from.axes[order[a]] : from.axes[order[a]];
+    if (flips[a]) first[order[a]] = (from.size[order[a]] - 1) * from.spacing[order[a]];
+  }
+  copy.grid.origin = from.gridToWorld(first);
+  for (int k = 0; k < copy.grid.size[2]; ++k)
+  {
+    for (int j = 0; j < copy.grid.size[1]; ++j)
+    {
+      for (int i = 0; i < copy.grid.size[0]; ++i)
+      {
+        std::array<int, 3> at;
+        for (int a = 0; a < 3; ++a)
+        {
+          const int x = std::array<int, 3>{ i, j, k }[a];
+          at[order[a]] = flips[a] ? copy.grid.size[a] - 1 - x : x;
+        }
+        copy.labels.push_back(map.labels[from.index(at[0], at[1], at[2])]);
+      }
+    }
+  }
+  return copy;
+}
+
+} // namespace
+
+class MeshedShape : public ::testing::TestWithParam<double>
+{
+};
+
+TEST_P(MeshedShape, IsSoundAndHasTheMapsTopology)
+{
+  for (const Shape& shape : shapes())
+  {
+    SCOPED_TRACE(shape.name);
+    if (GetParam() < 1 && shape.map.labels.size() > 1000) continue; // millions of tetrahedra
+    const SurfaceMesh mesh = meshed(shape.map, uniformScale(GetParam()));
+    EXPECT_EQ(faultOf(mesh, shape.map), "");
+    ASSERT_FALSE(mesh.evolution.empty());
+    EXPECT_EQ(mesh.evolution.back().tetrahedra, withoutOutside(mesh.ambient.mesh).tetrahedra.size());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(BelowAtAndAboveTheVoxel, MeshedShape, ::testing::Values(0.7, 1.5, 4.0, 30.0));
+
+TEST(SurfaceMesher, FollowsASphereAtItsScale)
+{
+  const TissueMap map = shapes()[0].map;
+  for (double length : { 1.5, 3.0 })
+  {
+    const SurfaceComplex surface = interfaceOf(meshed(map, uniformScale(length)).ambient.mesh);
+    const double voxels = double(std::count(map.labels.begin(), map.labels.end(), 1));
+    EXPECT_NEAR(checkSurface(surface).at(1).volume, voxels, 0.05 * voxels) << length;
+    for (const Vec3& p : surface.points) EXPECT_NEAR(norm(p - Vec3{ 8, 8, 8 }), 7.1, 0.45 + 0.11 * length + 0.5);
+  }
+}
+
+TEST(SurfaceMesher, KeepsTheDistanceAskedFor)
+{
+  const TissueMap map = shapes()[2].map;
+  TissueMesherOptions options;
+  options.maximumDistance = 0.4;
+  const SurfaceMesh mesh = meshTissues(map, uniformScale(3), options);
+  EXPECT_EQ(faultOf(mesh, map), "");
+  for (const auto& e : mesh.ambient.samples) EXPECT_LE(e.tolerance, 0.4f);
+  EXPECT_LE(mesh.evolution.back().maximumDistance, std::max(0.4, mesh.evolution.front().maximumDistance) * (1 + 1e-6));
+}
+
+TEST(SurfaceMesher, HoldsThinTissuesLessCloselyOnceSimplifiedUnlessProtected)
+{
+  const TissueMap map = paintedMap({ 12, 12, 12 }, [](int, int, int k) { return k < 3 ? 1 : 2; });
+  const auto mostDrift = [&](const FeatureOptions& features)
+  {
+    TissueMesherOptions options;
+    options.features = features;
+    float most = 0;
+    for (const auto& e : meshTissues(map, uniformScale(9), options).ambient.samples)
+      if (e.position.z < 2.9) most = std::max(most, e.tolerance);
+    return most;
+  };
+  const float usual = mostDrift({});
+  EXPECT_LT(usual, 1.f); // not as far as L allows
+  EXPECT_FLOAT_EQ(mostDrift({ 0.5, {} }), usual * 0.32f / 0.28f);
+  EXPECT_FLOAT_EQ(mostDrift({ 9, {} }), usual * 0.4f / 0.28f);
+  EXPECT_FLOAT_EQ(mostDrift({ 0.5, { 1 } }), usual);
+}
+
+TEST(SurfaceMesher, EveryTissueOfAnAtlasIsAsInTheMap)
+{
+  const TissueMap map = atlasPart();
+  ASSERT_GT(presentLabels(map).size(), 20u);
+  const ScaleField scale = radialScale(map.grid, map.grid.gridToWorld({ 32, 32, 32 }), 1, 8, 10, 25);
+  const SurfaceMesh mesh = meshed(map, scale);
+  EXPECT_EQ(faultOf(mesh, map), "");
+  const auto tissues = checkSurface(interfaceOf(mesh.ambient.mesh));
+  EXPECT_EQ(tissues.size(), presentLabels(map).size());
+}
+
+TEST(SurfaceMesher, BytesDoNotDependOnThreads)
+{
+  TissueMap map = cropped(atlasPart(), { 16, 16, 16 }, { 32, 32, 32 });
+  prepareMap(map, {}); // the cut makes new contacts with the outside
+  const ScaleField scale = radialScale(map.grid, map.grid.gridToWorld({ 16, 16, 16 }), 1, 6, 4, 12);
+  vtkSMPTools::Initialize(1);
+  const SurfaceMesh alone = meshed(map, scale);
+  vtkSMPTools::Initialize(2);
+  expectSameBytes(meshed(map, scale), alone);
+  vtkSMPTools::Initialize(0);
+  EXPECT_EQ(faultOf(alone, map), "");
+}
+
+TEST(SurfaceMesher, AMapsAxesDoNotMatter)
+{
+  TissueMap map = cropped(atlasPart(), { 24, 24, 24 }, { 20, 16, 18 });
+  prepareMap(map, {});
+  const SurfaceMesh expected = meshed(map, uniformScale(2.5));
+  const auto file = std::filesystem::temp_directory_path() / "surgicalmesher-axes.nrrd";
+  const std::vector<std::pair<std::array<int, 3>, std::array<bool, 3>>> arrangements{
+    { { 1, 2, 0 }, { false, false, false } },
+    { { 0, 1, 2 }, { true, true, false } },
+    { { 1, 0, 2 }, { false, false, true } },
+    { { 2, 1, 0 }, { true, true, true } },
+  };
+  for (const auto& [order, flips] : arrangements)
+  {
+    writeTissueMap(rearranged(map, order, flips), file.string());
+    const TissueMap read = readTissueMap(file.string());
+    ASSERT_EQ(read.labels, map.labels);
+    EXPECT_LT(norm(read.grid.origin - map.grid.origin), 1e-6);
+    expectSameBytes(meshed(read, uniformScale(2.5)), expected);
+  }
+  std::filesystem::remove(file);
+}
+
+TEST(SurfaceMesher, AMapsPlaceDoesNotMatter)
+{
+  TissueMap map = cropped(atlasPart(), { 24, 24, 24 }, { 20, 16, 18 });
+  prepareMap(map, {});
+  const ScaleField scale = radialScale(map.grid, map.grid.gridToWorld({ 5, 6, 7 }), 1, 5, 3, 8);
+  TissueMap turned = map;
+  const double c = std::cos(0.4), s = std::sin(0.4);
+  turned.grid.axes = { Vec3{ c, s, 0 }, Vec3{ -s * c, c * c, s }, Vec3{ s * s, -c * s, c } };
+  turned.grid.origin = { 101, -57, 33 };
+  ScaleField turnedScale = scale;
+  turnedScale.grid.axes = turned.grid.axes;
+  turnedScale.grid.origin = turned.grid.gridToWorld(map.grid.worldToGrid(scale.grid.origin));
+  expectSameBytes(meshed(turned, uniformScale(2.5)), meshed(map, uniformScale(2.5)));
+
+  // A graded scale is read in the world, with rounding, unless both are brought to the frame of the map.
+  const auto meshedInOwnFrame = [](TissueMap m, const ScaleField& scaleInWorld)
+  {
+    const ScaleField own = inFrameOf(m.grid, scaleInWorld);
+    m.grid = inOwnFrame(m.grid);
+    return meshed(m, own);
+  };
+  expectSameBytes(meshedInOwnFrame(turned, turnedScale), meshedInOwnFrame(map, scale));
+}
+
+TEST(SurfaceMesher, CanBeCancelledAnywhere)
+{
+  const TissueMap map = shapes()[2].map;
+  struct Cancelled
+  {
+  };
+  double last = -1;
+  std::vector<double> fractions;
+  meshTissues(map, uniformScale(2), {},
+              [&](double fraction, const std::string& stage)
+              {
+                EXPECT_GE(fraction, last);
+                EXPECT_LE(fraction, 1);
+                EXPECT_FALSE(stage.empty());
+                last = fraction;
+                fractions.push_back(fraction);
+              });
+  ASSERT_GT(fractions.size(), 5u);
+  for (std::size_t at = 0; at < fractions.size(); at += 3)
+  {
+    const auto cancel = [&](double fraction, const std::string&)
+    {
+      if (fraction >= fractions[at]) throw Cancelled();
+    };
+    EXPECT_THROW(meshTissues(map, uniformScale(2), {}, cancel), Cancelled);
+  }
+}
+
+} // namespace surgicalmesher
