@@ -6,6 +6,7 @@
 #include "Errors.h"
 #include "JsonMember.h"
 #include "PathRefinement.h"
+#include "Place.h"
 #include "TissueMapIO.h"
 #include "TubeLabel.h"
 #include "TubePathCLIXML.h"
@@ -133,8 +134,8 @@ void findOddities(const TubePath& tube, Results& results)
   results.weakest = mean > 0 ? std::max(0.0, *weakest) / mean : 0;
   if (results.weakest >= 0.2) return;
   const Vec3& p = tube.points[std::size_t(weakest - tube.flux.begin())];
-  results.warnings.push_back("the tube is hardly to be seen near (" + rounded(p.x, 6) + ", " + rounded(p.y, 6) + ", " +
-                             rounded(p.z, 6) + ") mm LPS: a point there makes the path surer");
+  results.warnings.push_back("the tube is hardly to be seen near " + place(p) +
+                             " LPS: a point there makes the path surer");
 }
 
 /// Least, mean and largest of the values.

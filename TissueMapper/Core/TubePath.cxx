@@ -5,6 +5,7 @@
 #include "FluxField.h"
 #include "MinimalPath.h"
 #include "PathRefinement.h"
+#include "Place.h"
 #include "Sampling.h"
 
 #include <itkGradientMagnitudeRecursiveGaussianImageFilter.h>
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace surgicalmesher
 {
@@ -22,14 +22,6 @@ namespace
 
 constexpr int radiusCount = 8;
 constexpr float leastSpeed = 0.03f; // of the speed on the tube: what gaps are crossed with
-
-std::string asText(const Vec3& p)
-{
-  std::ostringstream stream;
-  stream.precision(6);
-  stream << "(" << p.x << ", " << p.y << ", " << p.z << ") mm LPS";
-  return stream.str();
-}
 
 /// A box of voxels, ends included.
 struct Box
@@ -41,9 +33,9 @@ struct Box
 Box boxAround(const Grid& grid, const std::vector<Vec3>& places, double margin)
 {
   Box box{ grid.size, { 0, 0, 0 } };
-  for (const Vec3& place : places)
+  for (const Vec3& point : places)
   {
-    const Vec3 p = grid.worldToGrid(place);
+    const Vec3 p = grid.worldToGrid(point);
     for (int axis = 0; axis < 3; ++axis)
     {
       const double last = grid.size[axis] - 1;
@@ -166,12 +158,12 @@ int signOf(const FluxField& field, const std::vector<Vec3>& places, const TubePa
 {
   if (options.polarity != Polarity::Automatic) return options.polarity == Polarity::Bright ? 1 : -1;
   double sum = 0;
-  for (const Vec3& place : places)
+  for (const Vec3& point : places)
   {
     double strongest[2] = { 0, 0 };
     for (const std::vector<float>& flux : field.flux)
     {
-      const double here = linearValue(field.grid, flux, place);
+      const double here = linearValue(field.grid, flux, point);
       strongest[0] = std::max(strongest[0], here);
       strongest[1] = std::max(strongest[1], -here);
     }
@@ -231,10 +223,10 @@ std::vector<float> speedBetween(const Grid& grid, const std::vector<float>& ridg
 void requirePlaces(const ScalarImage& image, const std::vector<Vec3>& places)
 {
   if (places.size() < 2) throw InputError("a path needs two points or more, found " + std::to_string(places.size()));
-  for (const Vec3& place : places)
+  for (const Vec3& point : places)
   {
-    if (!isInVolume(image.grid, image.grid.worldToGrid(place)))
-      throw InputError("point " + asText(place) + " lies outside the image");
+    if (!isInVolume(image.grid, image.grid.worldToGrid(point)))
+      throw InputError("point " + place(point) + " LPS lies outside the image");
   }
 }
 
@@ -257,16 +249,16 @@ TubePath traceTube(const ScalarImage& image, const std::vector<Vec3>& places, co
   const Grid& grid = crop.grid;
   const FluxField field = computeFlux(crop, tubeRadii(grid, options), subProgress(progress, 0, 0.6));
   std::vector<Vec3> knots;
-  for (const Vec3& place : places) knots.push_back(grid.worldToGrid(place));
+  for (const Vec3& point : places) knots.push_back(grid.worldToGrid(point));
   const int sign = signOf(field, knots, options);
   const std::vector<float> ridge = ridgeOf(crop, field, sign, options.potential);
   for (Vec3& knot : knots)
   {
-    const Vec3 place = knot;
-    knot = snapped(grid, ridge, place, options.snapDistance);
+    const Vec3 given = knot;
+    knot = snapped(grid, ridge, given, options.snapDistance);
     if (!(linearValue(grid, ridge, knot) > 0))
     {
-      throw InputError("point " + asText(grid.gridToWorld(place)) + " lies on no " + (sign > 0 ? "bright" : "dark") +
+      throw InputError("point " + place(grid.gridToWorld(given)) + " LPS lies on no " + (sign > 0 ? "bright" : "dark") +
                        " tube of the radii sought");
     }
   }
