@@ -7,6 +7,7 @@
 #include "JsonMember.h"
 #include "PathRefinement.h"
 #include "Place.h"
+#include "ThreadCount.h"
 #include "TissueMapIO.h"
 #include "TubeLabel.h"
 #include "TubePathCLIXML.h"
@@ -14,7 +15,6 @@
 
 #include <rapidjson/ostreamwrapper.h>
 #include <rapidjson/prettywriter.h>
-#include <vtkSMPTools.h>
 
 #include <algorithm>
 #include <fstream>
@@ -194,7 +194,7 @@ void requireMemory(double needed, const std::string& imageFile)
 
 void run(CommandLine& line)
 {
-  vtkSMPTools::Initialize(line.integer("threads"));
+  setThreadCount(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
   const TubePathOptions options = readOptions(line);

@@ -132,3 +132,28 @@ TEST_F(TubePathCLI, LeavesNoFileHalfWritten)
 {
   expectSaysThatAFileCanNotGrow("--points points.fcsv --labelMap out.nrrd image.nrrd p.mrk.json");
 }
+
+// The optic nerve within the fat of the orbit: as wide as optic nerves are, and darker than what is around it.
+TEST_F(TubePathCLI, FollowsARealOpticNerve)
+{
+  const std::string head = "/usr/share/mricron/templates/ch2.nii.gz";
+  if (!std::filesystem::exists(head)) GTEST_SKIP() << head << " is not there";
+  expectDone("--points '" OPTICNERVE "' --report r.json " + head + " path.mrk.json");
+  rapidjson::Document report;
+  report.Parse(readBytes(folder.file("r.json")).c_str());
+  EXPECT_STREQ(report["polarity"].GetString(), "dark");
+  EXPECT_NEAR(report["length"].GetDouble(), 18.4, 1.5);
+  EXPECT_GT(report["radius"]["minimum"].GetDouble(), 1.2);
+  EXPECT_LT(report["radius"]["maximum"].GetDouble(), 3.2);
+  const ScalarImage t1 = readImage(head);
+  const TubePath nerve = readTubePaths(folder.file("path.mrk.json"), 0).front();
+  const std::vector<Vec3> tangents = tangentsOf(nerve.points);
+  for (std::size_t n = 0; n < nerve.points.size(); ++n)
+  {
+    Vec3 aside = cross(tangents[n], { 0, 0, 1 });
+    aside = (nerve.radii[n] + 2) / norm(aside) * aside;
+    const auto valueAt = [&](const Vec3& p) { return linearValue(t1.grid, t1.values, t1.grid.worldToGrid(p)); };
+    const Vec3& p = nerve.points[n];
+    EXPECT_LT(valueAt(p), 0.5 * (valueAt(p + aside) + valueAt(p - aside))) << n;
+  }
+}
