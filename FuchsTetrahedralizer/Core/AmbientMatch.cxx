@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "AmbientMatch.h"
 
-#include "MeshChecks.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 
 #include <algorithm>
 #include <tuple>

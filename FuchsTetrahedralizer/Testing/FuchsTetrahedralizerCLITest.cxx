@@ -1,6 +1,7 @@
-#include "MeshIO.h"
+// SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
 #include "FaceAdjacency.h"
+#include "MeshIO.h"
 #include "Shapes.h"
 
 #include <limits>

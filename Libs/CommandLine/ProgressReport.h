@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Progress on stdout: XML tags as Slicer's host reads them when it is a pipe, a bar on a terminal.
 

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SimplexMesh.h"
 
-#include "MeshChecks.h"
 #include "Errors.h"
+#include "MeshChecks.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "MeshIO.h"
 
+#include "Compaction.h"
 #include "Errors.h"
 
 #include <vtkCellArray.h>
@@ -55,6 +57,7 @@ constexpr const char* kVolumePointId = "VolumePointId";
 constexpr const char* kTargetEdgeLength = "TargetEdgeLength";
 constexpr const char* kBoundaryDistance = "BoundaryDistance";
 constexpr const char* kTissueIds = "TissueIds";
+constexpr const char* kTargetAngle = "TargetDihedralAngle";
 constexpr const char* kTissueNames = "TissueNames";
 constexpr const char* kTissueColors = "TissueColors";
 constexpr const char* kTissueRoles = "TissueRoles";
@@ -334,38 +337,6 @@ constexpr double kAnyNumber = -std::numeric_limits<double>::infinity();
 constexpr int kHighestLabel = std::numeric_limits<Label>::max();
 constexpr int kHighestInteger = std::numeric_limits<std::int32_t>::max();
 
-/// Drops the points that nothing refers to, in all arrays alike; the order of the others stays.
-template <class Cells>
-std::vector<std::size_t> compact(std::vector<Vec3>& points, Cells& cells)
-{
-  std::vector<std::int32_t> newId(points.size(), -1);
-  for (const auto& cell : cells)
-  {
-    for (const std::int32_t id : cell) newId[id] = 0;
-  }
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (newId[i] < 0) continue;
-    newId[i] = static_cast<std::int32_t>(kept.size());
-    points[kept.size()] = points[i];
-    kept.push_back(i);
-  }
-  points.resize(kept.size());
-  for (auto& cell : cells)
-  {
-    for (std::int32_t& id : cell) id = newId[id];
-  }
-  return kept;
-}
-
-void keepOnly(std::vector<double>& values, const std::vector<std::size_t>& kept)
-{
-  if (values.empty()) return;
-  for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
-  values.resize(kept.size());
-}
-
 void requireIdRange(vtkIdType count, const char* what, const std::string& file)
 {
   if (count > kHighestInteger)
@@ -440,6 +411,15 @@ void addFieldData(vtkFieldData* data, const std::set<Label>& present, const Tiss
   addStrings(data, kTissueNames, names);
   addArray<vtkDoubleArray>(data, kTissueColors, colors, 3);
   if (std::count(roles.begin(), roles.end(), "shell") > 0) addStrings(data, kTissueRoles, roles);
+}
+
+/// 0 where there is none that means something.
+double targetAngleOf(vtkFieldData* data)
+{
+  vtkDataArray* angle = data->GetArray(kTargetAngle);
+  if (!angle || angle->GetNumberOfTuples() != 1 || angle->GetNumberOfComponents() != 1) return 0;
+  const double degrees = angle->GetTuple1(0);
+  return degrees > 0 && degrees < 60 ? degrees : 0;
 }
 
 void removeStrings(vtkFieldData* data)
@@ -519,7 +499,7 @@ std::vector<std::array<std::int32_t, 4>> tetrahedraOf(vtkUnstructuredGrid* grid,
   return tetrahedra;
 }
 
-void requireSound(const TetMesh& mesh, const std::string& file)
+void requirePositive(const TetMesh& mesh, const std::string& file)
 {
   std::vector<bool> used(mesh.points.size(), false);
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i)
@@ -584,9 +564,10 @@ SurfaceFile readSurface(const std::string& file)
   result.targetEdgeLength = numbersOf(data->GetPointData(), kTargetEdgeLength, pointCount, 0, file);
   result.boundaryDistance = numbersOf(data->GetPointData(), kBoundaryDistance, pointCount, kAnyNumber, file);
   result.tissues = tissuesOf(source.data->GetFieldData());
-  const std::vector<std::size_t> kept = compact(surface.points, surface.triangles);
-  keepOnly(result.targetEdgeLength, kept);
-  keepOnly(result.boundaryDistance, kept);
+  const std::vector<std::int32_t> kept = compactPoints(surface.triangles, surface.points.size());
+  surface.points = valuesAt(surface.points, kept);
+  result.targetEdgeLength = valuesAt(result.targetEdgeLength, kept);
+  result.boundaryDistance = valuesAt(result.boundaryDistance, kept);
   return result;
 }
 
@@ -659,7 +640,8 @@ MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name
   result.volumePointId = integersOf(grid->GetPointData(), kVolumePointId, pointCount, kHighestInteger, name);
   result.interfaceId = integersOf(grid->GetPointData(), kInterfaceId, pointCount, kHighestInteger, name, -1);
   result.tissues = tissuesOf(grid->GetFieldData());
-  requireSound(result.mesh, name);
+  result.targetAngle = targetAngleOf(grid->GetFieldData());
+  requirePositive(result.mesh, name);
   return result;
 }
 
@@ -699,6 +681,8 @@ void writeMesh(const MeshFile& content, const std::string& file, FieldTexts text
   addArray<vtkIntArray>(grid->GetPointData(), kInterfaceId, content.interfaceId);
   const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
   addFieldData(grid->GetFieldData(), present, content.tissues);
+  if (content.targetAngle > 0)
+    addArray<vtkDoubleArray>(grid->GetFieldData(), kTargetAngle, std::vector<double>{ content.targetAngle });
   if (texts == FieldTexts::LeftOut) removeStrings(grid->GetFieldData());
   const std::string extension = extensionOf(file);
   if (extension == ".vtk")

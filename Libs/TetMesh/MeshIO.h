@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Surface complexes and labelled tetrahedra as VTK files.
 ///
@@ -34,8 +35,8 @@ struct SurfaceFile
 SurfaceFile readSurface(const std::string& file);
 
 /// Writes a .vtp: BoundaryLabels (if any), TargetEdgeLength and BoundaryDistance (if not empty), SPACE, TissueIds,
-/// TissueNames, TissueColors (RGB in 0..1) and, where there is a shell, TissueRoles ("mesh", "shell") of the tissues that
-/// occur.
+/// TissueNames, TissueColors (RGB in 0..1) and, where there is a shell, TissueRoles ("mesh", "shell") of the tissues
+/// that occur.
 void writeSurface(const SurfaceFile& content, const std::string& file);
 
 /// Polygons of one tissue each, a simplex mesh for one, and what travels with them in their file.
@@ -61,6 +62,8 @@ struct MeshFile
   std::vector<std::int32_t> volumePointId;    ///< per point of a part: its id in the whole mesh
   std::vector<std::int32_t> interfaceId; ///< per point of a part: its number on the child/parent interface, -1 none
   TissueTable tissues;                   ///< names and colours
+  /// Degrees, dihedral: what the surface stage has improved the mesh to, but for single places; 0: nobody says.
+  double targetAngle = 0;
 };
 
 /// Reads tetrahedra with a cell array TissueLabel from a .vtu or .vtk, ambient complexes (label 0 outside) included.
@@ -68,12 +71,12 @@ struct MeshFile
 /// or flat, points that no tetrahedron uses.
 MeshFile readMesh(const std::string& file);
 
-/// The same from memory. `ras`: the grid's coordinates are RAS, which its field data need not know; `name` stands for the
-/// file in messages.
+/// The same from memory. `ras`: the grid's coordinates are RAS, which its field data need not know; `name` stands for
+/// the file in messages.
 MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name);
 
-/// Names, colours and roles in field data; tables that are incomplete or of other kinds are left out, as nothing depends
-/// on them.
+/// Names, colours and roles in field data; tables that are incomplete or of other kinds are left out, as nothing
+/// depends on them.
 TissueTable tissuesOf(vtkFieldData* data);
 
 /// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them.

@@ -1,13 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A regular voxel grid in space: where voxel (i, j, k) lies.
 ///
-/// Two frames appear in the project. *World* is the frame of the files (LPS, mm). The *grid frame* has its origin at the
-/// centre of voxel (0, 0, 0), its axes along i, j, k, and millimetres as its unit. The two differ by a rotation and a
-/// translation only, so lengths, angles and the sign of volumes agree. All meshing is done in the grid frame of the
+/// Two frames appear in the project. *World* is the frame of the files (LPS, mm). The *grid frame* has its origin at
+/// the centre of voxel (0, 0, 0), its axes along i, j, k, and millimetres as its unit. The two differ by a rotation and
+/// a translation only, so lengths, angles and the sign of volumes agree. All meshing is done in the grid frame of the
 /// tissue map: a map and its rotated copy then give the same mesh, to rounding, in their own worlds.
 
 #include "Vec3.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -28,6 +30,18 @@ struct Grid
   {
     return i >= 0 && j >= 0 && k >= 0 && i < size[0] && j < size[1] && k < size[2];
   }
+
+  double smallestSpacing() const { return std::min({ spacing.x, spacing.y, spacing.z }); } ///< mm
+  double largestSpacing() const { return std::max({ spacing.x, spacing.y, spacing.z }); }  ///< mm
+
+  /// The voxel that lies at `index` in memory.
+  std::array<int, 3> voxelAt(std::size_t index) const
+  {
+    const std::size_t row = index / size[0];
+    return { int(index % size[0]), int(row % size[1]), int(row / size[1]) };
+  }
+  /// Centre of a voxel in the grid frame, mm.
+  Vec3 position(int i, int j, int k) const { return { i * spacing.x, j * spacing.y, k * spacing.z }; }
 
   Vec3 gridToWorld(const Vec3& p) const { return origin + p.x * axes[0] + p.y * axes[1] + p.z * axes[2]; }
   Vec3 worldToGrid(const Vec3& p) const

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "MemoryEstimate.h"
 
 #include "Errors.h"
@@ -14,7 +15,7 @@ namespace
 {
 
 constexpr double kBytes = 25e6, kBytesPerFace = 750, kBytesPerCube = 370, kBytesPerVoxel = 40;
-constexpr double kRelativeSize = 0.8; ///< of a cube to L
+constexpr double kRelativeSize = 0.8;       ///< of a cube to L
 constexpr int kSmallest = -2, kLargest = 5; ///< powers of two of a cube's side, in voxels
 
 /// Faces between voxels of different labels along one axis, and those of tissue at the map's ends.
@@ -55,7 +56,7 @@ double countCubes(const TissueMap& map, const ScaleField& scale)
   const Grid& grid = map.grid;
   std::array<int, 3> step;
   for (int axis = 0; axis < 3; ++axis) step[axis] = int((grid.size[axis] - 1) / mostSamplesPerAxis) + 1;
-  const double voxel = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+  const double voxel = grid.smallestSpacing();
   const double nearCubes = grid.spacing.x * grid.spacing.y * grid.spacing.z / (voxel * voxel * voxel); // per voxel
   double cubes = 0;
   for (int k = 0; k < grid.size[2]; k += step[2])
@@ -85,7 +86,7 @@ std::string inGigabytes(std::uint64_t bytes)
 
 std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale)
 {
-  const double voxel = std::min({ map.grid.spacing.x, map.grid.spacing.y, map.grid.spacing.z });
+  const double voxel = map.grid.smallestSpacing();
   double faces = 0;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -101,8 +102,9 @@ std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scal
 void requireMemory(std::uint64_t needed, const std::optional<std::uint64_t>& available, const std::string& mapFile)
 {
   if (!available || needed <= *available) return;
-  throw InputError(mapFile + ": meshing this map at this scale takes about " + inGigabytes(needed) + " of memory, found " +
-                   inGigabytes(*available) + " available, expected more, or larger voxels or minimum edge length");
+  throw InputError(mapFile + ": meshing this map at this scale takes about " + inGigabytes(needed) +
+                   " of memory, found " + inGigabytes(*available) +
+                   " available, expected more, or larger voxels or minimum edge length");
 }
 
 } // namespace surgicalmesher

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Files in and out: label maps, scale volumes, tissue tables, markups. All throw InputError with the file's name, what
 /// was found and what was expected. Writers write the file as named: atomic replacement is the caller's (CommandLine).
@@ -14,16 +15,16 @@ namespace surgicalmesher
 {
 
 /// Reads NRRD, .seg.nrrd, NIfTI, Analyze, MetaImage and GIPL. The axes are brought to LPS order (see TissueMap::grid).
-/// A NIfTI file lies where its sform says, or its qform if it has no sform of perpendicular axes. Segmentations: names and
-/// colours come from the header; several layers become one map, in which the later segment wins where two overlap, and
-/// labels are the header's values unless two layers share one: then 1, 2, 3 ... in the header's order.
-/// Refused: missing file, directory, truncated data, more than three dimensions (a fourth of size 1 is dropped), several
-/// components, non-integers, negative labels, labels over 65535, no voxel but background, more than 2^31 voxels, spacing
-/// that is not positive, axes that are not finite and perpendicular.
+/// A NIfTI file lies where its sform says, or its qform if it has no sform of perpendicular axes. Segmentations: names
+/// and colours come from the header; several layers become one map, in which the later segment wins where two overlap,
+/// and labels are the header's values unless two layers share one: then 1, 2, 3 ... in the header's order. Refused:
+/// missing file, directory, truncated data, more than three dimensions (a fourth of size 1 is dropped), several
+/// components, non-integers, negative labels, labels over 65535, no voxel but background, more than 2^31 voxels,
+/// spacing that is not positive, axes that are not finite and perpendicular.
 TissueMap readTissueMap(const std::string& file);
 
-/// Writes a compressed NRRD (or what the extension says) in the frame of map.grid. An NRRD carries map.table as Slicer's
-/// segmentations do.
+/// Writes a compressed NRRD (or what the extension says) in the frame of map.grid. An NRRD carries map.table as
+/// Slicer's segmentations do.
 void writeTissueMap(const TissueMap& map, const std::string& file);
 
 /// Reads any of the same formats; every value has to be finite and positive.
@@ -41,18 +42,18 @@ void requireCover(const ScaleField& scale, const Grid& grid, const std::string& 
 /// names. Background (label 0) is left out; underscores in names become blanks again.
 TissueTable readTissueTable(const std::string& file);
 
-/// Adds the names and colours of a table file (none if `file` is empty) to the map's own, and forgets those of tissues that
-/// the map doesn't have. All names are legible afterwards (TextFile.h).
+/// Adds the names and colours of a table file (none if `file` is empty) to the map's own, and forgets those of tissues
+/// that the map doesn't have. All names are legible afterwards (TextFile.h).
 void completeTissueTable(TissueMap& map, const std::string& file);
 
 /// The label that `text` means: a number from 0 to 65535, or a name of `names` (underscores and blanks are the same).
 /// Returns false if it is neither.
 bool findTissue(const std::string& text, const TissueTable& names, Label& label);
 
-/// Control points of every markup in a .mrk.json (Fiducial, Curve, ClosedCurve, Line) or .fcsv file, in LPS mm, whatever
-/// the file's own coordinate system; a ClosedCurve ends with its first point again. One list per markup that has points;
-/// points that are not placed (positionStatus) are left out. Refused: no point at all, coordinates that are no finite
-/// numbers, another unit than mm.
+/// Control points of every markup in a .mrk.json (Fiducial, Curve, ClosedCurve, Line) or .fcsv file, in LPS mm,
+/// whatever the file's own coordinate system; a ClosedCurve ends with its first point again. One list per markup that
+/// has points; points that are not placed (positionStatus) are left out. Refused: no point at all, coordinates that are
+/// no finite numbers, another unit than mm.
 std::vector<std::vector<Vec3>> readMarkups(const std::string& file);
 
 /// One markup with what its control points carry besides their places.

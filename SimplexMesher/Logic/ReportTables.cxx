@@ -1,8 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ReportTables.h"
 
-#include "MeshIO.h"
 #include "Errors.h"
 #include "HostDifferences.h"
+#include "MeshIO.h"
 #include "TextFile.h"
 
 #include <vtkMRMLModelNode.h>

@@ -1,5 +1,6 @@
-#include "MeshIO.h"
+// SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
+#include "MeshIO.h"
 #include "TissueMapIO.h"
 #include "VoxelMesh.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes small random maps at random scales and checks every result. usage: TissueMesherFuzz [MAPS [FIRST_SEED]]
 // Map n depends on its seed, FIRST_SEED + n, alone. Exit status 1 if one is meshed wrongly.
 
@@ -74,7 +75,7 @@ std::string run(unsigned seed)
   if (random() % 4 == 0) options.maximumDistance = 0.3 + random() % 10 * 0.1;
   try
   {
-    const SurfaceMesh mesh = meshTissues(map, scale, options);
+    const MeshedMap mesh = meshTissues(map, scale, options);
     const std::string fault = test::faultOf(mesh, map);
     const double allowed = std::max(options.maximumDistance, mesh.evolution.front().maximumDistance) * (1 + 1e-5);
     const double farthest = mesh.evolution.back().maximumDistance;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surface experiments of Audette et al. 2007 (figures 5 to 8), on the surface alone: dense boundary, decimation by
 // vtkDecimatePro, simplex mesh adapted to a scale; and vtkDecimatePro down to as many faces, for comparison.
 //
@@ -6,10 +7,10 @@
 // FOLDER receives surfaces, simplex meshes, the evolution of each and table.csv; TEMPLATES holds mricron's atlases.
 // NAMEs choose among cube, brain, tubes and path.
 
-#include "MeshChecks.h"
-#include "MeshIO.h"
 #include "Errors.h"
 #include "MapPreparation.h"
+#include "MeshChecks.h"
+#include "MeshIO.h"
 #include "MeshQuality.h"
 #include "SimplexDeformation.h"
 #include "TissueMapIO.h"

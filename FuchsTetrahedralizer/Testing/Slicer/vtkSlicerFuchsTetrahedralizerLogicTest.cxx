@@ -1,11 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 // The logic without its panel: closed models, transforms, constitutive classes, meshes from elsewhere, and what a saved
 // scene brings back.
 
 #include "vtkSlicerFuchsTetrahedralizerLogic.h"
-#include "MeshIO.h"
 #include "HostApplication.h"
 #include "HostScene.h"
 #include "MeshComparison.h"
+#include "MeshIO.h"
 #include "MeshedBalls.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 #include "vtkSurgicalMesherRun.h"

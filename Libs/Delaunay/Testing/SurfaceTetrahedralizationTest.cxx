@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SurfaceTetrahedralization.h"
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "MeshQuality.h"
 #include "SeparateProcess.h"
 #include "Shapes.h"

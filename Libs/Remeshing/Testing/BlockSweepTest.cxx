@@ -1,7 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "BlockSweep.h"
 #include "Coarsening.h"
 #include "ComplexInvariants.h"
 #include "RandomMaps.h"
+#include "Triangle.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>

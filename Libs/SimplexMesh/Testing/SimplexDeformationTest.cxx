@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SimplexDeformation.h"
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "Shapes.h"
 #include "UniformLimits.h"
 #include "VoxelMesh.h"

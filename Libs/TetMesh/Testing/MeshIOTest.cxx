@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "MeshIO.h"
-#include "MeshChecks.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "Shapes.h"
 #include "VoxelMesh.h"
 

@@ -1,7 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueSurfaces.h"
 
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>

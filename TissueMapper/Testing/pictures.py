@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws images/optic-nerve.png: the path that TubePathCLI finds through the optic nerve of Debian's ch2, on its T1.
+"""Draws Docs/images/optic-nerve.png: the path that TubePathCLI finds through the optic nerve of Debian's ch2, on its T1.
 
-    tube_picture.py BUILD/bin/TubePathCLI OUTPUT.png
+    pictures.py BUILD/bin/TubePathCLI OUTPUT.png
 """
 import json
 import os
@@ -16,7 +16,7 @@ import nibabel
 import numpy as np
 
 IMAGE = "/usr/share/mricron/templates/ch2.nii.gz"
-POINTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../TissueMapper/Testing/optic-nerve.mrk.json")
+POINTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "optic-nerve.mrk.json")
 
 
 def traced(program):
