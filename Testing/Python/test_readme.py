@@ -11,8 +11,8 @@ MODULES = ("SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer")
 # Programs without a panel of their own: their folder, whose name their page has, too.
 PROGRAMS = {"TissueMapper": "TissueMapper", "TubePath": "TissueMapper"}
 PAGES = (["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{module}.md" for module in MODULES]
-         + ["Docs/TissueMapper.md", "Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/Multirate.md", "Docs/Fitness.md", "Docs/Solvers.md",
-            "Docs/Slicer.md", "Docs/Tutorial.md"])
+         + ["Docs/TissueMapper.md", "Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/Multirate.md", "Docs/Fitness.md",
+            "Docs/Solvers.md", "Docs/Slicer.md", "Docs/Tutorial.md"])
 
 
 def text_of(*path):
@@ -35,7 +35,8 @@ def example_commands():
 def options_of(module):
     """Long flag -> default, and the names of the positional arguments, as the module's description has them."""
     flags, positional = {}, {}
-    for parameter in xml.fromstring(text_of(PROGRAMS.get(module, module), "CLI", module + "CLI.xml")).iterfind("parameters/*"):
+    description = text_of(PROGRAMS.get(module, module), "CLI", module + "CLI.xml")
+    for parameter in xml.fromstring(description).iterfind("parameters/*"):
         if parameter.find("longflag") is not None:
             flags[parameter.findtext("longflag")] = parameter.findtext("default") or ""
         elif parameter.find("index") is not None:
@@ -131,7 +132,8 @@ class PagesTest(unittest.TestCase):
             self.assertEqual(dict(rows), flags, module)
 
     def test_options_in_running_text_exist(self):
-        known = {flag for module in [*MODULES, *PROGRAMS] for flag in options_of(module)[0]} | {"help", "version", "xml"}
+        known = {flag for module in [*MODULES, *PROGRAMS] for flag in options_of(module)[0]}
+        known |= {"help", "version", "xml"}
         for page in PAGES:
             for flag in re.findall(r"`--(\w+)", text_of(page)):
                 self.assertIn(flag, known, page)

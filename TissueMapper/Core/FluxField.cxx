@@ -178,7 +178,8 @@ std::vector<double> squaredWaveNumbers(int length, double spacing)
   return squares;
 }
 
-/// The flux of two radii at once: as their transfers are real and even, one is the real part and the other the imaginary.
+/// The flux of two radii at once: as their transfers are real and even, one is the real part and the other the
+/// imaginary.
 void computePair(const Spectrum& image, const Grid& grid, double first, double second, Spectrum& work,
                  std::vector<float>& firstFlux, std::vector<float>& secondFlux)
 {

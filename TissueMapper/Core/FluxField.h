@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Flux of an image's gradient into spheres of several radii: large where a bright tube of a matching radius has its axis.
+/// Flux of an image's gradient into spheres of several radii: large where a bright tube of a matching radius has its
+/// axis.
 ///
-/// With M(x, R) the mean of the image over the sphere of radius R around x, the outward flux of the gradient through that
-/// sphere, over its area, is dM/dR (divergence theorem; Vasilevskiy and Siddiqi, IEEE TPAMI 24(12), 2002). In the
+/// With M(x, R) the mean of the image over the sphere of radius R around x, the outward flux of the gradient through
+/// that sphere, over its area, is dM/dR (divergence theorem; Vasilevskiy and Siddiqi, IEEE TPAMI 24(12), 2002). In the
 /// frequency domain that is a product with (cos kR - sin kR / kR) / R, exact up to the sampling frequency and the same
 /// whatever the voxel's shape. The image is blurred a little first, the more the larger the sphere.
 

@@ -203,8 +203,8 @@ std::vector<float> outsideProbability(const Grid& grid, const Features& features
   return probability;
 }
 
-/// Minimises the integral of weight |grad u| + force u over 0 <= u <= 1, per voxel, by the primal-dual method with steps
-/// of 1 / sqrt(12). `force` is positive where u should be 0.
+/// Minimises the integral of weight |grad u| + force u over 0 <= u <= 1, per voxel, by the primal-dual method with
+/// steps of 1 / sqrt(12). `force` is positive where u should be 0.
 std::vector<float> continuousCut(const Grid& grid, const std::vector<float>& weight, const std::vector<float>& force,
                                  std::vector<float> u, int iterations, const Progress& progress)
 {

@@ -18,8 +18,8 @@ std::vector<Vec3> resampled(const std::vector<Vec3>& points, double step);
 /// Unit tangents of points at equal distances, by differences over two neighbours on either side.
 std::vector<Vec3> tangentsOf(const std::vector<Vec3>& points);
 
-/// Minimises the sum of step * weight * |x - y|^2 over the points plus the integral of stiffness |x''|^2, with free ends
-/// (Whittaker's and Reinsch's smoothing spline on equal steps). `stiffness` (mm^3) by point.
+/// Minimises the sum of step * weight * |x - y|^2 over the points plus the integral of stiffness |x''|^2, with free
+/// ends (Whittaker's and Reinsch's smoothing spline on equal steps). `stiffness` (mm^3) by point.
 std::vector<Vec3> smoothed(const std::vector<Vec3>& y, const std::vector<double>& weights,
                            const std::vector<double>& stiffness, double step);
 
@@ -33,8 +33,8 @@ std::vector<Vec3> refinedPath(const Grid& grid, const std::function<double(const
 /// The path between the planes across it that hold the first and the last of `ends`: cut there, or carried on straight.
 std::vector<Vec3> fittedToEnds(std::vector<Vec3> path, const Vec3& first, const Vec3& last);
 
-/// Radius of the tube at each point: that of the straight tube, blurred by one voxel, whose flux into spheres of all radii
-/// is nearest to the flux found along the path nearby. Points are at equal distances.
+/// Radius of the tube at each point: that of the straight tube, blurred by one voxel, whose flux into spheres of all
+/// radii is nearest to the flux found along the path nearby. Points are at equal distances.
 std::vector<double> radiiAlong(const FluxField& field, int sign, const std::vector<Vec3>& path);
 
 } // namespace surgicalmesher

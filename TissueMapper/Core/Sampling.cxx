@@ -7,7 +7,8 @@ namespace surgicalmesher
 namespace
 {
 
-/// `count` neighbours along one axis with their weights, the first of them at voxel `first`, which may lie off the grid.
+/// `count` neighbours along one axis with their weights, the first of them at voxel `first`, which may lie off the
+/// grid.
 template <int count>
 struct Stencil
 {

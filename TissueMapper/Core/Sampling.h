@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Values of a voxel field between its voxel centres. Positions are in the grid frame (mm); beyond the grid the field goes
-/// on as at its border.
+/// Values of a voxel field between its voxel centres. Positions are in the grid frame (mm); beyond the grid the field
+/// goes on as at its border.
 
 #include "Grid.h"
 

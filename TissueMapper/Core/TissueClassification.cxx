@@ -24,8 +24,8 @@ float medianOf(std::vector<float> values)
   return values.size() % 2 ? values[half] : 0.5f * (values[half - 1] + values[half]);
 }
 
-/// The value between two samples that parts them with the least share of errors, each sample weighing the same; the middle
-/// of the best stretch.
+/// The value between two samples that parts them with the least share of errors, each sample weighing the same; the
+/// middle of the best stretch.
 float bestThreshold(const std::vector<float>& lower, const std::vector<float>& upper)
 {
   std::vector<float> cuts = lower;

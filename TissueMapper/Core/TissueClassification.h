@@ -38,8 +38,8 @@ struct ClassificationOptions
   bool useContiguity = true; ///< contiguity and spatial limit
 };
 
-/// What a head is usually made of: skull and bone are bone; CSF, grey and white matter lie within the skull; fat, muscle,
-/// skin and connective tissue outside. Anywhere for other names.
+/// What a head is usually made of: skull and bone are bone; CSF, grey and white matter lie within the skull; fat,
+/// muscle, skin and connective tissue outside. Anywhere for other names.
 Admission usualAdmission(const std::string& name);
 
 struct Classification
@@ -50,9 +50,9 @@ struct Classification
   std::vector<std::size_t> invalidated; ///< by class: voxels that contiguity took away
 };
 
-/// Throws InputError for fewer than two classes, a class without points, a point outside the image, no class or several of
-/// bone, bone that isn't darker than the rest, and compartments without training points on both sides. The same bytes
-/// whatever the number of threads.
+/// Throws InputError for fewer than two classes, a class without points, a point outside the image, no class or several
+/// of bone, bone that isn't darker than the rest, and compartments without training points on both sides. The same
+/// bytes whatever the number of threads.
 Classification classifyTissues(const ScalarImage& image, const std::vector<TissueClass>& classes,
                                const ClassificationOptions& options, const Progress& progress = {});
 

@@ -84,8 +84,8 @@ bool isSimple(const Neighbourhood& around)
          piecesAtMiddle(inRest, [](int a, int b) { return a != b && areCorners(a, b); }) == 1;
 }
 
-/// Whether two voxels of the tube, or of the rest, meet along an edge or at a corner alone in a block of 2 x 2 x 2 voxels,
-/// given by i + 2 j + 4 k.
+/// Whether two voxels of the tube, or of the rest, meet along an edge or at a corner alone in a block of 2 x 2 x 2
+/// voxels, given by i + 2 j + 4 k.
 bool isPinched(const std::array<bool, 8>& block)
 {
   for (int n = 0; n < 8; ++n)

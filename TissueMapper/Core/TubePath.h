@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Vessels and nerves as paths between a few points: minimal paths through the flux of the image's gradient, drawn to the
-/// axis of the tube, with its radius (Audette et al., MICCAI 2003 workshop paper, section 4).
+/// Vessels and nerves as paths between a few points: minimal paths through the flux of the image's gradient, drawn to
+/// the axis of the tube, with its radius (Audette et al., MICCAI 2003 workshop paper, section 4).
 
 #include "Progress.h"
 #include "ScalarImage.h"
@@ -46,8 +46,8 @@ struct TubePath
 };
 
 /// `places`: two or more, in the order in which the tube runs through them. No front enters `blocked` tubes. Throws
-/// InputError for places outside the image or where there is no tube at all, EngineError where no front comes from one to
-/// the next. The same bytes whatever the number of threads.
+/// InputError for places outside the image or where there is no tube at all, EngineError where no front comes from one
+/// to the next. The same bytes whatever the number of threads.
 TubePath traceTube(const ScalarImage& image, const std::vector<Vec3>& places, const std::vector<TubePath>& blocked,
                    const TubePathOptions& options, const Progress& progress = {});
 

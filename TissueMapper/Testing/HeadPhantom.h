@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A head of nested balls: skin, muscle with fat in it, skull with a hole below, CSF, grey and white matter. Muscle is as
-/// bright as grey matter, skin as CSF, so that only their places part them.
+/// A head of nested balls: skin, muscle with fat in it, skull with a hole below, CSF, grey and white matter. Muscle is
+/// as bright as grey matter, skin as CSF, so that only their places part them.
 
 #include "TissueClassification.h"
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints how tissues classified from a few points agree with a known map.
 //   TissueClassificationBenchmark T1 TRUTH [DRAWS] [POINTS]
-// TRUTH has BrainWeb's labels of Colin27 (1 CSF ... 9 connective tissue) on the grid of T1. Every draw takes POINTS random
-// voxels of each class as training points. Glial matter (8) is left out of the classes: no brightness of its own.
+// TRUTH has BrainWeb's labels of Colin27 (1 CSF ... 9 connective tissue) on the grid of T1. Every draw takes POINTS
+// random voxels of each class as training points. Glial matter (8) is left out of the classes: no brightness of its
+// own.
 
 #include "TissueClassification.h"
 #include "TissueMapIO.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Images of tubes whose axes are known, built from nothing: the mean over every voxel of tubes on a background, with noise.
+/// Images of tubes whose axes are known, built from nothing: the mean over every voxel of tubes on a background, with
+/// noise.
 
 #include "PathRefinement.h"
 #include "Sampling.h"
@@ -225,8 +226,8 @@ inline TubeScene crossingScene(const Placement& place, double radius)
   return sceneOf({ line(0), line(pi / 3) });
 }
 
-/// Two arcs of bend radius 20 that curve away from each other, one voxel between their walls where they are nearest; with
-/// a gap in the sought one at that place if asked for.
+/// Two arcs of bend radius 20 that curve away from each other, one voxel between their walls where they are nearest;
+/// with a gap in the sought one at that place if asked for.
 inline TubeScene kissingScene(const Placement& place, double radius, double gapLength = 0)
 {
   const auto arc = [&](double side)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Draws Docs/images/optic-nerve.png: the path that TubePathCLI finds through the optic nerve of Debian's ch2, on its T1.
+"""Draws Docs/images/optic-nerve.png: the path that TubePathCLI finds through the optic nerve of
+Debian's ch2, on its T1.
 
     pictures.py BUILD/bin/TubePathCLI OUTPUT.png
 """
