@@ -3,9 +3,11 @@
 /// Files in and out: label maps, scale volumes, tissue tables, markups. All throw InputError with the file's name, what
 /// was found and what was expected. Writers write the file as named: atomic replacement is the caller's (CommandLine).
 
+#include "ScalarImage.h"
 #include "ScaleField.h"
 #include "TissueMap.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,10 @@ void writeTissueMap(const TissueMap& map, const std::string& file);
 /// Reads any of the same formats; every value has to be finite and positive.
 ScaleField readScale(const std::string& file);
 void writeScale(const ScaleField& scale, const std::string& file);
+
+/// Reads any of the same formats, one value per voxel; every value has to be finite.
+ScalarImage readImage(const std::string& file);
+void writeImage(const ScalarImage& image, const std::string& file);
 
 /// Throws InputError if the volume of `scale` (voxel centres plus half a voxel) leaves out part of `grid`.
 void requireCover(const ScaleField& scale, const Grid& grid, const std::string& scaleFile);
@@ -57,5 +63,17 @@ bool findTissue(const std::string& text, const TissueTable& names, Label& label)
 /// has points; points that are not placed (positionStatus) are left out. Refused: no point at all, coordinates that are
 /// no finite numbers, another unit than mm.
 std::vector<std::vector<Vec3>> readMarkups(const std::string& file);
+
+/// One markup with what its control points carry besides their places.
+struct Markup
+{
+  std::vector<Vec3> points;                               ///< LPS, mm
+  std::vector<std::string> labels;                        ///< by point; empty where it has none
+  std::map<std::string, std::vector<double>> pointValues; ///< measurements of one value a point, by name
+};
+
+/// The same markups as readMarkups(), with labels and measurements. A measurement whose values are not as many as the
+/// points, or no finite numbers, is left out.
+std::vector<Markup> readLabelledMarkups(const std::string& file);
 
 } // namespace surgicalmesher
