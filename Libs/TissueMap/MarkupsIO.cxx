@@ -15,7 +15,7 @@ namespace surgicalmesher
 namespace
 {
 
-using Points = std::vector<Vec3>;
+using Points = std::vector<ControlPoint>;
 using Json = rapidjson::Value;
 
 /// Whether positions in this coordinate system are RAS, else LPS. Older files write a number for it.
@@ -69,7 +69,7 @@ Points readMarkup(const Json& markup, const std::string& file)
   for (const Json& controlPoint : controlPoints->GetArray())
   {
     if (controlPoint.IsObject() && textMember(controlPoint, "positionStatus", "defined") != "defined") continue;
-    points.push_back(toLps(readPosition(controlPoint, file), ras));
+    points.push_back({ textMember(controlPoint, "label", ""), toLps(readPosition(controlPoint, file), ras) });
   }
   const bool isClosed = textMember(markup, "type", "") == "ClosedCurve";
   if (isClosed && points.size() > 1) points.push_back(points.front());
@@ -100,8 +100,14 @@ std::string commentValue(const std::string& line, const std::string& key)
   return text::trimmed(line.substr(equal + 1));
 }
 
-/// Where the column is called x; y and z follow it.
-std::size_t firstCoordinate(const std::string& columns, const std::string& file)
+/// Where an .fcsv file keeps what. Version 3 files have label,x,y,z,sel,vis; version 4 files name their columns.
+struct Columns
+{
+  std::size_t x = 1; ///< y and z follow it
+  std::size_t label = 0;
+};
+
+Columns readColumns(const std::string& columns, const std::string& file)
 {
   const std::vector<std::string> names = text::splitFields(columns);
   const auto x = std::find(names.begin(), names.end(), "x");
@@ -109,14 +115,15 @@ std::size_t firstCoordinate(const std::string& columns, const std::string& file)
   {
     throw InputError(file + ": columns \"" + columns + "\", expected x,y,z among them");
   }
-  return std::size_t(x - names.begin());
+  const auto label = std::find(names.begin(), names.end(), "label");
+  return { std::size_t(x - names.begin()), std::size_t(label - names.begin()) };
 }
 
 /// Version 3 files (label,x,y,z,sel,vis) and version 4 files (id,x,y,z,ow,...) both have x second and both default to RAS.
 std::vector<Points> readFcsv(const std::string& file)
 {
   bool ras = true;
-  std::size_t x = 1;
+  Columns layout;
   Points points;
   const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
   for (std::size_t n = 0; n < lines.size(); ++n)
@@ -128,18 +135,18 @@ std::vector<Points> readFcsv(const std::string& file)
       const std::string system = commentValue(line, "CoordinateSystem");
       const std::string columns = commentValue(line, "columns");
       if (!system.empty()) ras = isRas(system, file);
-      if (!columns.empty()) x = firstCoordinate(columns, file);
+      if (!columns.empty()) layout = readColumns(columns, file);
       continue;
     }
     const std::vector<std::string> fields = text::splitFields(line);
     Vec3 p;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      if (x + axis < fields.size() && text::parseNumber(fields[x + axis], p[int(axis)])) continue;
+      if (layout.x + axis < fields.size() && text::parseNumber(fields[layout.x + axis], p[int(axis)])) continue;
       throw InputError(file + ":" + std::to_string(n + 1) + ": \"" + line.substr(0, 60) +
                        "\", expected three finite coordinates");
     }
-    points.push_back(toLps(p, ras));
+    points.push_back({ layout.label < fields.size() ? fields[layout.label] : "", toLps(p, ras) });
   }
   return { points };
 }
@@ -151,7 +158,7 @@ bool endsWith(const std::string& text, const std::string& end)
 
 } // namespace
 
-std::vector<std::vector<Vec3>> readMarkups(const std::string& file)
+std::vector<std::vector<ControlPoint>> readControlPoints(const std::string& file)
 {
   const std::string name = text::lowerCase(file);
   text::requireReadableFile(file);
@@ -163,6 +170,17 @@ std::vector<std::vector<Vec3>> readMarkups(const std::string& file)
               lists.end());
   if (lists.empty()) throw InputError(file + ": no control point, expected at least one with a defined position");
   return lists;
+}
+
+std::vector<std::vector<Vec3>> readMarkups(const std::string& file)
+{
+  std::vector<std::vector<Vec3>> positions;
+  for (const Points& points : readControlPoints(file))
+  {
+    positions.emplace_back();
+    for (const ControlPoint& point : points) positions.back().push_back(point.position);
+  }
+  return positions;
 }
 
 } // namespace surgicalmesher

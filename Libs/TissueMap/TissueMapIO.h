@@ -49,4 +49,13 @@ bool findTissue(const std::string& text, const TissueTable& names, Label& label)
 /// numbers, another unit than mm.
 std::vector<std::vector<Vec3>> readMarkups(const std::string& file);
 
+struct ControlPoint
+{
+  std::string label; ///< as the user wrote it; empty if the file has none
+  Vec3 position;     ///< LPS mm
+};
+
+/// The same points with their labels.
+std::vector<std::vector<ControlPoint>> readControlPoints(const std::string& file);
+
 } // namespace surgicalmesher

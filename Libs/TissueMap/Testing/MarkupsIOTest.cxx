@@ -116,3 +116,20 @@ TEST(Markups, RefusesDocumentsThatAreNone)
   expectRefused("a.fcsv", "# CoordinateSystem = 2\nF,1,2,3\n", "expected LPS or RAS");
   expectRefused("a.fcsv", "# columns = label,y,x,z\nF,1,2,3\n", "expected x,y,z");
 }
+
+TEST(Markups, KeepsTheLabelsOfControlPoints)
+{
+  const TemporaryFolder folder;
+  const std::string json = document(markup("Fiducial", "\"LPS\"", controlPoint("[1, 2, 3]")));
+  const std::string older = "# columns = label,x,y,z,sel,vis\nF-1,-1,-2,3,1,1\n";
+  const std::string newer = "# CoordinateSystem = LPS\n# columns = id,x,y,z,ow,label\nvtk_0,1,2,3,0,F-1\n";
+  const std::pair<const char*, std::string> files[] = { { "a.mrk.json", json }, { "b.fcsv", older }, { "c.fcsv", newer } };
+  for (const auto& [name, content] : files)
+  {
+    const auto lists = readControlPoints(folder.write(name, content));
+    ASSERT_EQ(lists.size(), 1u) << name;
+    ASSERT_EQ(lists[0].size(), 1u) << name;
+    EXPECT_EQ(lists[0][0].label, "F-1") << name;
+    EXPECT_EQ(lists[0][0].position, (Vec3{ 1, 2, 3 })) << name;
+  }
+}
