@@ -103,9 +103,6 @@ public:
     return -r;
   }
 
-  bool empty() const { return m_Pairs.empty(); }
-  void clear() { m_Pairs.clear(); }
-
 private:
   struct Pair
   {
