@@ -1,8 +1,8 @@
 // The panel as a user meets it: it says what is missing, lists the tissues, and its runs leave the nodes that they
 // should, with the very mesh that the command line writes.
 
-#include "MeshIO.h"
 #include "MeshComparison.h"
+#include "MeshIO.h"
 #include "Panel.h"
 
 #include <ctkSliderWidget.h>
