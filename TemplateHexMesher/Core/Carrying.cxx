@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Carrying.h"
 
-#include "ParallelFor.h"
+#include "Parallel.h"
 #include "ThinPlateSpline.h"
 
 #include <vtkIdList.h>

@@ -3,7 +3,7 @@
 
 #include "Errors.h"
 #include "FitEnergy.h"
-#include "ParallelFor.h"
+#include "Parallel.h"
 #include "ThinPlateSpline.h"
 
 #include <algorithm>

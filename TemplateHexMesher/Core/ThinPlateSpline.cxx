@@ -2,7 +2,7 @@
 #include "ThinPlateSpline.h"
 
 #include "Errors.h"
-#include "ParallelFor.h"
+#include "Parallel.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

@@ -8,7 +8,9 @@ import xml.etree.ElementTree as xml
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MODULES = ("SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer")
-PAGES = (["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{module}.md" for module in MODULES]
+# The folder of each program, whose page has the same name.
+FOLDERS = {**{module: module for module in MODULES}, "TemplateFit": "TemplateHexMesher"}
+PAGES = (["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{folder}.md" for folder in FOLDERS.values()]
          + ["Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/Multirate.md", "Docs/Fitness.md", "Docs/Solvers.md",
             "Docs/Slicer.md", "Docs/Tutorial.md"])
 
@@ -33,7 +35,7 @@ def example_commands():
 def options_of(module):
     """Long flag -> default, and the names of the positional arguments, as the module's description has them."""
     flags, positional = {}, {}
-    for parameter in xml.fromstring(text_of(module, "CLI", module + "CLI.xml")).iterfind("parameters/*"):
+    for parameter in xml.fromstring(text_of(FOLDERS[module], "CLI", module + "CLI.xml")).iterfind("parameters/*"):
         if parameter.find("longflag") is not None:
             flags[parameter.findtext("longflag")] = parameter.findtext("default") or ""
         elif parameter.find("index") is not None:
@@ -73,21 +75,21 @@ class ReadmeTest(unittest.TestCase):
 
 class PagesTest(unittest.TestCase):
     def test_every_option_and_its_default_is_in_the_module_page(self):
-        for module in MODULES:
-            rows = re.findall(r"^\| `--(\w+)[^|]*\| *([^|]*?) *\|", text_of("Docs", module + ".md"), re.M)
+        for module in FOLDERS:
+            rows = re.findall(r"^\| `--(\w+)[^|]*\| *([^|]*?) *\|", text_of("Docs", FOLDERS[module] + ".md"), re.M)
             flags, _ = options_of(module)
             self.assertEqual(len(rows), len(dict(rows)), f"{module}: an option is there twice")
             self.assertEqual(dict(rows), flags, module)
 
     def test_options_in_running_text_exist(self):
-        known = {flag for module in MODULES for flag in options_of(module)[0]} | {"help", "version", "xml"}
+        known = {flag for module in FOLDERS for flag in options_of(module)[0]} | {"help", "version", "xml"}
         for page in PAGES:
             for flag in re.findall(r"`--(\w+)", text_of(page)):
                 self.assertIn(flag, known, page)
 
     def test_positional_arguments_are_those_of_the_module(self):
-        for module in MODULES:
-            usage = re.search(rf"^    {module}CLI \[options\] (.*)$", text_of("Docs", module + ".md"), re.M).group(1)
+        for module in FOLDERS:
+            usage = re.search(rf"^    {module}CLI \[options\] (.*)$", text_of("Docs", FOLDERS[module] + ".md"), re.M).group(1)
             self.assertEqual([word.split(".")[0] for word in usage.split()], options_of(module)[1], module)
 
     def test_links_lead_somewhere(self):
