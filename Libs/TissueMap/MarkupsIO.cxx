@@ -16,7 +16,7 @@ namespace surgicalmesher
 namespace
 {
 
-using Points = std::vector<Vec3>;
+using Points = std::vector<ControlPoint>;
 using Json = rapidjson::Value;
 
 /// Whether positions in this coordinate system are RAS, else LPS. Older files write a number for it.
@@ -131,8 +131,14 @@ std::string commentValue(const std::string& line, const std::string& key)
   return text::trimmed(line.substr(equal + 1));
 }
 
-/// Where the column is called x; y and z follow it.
-std::size_t firstCoordinate(const std::string& columns, const std::string& file)
+/// Where an .fcsv file keeps what. Version 3 files have label,x,y,z,sel,vis; version 4 files name their columns.
+struct Columns
+{
+  std::size_t x = 1; ///< y and z follow it
+  std::size_t label = 0;
+};
+
+Columns readColumns(const std::string& columns, const std::string& file)
 {
   const std::vector<std::string> names = text::splitFields(columns);
   const auto x = std::find(names.begin(), names.end(), "x");
@@ -140,7 +146,8 @@ std::size_t firstCoordinate(const std::string& columns, const std::string& file)
   {
     throw InputError(file + ": columns \"" + columns + "\", expected x,y,z among them");
   }
-  return std::size_t(x - names.begin());
+  const auto label = std::find(names.begin(), names.end(), "label");
+  return { std::size_t(x - names.begin()), std::size_t(label - names.begin()) };
 }
 
 /// Version 3 files (label,x,y,z,sel,vis) and version 4 files (id,x,y,z,ow,...) both have x second and both default to
@@ -148,8 +155,7 @@ std::size_t firstCoordinate(const std::string& columns, const std::string& file)
 std::vector<Markup> readFcsv(const std::string& file)
 {
   bool ras = true;
-  std::size_t x = 1;
-  std::size_t label = 0;
+  Columns layout;
   Markup markup;
   const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
   for (std::size_t n = 0; n < lines.size(); ++n)
@@ -161,22 +167,19 @@ std::vector<Markup> readFcsv(const std::string& file)
       const std::string system = commentValue(line, "CoordinateSystem");
       const std::string columns = commentValue(line, "columns");
       if (!system.empty()) ras = isRas(system, file);
-      if (columns.empty()) continue;
-      x = firstCoordinate(columns, file);
-      const std::vector<std::string> names = text::splitFields(columns);
-      label = std::size_t(std::find(names.begin(), names.end(), "label") - names.begin());
+      if (!columns.empty()) layout = readColumns(columns, file);
       continue;
     }
     const std::vector<std::string> fields = text::splitFields(line);
     Vec3 p;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      if (x + axis < fields.size() && text::parseNumber(fields[x + axis], p[int(axis)])) continue;
+      if (layout.x + axis < fields.size() && text::parseNumber(fields[layout.x + axis], p[int(axis)])) continue;
       throw InputError(file + ":" + std::to_string(n + 1) + ": \"" + line.substr(0, 60) +
                        "\", expected three finite coordinates");
     }
     markup.points.push_back(toLps(p, ras));
-    markup.labels.push_back(label < fields.size() ? fields[label] : std::string());
+    markup.labels.push_back(layout.label < fields.size() ? fields[layout.label] : std::string());
   }
   return { markup };
 }
