@@ -16,7 +16,7 @@ namespace surgicalmesher
 namespace
 {
 
-using Points = std::vector<ControlPoint>;
+using Points = std::vector<Vec3>;
 using Json = rapidjson::Value;
 
 /// Whether positions in this coordinate system are RAS, else LPS. Older files write a number for it.
