@@ -5,7 +5,8 @@
 /// The complex fills a box: tetrahedra of label 0 are the space around the tissues. The *interface* is the set of faces
 /// between different labels. Three promises hold before and after every operation:
 ///   - every tetrahedron is wound positively, so the complex is embedded and the interface cannot cross itself;
-///   - at every vertex, each label occupies one disc of the vertex's link, so each tissue's boundary is a 2-manifold and no
+///   - at every vertex, each label occupies one disc of the vertex's link, so each tissue's boundary is a 2-manifold
+///     and no
 ///     operation changes any tissue's topology; only background that tissues enclose may vanish;
 ///   - every boundary sample (a place where the map says that the boundary between two labels is) lies within its
 ///     tolerance of a face between these two labels, or of the boundary of either and twice as far from such a face if

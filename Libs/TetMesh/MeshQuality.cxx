@@ -283,22 +283,6 @@ std::string nameOf(Label label, const TissueTable& tissues)
   return found == tissues.end() ? std::string() : found->second.name;
 }
 
-std::string quoted(const std::string& text)
-{
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
-void writeRow(std::ostream& stream, const std::string& kind, int id, const std::string& name, const QualityGroup& group)
-{
-  stream << kind << ',' << id << ',' << quoted(name) << ',' << group.tetrahedra << ',' << group.points << ','
-         << group.volume << ',' << group.dihedral.minimum << ',' << group.dihedral.maximum << ','
-         << group.minimumDihedral.mean << ',' << group.radiusRatio.minimum << ',' << group.radiusRatio.mean << ','
-         << group.scaledJacobian.minimum << ',' << group.scaledJacobian.mean << ',' << group.tetrahedronVolume.minimum
-         << ',' << group.edgeOverTarget.mean << ',' << group.edgesNearTarget << ',' << group.valence.median << '\n';
-}
-
 } // namespace
 
 std::array<double, 6> dihedralAngles(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)

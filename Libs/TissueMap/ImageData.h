@@ -4,6 +4,7 @@
 /// was in memory for what is missing, and none of them looks at the check sums of compressed data.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace surgicalmesher
@@ -13,5 +14,16 @@ namespace surgicalmesher
 /// are all there, `byteCount` bytes once decompressed (for NIfTI, those before the first voxel included), and their
 /// check sums hold.
 void requireImageData(const std::string& imageFile, std::uint64_t byteCount);
+
+/// What a NIfTI-1 header says of where its voxels lie, as it stands in the file.
+struct NiftiPlacement
+{
+  bool isInMetres = false;
+  int sformCode = 0;
+  double skew = 0; ///< degrees by which two columns of the sform miss the right angle, at most
+};
+
+/// Empty unless `file`, compressed or not, is NIfTI-1.
+std::optional<NiftiPlacement> readNiftiPlacement(const std::string& file);
 
 } // namespace surgicalmesher

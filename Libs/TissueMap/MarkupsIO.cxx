@@ -80,7 +80,8 @@ Points readMarkup(const Json& markup, const std::string& file)
 std::vector<Points> readJson(const std::string& file)
 {
   rapidjson::Document document;
-  document.Parse<rapidjson::kParseFullPrecisionFlag>(text::readTextFile(file).c_str());
+  // Iterative: nested brackets without end would use up the stack.
+  document.Parse<rapidjson::kParseFullPrecisionFlag | rapidjson::kParseIterativeFlag>(text::readTextFile(file).c_str());
   if (document.HasParseError())
   {
     throw InputError(file + ": not valid JSON at byte " + std::to_string(document.GetErrorOffset()) + " (" +
