@@ -18,7 +18,7 @@ struct TissueMesherOptions
   /// that keeps a tissue's volume.
   double maximumDistance = 0;
   /// Scale, in voxels, of the smooth boundary that the surface is driven to (SmoothBoundary.h); 0: the voxels' steps.
-  double smoothing = 0.6;
+  double smoothing = 0;
   FeatureOptions features; ///< what the map was simplified by; thin tissues are then held less closely
 };
 
