@@ -44,7 +44,8 @@ struct Point
   }
 };
 
-/// The integral of a one-dimensional Gaussian of standard deviation `sigma` over a voxel at distance x, and its derivative.
+/// The integral of a one-dimensional Gaussian of standard deviation `sigma` over a voxel at distance x, and its
+/// derivative.
 class VoxelWeight
 {
 public:
