@@ -30,7 +30,8 @@ struct BoundarySample
   Vec3 position;
   float tolerance = 0; ///< mm to the nearest face of its label pair
   std::int32_t next = -1;
-  double distance2 = -1; ///< mm^2, to its face; -1 until somebody has asked
+  std::array<float, 3> normal{ 0, 0, 0 }; ///< as in BackgroundMesh
+  double distance2 = -1;                  ///< mm^2, to its face; -1 until somebody has asked
 };
 
 class TetComplex
@@ -92,7 +93,8 @@ public:
 
   // --- samples
   /// Adds a point to face i of tetrahedron t, whose sides must differ in label, or which is on the block's border.
-  void addSample(std::int32_t t, int i, const Vec3& position, float tolerance);
+  void addSample(std::int32_t t, int i, const Vec3& position, float tolerance,
+                 const std::array<float, 3>& normal = { 0, 0, 0 });
   /// (tetrahedron, face) that holds the samples of the interface face (t, i).
   std::pair<std::int32_t, int> holder(std::int32_t t, int i) const;
 
