@@ -148,7 +148,7 @@ TEST_F(FuchsTetrahedralizerCLI, RefusesExportsAtFault)
   const std::string start = "--edgeLength 4 ", end = " ball.vtp m.vtu";
   expectRefused(start + "--export a.inp --export a.foo" + end, 2, ".feb, .inp, ");
   expectRefused(start + "--export nowhere/a.inp" + end, 1, "nowhere");
-  expectRefused(start + "--export m.vtu" + end, 2, "another output");
+  expectRefused(start + "--export m.vtu" + end, 2, "is an output of mesh");
   std::filesystem::create_directory(folder.file("a.inp.names.json"));
   expectRefused(start + "--export b.feb --export a.inp" + end, 1, "a.inp.names.json: folder found");
 
