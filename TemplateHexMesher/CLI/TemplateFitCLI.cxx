@@ -89,9 +89,10 @@ TriangleSurface readTarget(const CommandLine& line, double unit)
 struct Carried
 {
   std::string source, destination;
+  ElementMeshFile content;
 };
 
-std::vector<Carried> carriedFiles(const CommandLine& line)
+std::vector<Carried> readCarried(const CommandLine& line)
 {
   const std::filesystem::path fitted = line.outputNames("fitted").at(0);
   std::vector<Carried> files;
@@ -102,18 +103,18 @@ std::vector<Carried> carriedFiles(const CommandLine& line)
     const std::string destination = (fitted.parent_path() / name).string();
     if (!taken.insert(destination).second)
       throw UsageError("--carry: " + destination + " would be written twice, expected files of different names");
-    files.push_back({ file, destination });
+    files.push_back({ file, destination, readElementMesh(file) });
   }
   return files;
 }
 
-void writeCarried(CommandLine& line, const Units& units, const Points& from, const Points& to)
+void writeCarried(CommandLine& line, const std::vector<Carried>& files, const Units& units, const Points& from,
+                  const Points& to)
 {
-  for (const Carried& file : carriedFiles(line))
+  for (const Carried& file : files)
   {
-    const ElementMeshFile content = readElementMesh(file.source);
-    const Points moved = carried(units.ofTemplate * content.mesh.points, from, to);
-    writeElementMesh(content, moved / units.ofTarget, file.source, line.outputPath(file.destination));
+    const Points moved = carried(units.ofTemplate * file.content.mesh.points, from, to);
+    writeElementMesh(file.content, moved / units.ofTarget, file.source, line.outputPath(file.destination));
   }
 }
 
@@ -267,7 +268,7 @@ void run(CommandLine& line)
   const ElementMeshFile content = readElementMesh(templateFile);
   requireRightSideOut(content.mesh, templateFile);
   requireWritable(content, templateFile, fittedName);
-  carriedFiles(line);
+  const std::vector<Carried> carriedFiles = readCarried(line);
   const ElementMesh mesh{ units.ofTemplate * content.mesh.points, content.mesh.elements };
   const TargetSurface target(readTarget(line, units.ofTarget));
 
@@ -281,7 +282,7 @@ void run(CommandLine& line)
                         distancesOf(mesh, fit.points, target) };
   report(progress, 0.9, "writing");
   writeElementMesh(content, fit.points / units.ofTarget, templateFile, line.outputFile("fitted"));
-  writeCarried(line, units, mesh.points, fit.points);
+  writeCarried(line, carriedFiles, units, mesh.points, fit.points);
   tell(line, results);
   const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty()) writeReport(reportFile, line, results);
