@@ -1,4 +1,6 @@
-// FuchsTetrahedralizerCLI: multi-tissue surface (and its ambient tetrahedra) in; labelled tetrahedra, their quality out.
+// SPDX-License-Identifier: Apache-2.0
+// FuchsTetrahedralizerCLI: multi-tissue surface (and its ambient tetrahedra) in; labelled tetrahedra, their quality
+// out.
 
 #include "AmbientMatch.h"
 #include "AvailableMemory.h"
@@ -45,8 +47,8 @@ namespace
 
 using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
-/// L(x), mm. A scale volume also gives the frame to improve the mesh in: its own, in which copies of all inputs that lie
-/// elsewhere in the world have the same numbers.
+/// L(x), mm. A scale volume also gives the frame to improve the mesh in: its own, in which copies of all inputs that
+/// lie elsewhere in the world have the same numbers.
 struct Lengths
 {
   SizingFunction inWorld;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "CommandLine.h"
 
 #include "Arguments.h"
@@ -309,14 +310,6 @@ std::vector<std::string> CommandLine::outputNames(const std::string& name) const
 {
   const auto isOutput = [](const Parameter& p) { return p.isFile() && p.output; };
   return d->values(d->parameter(name, isOutput, "output file"));
-}
-
-std::vector<std::string> CommandLine::outputFiles(const std::string& name)
-{
-  const auto isOutput = [](const Parameter& p) { return p.isFile() && p.output && p.multiple; };
-  std::vector<std::string> files = d->values(d->parameter(name, isOutput, "list of output files"));
-  for (std::string& file : files) file = d->outputs.temporary(file);
-  return files;
 }
 
 std::string CommandLine::outputPath(const std::string& finalPath)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The runtime of the command-line modules. One XML per module (Slicer's ModuleDescription) is the single source of
 /// flags, types, defaults, ranges and help; a module is that text and a function:
@@ -48,7 +49,6 @@ public:
   /// place after the module function has returned. Empty if the output was not asked for. That the place can be written
   /// to has been checked before the function was called; an output that was asked for has to be written.
   std::string outputFile(const std::string& name);
-  std::vector<std::string> outputFiles(const std::string& name); ///< multiple="true"
   /// The final names of the same files, one or many: to write by outputPath(), with sidecars named after them.
   std::vector<std::string> outputNames(const std::string& name) const;
   /// The same for a file the XML doesn't list (a sidecar next to an output). Throws InputError if it can't be created,

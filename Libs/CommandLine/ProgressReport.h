@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Progress and messages on stdout: tags, a bar, lines or objects (ProgressFormat).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Finite-element models into the files of solvers: one format per file extension.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Child and parent: the fine part of the mesh around the target, which a multirate solver advances at a higher rate,
 /// and the rest (Audette et al., Computer Aided Surgery 12(1), 2007: contiguous tetrahedra whose edge lengths approach

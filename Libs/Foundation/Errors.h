@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The three ways a run can fail, one per exit status of the executables (0 is success).
 /// Messages are one line and say which file, what was found and what was expected; what() is printable, whatever bytes

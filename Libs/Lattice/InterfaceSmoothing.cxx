@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "InterfaceSmoothing.h"
 
 #include "TetQuality.h"
@@ -152,9 +153,9 @@ void smoothInterface(KuhnLattice& lattice, const Vec3& voxelSpacing, const Smoot
 
   moveSamples(lattice.background, graph, target, options.samples);
 
-  // Shorten moves until no tetrahedron is worse than allowed. All tetrahedra are judged on the same state and a vertex takes
-  // the shortest of what its tetrahedra ask, so the result does not depend on any order. Only those are judged again of which
-  // a vertex has moved.
+  // Shorten moves until no tetrahedron is worse than allowed. All tetrahedra are judged on the same state and a vertex
+  // takes the shortest of what its tetrahedra ask, so the result does not depend on any order. Only those are judged
+  // again of which a vertex has moved.
   const std::vector<Vec3> home = mesh.points;
   constexpr std::array<float, 9> shares{ 1, 0.75f, 0.55f, 0.4f, 0.28f, 0.2f, 0.12f, 0.06f, 0 };
   const std::size_t n = graph.vertices.size();

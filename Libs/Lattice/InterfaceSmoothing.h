@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The sub-voxel position of the tissue boundaries: the voxels' staircase, smoothed without shrinking.
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Interface faces with the boundary samples that they hold: what an operation looks at before it changes the interface.
+/// Interface faces with the boundary samples that they hold: what an operation looks at before it changes the
+/// interface.
 
 #include "TetComplex.h"
 

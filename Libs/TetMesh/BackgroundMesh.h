@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The background tetrahedra: a labelled mesh of a whole box, the tissues and the space around them, with what remeshing
-/// needs to know of the map that it stands for.
+/// The background tetrahedra: a labelled mesh of a whole box, the tissues and the space around them, with what
+/// remeshing needs to know of the map that it stands for.
 
 #include "FaceAdjacency.h"
 

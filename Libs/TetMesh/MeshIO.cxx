@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "MeshIO.h"
 
+#include "Compaction.h"
 #include "Errors.h"
 #include "HeaderClaims.h"
 
@@ -346,38 +348,6 @@ constexpr double kAnyNumber = -std::numeric_limits<double>::infinity();
 constexpr int kHighestLabel = std::numeric_limits<Label>::max();
 constexpr int kHighestInteger = std::numeric_limits<std::int32_t>::max();
 
-/// Drops the points that nothing refers to, in all arrays alike; the order of the others stays.
-template <class Cells>
-std::vector<std::size_t> compact(std::vector<Vec3>& points, Cells& cells)
-{
-  std::vector<std::int32_t> newId(points.size(), -1);
-  for (const auto& cell : cells)
-  {
-    for (const std::int32_t id : cell) newId[id] = 0;
-  }
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (newId[i] < 0) continue;
-    newId[i] = static_cast<std::int32_t>(kept.size());
-    points[kept.size()] = points[i];
-    kept.push_back(i);
-  }
-  points.resize(kept.size());
-  for (auto& cell : cells)
-  {
-    for (std::int32_t& id : cell) id = newId[id];
-  }
-  return kept;
-}
-
-void keepOnly(std::vector<double>& values, const std::vector<std::size_t>& kept)
-{
-  if (values.empty()) return;
-  for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
-  values.resize(kept.size());
-}
-
 void requireIdRange(vtkIdType count, const char* what, const std::string& file)
 {
   if (count > kHighestInteger)
@@ -543,7 +513,7 @@ std::vector<std::array<std::int32_t, 4>> tetrahedraOf(vtkUnstructuredGrid* grid,
   return tetrahedra;
 }
 
-void requireSound(const TetMesh& mesh, const std::string& file)
+void requirePositive(const TetMesh& mesh, const std::string& file)
 {
   std::vector<bool> used(mesh.points.size(), false);
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i)
@@ -609,9 +579,10 @@ SurfaceFile readSurface(const std::string& file)
   result.targetEdgeLength = numbersOf(data->GetPointData(), kTargetEdgeLength, pointCount, 0, file);
   result.boundaryDistance = numbersOf(data->GetPointData(), kBoundaryDistance, pointCount, kAnyNumber, file);
   result.tissues = tissuesOf(source.data->GetFieldData());
-  const std::vector<std::size_t> kept = compact(surface.points, surface.triangles);
-  keepOnly(result.targetEdgeLength, kept);
-  keepOnly(result.boundaryDistance, kept);
+  const std::vector<std::int32_t> kept = compactPoints(surface.triangles, surface.points.size());
+  surface.points = valuesAt(surface.points, kept);
+  result.targetEdgeLength = valuesAt(result.targetEdgeLength, kept);
+  result.boundaryDistance = valuesAt(result.boundaryDistance, kept);
   return result;
 }
 
@@ -686,7 +657,7 @@ MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name
   result.interfaceId = integersOf(grid->GetPointData(), kInterfaceId, pointCount, kHighestInteger, name, -1);
   result.tissues = tissuesOf(grid->GetFieldData());
   result.targetAngle = targetAngleOf(grid->GetFieldData());
-  requireSound(result.mesh, name);
+  requirePositive(result.mesh, name);
   return result;
 }
 

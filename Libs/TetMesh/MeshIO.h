@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Surface complexes and labelled tetrahedra as VTK files.
 ///
@@ -70,17 +71,17 @@ struct MeshFile
 /// or flat, points that no tetrahedron uses.
 MeshFile readMesh(const std::string& file);
 
-/// The same from memory. `ras`: the grid's coordinates are RAS, which its field data need not know; `name` stands for the
-/// file in messages.
+/// The same from memory. `ras`: the grid's coordinates are RAS, which its field data need not know; `name` stands for
+/// the file in messages.
 MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name);
 
-/// Names, colours and roles in field data; tables that are incomplete or of other kinds are left out, as nothing depends
-/// on them.
+/// Names, colours and roles in field data; tables that are incomplete or of other kinds are left out, as nothing
+/// depends on them.
 TissueTable tissuesOf(vtkFieldData* data);
 
-/// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them. Legacy files without
-/// them are text, to eleven digits, and have no field data at all: Gmsh 4.8 refuses it before the points, and SOFA does not
-/// swap the bytes of cell data.
+/// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them. Legacy files
+/// without them are text, to eleven digits, and have no field data at all: Gmsh 4.8 refuses it before the points, and
+/// SOFA does not swap the bytes of cell data.
 enum class FieldTexts
 {
   Written,

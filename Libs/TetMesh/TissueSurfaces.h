@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The closed surface of each tissue, taken out of the complex that they share.
 

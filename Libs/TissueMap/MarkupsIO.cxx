@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueMapIO.h"
 
 #include "Errors.h"
@@ -113,7 +114,8 @@ std::size_t firstCoordinate(const std::string& columns, const std::string& file)
   return std::size_t(x - names.begin());
 }
 
-/// Version 3 files (label,x,y,z,sel,vis) and version 4 files (id,x,y,z,ow,...) both have x second and both default to RAS.
+/// Version 3 files (label,x,y,z,sel,vis) and version 4 files (id,x,y,z,ow,...) both have x second and both default to
+/// RAS.
 std::vector<Points> readFcsv(const std::string& file)
 {
   bool ras = true;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueMapIO.h"
 
 #include "CanonicalGrid.h"
@@ -174,9 +175,9 @@ double niftiUnit(const MetaData& metaData)
   return spaceUnits == 1 ? 1000 : spaceUnits == 3 ? 0.001 : 1;
 }
 
-/// The sform of a NIfTI header in LPS mm: whether there is one, and it is a placement of perpendicular axes. Where a file
-/// has an sform and a qform that differ, ITK takes the qform unless the sform is of the scanner; nearly everybody else, and
-/// this project, takes the sform, in which atlases are aligned.
+/// The sform of a NIfTI header in LPS mm: whether there is one, and it is a placement of perpendicular axes. Where a
+/// file has an sform and a qform that differ, ITK takes the qform unless the sform is of the scanner; nearly everybody
+/// else, and this project, takes the sform, in which atlases are aligned.
 bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& columns)
 {
   const std::string* code = find(metaData, "sform_code");
@@ -373,8 +374,8 @@ long segmentNumber(const Volume& volume, const std::string& key, long minimum, l
   return number;
 }
 
-/// The segments that the header lists, in its order; none if the file is no segmentation. Headers older than shared layers
-/// name neither layer nor value: segment N is then the ones of layer N.
+/// The segments that the header lists, in its order; none if the file is no segmentation. Headers older than shared
+/// layers name neither layer nor value: segment N is then the ones of layer N.
 std::vector<Segment> readSegments(const Volume& volume)
 {
   std::vector<Segment> segments;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a run of the surface stage did, as JSON, and the evolution of its mesh as CSV.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SimplexMesherCLI: label map and scale in; prepared map, shared surface of all tissues and its ambient tetrahedra out.
 
 #include "AvailableMemory.h"

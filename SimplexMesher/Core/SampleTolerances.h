@@ -22,8 +22,8 @@ struct ToleranceOptions
 ///     min(r (0.42 voxel + 0.095 L), s thickness), at least 0.6 voxel where thickness decides
 ///
 /// `thickness`: mean, of each tissue, mm; s = 0.28 + 0.08 F, at most 0.4, with F the feature scale (0 for protected
-/// tissues). r is 1, and less, down to 0.5, in large maps with little tissue for each face between tissues. All in the grid
-/// frame of the map.
+/// tissues). r is 1, and less, down to 0.5, in large maps with little tissue for each face between tissues. All in the
+/// grid frame of the map.
 void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::map<Label, double>& thickness,
                    const SizingFunction& length, const ToleranceOptions& options);
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SurgicalPathScaleCLI: label map, targets and paths in; scale volume, null-displacement map and size estimate out.
 
 #include "CommandLine.h"

@@ -57,6 +57,48 @@ class ReadmeTest(unittest.TestCase):
         self.assertEqual(scripts, ["./example.sh", "./test.sh"])
         self.assertEqual([command for command in commands if command not in scripts], example_commands())
 
+    def test_commands_can_be_pasted(self):
+        for page in PAGES:
+            lines = text_of(page).split("\n")
+            for before, line in zip(lines, lines[1:]):
+                if re.match(r" {5,}--\w", line):  # a command goes on
+                    self.assertTrue(before.endswith(" \\"), f"{page}: {line}")
+        text = text_of("README.md") + text_of("Docs/Solvers.md")
+        for command in re.findall(r"^    (?:\./|\w+CLI |run_).*$", text, re.M):
+            self.assertNotIn("...", command)
+
+    def test_first_words_say_which_map_and_which_algorithms(self):
+        introduction = text_of("README.md").split("\n## ")[0]
+        for word in ("*prepared map*", "Maubach", "guarded", "--ambient"):
+            self.assertIn(word, introduction)
+        self.assertNotIn("topology that it has in the map", " ".join(introduction.split()))
+
+    def test_limits_are_told(self):
+        for page, words in (("README.md", ("65535", "several layers", "Windows")),
+                            ("Docs/SimplexMesher.md", ("65535", "several layers", "2.1 times")),
+                            ("Docs/SurgicalPathScale.md", ("straight lines", "smooth", "65535")),
+                            ("Docs/FuchsTetrahedralizer.md", ("In the ideal",)),
+                            ("Docs/Solvers.md", ("sagging_head.py materials", "sagging_head.py clamped"))):
+            for word in words:
+                self.assertIn(word, text_of(page), page)
+        for page in PAGES:
+            self.assertTrue(text_of(page).endswith("\n"), page)
+
+    def test_the_example_installs_no_more_than_it_needs(self):
+        self.assertIn("--for build,example", text_of("example.sh"))
+        sections = re.split(r"^# \[(\w+)\].*\n", text_of("CMake", "debian-packages.txt"), flags=re.M)
+        packages = {name: set(re.findall(r"^[\w.+-]+", text, re.M))
+                    for name, text in zip(sections[1::2], sections[2::2])}
+        self.assertEqual(set(packages), {"build", "example", "cohorts", "tests"})
+        self.assertFalse((packages["build"] | packages["example"]) & (packages["cohorts"] | packages["tests"]))
+        self.assertTrue({"slurmctld", "freefem++", "libgtest-dev"} <= packages["tests"])
+
+    def test_a_section_that_there_is_not_is_refused(self):
+        done = subprocess.run([os.path.join(ROOT, "CMake", "build.sh"), "--for", "everything"], stderr=subprocess.PIPE,
+                              stdout=subprocess.PIPE, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+        self.assertIn("build example cohorts tests", done.stderr)
+
     def test_scripts_are_executable_bash(self):
         for script in ("example.sh", "test.sh", "CMake/build.sh", ".ci/run"):
             path = os.path.join(ROOT, script)

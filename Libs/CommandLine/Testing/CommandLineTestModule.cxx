@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A module that ends in every way a module can end.
 #include "CommandLine.h"
 #include "CommandLineTestModuleXML.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Progress as the host reads it, and as a bar.
 #include "ProgressReport.h"
 
