@@ -52,7 +52,7 @@ if ((${#missing[@]})); then
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" </dev/null >/dev/null
 fi
 
-options=(-DCMAKE_BUILD_TYPE=Release -DSurgicalMesher_WARNINGS_AS_ERRORS=ON)
+options=(-DCMAKE_BUILD_TYPE=Release -DSurgicalMesher_WARNINGS_AS_ERRORS=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON)
 if [[ " $wanted " == *" tests "* ]]; then
   options+=(-DBUILD_TESTING=ON)
 elif [[ ! -f build/CMakeCache.txt ]]; then

@@ -10,8 +10,8 @@
 ///
 /// runModule answers --xml, --help and --version, parses and checks the options, hands them to the function, renames
 /// the outputs into place when it returns, and turns what it throws into one line on stderr and an exit status: 0 done,
-/// 1 InputError, 2 UsageError, 3 EngineError or anything else. Outputs appear whole or not at all, and never in place of
-/// an input.
+/// 1 InputError, 2 UsageError, 3 EngineError or anything else. Outputs appear whole or not at all, and never in place
+/// of an input.
 ///
 /// While the function runs, what libraries write to stderr is discarded, unless the environment variable
 /// SURGICALMESHER_DEBUG is set.
@@ -58,15 +58,16 @@ public:
 
   /// Announces a sidecar of output `name`. Throws UsageError if it is an input, another output or another sidecar.
   void alsoWrites(const std::string& name, const std::string& finalPath);
-  /// Announces any number of sidecars of output `name`, called `before`, some letters, digits or underscores, and `after`.
+  /// Announces any number of sidecars of output `name`, called `before`, some letters, digits or underscores, and
+  /// `after`.
   void alsoWritesMany(const std::string& name, const std::string& before, const std::string& after);
 
   /// A simple output parameter (channel output, no flag): written to --returnparameterfile as `name = value`.
   void returnValue(const std::string& name, const std::string& value);
 
   /// A progress bar on a terminal; elsewhere tags as Slicer reads them if a host runs the module, which passes
-  /// --returnparameterfile or lives in an environment with SLICER_HOME, else lines with the time left; or what --progress
-  /// asks for. Valid as long as this object.
+  /// --returnparameterfile or lives in an environment with SLICER_HOME, else lines with the time left; or what
+  /// --progress asks for. Valid as long as this object.
   Progress progress();
   /// A line on stdout that keeps clear of the progress bar.
   void message(const std::string& line);

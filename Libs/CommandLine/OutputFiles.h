@@ -3,9 +3,9 @@
 /// Output files that appear whole or not at all.
 ///
 /// Each is written as `.<name>.<host>-<process>.partial<extension>` in its final folder and renamed when all are
-/// complete, so that a run that ends half-way, by whatever cause, leaves nothing under a final name. A long name is cut,
-/// with a hash of the whole in its place. What killed runs left in a folder is removed by the next run on the same host
-/// that writes to that folder.
+/// complete, so that a run that ends half-way, by whatever cause, leaves nothing under a final name. A long name is
+/// cut, with a hash of the whole in its place. What killed runs left in a folder is removed by the next run on the same
+/// host that writes to that folder.
 
 #include <map>
 #include <set>

@@ -17,9 +17,9 @@ bool processIsAlive(int id); ///< on this host; true in doubt
 bool syncToDevice(const std::string& file);
 
 /// From now on a signal that ends the process (an interrupt, a hang-up, a closed pipe, a crash with its stack used up)
-/// removes the files of removeOnSignal(), says so in a line on stderr that begins with `program`, and ends the process as
-/// usual. Signals that whoever started the process ignores stay ignored. A file that may not grow any more is no signal
-/// but a write that fails. Processes forked off later keep their hands off the files.
+/// removes the files of removeOnSignal(), says so in a line on stderr that begins with `program`, and ends the process
+/// as usual. Signals that whoever started the process ignores stay ignored. A file that may not grow any more is no
+/// signal but a write that fails. Processes forked off later keep their hands off the files.
 void installSignalHandlers(const std::string& program);
 /// `file` must be absolute. Safe against a signal at any moment.
 void removeOnSignal(const std::string& file);

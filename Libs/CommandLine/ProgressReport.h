@@ -20,8 +20,8 @@ std::string timeLeft(double fraction, double seconds);
 class ProgressReport
 {
 public:
-  /// Warnings go to `warn`, but in XML, whose reader takes all that comes elsewhere for errors. Quiet: nothing is written
-  /// but warnings.
+  /// Warnings go to `warn`, but in XML, whose reader takes all that comes elsewhere for errors. Quiet: nothing is
+  /// written but warnings.
   ProgressReport(std::ostream& stream, ProgressFormat format, const std::string& title, bool quiet = false,
                  std::function<void(const std::string&)> warn = {});
 

@@ -140,7 +140,7 @@ TetMesh constrainedDelaunay(const SurfaceComplex& surface, const std::vector<Vec
 {
   const auto answer = runInSeparateProcess([&] { return runTetGen(surface, points); });
   if (!answer || answer->empty()) throw EngineError("constrained Delaunay: TetGen ended before it was done");
-  const int code = answer->front();
+  const int code = static_cast<unsigned char>(answer->front());
   if (code != 0) throw EngineError("constrained Delaunay: TetGen gave up with " + reasonOf(code));
   TetMesh mesh;
   take(*answer, take(*answer, 1, mesh.points), mesh.tetrahedra);

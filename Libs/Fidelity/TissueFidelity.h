@@ -33,8 +33,8 @@ struct TissueFidelity
 };
 
 /// Of every tissue of `map`, whose surface is `surface` (in the grid frame of the map, mm). Distances from the surface
-/// that are over eight voxels count as eight, and from the map to a tissue without a triangle as infinite. `bound`: what
-/// `beyond` counts against, mm. The same result whatever the number of threads.
+/// that are over eight voxels count as eight, and from the map to a tissue without a triangle as infinite. `bound`:
+/// what `beyond` counts against, mm. The same result whatever the number of threads.
 std::map<Label, TissueFidelity> assessFidelity(const SurfaceComplex& surface, const TissueMap& map,
                                                double bound = std::numeric_limits<double>::infinity());
 

@@ -21,4 +21,8 @@ struct SmoothingOptions
 /// labels move along their neighbours on such curves; where curves meet, and on the border, they stay.
 void smoothInterface(KuhnLattice& lattice, const Vec3& voxelSpacing, const SmoothingOptions& options = {});
 
+/// Moves each of `vertices` as far towards its `target` as leaves no dihedral angle under `minimumAngle` (degrees).
+void moveVertices(TetMesh& mesh, const std::vector<std::int32_t>& vertices, const std::vector<Vec3>& target,
+                  double minimumAngle);
+
 } // namespace surgicalmesher

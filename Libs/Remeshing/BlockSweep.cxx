@@ -302,7 +302,7 @@ private:
     for (std::size_t i = m_SampleStart[b]; i < m_SampleStart[b + 1]; ++i)
     {
       const auto& e = m_Background.samples[m_SampleOrder[i]];
-      complex.addSample(m_LocalTet[e.tetrahedron], e.face, e.position, e.tolerance);
+      complex.addSample(m_LocalTet[e.tetrahedron], e.face, e.position, e.tolerance, e.normal);
     }
     return complex;
   }
@@ -340,8 +340,10 @@ private:
       r.neighbours.push_back(across);
       for (std::int32_t i = 0; i < 4; ++i)
         for (std::int32_t e = complex.sampleHeads[t][i]; e >= 0; e = complex.samples[e].next)
-          r.samples.push_back(
-            { complex.samples[e].position, complex.samples[e].tolerance, std::int32_t(r.tets.size()), i });
+        {
+          const BoundarySample& sample = complex.samples[e];
+          r.samples.push_back({ sample.position, sample.tolerance, std::int32_t(r.tets.size()), i, sample.normal });
+        }
       r.tets.push_back(x);
       r.labels.push_back(complex.labels[t]);
     }

@@ -23,7 +23,8 @@ struct Quadric
 
 /// Least squares for the step (mm) of v that brings the faces of its `sheet` nearest to their samples: m step = g. With
 /// `robust` (mm) > 0, a sample at distance d weighs 1 / (1 + d / robust), one round of iteratively reweighted least
-/// squares for the mean distance, and so for the volume between surface and map, instead of its square.
+/// squares for the mean distance, and so for the volume between surface and map, instead of its square. The planes of
+/// samples with a normal, so near to v that the boundary is plane between them, want v itself on them.
 Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust = 0);
 
 /// The same, were v at p.

@@ -127,10 +127,11 @@ std::pair<std::int32_t, int> TetComplex::holder(std::int32_t t, int i) const
   return { n, 0 };
 }
 
-void TetComplex::addSample(std::int32_t t, int i, const Vec3& position, float tolerance)
+void TetComplex::addSample(std::int32_t t, int i, const Vec3& position, float tolerance,
+                           const std::array<float, 3>& normal)
 {
   const auto [h, j] = holder(t, i);
-  samples.push_back({ position, tolerance, sampleHeads[h][j], -1 });
+  samples.push_back({ position, tolerance, sampleHeads[h][j], normal, -1 });
   sampleHeads[h][j] = std::int32_t(samples.size()) - 1;
 }
 

@@ -5,7 +5,8 @@
 /// The complex fills a box: tetrahedra of label 0 are the space around the tissues. The *interface* is the set of faces
 /// between different labels. Three promises hold before and after every operation:
 ///   - every tetrahedron is wound positively, so the complex is embedded and the interface cannot cross itself;
-///   - at every vertex, each label occupies one disc of the vertex's link, so each tissue's boundary is a 2-manifold and no
+///   - at every vertex, each label occupies one disc of the vertex's link, so each tissue's boundary is a 2-manifold
+///     and no
 ///     operation changes any tissue's topology; only background that tissues enclose may vanish;
 ///   - every boundary sample (a place where the map says that the boundary between two labels is) lies within its
 ///     tolerance of a face between these two labels, or of the boundary of either and twice as far from such a face if
@@ -29,7 +30,8 @@ struct BoundarySample
   Vec3 position;
   float tolerance = 0; ///< mm to the nearest face of its label pair
   std::int32_t next = -1;
-  double distance2 = -1; ///< mm^2, to its face; -1 until somebody has asked
+  std::array<float, 3> normal{ 0, 0, 0 }; ///< as in BackgroundMesh
+  double distance2 = -1;                  ///< mm^2, to its face; -1 until somebody has asked
 };
 
 class TetComplex
@@ -91,7 +93,8 @@ public:
 
   // --- samples
   /// Adds a point to face i of tetrahedron t, whose sides must differ in label, or which is on the block's border.
-  void addSample(std::int32_t t, int i, const Vec3& position, float tolerance);
+  void addSample(std::int32_t t, int i, const Vec3& position, float tolerance,
+                 const std::array<float, 3>& normal = { 0, 0, 0 });
   /// (tetrahedron, face) that holds the samples of the interface face (t, i).
   std::pair<std::int32_t, int> holder(std::int32_t t, int i) const;
 

@@ -17,6 +17,8 @@ struct BackgroundMesh
     float tolerance; ///< mm, to the nearest face of its pair of labels
     std::int32_t tetrahedron;
     std::int32_t face; ///< opposite this vertex (0..3); the tetrahedron's label is the larger of the face's two
+    /// Normal of the boundary, out of the larger label, over the radius (mm) in which it is nearly plane; 0: not known.
+    std::array<float, 3> normal{ 0, 0, 0 };
   };
 
   TetMesh mesh;

@@ -21,8 +21,8 @@ std::vector<Value> valuesAt(const std::vector<Value>& values, const std::vector<
   return result;
 }
 
-/// Renumbers the points of `cells`, ascending; the first `kept` of all `pointCount` points stay, used or not. Returns the old
-/// ids in the new order.
+/// Renumbers the points of `cells`, ascending; the first `kept` of all `pointCount` points stay, used or not. Returns
+/// the old ids in the new order.
 template <std::size_t Corners>
 std::vector<std::int32_t> compactPoints(std::vector<std::array<std::int32_t, Corners>>& cells, std::size_t pointCount,
                                         std::size_t kept = 0)

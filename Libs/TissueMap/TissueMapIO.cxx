@@ -103,7 +103,8 @@ std::vector<itk::ImageIOBase::Pointer> imageFormats()
 
 const char* const formatNames = "NRRD, NIfTI, MetaImage or GIPL";
 
-/// What is wrong with a NIfTI header that the library refuses, and what the user can do; empty for other files and faults.
+/// What is wrong with a NIfTI header that the library refuses, and what the user can do; empty for other files and
+/// faults.
 std::string niftiAdvice(const std::string& file)
 {
   const std::optional<NiftiPlacement> placement = readNiftiPlacement(file);
@@ -568,6 +569,31 @@ ScaleField readScale(const std::string& file)
 void writeScale(const ScaleField& scale, const std::string& file)
 {
   writeVolume(scale.grid, itk::IOComponentEnum::FLOAT, scale.lengths.data(), {}, file);
+}
+
+ScalarImage readImage(const std::string& file)
+{
+  const Volume volume = readVolume(file);
+  if (volume.components > 1)
+  {
+    throw InputError(file + ": " + std::to_string(volume.components) + " values per voxel, expected one");
+  }
+  ScalarImage image;
+  image.grid = volume.grid;
+  image.values = gather<float>(volume,
+                               [&](const auto* voxel)
+                               {
+                                 const float value = float(*voxel);
+                                 if (std::isfinite(value)) return value;
+                                 throw InputError(file + ": a voxel of value " + asText(double(*voxel)) +
+                                                  ", expected finite numbers");
+                               });
+  return image;
+}
+
+void writeImage(const ScalarImage& image, const std::string& file)
+{
+  writeVolume(image.grid, itk::IOComponentEnum::FLOAT, image.values.data(), {}, file);
 }
 
 void requireCover(const ScaleField& scale, const Grid& grid, const std::string& scaleFile)

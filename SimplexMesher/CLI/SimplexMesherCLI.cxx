@@ -245,6 +245,7 @@ void run(CommandLine& line)
   completeShells(results.settings, map, asked);
   TissueMesherOptions options;
   options.maximumDistance = line.number("maximumDistance");
+  options.smoothing = line.number("smoothing");
   options.features = readFeatures(line, results.settings);
   prepare(line, map, asked, options.features, subProgress(progress, 0.02, 0.06), results);
   const ScaleField scale = lengthsFor(line, map, asked, results);

@@ -18,8 +18,8 @@ double shortestLatticeLength(const Grid& grid);
 /// That tissue asks for shorter edges than the lattice gives; empty if it does not. `labelMap` names the map.
 std::string warningOfShortLengths(const TissueMap& map, const ScaleField& scale, const std::string& labelMap);
 
-/// Where the surface is farther from the map than `bound` (mm), from either side; empty if it is nowhere. `world` is the
-/// frame of the files, the fidelity's places are in the map's own.
+/// Where the surface is farther from the map than `bound` (mm), from either side; empty if it is nowhere. `world` is
+/// the frame of the files, the fidelity's places are in the map's own.
 std::vector<std::string> warningsOfDistance(const std::map<Label, TissueFidelity>& fidelity, double bound,
                                             const Grid& world);
 

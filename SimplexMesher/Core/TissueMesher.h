@@ -17,6 +17,8 @@ struct TissueMesherOptions
   /// times as much (2.4 in maps full of noise) where an angle cannot be mended otherwise, and up to a voxel more where
   /// that keeps a tissue's volume.
   double maximumDistance = 0;
+  /// Scale, in voxels, of the smooth boundary that the surface is driven to (SmoothBoundary.h); 0: the voxels' steps.
+  double smoothing = 0;
   FeatureOptions features; ///< what the map was simplified by; thin tissues are then held less closely
 };
 

@@ -15,8 +15,8 @@ namespace surgicalmesher::test
 namespace
 {
 
-/// A box of 10 x 10 x 8 voxels of 2 x 2 x 3 mm, one tissue's left and another's right half, and the voxels' own faces as
-/// triangles.
+/// A box of 10 x 10 x 8 voxels of 2 x 2 x 3 mm, one tissue's left and another's right half, and the voxels' own faces
+/// as triangles.
 TissueMap halves()
 {
   return paintedMap({ 12, 12, 10 },
@@ -42,7 +42,8 @@ TEST(TissueFidelity, OfTheVoxelsOwnFacesIsExact)
   }
 }
 
-// B3 as the report sees it: a dent in a flat wall is far from every face of the map, while every face is near the surface.
+// B3 as the report sees it: a dent in a flat wall is far from every face of the map, while every face is near the
+// surface.
 TEST(Trial, B03_ADentIsSeenFromTheMesh)
 {
   const TissueMap map = halves();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <random>
 
 #ifdef __unix__
@@ -623,4 +624,19 @@ TEST(Trial, B14_MetaImagesWithoutDimensionsAreRefused)
     expectFileRefused(
       "map.mha", std::string("ObjectType = Image\nNDims = ") + number + "\nDimSize = 2 2 2\nElementDataFile = LOCAL\n",
       std::string("NDims is \"") + number + "\", expected 3");
+}
+
+TEST(Images, ComeBackAsTheyWereAndHaveNoHoles)
+{
+  const TemporaryFolder folder;
+  ScalarImage image;
+  image.grid = noisyMap().grid;
+  for (std::size_t n = 0; n < image.grid.voxelCount(); ++n) image.values.push_back(0.25f * float(n) - 7);
+  writeImage(image, folder.file("image.nrrd"));
+  const ScalarImage read = readImage(folder.file("image.nrrd"));
+  EXPECT_EQ(read.values, image.values);
+  EXPECT_EQ(read.grid.size, image.grid.size);
+  image.values[3] = std::numeric_limits<float>::infinity();
+  folder.write("hole.nrrd", nrrd("float", nrrdGeometry(image.grid), image.values));
+  expectInputError([&] { readImage(folder.file("hole.nrrd")); }, folder.file("hole.nrrd"), "a voxel of value inf");
 }
