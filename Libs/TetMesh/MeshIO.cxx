@@ -159,6 +159,10 @@ run(Reader* reader, const std::string& file, const std::string& format)
   {
     refuse(file, "not enough memory for what its " + format + " header promises");
   }
+  catch (const std::exception& error) // of the containers that a damaged header sizes
+  {
+    refuse(file, "not a readable " + format + " file (" + error.what() + ")");
+  }
   if (errors.any()) refuse(file, "not a readable " + format + " file (" + errors.message() + ")");
   if (reader->GetErrorCode() != 0) refuse(file, "not a readable " + format + " file");
   return reader->GetOutput();

@@ -138,6 +138,23 @@ std::uint64_t inflatedSize(std::istream& stream, std::uint64_t enough)
 
 } // namespace
 
+void requireCredibleDimensions(const std::string& imageFile)
+{
+  if (!hasExtension(imageFile, ".mha") && !hasExtension(imageFile, ".mhd")) return;
+  constexpr long mostDimensions = 10; // of MetaImage
+  std::ifstream stream(imageFile.c_str(), std::ios::binary);
+  for (std::string line; std::getline(stream, line);)
+  {
+    const std::size_t at = line.find('=');
+    const std::string key = text::lowerCase(text::trimmed(line.substr(0, at)));
+    if (key == "elementdatafile" || at == std::string::npos) return;
+    long dimensions = 0;
+    if (key != "ndims" || text::parseInteger(text::trimmed(line.substr(at + 1)), 1, mostDimensions, dimensions))
+      continue;
+    throw InputError(imageFile + ": NDims is \"" + text::trimmed(line.substr(at + 1)).substr(0, 40) + "\", expected 3");
+  }
+}
+
 std::optional<NiftiPlacement> readNiftiPlacement(const std::string& file)
 {
   constexpr std::size_t headerSize = 348;

@@ -15,6 +15,9 @@ namespace surgicalmesher
 /// check sums hold.
 void requireImageData(const std::string& imageFile, std::uint64_t byteCount);
 
+/// Throws InputError for a MetaImage header with a number of dimensions that its reader would never come back from.
+void requireCredibleDimensions(const std::string& imageFile);
+
 /// What a NIfTI-1 header says of where its voxels lie, as it stands in the file.
 struct NiftiPlacement
 {

@@ -121,6 +121,7 @@ std::string niftiAdvice(const std::string& file)
 itk::ImageIOBase::Pointer openImage(const std::string& file)
 {
   text::requireReadableFile(file);
+  requireCredibleDimensions(file);
   const Silence silence;
   for (const itk::ImageIOBase::Pointer& io : imageFormats())
   {

@@ -617,6 +617,15 @@ TEST(Trial, B01_NullDisplacementGoesThroughMaps)
     EXPECT_EQ(tissue.isNullDisplacement, label == presentLabels(map).back()) << label;
 }
 
+// B14, found by CorruptedFilesFuzz: ITK's reader does not come back from such a header.
+TEST(Trial, B14_MetaImagesWithoutDimensionsAreRefused)
+{
+  for (const char* number : { "-1", "0", "2147483648", "x" })
+    expectFileRefused(
+      "map.mha", std::string("ObjectType = Image\nNDims = ") + number + "\nDimSize = 2 2 2\nElementDataFile = LOCAL\n",
+      std::string("NDims is \"") + number + "\", expected 3");
+}
+
 TEST(Images, ComeBackAsTheyWereAndHaveNoHoles)
 {
   const TemporaryFolder folder;
