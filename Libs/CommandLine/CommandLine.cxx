@@ -233,6 +233,16 @@ std::vector<std::string> CommandLine::outputFiles(const std::string& name)
 
 std::string CommandLine::outputPath(const std::string& finalPath) { return d->outputs.temporary(finalPath); }
 
+void CommandLine::commitOutput(const std::string& name)
+{
+  for (const std::string& file : this->outputNames(name)) d->outputs.commit(file);
+}
+
+void CommandLine::discardOutput(const std::string& name)
+{
+  for (const std::string& file : this->outputNames(name)) d->outputs.discard(file);
+}
+
 void CommandLine::returnValue(const std::string& name, const std::string& value)
 {
   d->parameter(

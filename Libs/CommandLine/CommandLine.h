@@ -53,6 +53,10 @@ public:
   /// The same for a file the XML doesn't list (a sidecar next to an output). Throws InputError if it can't be created.
   std::string outputPath(const std::string& finalPath);
 
+  /// An output that only a refusal has, to show what is at fault: renamed into place at once, or not to be written.
+  void commitOutput(const std::string& name);
+  void discardOutput(const std::string& name);
+
   /// A simple output parameter (channel output, no flag): written to --returnparameterfile as `name = value`.
   void returnValue(const std::string& name, const std::string& value);
 

@@ -97,7 +97,11 @@ int testCopyAndRefusals()
   copy->SetColorBy(-1);
   copy->SetClipPlane(Node::ClipPlane_Last);
   CHECK_EXIT_SUCCESS(checkFilled(copy));
-  CHECK_INT(Node::GetColorByFromString("no such thing"), -1);
+  const char* unknown[] = { "colorBy", "no such thing", "threads", "many", nullptr };
+  TESTING_OUTPUT_ASSERT_ERRORS_BEGIN();
+  copy->ReadXMLAttributes(unknown);
+  TESTING_OUTPUT_ASSERT_ERRORS_END();
+  CHECK_EXIT_SUCCESS(checkFilled(copy));
   return EXIT_SUCCESS;
 }
 

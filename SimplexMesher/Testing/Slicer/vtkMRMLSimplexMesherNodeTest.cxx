@@ -9,6 +9,7 @@
 
 #include <vtkNew.h>
 
+using Node = vtkMRMLSimplexMesherNode;
 using surgicalmesher::TissueRole;
 using surgicalmesher::TissueSetting;
 
@@ -118,11 +119,11 @@ int checkSceneRoundTrip()
   auto* restored = vtkMRMLSimplexMesherNode::SafeDownCast(read->GetFirstNodeByClass("vtkMRMLSimplexMesherNode"));
   CHECK_NOT_NULL(restored);
   CHECK_EXIT_SUCCESS(checkFilled(restored));
-  CHECK_STRING(restored->GetScaleNode()->GetName(), "scale");
-  CHECK_STRING(restored->GetSurfaceNode()->GetName(), "surface");
-  CHECK_NULL(restored->GetPreparedLabelMapNode());
+  CHECK_STRING(restored->GetScalarVolumeNode(Node::ScaleRole())->GetName(), "scale");
+  CHECK_STRING(restored->GetModelNode(Node::SurfaceRole())->GetName(), "surface");
+  CHECK_NULL(restored->GetLabelMapNode(Node::PreparedLabelMapRole()));
   restored->SetNode(vtkMRMLSimplexMesherNode::ScaleRole(), nullptr);
-  CHECK_NULL(restored->GetScaleNode());
+  CHECK_NULL(restored->GetScalarVolumeNode(Node::ScaleRole()));
   return EXIT_SUCCESS;
 }
 

@@ -106,7 +106,7 @@ int checkMarkups()
   auto* line = scene->AddNewNodeByClass("vtkMRMLMarkupsLineNode");
   node->SetNode(Node::TargetsRole(), points);
   node->SetNode(Node::PathRole(), curve);
-  node->SetFurtherMarkups({ line, morePoints });
+  node->SetNodes(Node::FurtherMarkupsRole(), { line, morePoints });
   CHECK_INT(int(node->GetTargetNodes().size()), 2);
   CHECK_POINTER(node->GetTargetNodes()[1], morePoints);
   CHECK_INT(int(node->GetPathNodes().size()), 2);
@@ -121,7 +121,7 @@ int checkMarkups()
   vtkMRMLTransformableNode::SafeDownCast(curve)->SetAndObserveTransformNodeID(transform->GetID());
   CHECK_BOOL(events->GetNumberOfEvents(Node::InputModifiedEvent) > 0, true);
   events->ResetNumberOfEvents();
-  node->SetFurtherMarkups({ line });
+  node->SetNodes(Node::FurtherMarkupsRole(), { line });
   vtkMRMLMarkupsNode::SafeDownCast(morePoints)->AddControlPoint(4, 5, 6);
   CHECK_INT(events->GetNumberOfEvents(Node::InputModifiedEvent), 0); // no input any more
 
@@ -138,8 +138,8 @@ int checkSceneRoundTrip()
   Node* node = addNode(scene);
   fill(node);
   node->SetNode(Node::TargetsRole(), scene->AddNewNodeByClass("vtkMRMLMarkupsFiducialNode", "points"));
-  node->SetFurtherMarkups({ scene->AddNewNodeByClass("vtkMRMLMarkupsLineNode", "line"),
-                            scene->AddNewNodeByClass("vtkMRMLMarkupsFiducialNode", "more points") });
+  node->SetNodes(Node::FurtherMarkupsRole(), { scene->AddNewNodeByClass("vtkMRMLMarkupsLineNode", "line"),
+                                               scene->AddNewNodeByClass("vtkMRMLMarkupsFiducialNode", "more points") });
   node->SetNode(Node::ScaleRole(), scene->AddNewNodeByClass("vtkMRMLScalarVolumeNode", "scale"));
   scene->SetSaveToXMLString(1);
   scene->Commit();
@@ -156,7 +156,7 @@ int checkSceneRoundTrip()
   CHECK_STRING(restored->GetTargetNodes()[0]->GetName(), "points");
   CHECK_STRING(restored->GetTargetNodes()[1]->GetName(), "more points");
   CHECK_INT(int(restored->GetPathNodes().size()), 1);
-  CHECK_STRING(restored->GetScaleNode()->GetName(), "scale");
+  CHECK_STRING(restored->GetScalarVolumeNode(Node::ScaleRole())->GetName(), "scale");
   vtkNew<vtkMRMLCoreTestingUtilities::vtkMRMLNodeCallback> events;
   restored->AddObserver(Node::InputModifiedEvent, events);
   restored->GetTargetNodes()[1]->AddControlPoint(1, 2, 3);
