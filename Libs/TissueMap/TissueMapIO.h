@@ -50,9 +50,9 @@ bool findTissue(const std::string& text, const TissueTable& names, Label& label)
 /// numbers, another unit than mm.
 std::vector<std::vector<Vec3>> readMarkups(const std::string& file);
 
-/// Targets and paths as the command-line modules take them: typed points, of which those of --pathPoint are one path, and
-/// markups files. Every point of a target file is a target, every markup of a path file a path. Throws UsageError for a
-/// typed path of one point, InputError for one of a file.
+/// Targets and paths as the command-line modules take them: typed points, of which those of --pathPoint are one path,
+/// and markups files. Every point of a target file is a target, every markup of a path file a path. Throws UsageError
+/// for a typed path of one point, InputError for one of a file.
 Focus readFocus(const std::vector<Vec3>& targetPoints, const std::vector<std::string>& targetFiles,
                 const Path& pathPoints, const std::vector<std::string>& pathFiles);
 

@@ -29,10 +29,8 @@ public:
   static const char* TissueTableRole() { return "tissueTable"; }           ///< table: the report by tissue
   static const char* EvolutionTableRole() { return "evolutionTable"; }     ///< table: the report step by step
   static const char* EvolutionChartRole() { return "evolutionChart"; }     ///< plot of the latter
-  static const char* AmbientTetrahedraRole()
-  {
-    return "ambientTetrahedra";
-  } ///< of the *surface* node: model of the tetrahedra around it
+  /// Of the *surface* node: model of the tetrahedra around it.
+  static const char* AmbientTetrahedraRole() { return "ambientTetrahedra"; }
 
   /// Whether edge lengths come from the scale volume; otherwise EdgeLength holds everywhere.
   vtkGetMacro(UseScale, bool);

@@ -33,15 +33,11 @@ public:
   static const char* TissueMapRole() { return "tissueMap"; } ///< label map or segmentation
   static const char* TargetsRole() { return "targets"; }     ///< markups, of which every point is a target
   static const char* PathRole() { return "path"; }           ///< markups from entry to target
-  static const char* FurtherMarkupsRole()
-  {
-    return "furtherMarkups";
-  }                                                  ///< any number: curves and lines are paths, others targets
+  /// Any number: curves and lines are paths, others targets.
+  static const char* FurtherMarkupsRole() { return "furtherMarkups"; }
   static const char* ScaleRole() { return "scale"; } ///< scalar volume; a new one where there is none
-  static const char* OutputLabelMapRole()
-  {
-    return "outputLabelMap";
-  } ///< label map with null displacement; a new one where there is none
+  /// Label map with null displacement; a new one where there is none.
+  static const char* OutputLabelMapRole() { return "outputLabelMap"; }
   static const char* ProfileChartRole() { return "profileChart"; } ///< plot of length over distance; none: not wanted
 
   /// All markups of which every point is a target; none that have left the scene.

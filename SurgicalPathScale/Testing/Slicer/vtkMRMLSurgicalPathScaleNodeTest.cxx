@@ -164,6 +164,27 @@ int checkSceneRoundTrip()
   return EXIT_SUCCESS;
 }
 
+/// The values that fill() sets and a role, as version 0.1 has written them.
+int checkSavedScene()
+{
+  vtkNew<vtkMRMLScene> scene;
+  registerClasses(scene);
+  scene->SetLoadFromXMLString(1);
+  scene->SetSceneXMLString(
+    R"(<MRML version="Slicer5.0.3" userTags=""><Volume id="vtkMRMLScalarVolumeNode1" name="scale"></Volume>
+<SurgicalPathScale id="vtkMRMLSurgicalPathScaleNode1" name="Surgical Path Scale" hideFromEditors="true"
+ references="scale:vtkMRMLScalarVolumeNode1;" minimumEdgeLength="0.123456789" maximumEdgeLength="12.5" childRadius="0"
+ decayLength="31" spacing="1.25" pathChildRadius="4" pathDecayLength="17" gradation="0.3" combine="targets"
+ tissueLengths="a &quot;quoted&quot; &amp; &lt;odd&gt; name.csv" nullDisplacementRadius="40"
+ nullDisplacementPathDistance="20" nullDisplacementPathDistanceAtTarget="10"
+ nullDisplacementTissues="brain, &quot;white matter&quot;, 17"></SurgicalPathScale></MRML>)");
+  scene->Import();
+  auto* node = Node::SafeDownCast(scene->GetFirstNodeByClass("vtkMRMLSurgicalPathScaleNode"));
+  CHECK_NOT_NULL(node);
+  CHECK_STRING(node->GetScalarVolumeNode(Node::ScaleRole())->GetName(), "scale");
+  return checkFilled(node);
+}
+
 } // namespace
 
 int vtkMRMLSurgicalPathScaleNodeTest(int, char*[])
@@ -171,5 +192,6 @@ int vtkMRMLSurgicalPathScaleNodeTest(int, char*[])
   CHECK_EXIT_SUCCESS(checkValues());
   CHECK_EXIT_SUCCESS(checkMarkups());
   CHECK_EXIT_SUCCESS(checkSceneRoundTrip());
+  CHECK_EXIT_SUCCESS(checkSavedScene());
   return EXIT_SUCCESS;
 }
