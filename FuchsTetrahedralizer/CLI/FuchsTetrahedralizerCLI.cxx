@@ -11,7 +11,6 @@
 #include "MaterialTable.h"
 #include "MeshChecks.h"
 #include "MeshIO.h"
-#include "MeshImprovement.h"
 #include "MeshQuality.h"
 #include "ShellChoices.h"
 #include "StiffnessConditioning.h"
@@ -20,6 +19,7 @@
 #include "SurfaceEdgeLength.h"
 #include "SurfaceTetrahedralization.h"
 #include "SurfaceValidity.h"
+#include "TetrahedraImprovement.h"
 #include "TissueMapIO.h"
 #include "VtkExport.h"
 
@@ -108,22 +108,39 @@ void prepareSurface(const CommandLine& line, SurfaceFile& content)
   throw InputError(std::string(refusal.what()) + "; these triangles are in " + besideMesh);
 }
 
-TetMesh ambientTetrahedra(const CommandLine& line, const SurfaceComplex& surface, const SizingFunction& edgeLength)
+/// Tetrahedra to begin with, and what the surface stage has improved them to.
+struct Start
+{
+  TetMesh mesh;
+  TetrahedraImprovementOptions improvement;
+};
+
+Start startOf(const CommandLine& line, const SurfaceComplex& surface, const SizingFunction& edgeLength)
 {
   const std::string surfaceName = line.text("surface"), ambientName = line.text("ambient");
-  if (ambientName.empty()) return fillWithTetrahedra(surface, edgeLength, surfaceName);
-  TetMesh ambient = readMesh(ambientName).mesh;
-  requireInterfacesAre(surface, surfaceName, ambient, ambientName);
-  return ambient;
+  Start start;
+  if (ambientName.empty())
+  {
+    start.mesh = fillWithTetrahedra(surface, edgeLength, surfaceName);
+    return start;
+  }
+  MeshFile ambient = readMesh(ambientName);
+  requireInterfacesAre(surface, surfaceName, ambient.mesh, ambientName);
+  start.mesh = std::move(ambient.mesh);
+  start.improvement.isImproved = true;
+  if (ambient.targetAngle > 0) start.improvement.targetAngle = ambient.targetAngle;
+  return start;
 }
 
-void improve(TetMesh& ambient, const Lengths& lengths, const Progress& progress)
+TetMesh improved(Start start, const Lengths& lengths, const Progress& progress)
 {
+  TetMesh& ambient = start.mesh;
   const std::optional<Grid>& frame = lengths.frame;
   for (Vec3& p : ambient.points) p = frame ? inFrameOf(*frame, p) : p;
-  improveMesh(
-    ambient, [&](const Vec3& p) { return float(lengths.inFrame(p)); }, {}, progress);
+  improveTetrahedra(
+    ambient, [&](const Vec3& p) { return double(float(lengths.inFrame(p))); }, start.improvement, progress);
   for (Vec3& p : ambient.points) p = frame ? frame->gridToWorld(p) : p;
+  return std::move(ambient);
 }
 
 ConstitutiveRule readConstitutiveRule(const CommandLine& line)
@@ -292,8 +309,8 @@ void mesh(CommandLine& line)
   report(progress, 0.1, "tetrahedra");
   prepareSurface(line, content);
   const FiniteElementOptions options = readFiniteElementOptions(line, content);
-  TetMesh ambient = ambientTetrahedra(line, content.surface, edgeLength);
-  improve(ambient, lengths, subProgress(progress, 0.3, 0.8));
+  const TetMesh ambient =
+    improved(startOf(line, content.surface, edgeLength), lengths, subProgress(progress, 0.3, 0.8));
   report(progress, 0.8, "sub-meshes");
   SubMeshes division;
   const MeshFile result = assemble(ambient, edgeLength, content.tissues, rule, division);

@@ -1,8 +1,8 @@
 #include "AmbientMatch.h"
 
-#include "MeshChecks.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 
 #include <algorithm>
 #include <tuple>

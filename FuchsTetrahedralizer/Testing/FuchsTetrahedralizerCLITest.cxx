@@ -1,6 +1,6 @@
-#include "MeshIO.h"
 #include "ExecutableTest.h"
 #include "FaceAdjacency.h"
+#include "MeshIO.h"
 #include "Shapes.h"
 
 #include <limits>

@@ -1,11 +1,11 @@
 // Improvement where it is needed most: on the slivers of a constrained Delaunay tetrahedralization.
 
-#include "MeshImprovement.h"
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "MeshQuality.h"
 #include "Shapes.h"
 #include "SurfaceTetrahedralization.h"
+#include "TetrahedraImprovement.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>
@@ -64,9 +64,9 @@ TEST(MeshImprovement, RaisesTheWorstAngleOfADelaunayMeshAndKeepsItsTissues)
     for (double tolerance : { 0.02, 0.12 })
     {
       TetMesh after = before;
-      MeshImprovementOptions options;
+      TetrahedraImprovementOptions options;
       options.surfaceTolerance = tolerance;
-      improveMesh(
+      improveTetrahedra(
         after, [&](const Vec3&) { return float(shape.edgeLength); }, options);
       requireSound(after, "improvement");
       EXPECT_EQ(meshTopology(after), meshTopology(before));

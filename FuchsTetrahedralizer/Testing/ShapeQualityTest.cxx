@@ -1,13 +1,13 @@
 // From label maps and surfaces to tetrahedra through every stage: what angles simple shapes get, and what the lattice's
 // tetrahedra look like where nothing disturbs them.
 
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
 #include "MapPreparation.h"
-#include "MeshImprovement.h"
+#include "MeshChecks.h"
 #include "MeshQuality.h"
-#include "TissueMesher.h"
 #include "SurfaceTetrahedralization.h"
+#include "TetrahedraImprovement.h"
+#include "TissueMesher.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>
@@ -33,8 +33,8 @@ std::vector<Shape> shapes()
   const auto radius = [](int i, int j, int k) { return std::hypot(i - 8, j - 8, k - 8); };
   std::vector<Shape> shapes{
     { "sphere", paintedMap({ 17, 17, 17 }, [=](int i, int j, int k) { return radius(i, j, k) <= 7; }) },
-    { "torus", paintedMap({ 21, 21, 9 },
-                          [](int i, int j, int k) { return std::hypot(std::hypot(i - 10, j - 10) - 6.5, k - 4) <= 2.7; }) },
+    { "torus", paintedMap({ 21, 21, 9 }, [](int i, int j, int k)
+                          { return std::hypot(std::hypot(i - 10, j - 10) - 6.5, k - 4) <= 2.7; }) },
     { "nested spheres", paintedMap({ 17, 17, 17 },
                                    [=](int i, int j, int k)
                                    {
@@ -49,7 +49,9 @@ std::vector<Shape> shapes()
                                        }) },
     { "slab of one voxel", paintedMap({ 16, 16, 5 }, [](int, int, int k) { return k == 2; }) },
     { "three tissues around a curve",
-      paintedMap({ 14, 14, 10 }, [](int i, int j, int) { return i < 7 ? 1 : j < 7 ? 2 : 3; }) },
+      paintedMap({ 14, 14, 10 }, [](int i, int j, int) { return i < 7   ? 1
+                                                                : j < 7 ? 2
+                                                                        : 3; }) },
     { "voxel", paintedMap({ 3, 3, 3 }, [](int i, int j, int k) { return i == 1 && j == 1 && k == 1; }) },
   };
   for (Shape& shape : shapes) prepareMap(shape.map, {});
@@ -118,13 +120,13 @@ TEST(ShapeQuality, NoAngleIsBadWhateverTheStart)
     {
       SCOPED_TRACE(shape.name + " at " + std::to_string(length) + " mm");
       const auto scale = [&](const Vec3&) { return float(length); };
-      TetMesh ambient = meshTissues(shape.map, uniformScale(length), {}).ambient.mesh;
+      TetMesh ambient = meshTissues(shape.map, uniformScale(length), {}).background.mesh;
       const auto topology = meshTopology(ambient);
       TetMesh delaunay = fillWithTetrahedra(interfaceOf(ambient), scale, shape.name);
       for (TetMesh* mesh : { &ambient, &delaunay })
       {
         SCOPED_TRACE(mesh == &ambient ? "from ambient tetrahedra" : "from constrained Delaunay");
-        improveMesh(*mesh, scale);
+        improveTetrahedra(*mesh, scale);
         requireSound(*mesh, shape.name);
         EXPECT_EQ(meshTopology(*mesh), topology);
         expectGoodAngles(*mesh);
@@ -137,7 +139,7 @@ TEST(ShapeQuality, TheLatticeSurvivesAwayFromSurfaces)
 {
   const auto scale = [](const Vec3&) { return 1.2f; };
   TetMesh mesh = fillWithTetrahedra(cube(16), scale, "cube");
-  improveMesh(mesh, scale);
+  improveTetrahedra(mesh, scale);
   const MeshQuality all = assessQuality(withoutOutside(mesh), {}, scale);
   const MeshQuality core = assessQuality(coreOf(mesh, 8 - 2 * 1.2), {}, scale);
   ASSERT_GT(core.whole.tetrahedra, 2000u);

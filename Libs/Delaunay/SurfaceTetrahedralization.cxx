@@ -1,8 +1,8 @@
 #include "SurfaceTetrahedralization.h"
 
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
 #include "FlatTetrahedra.h"
+#include "MeshChecks.h"
 #include "SeparateProcess.h"
 
 #include <tetgen.h>

@@ -17,8 +17,7 @@ namespace surgicalmesher
 /// `surface` must have passed requireFillable(). Throws SurfaceRefused, with `name` and the place, if the triangles
 /// around a region don't agree on its label, EngineError if TetGen fails. TetGen runs in a process of its own where
 /// there are such: its failed assertions and crashes are failures like others.
-TetMesh tetrahedralize(const SurfaceComplex& surface, const std::vector<Vec3>& latticePoints,
-                         const std::string& name);
+TetMesh tetrahedralize(const SurfaceComplex& surface, const std::vector<Vec3>& latticePoints, const std::string& name);
 
 /// The same with the lattice points of `edgeLength`. TetGen stumbles over rare coincidences of points; it is then given
 /// others, farther away from the surface, before EngineError is thrown.

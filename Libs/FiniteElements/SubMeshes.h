@@ -27,7 +27,8 @@ struct SubMeshes
 /// parent that a child cuts off from the parent's largest piece in the same body, and that have fewer tetrahedra than
 /// that child, join it; so the parent is connected within each body, unless a child passes right through it. If every
 /// tetrahedron is fine, as under a uniform scale, no part is finer than another and all are parent.
-SubMeshes divideIntoSubMeshes(const TetMesh& mesh, const SizingFunction& edgeLength, const SubMeshOptions& options = {});
+SubMeshes divideIntoSubMeshes(const TetMesh& mesh, const SizingFunction& edgeLength,
+                              const SubMeshOptions& options = {});
 
 /// Constitutive model of each tetrahedron: 1 (nonlinear) in children, 0 (linear) in the parent, 2 (null displacement)
 /// in tissues named "null displacement", upper or lower case.

@@ -74,10 +74,12 @@ Bytes leftByControlGroups(const std::string& root)
   {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos) continue;
-    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",", path = line.substr(second + 1);
+    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",",
+                      path = line.substr(second + 1);
     if (path.empty() || path[0] != '/') continue;
     if (controllers == ",,")
-      result = least(result, leftInGroups(root + "/sys/fs/cgroup", path, { "memory.max", "memory.current", "inactive_file" }));
+      result =
+        least(result, leftInGroups(root + "/sys/fs/cgroup", path, { "memory.max", "memory.current", "inactive_file" }));
     else if (controllers.find(",memory,") != std::string::npos)
       result = least(result, leftInGroups(root + "/sys/fs/cgroup/memory", path,
                                           { "memory.limit_in_bytes", "memory.usage_in_bytes", "total_inactive_file" }));

@@ -1,22 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Tasks of different kinds, run side by side.
+/// Loops and tasks on VTK's threads.
 
 #include <vtkSMPTools.h>
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
 namespace surgicalmesher
 {
 
-/// Runs all of them on VTK's threads, in no particular order but begun in theirs. They must not throw.
-inline void runInParallel(const std::vector<std::function<void()>>& tasks)
+/// Calls f(i) for every i below `count`, in no particular order; neighbouring ones mostly on one thread. f must not throw.
+template <class F>
+void parallelFor(std::size_t count, F&& f)
 {
-  vtkSMPTools::For(0, vtkIdType(tasks.size()), 1,
+  vtkSMPTools::For(0, vtkIdType(count),
                    [&](vtkIdType begin, vtkIdType end)
                    {
-                     for (vtkIdType i = begin; i < end; ++i) tasks[i]();
+                     for (vtkIdType i = begin; i < end; ++i) f(std::size_t(i));
                    });
+}
+
+/// The same for few and long calls: handed out one by one.
+template <class F>
+void parallelForEach(std::size_t count, F&& f)
+{
+  vtkSMPTools::For(0, vtkIdType(count), 1,
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (vtkIdType i = begin; i < end; ++i) f(std::size_t(i));
+                   });
+}
+
+/// Runs all of them, in no particular order but begun in theirs. They must not throw.
+inline void runInParallel(const std::vector<std::function<void()>>& tasks)
+{
+  parallelForEach(tasks.size(), [&](std::size_t i) { tasks[i](); });
 }
 
 } // namespace surgicalmesher

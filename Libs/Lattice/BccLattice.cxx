@@ -1,7 +1,7 @@
 #include "BccLattice.h"
 
-#include "Place.h"
 #include "Errors.h"
+#include "Place.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>

@@ -21,6 +21,7 @@ constexpr double kLatticeMeanEdge = (8 * 0.86602540378443865 + 6) / 14;
 /// elements on it, farther ones long elements. With 0.5, the mean of the tetrahedra's smallest dihedral angles and the
 /// share of edges near their target came out best, or nearly so, on spheres, an ellipsoid and 30 tissues of jhu189.
 /// Deterministic, whatever the number of threads. Throws InputError unless L(x) is positive and finite.
-std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunction& edgeLength, double clearance = 0.5);
+std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunction& edgeLength,
+                                double clearance = 0.5);
 
 } // namespace surgicalmesher

@@ -31,10 +31,10 @@ InterfaceGraph makeGraph(const KuhnLattice& lattice)
     bool operator==(const Edge& e) const { return a == e.a && b == e.b; }
   };
   InterfaceGraph graph;
-  std::vector<std::int32_t> local(lattice.ambient.mesh.points.size(), -1);
+  std::vector<std::int32_t> local(lattice.background.mesh.points.size(), -1);
   const auto corners = [&](const std::pair<std::int32_t, std::int32_t>& face)
   {
-    const auto& t = lattice.ambient.mesh.tetrahedra[face.first];
+    const auto& t = lattice.background.mesh.tetrahedra[face.first];
     return std::array<std::int32_t, 3>{ t[(face.second + 1) & 3], t[(face.second + 2) & 3], t[(face.second + 3) & 3] };
   };
   for (const auto& f : lattice.interfaceFaces)
@@ -121,15 +121,15 @@ std::vector<Vec3> taubin(const InterfaceGraph& graph, const std::vector<Vec3>& p
 }
 
 /// Takes each samples point along with the corners of its face, by `share` of their way.
-void moveSamples(BackgroundMesh& ambient, const InterfaceGraph& graph, const std::vector<Vec3>& target, double share)
+void moveSamples(BackgroundMesh& background, const InterfaceGraph& graph, const std::vector<Vec3>& target, double share)
 {
-  const auto& points = ambient.mesh.points;
+  const auto& points = background.mesh.points;
   std::vector<Vec3> way(points.size());
   for (std::size_t i = 0; i < graph.vertices.size(); ++i)
     way[graph.vertices[i]] = target[i] - points[graph.vertices[i]];
   const auto move = [&](BackgroundMesh::Sample& e)
   {
-    const auto& t = ambient.mesh.tetrahedra[e.tetrahedron];
+    const auto& t = background.mesh.tetrahedra[e.tetrahedron];
     const std::int32_t a = t[(e.face + 1) & 3], b = t[(e.face + 2) & 3], c = t[(e.face + 3) & 3];
     const Vec3 n = cross(points[b] - points[a], points[c] - points[a]);
     const auto weight = [&](const Vec3& q, const Vec3& r)
@@ -137,20 +137,20 @@ void moveSamples(BackgroundMesh& ambient, const InterfaceGraph& graph, const std
     e.position += share * (weight(points[b], points[c]) * way[a] + weight(points[c], points[a]) * way[b] +
                            weight(points[a], points[b]) * way[c]);
   };
-  vtkSMPTools::For(0, vtkIdType(ambient.samples.size()),
+  vtkSMPTools::For(0, vtkIdType(background.samples.size()),
                    [&](vtkIdType begin, vtkIdType end)
-                   { std::for_each(ambient.samples.begin() + begin, ambient.samples.begin() + end, move); });
+                   { std::for_each(background.samples.begin() + begin, background.samples.begin() + end, move); });
 }
 
 } // namespace
 
 void smoothInterface(KuhnLattice& lattice, const Vec3& voxelSpacing, const SmoothingOptions& options)
 {
-  TetMesh& mesh = lattice.ambient.mesh;
+  TetMesh& mesh = lattice.background.mesh;
   const InterfaceGraph graph = makeGraph(lattice);
   const std::vector<Vec3> target = taubin(graph, mesh.points, options.box * voxelSpacing, options);
 
-  moveSamples(lattice.ambient, graph, target, options.samples);
+  moveSamples(lattice.background, graph, target, options.samples);
 
   // Shorten moves until no tetrahedron is worse than allowed. All tetrahedra are judged on the same state and a vertex takes
   // the shortest of what its tetrahedra ask, so the result does not depend on any order. Only those are judged again of which

@@ -140,7 +140,7 @@ public:
   KuhnLattice generate(const Progress& progress)
   {
     KuhnLattice lattice;
-    BackgroundMesh& out = lattice.ambient;
+    BackgroundMesh& out = lattice.background;
     out.mesh.points.resize(m_Active.numbered());
     out.lengths.resize(m_Active.numbered());
     m_Active.forEach([&](std::int32_t id, const Index& p) { out.mesh.points[id] = position(p); });
@@ -161,11 +161,11 @@ public:
     for (KuhnLattice& part : parts)
     {
       const std::int32_t shift = std::int32_t(out.mesh.tetrahedra.size());
-      for (auto& e : part.ambient.samples) e.tetrahedron += shift;
+      for (auto& e : part.background.samples) e.tetrahedron += shift;
       for (auto& f : part.interfaceFaces) f.first += shift;
-      append(out.samples, part.ambient.samples);
-      append(out.mesh.tetrahedra, part.ambient.mesh.tetrahedra);
-      append(out.mesh.labels, part.ambient.mesh.labels);
+      append(out.samples, part.background.samples);
+      append(out.mesh.tetrahedra, part.background.mesh.tetrahedra);
+      append(out.mesh.labels, part.background.mesh.labels);
       append(lattice.interfaceFaces, part.interfaceFaces);
       part = {};
     }
@@ -403,9 +403,9 @@ private:
     Tet x = t;
     if (orient(p[0], p[1], p[2], p[3]) < 0) std::swap(ids[2], ids[3]), std::swap(x[2], x[3]);
     const Label label = labelOf(t);
-    const std::int32_t id = std::int32_t(out.ambient.mesh.tetrahedra.size());
-    out.ambient.mesh.tetrahedra.push_back(ids);
-    out.ambient.mesh.labels.push_back(label);
+    const std::int32_t id = std::int32_t(out.background.mesh.tetrahedra.size());
+    out.background.mesh.tetrahedra.push_back(ids);
+    out.background.mesh.labels.push_back(label);
     if (label != 0) placeSamples(x, id, label, out);
   }
 
@@ -445,7 +445,7 @@ private:
               Vec3 p{ double(at[0]), double(at[1]), double(at[2]) };
               p[axis] = 0.5 * (here[axis] + beyond[axis]);
               for (int k = 0; k < 3; ++k) p[k] *= m_Map.grid.spacing[k];
-              out.ambient.samples.push_back({ p, 0, id, f });
+              out.background.samples.push_back({ p, 0, id, f });
             }
       }
     }
@@ -474,7 +474,7 @@ private:
 } // namespace
 
 KuhnLattice kuhnLattice(const TissueMap& map, const ScaleField& scale, const LatticeOptions& options,
-                              const Progress& progress)
+                        const Progress& progress)
 {
   Lattice lattice(map, scale, options);
   lattice.activate();

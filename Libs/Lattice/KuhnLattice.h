@@ -25,7 +25,7 @@ struct LatticeOptions
 
 struct KuhnLattice
 {
-  BackgroundMesh ambient; ///< with samples at the centre of every voxel face between two labels, of tolerance 0
+  BackgroundMesh background; ///< with samples at the centre of every voxel face between two labels, of tolerance 0
   std::vector<std::pair<std::int32_t, std::int32_t>>
     interfaceFaces; ///< (tetrahedron of the larger label, face), each once
 };
@@ -33,6 +33,6 @@ struct KuhnLattice
 /// Points in the grid frame of `map`, mm. The box reaches some voxels beyond the map on every side.
 /// Throws EngineError if the scale asks for more cells than can be numbered.
 KuhnLattice kuhnLattice(const TissueMap& map, const ScaleField& scale, const LatticeOptions& options,
-                              const Progress& progress = {});
+                        const Progress& progress = {});
 
 } // namespace surgicalmesher

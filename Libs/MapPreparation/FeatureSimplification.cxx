@@ -335,7 +335,7 @@ std::set<Label> halved(const std::map<Label, std::size_t>& before, const TissueM
 } // namespace
 
 std::set<Label> simplifyFeatures(TissueMap& map, const ScaleField& scale, const FeatureOptions& options,
-                               const Progress& progress)
+                                 const Progress& progress)
 {
   const Vec3& s = map.grid.spacing;
   const double smallest = std::min({ s.x, s.y, s.z });

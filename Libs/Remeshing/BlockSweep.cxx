@@ -148,8 +148,7 @@ public:
     std::vector<std::size_t> order(m_Blocks.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     const auto samples = [&](std::size_t b) { return m_SampleStart[b + 1] - m_SampleStart[b]; };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return samples(a) > samples(b); });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return samples(a) > samples(b); });
     return order;
   }
 
@@ -260,8 +259,7 @@ private:
     std::partial_sum(m_SampleStart.begin(), m_SampleStart.end(), m_SampleStart.begin());
     m_SampleOrder.resize(n);
     std::vector<std::size_t> at(m_SampleStart.begin(), m_SampleStart.end() - 1);
-    for (std::size_t e = 0; e < n; ++e)
-      m_SampleOrder[at[block[m_Ambient.samples[e].tetrahedron]]++] = std::int32_t(e);
+    for (std::size_t e = 0; e < n; ++e) m_SampleOrder[at[block[m_Ambient.samples[e].tetrahedron]]++] = std::int32_t(e);
     m_Known = std::int32_t(m_Ambient.mesh.points.size());
   }
 

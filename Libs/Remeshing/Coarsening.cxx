@@ -1,6 +1,6 @@
 #include "Coarsening.h"
 
-#include "BoundarySamples.h"
+#include "Quadric.h"
 #include "TetQuality.h"
 
 #include <algorithm>
@@ -149,13 +149,13 @@ private:
   }
 
   /// What the samples at v says of its position: m x = g. Kept until a collapse changes a face at v.
-  const Fit& quadricAt(std::int32_t v)
+  const Quadric& quadricAt(std::int32_t v)
   {
     m_Quadrics.resize(m_Complex.points.size());
     auto& [isKnown, quadric] = m_Quadrics[v];
     if (isKnown) return quadric;
     gatherSheet(m_Complex, v, m_Operations.starOfTarget(v), m_Sheet);
-    quadric = fitOf(m_Complex, v, m_Sheet);
+    quadric = quadricOf(m_Complex, v, m_Sheet);
     quadric.g += quadric.times(m_Complex.points[v]);
     isKnown = true;
     return quadric;
@@ -164,9 +164,9 @@ private:
   /// Where the samples of u and v together would like the vertex they become; held by a spring to `middle`.
   Vec3 fitted(std::int32_t u, std::int32_t v, const Vec3& middle)
   {
-    Fit both = quadricAt(v);
+    Quadric both = quadricAt(v);
     if (!(both.trace() > 0)) return middle;
-    const Fit& ofU = quadricAt(u);
+    const Quadric& ofU = quadricAt(u);
     for (int k = 0; k < 6; ++k) both.m[k] += ofU.m[k];
     both.g += ofU.g;
     const double spring = 0.02 * both.trace();
@@ -225,12 +225,12 @@ private:
   std::vector<Near> m_Near;
   std::vector<GuardedOperations::Neighbour> m_Around;
   std::vector<Candidate> m_Candidates;
-  struct Quadric
+  struct KnownQuadric
   {
     bool isKnown = false;
-    Fit fit;
+    Quadric quadric;
   };
-  std::vector<Quadric> m_Quadrics; ///< per vertex, from the first that is asked for on
+  std::vector<KnownQuadric> m_Quadrics; ///< per vertex, from the first that is asked for on
   Sheet m_Sheet;
 };
 

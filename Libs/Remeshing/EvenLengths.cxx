@@ -11,10 +11,10 @@ namespace surgicalmesher
 namespace
 {
 
-class EdgeLengths
+class EvenLengths
 {
 public:
-  EdgeLengths(GuardedOperations& operations, const EdgeLengthOptions& options)
+  EvenLengths(GuardedOperations& operations, const EdgeLengthOptions& options)
     : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
       m_Good(sine2OfDegrees(options.goodAngle))
   {
@@ -23,7 +23,7 @@ public:
   void run()
   {
     forEachVertex([&](std::int32_t v) { stretchAt(v); });
-    forEachVertex([&](std::int32_t v) { settle(v); });
+    forEachVertex([&](std::int32_t v) { fitToSamples(v); });
   }
 
 private:
@@ -70,7 +70,7 @@ private:
   {
     constexpr double ease = 0.02, margin = 0.005;
     const Vec3 p = m_Complex.points[v], edge = p - m_Complex.points[u];
-    const Fit held = heldAt(m_Operations, v, ease);
+    const Quadric held = heldAt(m_Operations, v, ease);
     const bool isShort = ratio < shortestEven;
     const double lacking = isShort ? shortestEven + margin - ratio : ratio - longestEven + margin;
     const Vec3 direction = easiest(held, isShort ? edge : -1.0 * edge);
@@ -86,16 +86,16 @@ private:
   /// Where the samples would like v, were it at p, without a change of its distance to u.
   Vec3 onSheet(std::int32_t v, std::int32_t u, const Vec3& p)
   {
-    Fit fit = fitAt(m_Complex, v, p, m_Operations.sheet(v), m_Options.robust);
-    fit.addToDiagonal(0.05 * fit.trace());
-    const Vec3 edge = p - m_Complex.points[u], free = fit.solve(fit.g);
+    Quadric quadric = quadricWith(m_Complex, v, p, m_Operations.sheet(v), m_Options.robust);
+    quadric.addToDiagonal(0.05 * quadric.trace());
+    const Vec3 edge = p - m_Complex.points[u], free = quadric.solve(quadric.g);
     const Vec3 step = free - (dot(free, edge) / squaredNorm(edge)) * edge;
     const double length = norm(step), most = 0.3 * m_Complex.lengths[v];
     return p + (length > most ? most / length : 1) * step;
   }
 
   /// Moves v to p, or from there uphill to where its angles are good enough, if more lengths are then even.
-  bool moveNear(std::int32_t v, Vec3 p, const Fit& held)
+  bool moveNear(std::int32_t v, Vec3 p, const Quadric& held)
   {
     constexpr int trials = 8;
     const double floor = floorAt(v), now = evenEdges(v, m_Complex.points[v]);
@@ -110,11 +110,11 @@ private:
   }
 
   /// Moves v to the fit of its faces to their samples, where that costs no even length.
-  void settle(std::int32_t v)
+  void fitToSamples(std::int32_t v)
   {
-    Fit fit = fitOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
-    fit.addToDiagonal(0.005 * fit.trace());
-    const Vec3 p = m_Complex.points[v], step = fit.solve(fit.g);
+    Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
+    quadric.addToDiagonal(0.005 * quadric.trace());
+    const Vec3 p = m_Complex.points[v], step = quadric.solve(quadric.g);
     const double floor = floorAt(v), now = evenEdges(v, p);
     for (const double share : { 1.0, 0.5, 0.25 })
       if (evenEdges(v, p + share * step) >= now && m_Operations.move(v, p + share * step, floor)) return;
@@ -131,7 +131,7 @@ private:
 
 void evenLengthsOfBlock(GuardedOperations& operations, const EdgeLengthOptions& options)
 {
-  EdgeLengths(operations, options).run();
+  EvenLengths(operations, options).run();
 }
 
 } // namespace surgicalmesher

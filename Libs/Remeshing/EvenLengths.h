@@ -16,7 +16,7 @@ struct EdgeLengthOptions
 {
   double goodAngle = usualAngle; ///< degrees; a move that lowers the worst angle at its vertex is taken only above this
   double from = 0;               ///< mm; vertices with smaller target lengths stay
-  double robust = 0;             ///< mm, see fitOf
+  double robust = 0;             ///< mm, see quadricOf
 };
 
 /// Moves vertices between labels along their sheets and curves to where more of their edges have even lengths. Then they go to

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "Improvement.h"
 
+#include "FaceAdjacency.h"
 #include "TetQuality.h"
 #include "VertexSteps.h"
 
@@ -12,164 +14,6 @@ namespace surgicalmesher
 
 namespace
 {
-
-class Relaxation
-{
-public:
-  Relaxation(GuardedOperations& operations, const RelaxationOptions& options)
-    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
-      m_Good(sine2OfDegrees(options.goodAngle))
-  {
-  }
-
-  void run()
-  {
-    for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
-      if (m_Complex.vertexTet[v] >= 0 && !m_Complex.locked[v]) relax(v);
-  }
-
-private:
-  void relax(std::int32_t v)
-  {
-    const Vec3 step = m_Complex.onInterface[v] ? onInterface(v) : towardsMiddle(v);
-    const double before = m_Operations.qualityAt(v);
-    const double floor = std::min(m_Good, before);
-    for (double share : { 1.0, 0.5, 0.25 })
-      if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : floor)) return;
-  }
-
-  /// Where the edges at v would like it: the mean, over its neighbours x, of the point at the target distance from x in the
-  /// direction of v. A descent step of the sum of (|vx| - L)^2.
-  Vec3 towardsMiddle(std::int32_t v)
-  {
-    const auto& neighbours = m_Operations.neighbours(v);
-    Vec3 sum;
-    for (const auto& n : neighbours) sum += wish(v, n.vertex);
-    return sum / double(neighbours.size());
-  }
-
-  /// The way of v towards (for x too far) or from (for x too near) its target distance to x, and half the way to x itself,
-  /// which evens out the directions.
-  Vec3 wish(std::int32_t v, std::int32_t x) const
-  {
-    const Vec3 d = m_Complex.points[x] - m_Complex.points[v];
-    const double target = m_Complex.targetLength(v, x);
-    return (m_Options.spread * (1 - target / norm(d)) + 1 - m_Options.spread) * d;
-  }
-
-  /// Least squares over the samples of the faces at v, held by a spring to the middle of the neighbours on the interface.
-  Vec3 onInterface(std::int32_t v)
-  {
-    Fit fit = fitOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
-    if (!(fit.trace() > 0)) return {};
-    const double spring = 0.05 * fit.trace() / m_Options.fit;
-    fit.addToDiagonal(spring);
-    return fit.solve(fit.g + spring * alongInterface(v));
-  }
-
-  /// Towards the middle of the neighbours on the same curve, or on the sheet; nothing where curves meet.
-  Vec3 alongInterface(std::int32_t v)
-  {
-    m_Degree.clear();
-    for (const SheetFace& f : m_Operations.sheet(v).faces)
-      for (std::int32_t u : f.vertices)
-      {
-        if (u == v) continue;
-        auto at = std::find_if(m_Degree.begin(), m_Degree.end(), [&](const auto& d) { return d.first == u; });
-        if (at == m_Degree.end()) m_Degree.push_back({ u, 1 });
-        else ++at->second;
-      }
-    const auto curves = std::count_if(m_Degree.begin(), m_Degree.end(), [](const auto& d) { return d.second > 2; });
-    if (curves != 0 && curves != 2) return {};
-    Vec3 sum;
-    double total = 0;
-    for (const auto& [u, degree] : m_Degree)
-    {
-      if (curves && degree <= 2) continue;
-      sum += wish(v, u);
-      total += 1;
-    }
-    return sum / total;
-  }
-
-  GuardedOperations& m_Operations;
-  TetComplex& m_Complex;
-  const RelaxationOptions& m_Options;
-  const double m_Good;
-  std::vector<std::pair<std::int32_t, int>> m_Degree;
-};
-
-class Polishing
-{
-public:
-  Polishing(GuardedOperations& operations, const PolishOptions& options)
-    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
-      m_Good(sine2OfDegrees(options.goodAngle))
-  {
-  }
-
-  void run()
-  {
-    for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
-    {
-      if (m_Complex.vertexTet[v] < 0 || m_Complex.locked[v]) continue;
-      if (m_Complex.onInterface[v]) moveToSamples(v);
-      climb(v);
-    }
-  }
-
-private:
-  void moveToSamples(std::int32_t v)
-  {
-    Fit fit = fitOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
-    fit.addToDiagonal(0.05 * fit.trace() / m_Options.fit);
-    const Vec3 step = fit.solve(fit.g);
-    const double before = m_Operations.qualityAt(v);
-    for (double share : { 1.0, 0.5, 0.25 })
-      if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : std::min(m_Good, before)))
-        return;
-  }
-
-  /// Sum of the sines of the worst angles at v, if it were at p; -1 if one is under `floor`.
-  double sumOfSines(std::int32_t v, const Vec3& p, double floor)
-  {
-    double sum = 0;
-    StarQuality& star = m_Operations.measured(v);
-    const std::vector<double>& qualities = star.each(p);
-    for (std::size_t i = 0; i < star.size(); ++i)
-    {
-      if (qualities[i] < floor) return -1;
-      if (!star.isBackground(i)) sum += std::sqrt(std::max(0.0, qualities[i]));
-    }
-    return sum;
-  }
-
-  void climb(std::int32_t v)
-  {
-    const Vec3 p = m_Complex.points[v];
-    const double size = m_Complex.lengths[v], h = 1e-4 * size;
-    const double floor = std::min(m_Good, m_Operations.qualityAt(v));
-    const double now = sumOfSines(v, p, -1);
-    Vec3 direction;
-    for (int a = 0; a < 3; ++a)
-    {
-      Vec3 q = p;
-      q[a] += h;
-      direction[a] = sumOfSines(v, q, -1) - now;
-    }
-    direction = easiest(heldAt(m_Operations, v, m_Options.ease), direction);
-    for (double step : { 0.12, 0.06, 0.03 })
-    {
-      const Vec3 q = p + step * size * direction;
-      if (sumOfSines(v, q, floor) > now && m_Operations.moveWithin(v, q)) return;
-    }
-  }
-
-  GuardedOperations& m_Operations;
-  TetComplex& m_Complex;
-  const PolishOptions& m_Options;
-  const double m_Good;
-};
 
 /// A fixed sequence of directions, for reproducible trials.
 class Directions
@@ -255,9 +99,8 @@ private:
   template <class F>
   bool forEachEdge(std::int32_t t, F&& f)
   {
-    static constexpr int ends[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
     const auto x = m_Complex.tets[t];
-    for (const auto& e : ends)
+    for (const auto& e : kEdgeCorners)
       if (f(x[e[0]], x[e[1]])) return true;
     return false;
   }
@@ -298,7 +141,7 @@ private:
     const double start = best;
     const double size = m_Complex.lengths[v];
     double step = 0.12 * size;
-    const Fit held = heldAt(m_Operations, v, m_Options.ease);
+    const Quadric held = heldAt(m_Operations, v, m_Options.ease);
     std::optional<Vec3> uphill; // from where v is now
     for (int trial = 0; trial < m_Options.trials && best < m_Target && step > 0.004 * size; ++trial)
     {
@@ -323,17 +166,17 @@ private:
   /// all tetrahedra around t lack, vertex by vertex, and keeps the result if the worst of them has become better.
   bool moveTogether(std::int32_t t)
   {
-    struct Reach
+    struct Range
     {
       double near; ///< tetrahedra up to this many times as good as t take part
       double dip;  ///< share of t's quality that they may fall to on the way
     };
     if (m_TogetherLeft == 0) return false;
     --m_TogetherLeft;
-    for (const Reach& vertexDistance : { Reach{ 1.3, 0.8 }, Reach{ 2, 0.6 } })
+    for (const Range& range : { Range{ 1.3, 0.8 }, Range{ 2, 0.6 } })
     {
-      const std::vector<std::int32_t> vertices = neighbourhood(t, vertexDistance.near);
-      if (const double before = worstAt(vertices); before > 0 && moveTogether(vertices, before, vertexDistance.dip)) return true;
+      const std::vector<std::int32_t> vertices = neighbourhood(t, range.near);
+      if (const double before = worstAt(vertices); before > 0 && moveTogether(vertices, before, range.dip)) return true;
     }
     return false;
   }
@@ -357,7 +200,7 @@ private:
       return true;
     }
     for (auto m = moves.rbegin(); m != moves.rend(); ++m) m_Operations.moveBack(m->first, m->second);
-    for (std::int32_t v : vertices) m_Operations.bringHome(v);
+    for (std::int32_t v : vertices) m_Operations.reassignSamples(v);
     return false;
   }
 
@@ -384,10 +227,10 @@ private:
     constexpr double dip = 0.3;
     const double before = std::min(m_Operations.qualityAt(a), m_Operations.qualityAt(b));
     const Vec3 middle = 0.5 * (m_Complex.points[a] + m_Complex.points[b]);
-    if (!(before > 0) || !m_Operations.split(a, b, seed, middle, dip * before)) return false;
-    const std::int32_t v = m_Operations.lastSplitVertex;
-    if (moveTogether(around(v), before, dip)) return true;
-    m_Operations.takeBackSplit(v, a);
+    const auto v = before > 0 ? m_Operations.split(a, b, seed, middle, dip * before) : std::nullopt;
+    if (!v) return false;
+    if (moveTogether(around(*v), before, dip)) return true;
+    m_Operations.takeBackSplit(*v, a);
     return false;
   }
 
@@ -519,8 +362,10 @@ private:
       if (const double value = halves(q); value > best) best = value, p = q;
       else step *= 0.85;
     }
-    if (!(best > before * 1.0001 + 1e-9) || !m_Operations.split(a, b, seed, p, before * 1.0001 + 1e-9)) return false;
-    touchStar(m_Operations.lastSplitVertex);
+    const double better = before * 1.0001 + 1e-9;
+    const auto v = best > better ? m_Operations.split(a, b, seed, p, better) : std::nullopt;
+    if (!v) return false;
+    touchStar(*v);
     return true;
   }
 
@@ -536,13 +381,6 @@ private:
 };
 
 } // namespace
-
-void relaxBlock(GuardedOperations& operations, const RelaxationOptions& options)
-{
-  Relaxation(operations, options).run();
-}
-
-void polishBlock(GuardedOperations& operations, const PolishOptions& options) { Polishing(operations, options).run(); }
 
 void improveBlock(GuardedOperations& operations, const ImprovementOptions& options)
 {

@@ -51,7 +51,7 @@ public:
   std::vector<Tet> neighbours;           ///< [i] across the face opposite vertex i; -1 beyond a block
   std::vector<Label> labels;
   std::vector<std::array<std::int32_t, 4>> sampleHeads; ///< per face, held by the side of the larger label (on a
-                                                          ///< block's border, by the block that has that side)
+                                                        ///< block's border, by the block that has that side)
   std::vector<BoundarySample> samples;
 
   // --- queries

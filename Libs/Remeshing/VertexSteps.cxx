@@ -3,14 +3,14 @@
 namespace surgicalmesher
 {
 
-Fit heldAt(GuardedOperations& operations, std::int32_t v, double ease)
+Quadric heldAt(GuardedOperations& operations, std::int32_t v, double ease)
 {
-  Fit held = fitOf(operations.complex(), v, operations.sheet(v));
+  Quadric held = quadricOf(operations.complex(), v, operations.sheet(v));
   held.addToDiagonal(operations.complex().onInterface[v] ? ease * held.trace() : 1);
   return held;
 }
 
-Vec3 easiest(const Fit& held, const Vec3& direction)
+Vec3 easiest(const Quadric& held, const Vec3& direction)
 {
   const Vec3 d = held.solve(direction);
   const double n = norm(d);

@@ -2,15 +2,16 @@
 /// Directions for a vertex: where angles get better, and where its samples yields.
 
 #include "GuardedOperations.h"
+#include "Quadric.h"
 
 namespace surgicalmesher
 {
 
 /// How the samples resists a step of v: a share `ease` of all its resistance in every direction besides.
-Fit heldAt(GuardedOperations& operations, std::int32_t v, double ease);
+Quadric heldAt(GuardedOperations& operations, std::int32_t v, double ease);
 
 /// Turns `direction` at a vertex on the interface into one that its samples resists less; a unit vector, or zero.
-Vec3 easiest(const Fit& held, const Vec3& direction);
+Vec3 easiest(const Quadric& held, const Vec3& direction);
 
 /// The way up from the worst tetrahedra at a vertex.
 class Uphill

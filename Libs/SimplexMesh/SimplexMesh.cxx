@@ -1,7 +1,7 @@
 #include "SimplexMesh.h"
 
-#include "MeshChecks.h"
 #include "Errors.h"
+#include "MeshChecks.h"
 
 #include <algorithm>
 #include <tuple>

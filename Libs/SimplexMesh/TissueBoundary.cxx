@@ -1,8 +1,8 @@
 #include "TissueBoundary.h"
 
-#include "KuhnLattice.h"
 #include "FaceAdjacency.h"
 #include "InterfaceSmoothing.h"
+#include "KuhnLattice.h"
 
 #include <limits>
 
@@ -44,7 +44,7 @@ SurfaceComplex smoothedBoundary(const TissueMap& map)
 {
   KuhnLattice lattice = kuhnLattice(map, uniformScale(1e6), {});
   smoothInterface(lattice, map.grid.spacing);
-  return interfaceOf(lattice.ambient.mesh);
+  return interfaceOf(lattice.background.mesh);
 }
 
 TissueBoundary::TissueBoundary(const SurfaceComplex& surface, double reach)

@@ -58,10 +58,10 @@ protected:
   void expectSaysThatTheDiskIsFull(const std::string& arguments) const
   {
     std::filesystem::create_directory(folder.file("disk"));
-    const Outcome result =
-      shell("unshare -rm true || exit 99; exec unshare -rm sh -c 'mount -t tmpfs -o size=32k none disk || exit 99; \"$0\" \"$@\"; "
-            "status=$?; ls -A disk >&2; exit $status' " +
-            commandOf(arguments));
+    const Outcome result = shell("unshare -rm true || exit 99; exec unshare -rm sh -c 'mount -t tmpfs -o size=32k none "
+                                 "disk || exit 99; \"$0\" \"$@\"; "
+                                 "status=$?; ls -A disk >&2; exit $status' " +
+                                 commandOf(arguments));
     if (result.status > 3) GTEST_SKIP() << "no small file system can be mounted here: " << result.err;
     expectFailure(result, 1, "disk/", arguments);
   }

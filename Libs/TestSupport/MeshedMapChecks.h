@@ -1,12 +1,13 @@
 #pragma once
 /// What every meshed map has to be, whatever the map: shared by the tests and the fuzzer.
 
-#include "MeshChecks.h"
 #include "DigitalTopology.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
 #include "GuardedOperations.h"
+#include "MeshChecks.h"
 #include "TissueMesher.h"
+#include "Triangle.h"
 
 #include <cmath>
 #include <map>
@@ -18,9 +19,9 @@ namespace surgicalmesher::test
 
 /// The first thing wrong with the mesh of `map`, or nothing: sound, every tissue with the topology of the map, samples
 /// on faces of a larger and a smaller label and within its tolerance.
-inline std::string faultOf(const SurfaceMesh& result, const TissueMap& map)
+inline std::string faultOf(const MeshedMap& result, const TissueMap& map)
 {
-  const TetMesh& mesh = result.ambient.mesh;
+  const TetMesh& mesh = result.background.mesh;
   try
   {
     requireSound(mesh, "mesh");
@@ -42,12 +43,12 @@ inline std::string faultOf(const SurfaceMesh& result, const TissueMap& map)
     return fault.str();
   }
   if (got.size() != wanted.size()) return "there are tissues that the map does not have";
-  if (result.ambient.lengths.size() != mesh.points.size()) return "there is not one target length per point";
+  if (result.background.lengths.size() != mesh.points.size()) return "there is not one target length per point";
   const auto neighbours = faceAdjacency(mesh);
   const Vec3 h = map.grid.spacing;
   constexpr double slack = 2.4, aside = 2; // see Envelope
   const auto allowed = [&](double tolerance) { return aside * slack * tolerance + std::min({ h.x, h.y, h.z }); };
-  for (const auto& e : result.ambient.samples)
+  for (const auto& e : result.background.samples)
   {
     const std::int32_t n = neighbours.across[e.tetrahedron][e.face];
     if (n < 0 || mesh.labels[n] >= mesh.labels[e.tetrahedron])

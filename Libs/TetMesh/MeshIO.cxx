@@ -55,6 +55,7 @@ constexpr const char* kVolumePointId = "VolumePointId";
 constexpr const char* kTargetEdgeLength = "TargetEdgeLength";
 constexpr const char* kBoundaryDistance = "BoundaryDistance";
 constexpr const char* kTissueIds = "TissueIds";
+constexpr const char* kTargetAngle = "TargetDihedralAngle";
 constexpr const char* kTissueNames = "TissueNames";
 constexpr const char* kTissueColors = "TissueColors";
 constexpr const char* kTissueRoles = "TissueRoles";
@@ -442,6 +443,15 @@ void addFieldData(vtkFieldData* data, const std::set<Label>& present, const Tiss
   if (std::count(roles.begin(), roles.end(), "shell") > 0) addStrings(data, kTissueRoles, roles);
 }
 
+/// 0 where there is none that means something.
+double targetAngleOf(vtkFieldData* data)
+{
+  vtkDataArray* angle = data->GetArray(kTargetAngle);
+  if (!angle || angle->GetNumberOfTuples() != 1 || angle->GetNumberOfComponents() != 1) return 0;
+  const double degrees = angle->GetTuple1(0);
+  return degrees > 0 && degrees < 60 ? degrees : 0;
+}
+
 void removeStrings(vtkFieldData* data)
 {
   for (const char* name : { kSpace, kTissueNames, kTissueRoles }) data->RemoveArray(name);
@@ -659,6 +669,7 @@ MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name
   result.volumePointId = integersOf(grid->GetPointData(), kVolumePointId, pointCount, kHighestInteger, name);
   result.interfaceId = integersOf(grid->GetPointData(), kInterfaceId, pointCount, kHighestInteger, name, -1);
   result.tissues = tissuesOf(grid->GetFieldData());
+  result.targetAngle = targetAngleOf(grid->GetFieldData());
   requireSound(result.mesh, name);
   return result;
 }
@@ -699,6 +710,8 @@ void writeMesh(const MeshFile& content, const std::string& file, FieldTexts text
   addArray<vtkIntArray>(grid->GetPointData(), kInterfaceId, content.interfaceId);
   const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
   addFieldData(grid->GetFieldData(), present, content.tissues);
+  if (content.targetAngle > 0)
+    addArray<vtkDoubleArray>(grid->GetFieldData(), kTargetAngle, std::vector<double>{ content.targetAngle });
   if (texts == FieldTexts::LeftOut) removeStrings(grid->GetFieldData());
   const std::string extension = extensionOf(file);
   if (extension == ".vtk")

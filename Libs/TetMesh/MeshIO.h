@@ -61,6 +61,8 @@ struct MeshFile
   std::vector<std::int32_t> volumePointId;    ///< per point of a part: its id in the whole mesh
   std::vector<std::int32_t> interfaceId; ///< per point of a part: its number on the child/parent interface, -1 none
   TissueTable tissues;                   ///< names and colours
+  /// Degrees, dihedral: what the surface stage has improved the mesh to, but for single places; 0: nobody says.
+  double targetAngle = 0;
 };
 
 /// Reads tetrahedra with a cell array TissueLabel from a .vtu or .vtk, ambient complexes (label 0 outside) included.

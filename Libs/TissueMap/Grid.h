@@ -8,6 +8,7 @@
 
 #include "Vec3.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -28,6 +29,18 @@ struct Grid
   {
     return i >= 0 && j >= 0 && k >= 0 && i < size[0] && j < size[1] && k < size[2];
   }
+
+  double smallestSpacing() const { return std::min({ spacing.x, spacing.y, spacing.z }); } ///< mm
+  double largestSpacing() const { return std::max({ spacing.x, spacing.y, spacing.z }); }  ///< mm
+
+  /// The voxel that lies at `index` in memory.
+  std::array<int, 3> voxelAt(std::size_t index) const
+  {
+    const std::size_t row = index / size[0];
+    return { int(index % size[0]), int(row % size[1]), int(row / size[1]) };
+  }
+  /// Centre of a voxel in the grid frame, mm.
+  Vec3 position(int i, int j, int k) const { return { i * spacing.x, j * spacing.y, k * spacing.z }; }
 
   Vec3 gridToWorld(const Vec3& p) const { return origin + p.x * axes[0] + p.y * axes[1] + p.z * axes[2]; }
   Vec3 worldToGrid(const Vec3& p) const

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double kBytes = 25e6, kBytesPerFace = 750, kBytesPerCube = 370, kBytesPerVoxel = 40;
-constexpr double kRelativeSize = 0.8; ///< of a cube to L
+constexpr double kRelativeSize = 0.8;       ///< of a cube to L
 constexpr int kSmallest = -2, kLargest = 5; ///< powers of two of a cube's side, in voxels
 
 /// Faces between voxels of different labels along one axis, and those of tissue at the map's ends.
@@ -101,8 +101,9 @@ std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scal
 void requireMemory(std::uint64_t needed, const std::optional<std::uint64_t>& available, const std::string& mapFile)
 {
   if (!available || needed <= *available) return;
-  throw InputError(mapFile + ": meshing this map at this scale takes about " + inGigabytes(needed) + " of memory, found " +
-                   inGigabytes(*available) + " available, expected more, or larger voxels or minimum edge length");
+  throw InputError(mapFile + ": meshing this map at this scale takes about " + inGigabytes(needed) +
+                   " of memory, found " + inGigabytes(*available) +
+                   " available, expected more, or larger voxels or minimum edge length");
 }
 
 } // namespace surgicalmesher

@@ -35,7 +35,7 @@ constexpr double maximumVoxelCount = 2147483648.0; // 2^31: 4 GB of labels
 struct Volume : CanonicalGrid
 {
   std::string file;
-  int components = 1;                   ///< values per voxel, interleaved
+  int components = 1; ///< values per voxel, interleaved
   itk::IOComponentEnum type = itk::IOComponentEnum::UNKNOWNCOMPONENTTYPE;
   std::unique_ptr<char[]> data;
   MetaData metaData;

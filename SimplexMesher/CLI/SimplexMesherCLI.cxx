@@ -3,11 +3,11 @@
 #include "AvailableMemory.h"
 #include "BoundaryDistance.h"
 #include "CommandLine.h"
-#include "MeshChecks.h"
-#include "MeshIO.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
 #include "MemoryEstimate.h"
+#include "MeshChecks.h"
+#include "MeshIO.h"
 #include "Report.h"
 #include "SimplexMesh.h"
 #include "SimplexMesherCLIXML.h"
@@ -166,13 +166,14 @@ void writeTissueSurfaces(CommandLine& line, const SurfaceFile& content)
   writeBytes(multiBlockIndex(files, content.tissues), index);
 }
 
-void writeAmbient(CommandLine& line, TetMesh&& mesh, const Grid& world, const TissueTable& tissues,
+void writeAmbient(CommandLine& line, MeshedMap&& mesh, const Grid& world, const TissueTable& tissues,
                   const ScaleField& scale)
 {
   const std::string file = line.outputFile("ambient");
   if (file.empty()) return;
   MeshFile ambient;
-  ambient.mesh = toWorld(std::move(mesh), world);
+  ambient.mesh = toWorld(std::move(mesh.background.mesh), world);
+  ambient.targetAngle = mesh.targetAngle;
   ambient.tissues = tissues;
   for (const Vec3& p : ambient.mesh.points) ambient.targetEdgeLength.push_back(scale(p));
   writeMesh(ambient, file);
@@ -208,12 +209,12 @@ void run(CommandLine& line)
 
   const Grid world = map.grid;
   map.grid = inOwnFrame(world);
-  SurfaceMesh mesh = meshTissues(map, inFrameOf(world, scale), options, subProgress(progress, 0.06, 0.9));
+  MeshedMap mesh = meshTissues(map, inFrameOf(world, scale), options, subProgress(progress, 0.06, 0.9));
 
   report(progress, 0.9, "checks");
-  requireSound(mesh.ambient.mesh, "surface");
-  requireTopology(mesh.ambient.mesh, results.topology);
-  const SurfaceFile content = surfaceFile(mesh.ambient.mesh, map, world, scale);
+  requireSound(mesh.background.mesh, "surface");
+  requireTopology(mesh.background.mesh, results.topology);
+  const SurfaceFile content = surfaceFile(mesh.background.mesh, map, world, scale);
   results.points = content.surface.points.size();
   results.triangles = content.surface.triangles.size();
   results.evolution = mesh.evolution;
@@ -223,7 +224,7 @@ void run(CommandLine& line)
   writeTissueSurfaces(line, content);
   const std::string simplexMesh = line.outputFile("simplexMesh");
   if (!simplexMesh.empty()) writePolygons(simplexMeshFile(content), simplexMesh);
-  writeAmbient(line, std::move(mesh.ambient.mesh), world, map.table, scale);
+  writeAmbient(line, std::move(mesh), world, map.table, scale);
   writeReports(line, results);
   report(progress, 1, "done");
 }

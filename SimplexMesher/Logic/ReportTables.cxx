@@ -1,8 +1,8 @@
 #include "ReportTables.h"
 
-#include "MeshIO.h"
 #include "Errors.h"
 #include "HostDifferences.h"
+#include "MeshIO.h"
 #include "TextFile.h"
 
 #include <vtkMRMLModelNode.h>

@@ -1,5 +1,5 @@
-#include "MeshIO.h"
 #include "ExecutableTest.h"
+#include "MeshIO.h"
 #include "TissueMapIO.h"
 #include "VoxelMesh.h"
 

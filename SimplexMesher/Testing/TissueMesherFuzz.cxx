@@ -74,7 +74,7 @@ std::string run(unsigned seed)
   if (random() % 4 == 0) options.maximumDistance = 0.3 + random() % 10 * 0.1;
   try
   {
-    const SurfaceMesh mesh = meshTissues(map, scale, options);
+    const MeshedMap mesh = meshTissues(map, scale, options);
     const std::string fault = test::faultOf(mesh, map);
     const double allowed = std::max(options.maximumDistance, mesh.evolution.front().maximumDistance) * (1 + 1e-5);
     const double farthest = mesh.evolution.back().maximumDistance;

@@ -1,8 +1,8 @@
 #include "TissueMesher.h"
-#include "MeshChecks.h"
 #include "DigitalTopology.h"
 #include "FaceAdjacency.h"
 #include "MapPreparation.h"
+#include "MeshChecks.h"
 #include "MeshedMapChecks.h"
 #include "RandomMaps.h"
 #include "ScaleMaps.h"
@@ -104,14 +104,14 @@ std::vector<Shape> shapes()
   return shapes;
 }
 
-SurfaceMesh meshed(const TissueMap& map, const ScaleField& scale) { return meshTissues(map, scale, {}); }
+MeshedMap meshed(const TissueMap& map, const ScaleField& scale) { return meshTissues(map, scale, {}); }
 
-void expectSameBytes(const SurfaceMesh& a, const SurfaceMesh& b)
+void expectSameBytes(const MeshedMap& a, const MeshedMap& b)
 {
-  EXPECT_EQ(a.ambient.mesh.points, b.ambient.mesh.points);
-  EXPECT_EQ(a.ambient.mesh.tetrahedra, b.ambient.mesh.tetrahedra);
-  EXPECT_EQ(a.ambient.mesh.labels, b.ambient.mesh.labels);
-  EXPECT_EQ(a.ambient.lengths, b.ambient.lengths);
+  EXPECT_EQ(a.background.mesh.points, b.background.mesh.points);
+  EXPECT_EQ(a.background.mesh.tetrahedra, b.background.mesh.tetrahedra);
+  EXPECT_EQ(a.background.mesh.labels, b.background.mesh.labels);
+  EXPECT_EQ(a.background.lengths, b.background.lengths);
 }
 
 /// The map with axes turned and flipped in memory, in the same place of the world: axis a of the copy runs along axis
@@ -160,10 +160,10 @@ TEST_P(MeshedShape, IsSoundAndHasTheMapsTopology)
   {
     SCOPED_TRACE(shape.name);
     if (GetParam() < 1 && shape.map.labels.size() > 1000) continue; // millions of tetrahedra
-    const SurfaceMesh mesh = meshed(shape.map, uniformScale(GetParam()));
+    const MeshedMap mesh = meshed(shape.map, uniformScale(GetParam()));
     EXPECT_EQ(faultOf(mesh, shape.map), "");
     ASSERT_FALSE(mesh.evolution.empty());
-    EXPECT_EQ(mesh.evolution.back().tetrahedra, withoutOutside(mesh.ambient.mesh).tetrahedra.size());
+    EXPECT_EQ(mesh.evolution.back().tetrahedra, withoutOutside(mesh.background.mesh).tetrahedra.size());
   }
 }
 
@@ -174,7 +174,7 @@ TEST(SurfaceMesher, FollowsASphereAtItsScale)
   const TissueMap map = shapes()[0].map;
   for (double length : { 1.5, 3.0 })
   {
-    const SurfaceComplex surface = interfaceOf(meshed(map, uniformScale(length)).ambient.mesh);
+    const SurfaceComplex surface = interfaceOf(meshed(map, uniformScale(length)).background.mesh);
     const double voxels = double(std::count(map.labels.begin(), map.labels.end(), 1));
     EXPECT_NEAR(checkSurface(surface).at(1).volume, voxels, 0.05 * voxels) << length;
     for (const Vec3& p : surface.points) EXPECT_NEAR(norm(p - Vec3{ 8, 8, 8 }), 7.1, 0.45 + 0.11 * length + 0.5);
@@ -186,9 +186,9 @@ TEST(SurfaceMesher, KeepsTheDistanceAskedFor)
   const TissueMap map = shapes()[2].map;
   TissueMesherOptions options;
   options.maximumDistance = 0.4;
-  const SurfaceMesh mesh = meshTissues(map, uniformScale(3), options);
+  const MeshedMap mesh = meshTissues(map, uniformScale(3), options);
   EXPECT_EQ(faultOf(mesh, map), "");
-  for (const auto& e : mesh.ambient.samples) EXPECT_LE(e.tolerance, 0.4f);
+  for (const auto& e : mesh.background.samples) EXPECT_LE(e.tolerance, 0.4f);
   EXPECT_LE(mesh.evolution.back().maximumDistance, std::max(0.4, mesh.evolution.front().maximumDistance) * (1 + 1e-6));
 }
 
@@ -200,7 +200,7 @@ TEST(SurfaceMesher, HoldsThinTissuesLessCloselyOnceSimplifiedUnlessProtected)
     TissueMesherOptions options;
     options.features = features;
     float most = 0;
-    for (const auto& e : meshTissues(map, uniformScale(9), options).ambient.samples)
+    for (const auto& e : meshTissues(map, uniformScale(9), options).background.samples)
       if (e.position.z < 2.9) most = std::max(most, e.tolerance);
     return most;
   };
@@ -216,9 +216,9 @@ TEST(SurfaceMesher, EveryTissueOfAnAtlasIsAsInTheMap)
   const TissueMap map = atlasPart();
   ASSERT_GT(presentLabels(map).size(), 20u);
   const ScaleField scale = radialScale(map.grid, map.grid.gridToWorld({ 32, 32, 32 }), 1, 8, 10, 25);
-  const SurfaceMesh mesh = meshed(map, scale);
+  const MeshedMap mesh = meshed(map, scale);
   EXPECT_EQ(faultOf(mesh, map), "");
-  const auto tissues = checkSurface(interfaceOf(mesh.ambient.mesh));
+  const auto tissues = checkSurface(interfaceOf(mesh.background.mesh));
   EXPECT_EQ(tissues.size(), presentLabels(map).size());
 }
 
@@ -228,7 +228,7 @@ TEST(SurfaceMesher, BytesDoNotDependOnThreads)
   prepareMap(map, {}); // the cut makes new contacts with the outside
   const ScaleField scale = radialScale(map.grid, map.grid.gridToWorld({ 16, 16, 16 }), 1, 6, 4, 12);
   vtkSMPTools::Initialize(1);
-  const SurfaceMesh alone = meshed(map, scale);
+  const MeshedMap alone = meshed(map, scale);
   vtkSMPTools::Initialize(2);
   expectSameBytes(meshed(map, scale), alone);
   vtkSMPTools::Initialize(0);
@@ -239,7 +239,7 @@ TEST(SurfaceMesher, AMapsAxesDoNotMatter)
 {
   TissueMap map = cropped(atlasPart(), { 24, 24, 24 }, { 20, 16, 18 });
   prepareMap(map, {});
-  const SurfaceMesh expected = meshed(map, uniformScale(2.5));
+  const MeshedMap expected = meshed(map, uniformScale(2.5));
   const auto file = std::filesystem::temp_directory_path() / "surgicalmesher-axes.nrrd";
   const std::vector<std::pair<std::array<int, 3>, std::array<bool, 3>>> arrangements{
     { { 1, 2, 0 }, { false, false, false } },

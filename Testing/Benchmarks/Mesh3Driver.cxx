@@ -6,9 +6,9 @@
 // Mesh_3 interpolates; perturbation and exudation may take timeLimit (60 s) each, 0 for no limit. Prints one JSON object:
 // seconds of each phase, sizes, peak memory. CGAL's own chatter is on stderr.
 
-#include "MeshIO.h"
 #include "Driver.h"
 #include "Errors.h"
+#include "MeshIO.h"
 #include "TissueMapIO.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

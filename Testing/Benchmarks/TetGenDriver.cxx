@@ -8,10 +8,10 @@
 // at the surface's points for its sizes (-m).
 // Prints one JSON object: seconds of each phase, sizes, peak memory.
 
-#include "MeshIO.h"
 #include "Driver.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "MeshIO.h"
 #include "TissueMapIO.h"
 
 #include <tetgen.h>

@@ -6,10 +6,10 @@
 // FOLDER receives surfaces, simplex meshes, the evolution of each and table.csv; TEMPLATES holds mricron's atlases.
 // NAMEs choose among cube, brain, tubes and path.
 
-#include "MeshChecks.h"
-#include "MeshIO.h"
 #include "Errors.h"
 #include "MapPreparation.h"
+#include "MeshChecks.h"
+#include "MeshIO.h"
 #include "MeshQuality.h"
 #include "SimplexDeformation.h"
 #include "TissueMapIO.h"

@@ -1,10 +1,10 @@
 // The panel as a user meets it: it says what is missing, runs the module off the interface, and shows, measures and
 // exports the same tetrahedra that the command line writes.
 
-#include "MeshIO.h"
 #include "HostApplication.h"
 #include "HostScene.h"
 #include "MeshComparison.h"
+#include "MeshIO.h"
 #include "MeshedBalls.h"
 #include "qSurgicalMesherRunWidget.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"

@@ -2,10 +2,10 @@
 // scene brings back.
 
 #include "vtkSlicerFuchsTetrahedralizerLogic.h"
-#include "MeshIO.h"
 #include "HostApplication.h"
 #include "HostScene.h"
 #include "MeshComparison.h"
+#include "MeshIO.h"
 #include "MeshedBalls.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 #include "vtkSurgicalMesherRun.h"

@@ -1,6 +1,6 @@
 #include "SurfaceTetrahedralization.h"
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "MeshQuality.h"
 #include "SeparateProcess.h"
 #include "Shapes.h"

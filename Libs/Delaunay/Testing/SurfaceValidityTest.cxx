@@ -1,6 +1,6 @@
 #include "SurfaceValidity.h"
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "Shapes.h"
 #include "VoxelMesh.h"
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Meshes of voxel maps with tissues, sub-meshes and constitutive classes, for the tests of sets and exports.
 
-#include "MeshIO.h"
 #include "FaceAdjacency.h"
+#include "MeshIO.h"
 #include "RandomMaps.h"
 #include "VoxelMesh.h"
 

@@ -18,8 +18,9 @@ MeshFile dividedBlock()
   MeshFile whole;
   whole.mesh =
     withoutOutside(test::tetrahedraOf(test::paintedMap({ 16, 6, 6 }, [](int, int j, int) { return 1 + j / 3; })));
-  const SizingFunction length = [](const Vec3& p)
-  { return std::min(norm(p - Vec3{ 3, 3, 3 }), norm(p - Vec3{ 12, 3, 3 })) < 2.5 ? 1.0 : 4.0; };
+  const SizingFunction length = [](const Vec3& p) {
+    return std::min(norm(p - Vec3{ 3, 3, 3 }), norm(p - Vec3{ 12, 3, 3 })) < 2.5 ? 1.0 : 4.0;
+  };
   const SubMeshes division = divideIntoSubMeshes(whole.mesh, length);
   whole.subMesh = division.ofTetrahedron;
   whole.constitutive = constitutiveModels(whole.mesh, whole.subMesh, {});
@@ -96,8 +97,7 @@ TEST(SubMeshExport, InterfaceNumbersAreSharedAndComplete)
   for (const auto& ids : sharers)
   {
     ASSERT_FALSE(ids.empty());
-    if (ids.size() == 1)
-      EXPECT_EQ(ids[0], -1) << "a point of one part is on no interface";
+    if (ids.size() == 1) EXPECT_EQ(ids[0], -1) << "a point of one part is on no interface";
     else
     {
       for (const std::int32_t id : ids) EXPECT_EQ(id, next);

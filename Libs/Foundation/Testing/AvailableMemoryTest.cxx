@@ -18,7 +18,8 @@ class AvailableMemory : public testing::Test
 {
 protected:
   AvailableMemory()
-    : m_Root(fs::temp_directory_path() / ("memory-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
+    : m_Root(fs::temp_directory_path() /
+             ("memory-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name())))
   {
     fs::remove_all(m_Root);
     fs::create_directories(m_Root);
@@ -39,7 +40,8 @@ protected:
   {
     write("sys/fs/cgroup" + folder + "/memory.max", limit + "\n");
     write("sys/fs/cgroup" + folder + "/memory.current", std::to_string(used) + "\n");
-    write("sys/fs/cgroup" + folder + "/memory.stat", "anon 5\ninactive_file " + std::to_string(inactive) + "\nslab 7\n");
+    write("sys/fs/cgroup" + folder + "/memory.stat",
+          "anon 5\ninactive_file " + std::to_string(inactive) + "\nslab 7\n");
   }
   std::optional<std::uint64_t> available() const { return availableMemory(m_Root.string()); }
 
@@ -97,9 +99,6 @@ TEST_F(AvailableMemory, IsNothingInAGroupOverItsLimit)
   EXPECT_EQ(available(), 0);
 }
 
-TEST(ThisMachine, HasMemoryIfItTells)
-{
-  EXPECT_GT(availableMemory().value_or(std::uint64_t(1) << 40), 10 * MiB);
-}
+TEST(ThisMachine, HasMemoryIfItTells) { EXPECT_GT(availableMemory().value_or(std::uint64_t(1) << 40), 10 * MiB); }
 
 } // namespace

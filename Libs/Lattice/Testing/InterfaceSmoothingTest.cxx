@@ -1,9 +1,10 @@
 #include "InterfaceSmoothing.h"
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
 #include "GuardedOperations.h"
+#include "MeshChecks.h"
 #include "RandomMaps.h"
 #include "TetQuality.h"
+#include "Triangle.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
@@ -53,7 +54,7 @@ Vec3 middleOf(const TissueMap& map)
 /// Root mean square distance of the surface's vertices, and of the samples, to the sphere.
 double rmsOfVertices(const KuhnLattice& lattice, const Vec3& centre, double radius)
 {
-  const SurfaceComplex surface = interfaceOf(lattice.ambient.mesh);
+  const SurfaceComplex surface = interfaceOf(lattice.background.mesh);
   double sum = 0;
   for (const Vec3& p : surface.points) sum += (norm(p - centre) - radius) * (norm(p - centre) - radius);
   return std::sqrt(sum / double(surface.points.size()));
@@ -62,9 +63,9 @@ double rmsOfVertices(const KuhnLattice& lattice, const Vec3& centre, double radi
 double rmsOfSamples(const KuhnLattice& lattice, const Vec3& centre, double radius)
 {
   double sum = 0;
-  for (const auto& e : lattice.ambient.samples)
+  for (const auto& e : lattice.background.samples)
     sum += (norm(e.position - centre) - radius) * (norm(e.position - centre) - radius);
-  return std::sqrt(sum / double(lattice.ambient.samples.size()));
+  return std::sqrt(sum / double(lattice.background.samples.size()));
 }
 
 double worstOf(const TetMesh& mesh)
@@ -86,8 +87,8 @@ TEST(ReferenceSurface, ComesCloserToTheSphereThatWasDigitised)
     const KuhnLattice before = latticeOf(map), after = smoothed(map);
     EXPECT_LT(rmsOfVertices(after, centre, radius), 0.6 * rmsOfVertices(before, centre, radius)) << radius;
     EXPECT_LT(rmsOfSamples(after, centre, radius), 0.85 * rmsOfSamples(before, centre, radius)) << radius;
-    const double volume = checkSurface(interfaceOf(after.ambient.mesh)).at(1).volume;
-    const double voxels = checkSurface(interfaceOf(before.ambient.mesh)).at(1).volume;
+    const double volume = checkSurface(interfaceOf(after.background.mesh)).at(1).volume;
+    const double voxels = checkSurface(interfaceOf(before.background.mesh)).at(1).volume;
     EXPECT_NEAR(volume, voxels, 0.01 * voxels) << radius;
   }
 }
@@ -98,8 +99,8 @@ TEST(ReferenceSurface, ComesCloserToASphereInSlices)
   const TissueMap map = ball(14, spacing);
   const KuhnLattice before = latticeOf(map), after = smoothed(map);
   EXPECT_LT(rmsOfVertices(after, middleOf(map), 14), rmsOfVertices(before, middleOf(map), 14));
-  const double voxels = checkSurface(interfaceOf(before.ambient.mesh)).at(1).volume;
-  EXPECT_NEAR(checkSurface(interfaceOf(after.ambient.mesh)).at(1).volume, voxels, 0.01 * voxels);
+  const double voxels = checkSurface(interfaceOf(before.background.mesh)).at(1).volume;
+  EXPECT_NEAR(checkSurface(interfaceOf(after.background.mesh)).at(1).volume, voxels, 0.01 * voxels);
 }
 
 TEST(ReferenceSurface, KeepsTheMeshSoundAndVerticesWithinTheirBox)
@@ -113,7 +114,7 @@ TEST(ReferenceSurface, KeepsTheMeshSoundAndVerticesWithinTheirBox)
     SmoothingOptions options;
     options.box = seed % 3 ? 0.5 : 0.3;
     const KuhnLattice before = latticeOf(map), after = smoothed(map, options);
-    const TetMesh &mesh = after.ambient.mesh, &start = before.ambient.mesh;
+    const TetMesh &mesh = after.background.mesh, &start = before.background.mesh;
     EXPECT_EQ(mesh.tetrahedra, start.tetrahedra);
     EXPECT_EQ(mesh.labels, start.labels);
     requireSound(mesh, "smoothing");
@@ -139,18 +140,18 @@ TEST(ReferenceSurface, LeavesAPlaneWhereItIs)
 {
   const auto slab = paintedMap({ 16, 16, 16 }, [](int, int, int k) { return k < 8 ? 1 : 2; });
   const KuhnLattice before = latticeOf(slab, 1), after = smoothed(slab, {}, 1);
-  ASSERT_EQ(before.ambient.samples.size(), after.ambient.samples.size());
+  ASSERT_EQ(before.background.samples.size(), after.background.samples.size());
   int inside = 0;
-  for (std::size_t v = 0; v < before.ambient.mesh.points.size(); ++v)
+  for (std::size_t v = 0; v < before.background.mesh.points.size(); ++v)
   {
-    const Vec3 home = before.ambient.mesh.points[v];
+    const Vec3 home = before.background.mesh.points[v];
     // Away from the sides, where the plane ends in a curve between three labels.
     if (home.z != 7.5 || std::max(std::abs(home.x - 7.5), std::abs(home.y - 7.5)) > 3) continue;
     ++inside;
-    EXPECT_NEAR(after.ambient.mesh.points[v].z, 7.5, 1e-9);
+    EXPECT_NEAR(after.background.mesh.points[v].z, 7.5, 1e-9);
   }
   EXPECT_GT(inside, 4);
-  for (const auto& e : after.ambient.samples)
+  for (const auto& e : after.background.samples)
   {
     const double aside = std::max(std::abs(e.position.x - 7.5), std::abs(e.position.y - 7.5));
     EXPECT_FALSE(aside < 3 && std::abs(e.position.z - 7.5) < 2 && std::abs(e.position.z - 7.5) > 1e-9);
@@ -163,11 +164,11 @@ TEST(ReferenceSurface, KeepsAPointWhereCurvesMeet)
   const auto map = paintedMap({ 8, 8, 8 }, [](int i, int j, int k) { return k < 4 ? 1 : i < 4 ? 2 : j < 4 ? 3 : 4; });
   const KuhnLattice before = latticeOf(map), after = smoothed(map);
   int found = 0;
-  for (std::size_t v = 0; v < before.ambient.mesh.points.size(); ++v)
+  for (std::size_t v = 0; v < before.background.mesh.points.size(); ++v)
   {
-    if (norm(before.ambient.mesh.points[v] - Vec3{ 3.5, 3.5, 3.5 }) > 1e-9) continue;
+    if (norm(before.background.mesh.points[v] - Vec3{ 3.5, 3.5, 3.5 }) > 1e-9) continue;
     ++found;
-    EXPECT_TRUE(after.ambient.mesh.points[v] == before.ambient.mesh.points[v]);
+    EXPECT_TRUE(after.background.mesh.points[v] == before.background.mesh.points[v]);
   }
   EXPECT_EQ(found, 1);
 }
@@ -180,8 +181,8 @@ TEST(ReferenceSurface, SamplesGoAlongWithTheirFace)
   options.minimumAngle = 1; // no move is cut short
   options.samples = 1;
   smoothInterface(lattice, map.grid.spacing, options);
-  const auto& mesh = lattice.ambient.mesh;
-  for (const auto& e : lattice.ambient.samples)
+  const auto& mesh = lattice.background.mesh;
+  for (const auto& e : lattice.background.samples)
   {
     const auto& t = mesh.tetrahedra[e.tetrahedron];
     const auto corner = [&](int k) { return mesh.points[t[(e.face + k) & 3]]; };
@@ -191,8 +192,8 @@ TEST(ReferenceSurface, SamplesGoAlongWithTheirFace)
   options.samples = 0;
   smoothInterface(staying, map.grid.spacing, options);
   const KuhnLattice before = latticeOf(map);
-  for (std::size_t e = 0; e < before.ambient.samples.size(); ++e)
-    EXPECT_TRUE(staying.ambient.samples[e].position == before.ambient.samples[e].position);
+  for (std::size_t e = 0; e < before.background.samples.size(); ++e)
+    EXPECT_TRUE(staying.background.samples[e].position == before.background.samples[e].position);
 }
 
 TEST(ReferenceSurface, BytesDoNotDependOnThreads)
@@ -202,7 +203,7 @@ TEST(ReferenceSurface, BytesDoNotDependOnThreads)
   vtkSMPTools::Initialize(1);
   const KuhnLattice alone = smoothed(map);
   vtkSMPTools::Initialize(2);
-  EXPECT_EQ(alone.ambient.mesh.points, smoothed(map).ambient.mesh.points);
+  EXPECT_EQ(alone.background.mesh.points, smoothed(map).background.mesh.points);
   vtkSMPTools::Initialize(0);
 }
 

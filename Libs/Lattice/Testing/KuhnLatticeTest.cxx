@@ -1,7 +1,7 @@
 #include "KuhnLattice.h"
-#include "MeshChecks.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "MeshQuality.h"
 #include "RandomMaps.h"
 #include "ScaleMaps.h"
@@ -51,7 +51,7 @@ std::multiset<Centre> faceCentres(const TissueMap& map)
 std::multiset<Centre> sampleCentres(const KuhnLattice& lattice, const Vec3& spacing)
 {
   std::multiset<Centre> centres;
-  for (const auto& e : lattice.ambient.samples)
+  for (const auto& e : lattice.background.samples)
   {
     Centre c;
     for (int a = 0; a < 3; ++a) c[a] = std::round(2e6 * e.position[a] / spacing[a]) / 2e6;
@@ -122,7 +122,7 @@ void expectFillsABox(const TetMesh& mesh)
 
 void expectInterfaceFaces(const KuhnLattice& lattice)
 {
-  const TetMesh& mesh = lattice.ambient.mesh;
+  const TetMesh& mesh = lattice.background.mesh;
   const auto neighbours = faceAdjacency(mesh);
   std::set<std::pair<std::int32_t, std::int32_t>> expected;
   for (std::int32_t t = 0; t < std::int32_t(mesh.tetrahedra.size()); ++t)
@@ -137,7 +137,7 @@ void expectInterfaceFaces(const KuhnLattice& lattice)
                                                               lattice.interfaceFaces.end());
   EXPECT_EQ(found, expected);
   EXPECT_EQ(found.size(), lattice.interfaceFaces.size()) << "each once";
-  for (const auto& e : lattice.ambient.samples)
+  for (const auto& e : lattice.background.samples)
   {
     EXPECT_TRUE(found.count({ e.tetrahedron, e.face }));
     EXPECT_EQ(e.tolerance, 0);
@@ -149,7 +149,7 @@ void expectFaithful(const TissueMap& map, const ScaleField& scale, double angle,
 {
   ASSERT_TRUE(wellComposed(map));
   const KuhnLattice lattice = kuhnLattice(map, scale, options);
-  const TetMesh& mesh = lattice.ambient.mesh;
+  const TetMesh& mesh = lattice.background.mesh;
   ASSERT_TRUE(checkMesh(mesh).none());
   EXPECT_GE(worstAngle(mesh), angle - 1e-6);
   expectFillsABox(mesh);
@@ -167,9 +167,9 @@ void expectFaithful(const TissueMap& map, const ScaleField& scale, double angle,
     EXPECT_NEAR(volumes.at(label), volume, 1e-9 * volume) << "label " << label;
   EXPECT_EQ(sampleCentres(lattice, map.grid.spacing), faceCentres(map));
   expectInterfaceFaces(lattice);
-  ASSERT_EQ(lattice.ambient.lengths.size(), mesh.points.size());
+  ASSERT_EQ(lattice.background.lengths.size(), mesh.points.size());
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
-    EXPECT_FLOAT_EQ(lattice.ambient.lengths[v], float(scale(map.grid.gridToWorld(mesh.points[v]))));
+    EXPECT_FLOAT_EQ(lattice.background.lengths[v], float(scale(map.grid.gridToWorld(mesh.points[v]))));
 }
 
 TissueMap randomMap(unsigned seed, const std::array<int, 3>& size, int labels, const Vec3& spacing = { 1, 1, 1 })
@@ -223,7 +223,7 @@ TEST(KuhnLattice, SurroundsATissueThatFillsTheMap)
   for (int axis = 0; axis < 3; ++axis)
   {
     double low = 0, high = 0;
-    for (const Vec3& p : lattice.ambient.mesh.points) low = std::min(low, p[axis]), high = std::max(high, p[axis]);
+    for (const Vec3& p : lattice.background.mesh.points) low = std::min(low, p[axis]), high = std::max(high, p[axis]);
     EXPECT_LT(low, -2.5);
     EXPECT_GT(high, 5.5);
   }
@@ -233,12 +233,12 @@ TEST(KuhnLattice, IsFinerWhereTheScaleIsSmaller)
 {
   const TissueMap map = paintedMap({ 24, 24, 24 }, [](int, int, int) { return 1; });
   const auto tissueTetrahedra = [&](double length)
-  { return withoutOutside(kuhnLattice(map, uniformScale(length), {}).ambient.mesh).tetrahedra.size(); };
+  { return withoutOutside(kuhnLattice(map, uniformScale(length), {}).background.mesh).tetrahedra.size(); };
   EXPECT_GT(tissueTetrahedra(1), 4 * tissueTetrahedra(2));
   EXPECT_GT(tissueTetrahedra(2), 2 * tissueTetrahedra(8));
   for (double length : { 1.0, 2.0, 4.0 })
   {
-    const TetMesh mesh = withoutOutside(kuhnLattice(map, uniformScale(length), {}).ambient.mesh);
+    const TetMesh mesh = withoutOutside(kuhnLattice(map, uniformScale(length), {}).background.mesh);
     double longest = 0;
     for (const auto& tet : mesh.tetrahedra)
     {
@@ -258,7 +258,7 @@ TEST(KuhnLattice, GoesNoDeeperThanAllowed)
   {
     options.mostLevelsBelowVoxel = levels;
     expectFaithful(map, uniformScale(0.01), 45, options);
-    sizes[levels] = withoutOutside(kuhnLattice(map, uniformScale(0.01), options).ambient.mesh).tetrahedra.size();
+    sizes[levels] = withoutOutside(kuhnLattice(map, uniformScale(0.01), options).background.mesh).tetrahedra.size();
   }
   EXPECT_EQ(sizes[0], 8u * 6);
   EXPECT_EQ(sizes[1], 8u * sizes[0]);
@@ -283,14 +283,14 @@ TEST(KuhnLattice, BytesDoNotDependOnThreads)
   vtkSMPTools::Initialize(2);
   const KuhnLattice both = kuhnLattice(map, scale, {});
   vtkSMPTools::Initialize(0);
-  EXPECT_EQ(alone.ambient.mesh.points, both.ambient.mesh.points);
-  EXPECT_EQ(alone.ambient.mesh.tetrahedra, both.ambient.mesh.tetrahedra);
-  EXPECT_EQ(alone.ambient.mesh.labels, both.ambient.mesh.labels);
-  EXPECT_EQ(alone.ambient.lengths, both.ambient.lengths);
+  EXPECT_EQ(alone.background.mesh.points, both.background.mesh.points);
+  EXPECT_EQ(alone.background.mesh.tetrahedra, both.background.mesh.tetrahedra);
+  EXPECT_EQ(alone.background.mesh.labels, both.background.mesh.labels);
+  EXPECT_EQ(alone.background.lengths, both.background.lengths);
   EXPECT_EQ(alone.interfaceFaces, both.interfaceFaces);
-  ASSERT_EQ(alone.ambient.samples.size(), both.ambient.samples.size());
-  for (std::size_t e = 0; e < alone.ambient.samples.size(); ++e)
-    EXPECT_TRUE(alone.ambient.samples[e].position == both.ambient.samples[e].position);
+  ASSERT_EQ(alone.background.samples.size(), both.background.samples.size());
+  for (std::size_t e = 0; e < alone.background.samples.size(); ++e)
+    EXPECT_TRUE(alone.background.samples[e].position == both.background.samples[e].position);
 }
 
 } // namespace surgicalmesher

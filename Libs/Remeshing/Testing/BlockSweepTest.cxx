@@ -2,6 +2,7 @@
 #include "Coarsening.h"
 #include "ComplexInvariants.h"
 #include "RandomMaps.h"
+#include "Triangle.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>

@@ -1,11 +1,12 @@
 #pragma once
 /// What holds for every TetComplex, recomputed from its bare arrays.
 
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
 #include "GuardedOperations.h"
+#include "MeshChecks.h"
 #include "TetComplex.h"
 #include "TetQuality.h"
+#include "Triangle.h"
 
 #include <gtest/gtest.h>
 

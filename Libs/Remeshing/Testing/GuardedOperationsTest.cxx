@@ -1,6 +1,7 @@
 #include "GuardedOperations.h"
 #include "ComplexInvariants.h"
 #include "RandomMaps.h"
+#include "Triangle.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,7 @@ const SizingFunction unitScale = [](const Vec3&) { return 1.0f; };
 
 /// No guard but those on topology and on positive volumes.
 constexpr double anyQuality = 1e-8, anyLength = 1e6, anyDistance = 1e6;
-constexpr double separatedFactor = 2; // see Envelope
+constexpr double separatedFactor = 2; // see EnvelopeBounds
 
 std::map<Label, Betti> topologyOf(const TetComplex& complex)
 {
@@ -99,8 +100,10 @@ Attempt attempt(GuardedOperations& operations, std::mt19937& random, const Attem
 {
   TetComplex& c = operations.complex();
   const auto uniform = [&](double low, double high) { return low + (high - low) * (random() / 4294967296.0); };
-  const auto nearby = [&](const Vec3& p, double vertexDistance) {
-    return p + Vec3{ uniform(-vertexDistance, vertexDistance), uniform(-vertexDistance, vertexDistance), uniform(-vertexDistance, vertexDistance) };
+  const auto nearby = [&](const Vec3& p, double vertexDistance)
+  {
+    return p + Vec3{ uniform(-vertexDistance, vertexDistance), uniform(-vertexDistance, vertexDistance),
+                     uniform(-vertexDistance, vertexDistance) };
   };
   Attempt a;
   a.backgroundPieces = backgroundPieces(c);
@@ -142,7 +145,8 @@ Attempt attempt(GuardedOperations& operations, std::mt19937& random, const Attem
   else
   {
     a.name = "split";
-    a.done = operations.split(a.u, a.v, seed, random() % 2 ? middle : nearby(middle, 0.1), a.minimumQuality);
+    a.done =
+      operations.split(a.u, a.v, seed, random() % 2 ? middle : nearby(middle, 0.1), a.minimumQuality).has_value();
   }
   return a;
 }
@@ -291,13 +295,13 @@ TEST_P(RandomOperations, KeepEveryPromise)
       const ComplexState before(complex);
       const auto places = samplePlaces(complex);
       const auto triangles = interfaceTriangles(complex);
-      const OperationCounts counts = operations.counts;
+      const OperationCounts counts = operations.counts();
       const Attempt a = attempt(operations, random, last);
       last = a;
       SCOPED_TRACE(a.name + " " + std::to_string(n) + " of seed " + std::to_string(seed));
       expectGuarded(before, places, operations, a);
       if (a.done && seed % 2) expectTriangleQuality(triangles, complex, a.minimumQuality);
-      const OperationCounts now = operations.counts;
+      const OperationCounts now = operations.counts();
       EXPECT_EQ(total(now) - total(counts), a.done);
       if (a.done && ++done % 4 == 0)
       {
@@ -308,11 +312,11 @@ TEST_P(RandomOperations, KeepEveryPromise)
       if (HasFailure()) return;
     }
     EXPECT_TRUE(isKept(topology, topologyOf(complex)));
-    all.collapses += operations.counts.collapses;
-    all.moves += operations.counts.moves;
-    all.flips += operations.counts.flips;
-    all.splits += operations.counts.splits;
-    all.relabels += operations.counts.relabels;
+    all.collapses += operations.counts().collapses;
+    all.moves += operations.counts().moves;
+    all.flips += operations.counts().flips;
+    all.splits += operations.counts().splits;
+    all.relabels += operations.counts().relabels;
   }
   EXPECT_GT(all.collapses, 80);
   EXPECT_GT(all.moves, 80);
@@ -383,7 +387,8 @@ TEST(GuardedOperations, LetNoVertexLeaveItsSamplesByMoreThanTheBound)
   for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
   {
     if (complex.locked[v] || !complex.onInterface[v]) continue;
-    GuardedOperations bounded(complex, [](const Vec3&) { return 1.0f; }, { anyDistance, anyDistance, 0, vertexDistance });
+    GuardedOperations bounded(complex, [](const Vec3&) { return 1.0f; },
+                              { anyDistance, anyDistance, 0, vertexDistance });
     const bool wasSpike = bounded.isSpike(v, vertexDistance);
     const Vec3 from = complex.points[v], to = from + Vec3{ uniform(), uniform(), uniform() };
     if (bounded.qualityAt(v, to, 0) < 0) continue;
@@ -416,7 +421,7 @@ TEST(GuardedOperations, LetNoLongEdgeSpanAGapWiderThanTheBound)
         if (x == v) continue;
         double& nearest = result[x] = HUGE_VAL;
         const Vec3 middle = 0.5 * (complex.points[x] + complex.points[v]);
-        for (const SheetSample& p : sheet.points) nearest = std::min(nearest, norm(p.position - middle) / tolerance);
+        for (const SheetSample& p : sheet.samples) nearest = std::min(nearest, norm(p.position - middle) / tolerance);
       }
     return result;
   };
@@ -463,11 +468,12 @@ TEST(GuardedOperations, LayNoVertexBareBeyondTheBound)
           for (std::int32_t v : complex.tets[t])
           {
             if (before[v] || !complex.onInterface[v]) continue;
-            const auto nearest = operations.nearestSample(v);
-            laidBare[isBounded] += nearest && norm(*nearest - complex.points[v]) > vertexDistance * tolerance * (1 + 1e-6);
+            const auto nearest = operations.nearestSampleOf(v);
+            laidBare[isBounded] +=
+              nearest && norm(*nearest - complex.points[v]) > vertexDistance * tolerance * (1 + 1e-6);
           }
     }
-    EXPECT_GT(operations.counts.relabels, 20);
+    EXPECT_GT(operations.counts().relabels, 20);
   }
   EXPECT_EQ(laidBare[true], 0);
   EXPECT_GT(laidBare[false], 0);
@@ -542,7 +548,7 @@ TEST(Collapse, CannotPinchOpenOrSwallowATissue)
               !operations.collapse(u, v, middle, anyQuality, anyLength))
             continue;
           any = true;
-          if (operations.counts.collapses % 4 != 0) break;
+          if (operations.counts().collapses % 4 != 0) break;
           ASSERT_TRUE(isKept(topology, topologyOf(complex))) << u << " into " << v;
           break;
         }
@@ -752,7 +758,7 @@ TEST(EdgeRemoval, TurnsTheSheetsDiagonalBetweenTwoLabels)
   const auto volumes = volumesOf(meshOf(complex));
   ASSERT_TRUE(operations.removeEdge(0, 1, 0, anyQuality));
   ASSERT_TRUE(isConsistent(complex));
-  EXPECT_EQ(operations.counts.flips, 1);
+  EXPECT_EQ(operations.counts().flips, 1);
   EXPECT_EQ(tetrahedronAt(complex, 0, 1), -1);
   const std::int32_t seed = tetrahedronAt(complex, 2, 3);
   ASSERT_GE(seed, 0);
@@ -830,7 +836,7 @@ TEST(EdgeRemoval, NeedsAPositiveTriangulationWhateverQualityIsAskedFor)
     ASSERT_TRUE(isConsistent(complex));
     GuardedOperations operations(complex, unitScale);
     EXPECT_FALSE(operations.removeEdge(0, 1, 0, -100)); // as beside a flat tetrahedron
-    EXPECT_EQ(operations.counts.flips, 0);
+    EXPECT_EQ(operations.counts().flips, 0);
   }
 }
 
@@ -847,11 +853,12 @@ TEST(Split, OnTheEdgeKeepsEveryVolume)
   TetComplex complex = octahedron({ 1, 2, 0, 0 });
   GuardedOperations operations(complex, unitScale);
   const auto volumes = volumesOf(meshOf(complex));
-  ASSERT_TRUE(operations.split(0, 1, 0, { 0.25, 0, 0 }, anyQuality));
+  const auto newVertex = operations.split(0, 1, 0, { 0.25, 0, 0 }, anyQuality);
+  ASSERT_TRUE(newVertex);
   ASSERT_TRUE(isConsistent(complex));
   EXPECT_EQ(meshOf(complex).tetrahedra.size(), 8u);
   EXPECT_EQ(complex.points.size(), 7u);
-  EXPECT_EQ(operations.lastSplitVertex, 6);
+  EXPECT_EQ(*newVertex, 6);
   EXPECT_EQ(complex.lengths[6], 1.0f);
   for (const auto& [label, volume] : volumesOf(meshOf(complex))) EXPECT_NEAR(volume, volumes.at(label), 1e-12);
   EXPECT_EQ(attachedSamples(complex), complex.samples.size());
@@ -895,14 +902,16 @@ TEST(Split, TakenBackLeavesTheComplexAsItWas)
       for (const std::int32_t b : neighboursOf(complex, a))
       {
         const Vec3 middle = 0.5 * (complex.points[a] + complex.points[b]);
-        if (complex.locked[a] || !operations.split(a, b, tetrahedronAt(complex, a, b), middle, anyQuality)) continue;
+        if (complex.locked[a]) continue;
+        const auto v = operations.split(a, b, tetrahedronAt(complex, a, b), middle, anyQuality);
+        if (!v) continue;
         ++splits;
-        operations.takeBackSplit(operations.lastSplitVertex, a);
+        operations.takeBackSplit(*v, a);
         ASSERT_TRUE(contents(complex) == before) << "edge " << a << " " << b;
       }
     ASSERT_TRUE(isConsistent(complex));
-    EXPECT_EQ(operations.counts.splits, 0);
-    EXPECT_EQ(operations.counts.collapses, 0);
+    EXPECT_EQ(operations.counts().splits, 0);
+    EXPECT_EQ(operations.counts().collapses, 0);
     const auto after = samplePlaces(complex);
     for (std::size_t e = 0; e < places.size(); ++e)
     {
@@ -924,12 +933,12 @@ TEST(Move, KeepsSamplesWithinToleranceAndTheirMeanSquareBelowTheLimit)
   {
     TetComplex complex = octahedron({ 1, 1, 0, 0 }, tolerance);
     GuardedOperations operations(complex, unitScale, { rmsLimit });
-    ASSERT_TRUE(operations.split(0, 1, 0, {}, anyQuality));
+    const auto v = operations.split(0, 1, 0, {}, anyQuality);
+    ASSERT_TRUE(v);
     const ComplexState before(complex);
-    EXPECT_EQ(operations.move(operations.lastSplitVertex, lifted, anyQuality), allowed)
-      << "tolerance " << tolerance << ", limit " << rmsLimit;
+    EXPECT_EQ(operations.move(*v, lifted, anyQuality), allowed) << "tolerance " << tolerance << ", limit " << rmsLimit;
     EXPECT_EQ(ComplexState(complex) == before, !allowed);
-    EXPECT_TRUE(operations.move(operations.lastSplitVertex, { 0.1, 0.1, 0 }, anyQuality)) << "within the sheet";
+    EXPECT_TRUE(operations.move(*v, { 0.1, 0.1, 0 }, anyQuality)) << "within the sheet";
   }
 }
 
@@ -937,8 +946,9 @@ TEST(Move, MayComeCloserFromBeyondTheTolerance)
 {
   TetComplex complex = octahedron({ 1, 1, 0, 0 }, 0.5f);
   GuardedOperations operations(complex, unitScale, { anyDistance });
-  ASSERT_TRUE(operations.split(0, 1, 0, {}, anyQuality));
-  const std::int32_t v = operations.lastSplitVertex;
+  const auto newVertex = operations.split(0, 1, 0, {}, anyQuality);
+  ASSERT_TRUE(newVertex);
+  const std::int32_t v = *newVertex;
   ASSERT_TRUE(operations.move(v, { 0, 0, 0.4 }, anyQuality));
   for (BoundarySample& e : complex.samples) e.tolerance = 0.01f;
   GuardedOperations strict(complex, unitScale, { anyDistance });
@@ -950,18 +960,19 @@ TEST(Move, TakenBackLeavesPlaceAndDistancesAsTheyWere)
 {
   TetComplex complex = octahedron({ 1, 1, 0, 0 }, 0.5f);
   GuardedOperations operations(complex, unitScale, { anyDistance });
-  ASSERT_TRUE(operations.split(0, 1, 0, {}, anyQuality));
-  const std::int32_t v = operations.lastSplitVertex;
+  const auto newVertex = operations.split(0, 1, 0, {}, anyQuality);
+  ASSERT_TRUE(newVertex);
+  const std::int32_t v = *newVertex;
   ASSERT_TRUE(operations.move(v, { 0, 0, 0.1 }, anyQuality));
   const auto before = samplePlaces(complex);
-  const long moves = operations.counts.moves;
+  const long moves = operations.counts().moves;
   ASSERT_TRUE(operations.move(v, { 0.2, 0, 0.2 }, anyQuality));
   ASSERT_TRUE(operations.move(v, { 0.2, 0.1, 0.3 }, anyQuality));
   for (BoundarySample& e : complex.samples) e.tolerance = 0.001f; // nothing is asked of the way back
   operations.moveBack(v, { 0.2, 0, 0.2 });
   operations.moveBack(v, { 0, 0, 0.1 });
   EXPECT_TRUE(complex.points[v] == (Vec3{ 0, 0, 0.1 }));
-  EXPECT_EQ(operations.counts.moves, moves);
+  EXPECT_EQ(operations.counts().moves, moves);
   ASSERT_TRUE(isConsistent(complex));
   const auto after = samplePlaces(complex);
   ASSERT_EQ(after.size(), before.size());
@@ -996,8 +1007,8 @@ TEST(Move, ManyTakenBackLeaveNoSampleBeyondItsTolerance)
       }
       for (auto m = moves.rbegin(); m != moves.rend(); ++m) operations.moveBack(m->first, m->second);
       if (isBroughtHome)
-        for (const std::int32_t v : moved) operations.bringHome(v);
-      EXPECT_EQ(operations.counts.moves, 0);
+        for (const std::int32_t v : moved) operations.reassignSamples(v);
+      EXPECT_EQ(operations.counts().moves, 0);
       ASSERT_TRUE(isConsistent(complex));
       for (const SamplePlace& place : samplePlaces(complex))
         lost[isBroughtHome] += place.distance > tolerance * (1 + 1e-6);

@@ -2,9 +2,12 @@
 #include "Coarsening.h"
 #include "ComplexInvariants.h"
 #include "EvenLengths.h"
-#include "MeshImprovement.h"
+#include "InterfaceRelabelling.h"
+#include "Polishing.h"
 #include "RandomMaps.h"
-#include "Relabelling.h"
+#include "Relaxation.h"
+#include "SpikeRemoval.h"
+#include "TetrahedraImprovement.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
@@ -156,7 +159,8 @@ TEST(EdgeLengths, KeepEveryPromiseAndBecomeMoreEven)
                        evenLengthsOfBlock(operations);
                        const double end = evenEdges(operations.complex(), operations);
                        EXPECT_GE(end, start - 1e-9);
-                       EXPECT_EQ(operations.counts.collapses + operations.counts.splits + operations.counts.flips, 0);
+                       EXPECT_EQ(operations.counts().collapses + operations.counts().splits + operations.counts().flips,
+                                 0);
                        before += start;
                        after += end;
                      });
@@ -176,7 +180,7 @@ TEST(EdgeLengths, StayWhereTheTargetIsSmall)
   EXPECT_EQ(before.points, complex.points);
   options.from = 1.5;
   evenLengthsOfBlock(operations, options);
-  EXPECT_GT(operations.counts.moves, 0);
+  EXPECT_GT(operations.counts().moves, 0);
 }
 
 TEST(Improvement, WithoutSplitsAddsNoVertex)
@@ -188,7 +192,7 @@ TEST(Improvement, WithoutSplitsAddsNoVertex)
                      {
                        const std::size_t vertices = operations.complex().points.size();
                        improveBlock(operations, options);
-                       EXPECT_EQ(operations.counts.splits, 0);
+                       EXPECT_EQ(operations.counts().splits, 0);
                        EXPECT_EQ(operations.complex().points.size(), vertices);
                      });
 }
@@ -244,7 +248,7 @@ TEST(MeshImprovement, KeepsTissuesAndHullAndRaisesTheWorstAngle)
     const TissueMap map = randomWellComposedMap(random, { 6, 6, 6 }, 3);
     const TetMesh before = shaken(tetrahedraOf(map), random, 0.35);
     TetMesh after = before;
-    improveMesh(after, scale);
+    improveTetrahedra(after, scale);
     requireSound(after, "improvement");
     EXPECT_GT(worstOf(withoutOutside(after)), worstOf(withoutOutside(before)));
     EXPECT_EQ(meshTopology(withBackgroundAsTissue(after)), meshTopology(withBackgroundAsTissue(before)));
@@ -297,7 +301,7 @@ std::vector<double> depthsOfSpikes(GuardedOperations& operations, double vertexD
   std::vector<double> depths;
   for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
     if (c.vertexTet[v] >= 0 && !c.locked[v] && c.onInterface[v] && operations.isSpike(v, vertexDistance))
-      depths.push_back(norm(*operations.nearestSample(v) - c.points[v]));
+      depths.push_back(norm(*operations.nearestSampleOf(v) - c.points[v]));
   return depths;
 }
 
@@ -380,7 +384,7 @@ TEST(Trimming, KeepsEveryPromiseAndLeavesFewerTips)
                        before += tips(operations);
                        removeEarsOfBlock(operations, 5);
                        after += tips(operations);
-                       relabels += operations.counts.relabels;
+                       relabels += operations.counts().relabels;
                      });
   EXPECT_GT(relabels, 0);
   EXPECT_LT(after, before);
@@ -395,7 +399,7 @@ TEST(MeshImprovement, BytesDoNotDependOnThreadsAndCancellingLeavesTheMesh)
   {
     vtkSMPTools::Initialize(threads);
     results.push_back(before);
-    improveMesh(results.back(), scale);
+    improveTetrahedra(results.back(), scale);
     EXPECT_EQ(results.back().points, results[0].points);
     EXPECT_EQ(results.back().tetrahedra, results[0].tetrahedra);
     EXPECT_EQ(results.back().labels, results[0].labels);
@@ -406,7 +410,7 @@ TEST(MeshImprovement, BytesDoNotDependOnThreadsAndCancellingLeavesTheMesh)
   {
     if (fraction > 0.5) throw std::runtime_error("cancelled");
   };
-  EXPECT_THROW(improveMesh(cancelled, scale, {}, cancel), std::runtime_error);
+  EXPECT_THROW(improveTetrahedra(cancelled, scale, {}, cancel), std::runtime_error);
   EXPECT_EQ(cancelled.points, before.points);
   EXPECT_EQ(cancelled.tetrahedra, before.tetrahedra);
 }

@@ -280,8 +280,8 @@ TEST(TetComplex, SamplesOnABlocksBorderOutliveChangesBesideThem)
     ASSERT_TRUE(isConsistent(complex));
     ASSERT_EQ(attachedSamples(complex), complex.samples.size()) << "at vertex " << u;
   }
-  EXPECT_GT(operations.counts.collapses, 0);
-  EXPECT_GT(operations.counts.flips, 0);
+  EXPECT_GT(operations.counts().collapses, 0);
+  EXPECT_GT(operations.counts().flips, 0);
   for (const SamplePlace& place : samplePlaces(complex)) EXPECT_NEAR(place.distance, 0, 1e-12);
 }
 

@@ -1,6 +1,6 @@
 #include "SimplexDeformation.h"
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "Shapes.h"
 #include "UniformLimits.h"
 #include "VoxelMesh.h"

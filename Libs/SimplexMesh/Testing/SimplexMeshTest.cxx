@@ -1,7 +1,7 @@
 #include "SimplexMesh.h"
-#include "MeshChecks.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "RandomMaps.h"
 #include "Shapes.h"
 #include "VoxelMesh.h"

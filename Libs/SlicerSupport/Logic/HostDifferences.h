@@ -8,10 +8,7 @@
 #else
 /// `text` in the user's language, in code without Qt. Slicer has it since 5.6, and its tools collect texts by this name;
 /// before, text stays as it is.
-inline std::string vtkMRMLTr(const char*, const char* text)
-{
-  return text;
-}
+inline std::string vtkMRMLTr(const char*, const char* text) { return text; }
 #endif
 
 namespace surgicalmesher

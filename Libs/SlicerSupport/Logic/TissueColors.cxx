@@ -1,7 +1,7 @@
 #include "TissueColors.h"
 
-#include "MeshIO.h"
 #include "HostDifferences.h"
+#include "MeshIO.h"
 
 #include <vtkMRMLColorTableNode.h>
 #include <vtkMRMLModelDisplayNode.h>
@@ -9,8 +9,8 @@
 #include <vtkMRMLScene.h>
 
 #include <vtkAssignAttribute.h>
-#include <vtkMath.h>
 #include <vtkLookupTable.h>
+#include <vtkMath.h>
 #include <vtkPointSet.h>
 
 #include <algorithm>
@@ -38,8 +38,9 @@ vtkMRMLColorTableNode* colorsOf(vtkMRMLModelNode* model)
 
 TissueTable withDistinctColors(TissueTable tissues)
 {
-  const bool isPlain = tissues.size() > 1 && std::all_of(tissues.begin(), tissues.end(), [](const auto& tissue)
-                                                         { return tissue.second.color == Tissue().color; });
+  const bool isPlain =
+    tissues.size() > 1 && std::all_of(tissues.begin(), tissues.end(),
+                                      [](const auto& tissue) { return tissue.second.color == Tissue().color; });
   for (auto& [label, tissue] : tissues)
   {
     if (!isPlain) break;

@@ -1,7 +1,7 @@
 #include "MeshIO.h"
-#include "MeshChecks.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "Shapes.h"
 #include "VoxelMesh.h"
 

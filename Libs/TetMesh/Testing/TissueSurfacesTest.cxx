@@ -1,7 +1,7 @@
 #include "TissueSurfaces.h"
 
-#include "MeshChecks.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>

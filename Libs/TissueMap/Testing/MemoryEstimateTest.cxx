@@ -1,5 +1,5 @@
-#include "Errors.h"
 #include "MemoryEstimate.h"
+#include "Errors.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,10 @@ TissueMap slabs(int size, int count, const Vec3& spacing = { 1, 1, 1 })
   return map;
 }
 
-double estimate(const TissueMap& map, double length) { return double(estimateSurfaceMemory(map, uniformScale(length))); }
+double estimate(const TissueMap& map, double length)
+{
+  return double(estimateSurfaceMemory(map, uniformScale(length)));
+}
 
 TEST(MemoryEstimate, GrowsWithTheInterfaceBetweenTissues)
 {

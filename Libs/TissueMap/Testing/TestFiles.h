@@ -50,7 +50,8 @@ public:
   std::vector<std::string> files() const
   {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(m_Path)) names.push_back(entry.path().filename().string());
+    for (const auto& entry : std::filesystem::directory_iterator(m_Path))
+      names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
   }

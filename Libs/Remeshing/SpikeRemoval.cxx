@@ -1,5 +1,7 @@
-#include "Relabelling.h"
+// SPDX-License-Identifier: Apache-2.0
+#include "SpikeRemoval.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace surgicalmesher
@@ -30,7 +32,7 @@ bool takeOff(GuardedOperations& operations, std::int32_t v, Label label, double 
     const Label own = operations.complex().labels[t];
     if (!operations.relabel(t, label, quality)) continue;
     if (others.size() == 1 || takeOff(operations, v, label, quality)) return true;
-    if (operations.relabel(t, own, anyQuality)) operations.counts.relabels -= 2;
+    if (operations.relabel(t, own, anyQuality)) operations.uncountRelabels();
   }
   return false;
 }
@@ -78,24 +80,10 @@ std::optional<TwoLabels> twoLabelsAt(GuardedOperations& operations, std::int32_t
   return ofA < ofB ? TwoLabels{ a, b, ofA } : TwoLabels{ b, a, ofB };
 }
 
-/// The label beyond two or three faces of t, if there is one.
-std::optional<Label> beyondMostFaces(const TetComplex& c, std::int32_t t)
-{
-  const auto isBeyond = [&](int i, int k)
-  { return c.neighbours[t][k] >= 0 && c.labels[c.neighbours[t][k]] == c.labels[c.neighbours[t][i]]; };
-  for (int i = 0; i < 3; ++i)
-  {
-    if (!c.isInterface(t, i)) continue;
-    for (int k = i + 1; k < 4; ++k)
-      if (isBeyond(i, k)) return c.labels[c.neighbours[t][i]];
-  }
-  return std::nullopt;
-}
-
 /// Moves v towards its samples, if there is any left, as far as quality allows.
 void pull(GuardedOperations& operations, std::int32_t v, double quality)
 {
-  const auto to = operations.nearestSample(v);
+  const auto to = operations.nearestSampleOf(v);
   if (!to) return;
   const Vec3 from = operations.complex().points[v];
   quality = std::min(quality, operations.qualityAt(v));
@@ -122,20 +110,12 @@ void cutSpikesOfBlock(GuardedOperations& operations, const SpikeOptions& options
     if (c.vertexTet[v] < 0 || c.locked[v] || !c.onInterface[v]) continue;
     const auto labels = twoLabelsAt(operations, v);
     if (!labels || labels->count > options.few || !operations.isSpike(v, options.vertexDistance)) continue;
-    operations.setLeastTolerance(std::min(options.maximumDistance, norm(*operations.nearestSample(v) - c.points[v])));
+    operations.envelope().setLeastTolerance(
+      std::min(options.maximumDistance, norm(*operations.nearestSampleOf(v) - c.points[v])));
     const bool isCut = takeOff(operations, v, labels->more, labels->more == 0 ? anyQuality : least);
-    operations.setLeastTolerance(0);
+    operations.envelope().setLeastTolerance(0);
     if (!isCut && options.pullAngle > 0) pull(operations, v, sine2OfDegrees(options.pullAngle));
   }
-}
-
-void relabelBlock(GuardedOperations& operations, double keptAngle, double mostLeft)
-{
-  const TetComplex& c = operations.complex();
-  const double least = sine2OfDegrees(keptAngle);
-  for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
-    if (c.alive(t))
-      if (const auto label = beyondMostFaces(c, t)) operations.relabel(t, *label, least, mostLeft);
 }
 
 } // namespace surgicalmesher

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Moves of the interface by whole tetrahedra, which leave every tetrahedron's shape as it is: where vertices are held back by
-/// the angles that they would spoil.
+/// Removal of spikes (vertices between two labels that stick out of their boundary samples) and of ears (vertices at which
+/// tissues have hardly a tetrahedron), by relabelling the tetrahedra that they consist of.
 
 #include "GuardedOperations.h"
 #include "TetQuality.h"
@@ -8,14 +9,10 @@
 namespace surgicalmesher
 {
 
-/// Gives tetrahedra with two or three faces towards one other label to that, where dihedral angles of `keptAngle` (degrees)
-/// remain and `mostLeft` of what there is between the surface and its samples (GuardedOperations::relabel) at most.
-void relabelBlock(GuardedOperations& operations, double keptAngle, double mostLeft);
-
 struct SpikeOptions
 {
-  double vertexDistance = 1.4;  ///< tolerances that a spike's tip is away from all samples of its faces at least
-  std::size_t few = 8; ///< tetrahedra that it consists of at most
+  double vertexDistance = 1.4; ///< tolerances that a spike's tip is away from all samples of its faces at least
+  std::size_t few = 8;         ///< tetrahedra that it consists of at most
   /// Degrees; what has been let off as background has such dihedral angles if it becomes tissue.
   double keptAngle = usualAngle;
   /// Degrees; what can't be cut is drawn in as far as such dihedral angles remain, for repairs to raise again. 0: it stays.

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edge collapse. Vertex u goes into its neighbour v, at p, if all of these allow it, the cheapest asked first:
+//   1. locks and labels (mayCollapse): the star of a locked vertex goes on in another block; a vertex of the interface goes
+//      along it only, and nothing inside a label moves the interface.
+//   2. lengths (keepsLength): no edge becomes longer than asked for, or one that is grows.
+//   3. quality (qualityAfterCollapse): positive volumes forbid every crossing, and with it the link condition on the
+//      tetrahedra fails nowhere.
+//   4. topology (CollapseTopology::keepsTissues): exact for every label at the edge, junctions included.
+//   5. samples (Envelope::samplesStay): the Hausdorff distance from the map's boundary, pair by pair.
+//   6. triangles (Envelope::trianglesReach) and gaps (Envelope::spansGap): the shape of the new faces, and their distance
+//      from the samples.
+
+#include "GuardedOperations.h"
+
+#include <algorithm>
+
+namespace surgicalmesher
+{
+
+bool GuardedOperations::mayCollapse(std::int32_t u, std::int32_t v, bool moves) const
+{
+  const auto& c = m_Complex;
+  if (c.locked[u]) return false;
+  // The star of a locked vertex may show only some of its labels.
+  return c.onInterface[u] ? c.onInterface[v] && !c.locked[v] : !moves || (!c.onInterface[v] && !c.locked[v]);
+}
+
+/// Whether the edge from `end` to x, once it leads from v at p, is short enough, or no longer than now.
+bool GuardedOperations::keepsLength(std::int32_t end, std::int32_t x, std::int32_t v, const Vec3& p,
+                                    double maximumRatio) const
+{
+  const auto& c = m_Complex;
+  const double limit = maximumRatio * c.targetLength(x, v);
+  const double length2 = squaredNorm(c.points[x] - p);
+  return length2 <= limit * limit || length2 <= squaredNorm(c.points[x] - c.points[end]);
+}
+
+double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast,
+                                               double maximumRatio)
+{
+  constexpr double tooLong = std::numeric_limits<double>::lowest();
+  for (const Neighbour& n : neighbours(u))
+    if (n.vertex != v && !keepsLength(u, n.vertex, v, p, maximumRatio)) return tooLong;
+  const double worst = measured(u).worst(p, atLeast, v);
+  if (worst < atLeast || p == m_Complex.points[v]) return worst;
+  for (std::int32_t t : starOfTarget(v))
+    for (std::int32_t x : m_Complex.tets[t])
+      if (x != u && x != v && !keepsLength(v, x, v, p, maximumRatio)) return tooLong;
+  return std::min(worst, measured(v, m_StarOfV).worst(p, atLeast, u));
+}
+
+/// Whether every tissue keeps its topology; refusals are remembered until the star of u changes.
+bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v)
+{
+  if (m_RefusedVertex != u) m_Refused.clear();
+  m_RefusedVertex = u;
+  if (std::find(m_Refused.begin(), m_Refused.end(), v) != m_Refused.end()) return false;
+  const std::vector<std::int32_t>&star = this->star(u), &starOfV = starOfTarget(v);
+  const auto seed = std::find_if(star.begin(), star.end(), [&](std::int32_t t) { return m_Complex.contains(t, v); });
+  if (seed != star.end() && m_Complex.ring(u, v, *seed, m_Ring, m_RingVertices) &&
+      m_Topology.keepsTissues(u, v, star, starOfV, m_Ring, m_RingVertices))
+    return true;
+  m_Refused.push_back(v);
+  return false;
+}
+
+/// Tells the envelope the interface faces at u and v, and what becomes of them; false where a block ends.
+bool GuardedOperations::gatherCollapsingFaces(std::int32_t u, std::int32_t v, const Vec3& p)
+{
+  const auto& c = m_Complex;
+  m_Envelope.clear();
+  // Each face as it will be in a tetrahedron that stays: `stays`, opposite its vertex number `opposite`.
+  const auto addMoved = [&](std::int32_t t, int face, Label x, Label y, std::int32_t stays, int opposite, bool changing)
+  {
+    std::array<std::int32_t, 3> ids{ c.tets[t][(face + 1) & 3], c.tets[t][(face + 2) & 3], c.tets[t][(face + 3) & 3] };
+    Vec3 corners[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      if (ids[k] == u) ids[k] = v;
+      corners[k] = ids[k] == v ? p : c.points[ids[k]];
+    }
+    m_Envelope.addNewFace(corners[0], corners[1], corners[2], ids, x, y, stays, opposite, changing);
+  };
+  const auto facesAt = [&](std::int32_t end, std::int32_t other, const std::vector<std::int32_t>& star, bool changing)
+  {
+    for (std::int32_t t : star)
+    {
+      if (c.contains(t, other)) continue;
+      for (int i = 0; i < 4; ++i)
+      {
+        const std::int32_t n = c.neighbours[t][i];
+        if (c.tets[t][i] == end || n < 0 || c.labels[n] == c.labels[t]) continue;
+        if (c.contains(n, other)) continue; // dealt with from the ring
+        if (n < t) continue;
+        if (changing) m_Envelope.addOldFace(t, i);
+        addMoved(t, i, c.labels[t], c.labels[n], t, i, changing);
+      }
+    }
+  };
+  facesAt(u, v, m_Star.tets, true);
+  // Faces at v that stay as they are keep their samples, and may take others.
+  facesAt(v, u, m_StarOfV.tets, !(p == c.points[v]));
+  for (std::int32_t t : m_Ring)
+  {
+    const int iu = c.indexOf(t, u), iv = c.indexOf(t, v);
+    for (int i = 0; i < 4; ++i)
+      if (c.neighbours[t][i] >= 0 && c.isInterface(t, i)) m_Envelope.addOldFace(t, i);
+    const std::int32_t nu = c.neighbours[t][iv], nv = c.neighbours[t][iu];
+    if (nu < 0 || nv < 0) return false;
+    if (c.labels[nu] == c.labels[nv]) continue;
+    int opposite = 0;
+    while (c.neighbours[nu][opposite] != t) ++opposite;
+    addMoved(t, iu, c.labels[nu], c.labels[nv], nu, opposite, true);
+  }
+  return true;
+}
+
+bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality)
+{
+  auto& c = m_Complex;
+  const bool moves = !(p == c.points[v]), inside = !c.onInterface[u];
+  const std::vector<std::int32_t>& star = this->star(u);
+  if (!inside)
+  {
+    if (!keepsTissues(u, v)) return false;
+    if (!gatherCollapsingFaces(u, v, p) || !m_Envelope.samplesStay()) return false;
+    if (!m_Envelope.trianglesReach(minimumQuality) || m_Envelope.spansGap(v, c.points[u])) return false;
+    m_Envelope.detach();
+  }
+  c.collapse(u, v, star);
+  changed();
+  if (!inside && m_Topology.ringLosesLabels())
+    for (std::int32_t x : m_RingVertices)
+      if (!c.locked[x]) c.onInterface[x] = meetsLabels(this->star(x));
+  if (moves)
+  {
+    c.points[v] = p;
+    c.lengths[v] = float(m_Length(p));
+  }
+  if (!inside) m_Envelope.attach();
+  ++m_Counts.collapses;
+  return true;
+}
+
+bool GuardedOperations::collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality,
+                                 double maximumRatio)
+{
+  return mayCollapse(u, v, !(p == m_Complex.points[v])) &&
+         qualityAfterCollapse(u, v, p, minimumQuality, maximumRatio) >= minimumQuality &&
+         collapseWithin(u, v, p, minimumQuality);
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The quadric of a vertex: the sum of squared distances of its faces to their boundary samples, as a function of where the
+/// vertex is. Its minimum is the least-squares position (after Garland and Heckbert, SIGGRAPH 1997, with samples of the
+/// boundary in place of planes).
+
+#include "BoundarySamples.h"
+
+namespace surgicalmesher
+{
+
+/// Normal equations m x = g, m symmetric.
+struct Quadric
+{
+  double m[6] = { 0, 0, 0, 0, 0, 0 }; ///< xx xy xz yy yz zz
+  Vec3 g;
+
+  double trace() const { return m[0] + m[3] + m[5]; }
+  void addToDiagonal(double value) { m[0] += value, m[3] += value, m[5] += value; }
+  Vec3 times(const Vec3& x) const;
+  Vec3 solve(const Vec3& right) const; ///< zero if m is singular
+};
+
+/// Least squares for the step (mm) of v that brings the faces of its `sheet` nearest to their samples: m step = g. With
+/// `robust` (mm) > 0, a sample at distance d weighs 1 / (1 + d / robust), one round of iteratively reweighted least squares
+/// for the mean distance, and so for the volume between surface and map, instead of its square.
+Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust = 0);
+
+/// The same, were v at p.
+Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust);
+
+} // namespace surgicalmesher

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Remesher.h"
+
+#include <mutex>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+struct RunPass
+{
+  GuardedOperations& operations;
+
+  void operator()(const Coarsen& pass) const { coarsenBlock(operations, pass.size, pass.options); }
+  void operator()(const Relax& pass) const { relaxBlock(operations, pass.options); }
+  void operator()(const Polish& pass) const { polishBlock(operations, pass.options); }
+  void operator()(const Improve& pass) const { improveBlock(operations, pass.options); }
+  void operator()(const EvenOut& pass) const { evenLengthsOfBlock(operations, pass.options); }
+  void operator()(const RelabelInterface& pass) const { relabelBlock(operations, pass.keptAngle, pass.mostLeft); }
+  void operator()(const RemoveSpikes& pass) const { cutSpikesOfBlock(operations, pass.options); }
+  void operator()(const RemoveEars& pass) const { removeEarsOfBlock(operations, pass.few); }
+};
+
+EnvelopeBounds boundsOf(const Stage& stage, const RemesherOptions& options)
+{
+  EnvelopeBounds bounds = stage.bounds;
+  if (options.tolerancesAreHard) bounds.toleranceFactor = 1;
+  else bounds.separatedFactor = options.separatedFactor;
+  return bounds;
+}
+
+OperationCounts runStages(TetComplex& block, const SizingFunction& length, const Sweep& sweep,
+                          const RemesherOptions& options)
+{
+  OperationCounts counts;
+  for (const Stage& stage : sweep.stages)
+  {
+    GuardedOperations operations(block, length, boundsOf(stage, options));
+    for (const Pass& pass : stage.passes) std::visit(RunPass{ operations }, pass);
+    counts += operations.counts();
+  }
+  return counts;
+}
+
+} // namespace
+
+Remesher::Remesher(BackgroundMesh mesh, SizingFunction length, const RemesherOptions& options, const Progress& progress,
+                   std::size_t sweeps)
+  : m_Background(std::move(mesh)), m_Length(std::move(length)), m_Options(options), m_Progress(progress),
+    m_Sweeps(sweeps)
+{
+}
+
+void Remesher::run(const Sweep& sweep)
+{
+  m_Counts = {};
+  std::mutex mutex;
+  const auto work = [&](TetComplex& block)
+  {
+    const OperationCounts counts = runStages(block, m_Length, sweep, m_Options);
+    const std::lock_guard<std::mutex> lock(mutex);
+    m_Counts += counts;
+  };
+  const auto progress = [&](double fraction, const std::string&)
+  { report(m_Progress, (double(m_Round) + fraction) / double(m_Sweeps), sweep.name); };
+  sweepBlocks(m_Background, int(m_Round), sweep.whole ? oneBlock : fairBlock(m_Background.mesh), work, progress);
+  ++m_Round;
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: Apache-2.0
+// Angles are dihedral, in degrees; tolerances are factors on those of the samples; lengths are mm or, in edges, shares of L.
+// The numbers come from measurements on jhu189, aal, inia19, hncma and the heads, listed in the pages that Schedule.h names.
+
+#include "Schedule.h"
+
+#include "MeshQuality.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+constexpr double as28Degrees = 1.033; // triangles of 28 degrees count like dihedral angles of 28.5
+
+constexpr double earTolerance = 1.1;    // beyond that the surface withdraws where it is to be finest
+constexpr double spikeTolerance = 2.1;  // of what a spike leaves behind
+constexpr double lengthTolerance = 1.1; // what even lengths are worth
+constexpr double labelTolerance = 1.6;  // of relabelling
+constexpr double vertexDistance = 1.4;  // spikes begin there
+constexpr double spikeTriangles = 1.6;  // triangles may lose some degrees where a spike goes
+
+constexpr double clearlyNearer = 0.9; // share of the distances that relabelling leaves at most
+constexpr double farNearer = 0.7;     // the same where it may cost the shape of a triangle
+
+constexpr std::size_t earTetrahedra = 4;
+constexpr double levelRatio = 1.48; // of a size to the one before it
+
+double vertexDistanceOf(const MeshTargets& targets) { return targets.countsTriangles() ? vertexDistance : 0; }
+
+EnvelopeBounds bounds(const MeshTargets& targets, double rmsLimit, double toleranceFactor = 1)
+{
+  return { .rmsLimit = rmsLimit,
+           .toleranceFactor = toleranceFactor,
+           .triangleWeight = targets.triangleWeight,
+           .vertexDistance = vertexDistanceOf(targets) };
+}
+
+/// Without splits and moves together.
+Improve improve(double angle, int trials, int passes)
+{
+  return { { .targetAngle = angle, .split = false, .splitEdge = 0, .trials = trials, .passes = passes } };
+}
+
+// --- stages of several sweeps
+
+Stage withoutEars()
+{
+  return { { .rmsLimit = 1, .toleranceFactor = earTolerance, .vertexDistance = vertexDistance },
+           { RemoveEars{ earTetrahedra } } };
+}
+
+/// `pullAngle`: see SpikeOptions.
+Stage withoutSpikes(const MeshTargets& targets, const MeshSizes& sizes, double pullAngle)
+{
+  SpikeOptions spikes;
+  spikes.vertexDistance = vertexDistance;
+  spikes.keptAngle = targets.keptAngle;
+  spikes.pullAngle = pullAngle;
+  spikes.maximumDistance = sizes.maximumDistance;
+  return { { .rmsLimit = 1, .toleranceFactor = spikeTolerance, .triangleWeight = spikeTriangles },
+           { RelabelInterface{ targets.keptAngle, farNearer }, RemoveSpikes{ spikes } } };
+}
+
+/// Not where L is under two voxels: there the vertices stay where the map wants them.
+Stage evenLengths(const MeshTargets& targets, const MeshSizes& sizes, double goodAngle, std::size_t rounds)
+{
+  const EvenOut pass{ { .goodAngle = goodAngle, .from = 2 * sizes.voxel, .robust = 0.1 * sizes.voxel } };
+  return { bounds(targets, 0.5, lengthTolerance), std::vector<Pass>(rounds, pass) };
+}
+
+Stage relabelled(const MeshTargets& targets)
+{
+  return { { .rmsLimit = 1, .toleranceFactor = labelTolerance, .triangleWeight = targets.triangleWeight },
+           { RelabelInterface{ targets.keptAngle, clearlyNearer } } };
+}
+
+Coarsen coarsenAll(const MeshTargets& targets, const MeshSizes& sizes, double leastAngle = 5)
+{
+  return { sizes.longest,
+           { .shortEdge = targets.shortEdge, .minimumAngle = leastAngle, .quarters = targets.countsTriangles() } };
+}
+
+Sweep improvement(Stage stage) { return { "improvement", { std::move(stage) } }; }
+
+/// How far a repair goes.
+struct Repair
+{
+  double angle;     ///< aimed at
+  double tolerance; ///< factor
+  double splitEdge; ///< 0: no splits
+  double ease;      ///< see ImprovementOptions
+  int together;     ///< see ImprovementOptions
+};
+
+ImprovementOptions optionsOf(const Repair& repair)
+{
+  return { .targetAngle = repair.angle,
+           .split = repair.splitEdge > 0,
+           .splitEdge = repair.splitEdge,
+           .ease = repair.ease,
+           .trials = 20,
+           .together = repair.together,
+           .passes = 3 };
+}
+
+Sweep repairBlocks(const MeshTargets& targets, const Repair& repair)
+{
+  return improvement({ bounds(targets, 1, repair.tolerance), { Improve{ optionsOf(repair) } } });
+}
+
+Sweep repairWhole(const MeshTargets& targets, const MeshSizes& sizes, const Repair& repair)
+{
+  ImprovementOptions options = optionsOf(repair);
+  options.worstShare = 0.002; // on one thread
+  Sweep sweep{ "improvement", { withoutEars() }, true };
+  if (targets.countsTriangles()) sweep.stages.push_back(withoutSpikes(targets, sizes, 0));
+  sweep.stages.push_back({ bounds(targets, 1, repair.tolerance), { Improve{ options } } });
+  return sweep;
+}
+
+Sweep fitToSamples(double rmsLimit, const MeshTargets& targets, const MeshSizes& sizes)
+{
+  const double kept = targets.keptAngle, robust = 0.1 * sizes.voxel;
+  constexpr double pullAngle = 20; // what is lost, the second repair brings back
+  const Relax relax{ { .goodAngle = kept, .spread = 0.9, .fit = 2, .robust = robust } };
+  const Polish polish{ { .goodAngle = kept, .fit = 10, .robust = robust } };
+  Sweep sweep{ "improvement", {} };
+  if (targets.countsTriangles()) sweep.stages.push_back(withoutSpikes(targets, sizes, pullAngle));
+  sweep.stages.push_back({ bounds(targets, rmsLimit), { coarsenAll(targets, sizes, kept), relax, polish } });
+  if (!targets.countsTriangles()) return sweep;
+  sweep.stages.push_back(evenLengths(targets, sizes, kept, 2));
+  sweep.stages.push_back(relabelled(targets));
+  return sweep;
+}
+
+} // namespace
+
+const MeshTargets usualTargets{ .firstAngle = 25,
+                                .aimedAngle = 28.8,
+                                .keptAngle = usualAngle,
+                                .widestTolerance = 2.1,
+                                .shortEdge = 0.82,
+                                .triangleWeight = as28Degrees,
+                                .trials = 10,
+                                .coarseningSweeps = 3,
+                                .balanceRounds = 2 };
+
+const MeshTargets noisyTargets{ .firstAngle = 22,
+                                .aimedAngle = 23.5,
+                                .keptAngle = modestAngle,
+                                .widestTolerance = 2.4,
+                                .shortEdge = 0.75,
+                                .triangleWeight = 0,
+                                .trials = 12,
+                                .coarseningSweeps = 1,
+                                .balanceRounds = 1 };
+
+bool hasUnresolvedFeatures(const TetMesh& mesh)
+{
+  constexpr std::size_t many = 20000;
+  constexpr double share = 0.07;
+  const std::size_t bad = countBelow(mesh, 20);
+  return bad > many && double(bad) > share * double(mesh.tetrahedra.size());
+}
+
+// --- surface stage: coarsening --------------------------------------------------------------------------------------
+
+std::vector<double> sizeLevels(const MeshSizes& sizes)
+{
+  std::vector<double> levels{ 1.6 * sizes.voxel };
+  for (double level = levels[0] * levelRatio; level < sizes.longest; level *= levelRatio) levels.push_back(level);
+  levels.push_back(sizes.longest);
+  return levels;
+}
+
+bool isCoarse(double level, const MeshSizes& sizes) { return level > 5 * sizes.voxel; }
+
+/// The first levels hold most of the tetrahedra, in a lattice that is still regular: fitting, thoroughness and repair pay
+/// later, and relaxation there costs regular sizes in the end.
+Sweep coarsenTo(double level, const MeshSizes& sizes)
+{
+  const bool isFirst = level < 2 * sizes.voxel, isFine = level <= 3 * sizes.voxel;
+  Stage stage{ { .rmsLimit = 0.45, .vertexDistance = vertexDistance }, {} };
+  stage.passes.push_back(Coarsen{ level, { .minimumAngle = 5, .fit = !isFirst, .thorough = level > 7 * sizes.voxel } });
+  if (isCoarse(level, sizes)) stage.passes.push_back(Relax{});
+  if (!isFine) stage.passes.push_back(improve(15, 8, 1));
+  return { "coarsening", { stage } };
+}
+
+Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly)
+{
+  return {
+    "coarsening",
+    { { { .rmsLimit = 0.45, .vertexDistance = vertexDistance },
+        { Coarsen{ sizes.longest, { .minimumAngle = 5, .quarters = thoroughly } }, Relax{}, improve(15, 8, 1) } } }
+  };
+}
+
+// --- surface stage: improvement -------------------------------------------------------------------------------------
+
+Sweep firstImprovement(const MeshTargets& targets, const MeshSizes& sizes)
+{
+  return improvement(
+    { bounds(targets, 0.4), { coarsenAll(targets, sizes), Polish{}, improve(targets.firstAngle, 8, 1) } });
+}
+
+std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes& sizes)
+{
+  const double between = 0.5 * (targets.firstAngle + targets.aimedAngle);
+  std::vector<Sweep> sweeps;
+  for (int n = 1; n < targets.coarseningSweeps; ++n)
+  {
+    const double angle = n == 1 ? between : targets.aimedAngle;
+    sweeps.push_back(
+      improvement({ bounds(targets, 0.35), { coarsenAll(targets, sizes), Polish{}, improve(angle, 8, 1) } }));
+    if (!targets.countsTriangles()) continue;
+    sweeps.back().stages.push_back(evenLengths(targets, sizes, 20, 2)); // sizes still change
+    sweeps.back().stages.push_back(relabelled(targets));
+  }
+  return sweeps;
+}
+
+std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
+{
+  const double aim = t.aimedAngle, kept = t.keptAngle, widest = t.widestTolerance;
+  return { improvement({ bounds(t, 0.5), { Polish{}, improve(aim, t.trials, 2) } }),
+           improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, 2) } }),
+           repairBlocks(t, { .angle = aim, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0 }),
+           repairBlocks(t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 20 }),
+           repairBlocks(t, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }),
+           repairWhole(t, sizes, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
+}
+
+std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& sizes)
+{
+  std::vector<Sweep> sweeps;
+  for (int round = 0; round < targets.balanceRounds; ++round)
+    sweeps.push_back(fitToSamples(round == 0 ? 0.3 : 0.25, targets, sizes));
+  return sweeps;
+}
+
+std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& sizes)
+{
+  const double kept = t.keptAngle, widest = t.widestTolerance;
+  return { repairBlocks(t, { .angle = kept, .tolerance = widest, .splitEdge = 0.4, .ease = 0.1, .together = 20 }),
+           repairWhole(t, sizes, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
+}
+
+Sweep finishLengths(const MeshTargets& targets, const MeshSizes& sizes)
+{
+  return improvement(evenLengths(targets, sizes, targets.keptAngle, 1));
+}
+
+std::size_t surfaceSweepCount(const MeshSizes& sizes)
+{
+  const MeshTargets& t = usualTargets;
+  return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() +
+         std::size_t(t.balanceRounds) + secondRepairSweeps(t, sizes).size() + 1;
+}
+
+// --- tetrahedral stage ----------------------------------------------------------------------------------------------
+
+namespace
+{
+
+constexpr double always = -1;
+
+/// One row of the tables below.
+struct VolumeRow
+{
+  double rmsLimit = 1;
+  double tolerance = 1;     ///< factor
+  double collapseAngle = 0; ///< least that the collapse of a short edge leaves; 0: no collapses
+  std::size_t relaxations = 0;
+  double relaxationAngle = 0; ///< see RelaxationOptions::goodAngle
+  std::size_t polishes = 0;
+  PolishingOptions polishing = {};
+  double angle = 0;     ///< aimed at; 0: no improvement
+  int trials = 0;       ///< see ImprovementOptions
+  int passes = 2;       ///< likewise
+  double splitEdge = 0; ///< 0: no splits
+  bool whole = false;
+  double worthwhileShare = 0;
+};
+
+ConditionalSweep sweepOf(const VolumeRow& row)
+{
+  Stage stage{ { .rmsLimit = row.rmsLimit, .toleranceFactor = row.tolerance }, {} };
+  if (row.collapseAngle > 0)
+    stage.passes.push_back(Coarsen{ std::numeric_limits<double>::max(), { .minimumAngle = row.collapseAngle } });
+  stage.passes.insert(stage.passes.end(), row.relaxations, Relax{ { .goodAngle = row.relaxationAngle } });
+  stage.passes.insert(stage.passes.end(), row.polishes, Polish{ row.polishing });
+  if (row.angle > 0)
+    stage.passes.push_back(Improve{ { .targetAngle = row.angle,
+                                      .split = row.splitEdge > 0,
+                                      .splitEdge = row.splitEdge,
+                                      .trials = row.trials,
+                                      // Where many are bad, moving together costs more than all the rest.
+                                      .together = row.splitEdge > 0 ? 20 : 0,
+                                      .passes = row.passes } });
+  return { { "improvement", { stage }, row.whole }, row.worthwhileShare };
+}
+
+std::vector<ConditionalSweep> sweepsOf(const std::vector<VolumeRow>& rows)
+{
+  std::vector<ConditionalSweep> sweeps;
+  std::transform(rows.begin(), rows.end(), std::back_inserter(sweeps), sweepOf);
+  return sweeps;
+}
+
+/// From the first sweep that collapses nothing on. `rmsFactor`: of those limits that hold the surface where it is;
+/// `relaxationAngle`: what relaxation must not fall below; `few`: the share that is not worth a sweep over all.
+std::vector<VolumeRow> polishingRows(double target, double rmsFactor, double relaxationAngle, double few)
+{
+  const double r = relaxationAngle, t = target;
+  const PolishingOptions back{ .goodAngle = 28.4, .fit = 3 };
+  // clang-format off
+  return {
+    { .rmsLimit = rmsFactor * 0.3, .relaxations = 1, .relaxationAngle = r, .polishes = 4, .angle = t, .trials = 8, .worthwhileShare = always },
+    { .rmsLimit = 0.5, .relaxations = 1, .relaxationAngle = r, .polishes = 4, .angle = t, .trials = 12, .worthwhileShare = few },
+    { .rmsLimit = 0.8, .tolerance = 1.5, .polishes = 5, .angle = t, .trials = 16, .worthwhileShare = few },
+    { .tolerance = 2, .angle = t, .trials = 20, .passes = 3, .whole = true },
+    { .tolerance = 3, .angle = t, .trials = 20, .passes = 3, .whole = true },
+    { .tolerance = 4, .angle = t, .trials = 20, .passes = 3, .whole = true },
+    { .tolerance = 4, .angle = t, .trials = 20, .passes = 3, .splitEdge = 0.6, .whole = true },
+    { .tolerance = 4, .angle = t, .trials = 30, .passes = 4, .splitEdge = 0.4, .whole = true },
+    { .rmsLimit = rmsFactor * 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always },
+  };
+  // clang-format on
+}
+
+} // namespace
+
+/// The angle that vertices may fall to while they move rises with what has been reached, and the angle aimed at with it.
+/// Splits cost regular sizes, and come late.
+std::vector<ConditionalSweep> sweepsForRawMesh(double target)
+{
+  // clang-format off
+  std::vector<VolumeRow> rows{
+    { .rmsLimit = 0.3, .collapseAngle = 15, .relaxations = 3, .relaxationAngle = 15, .polishes = 2, .angle = std::min(20.0, target), .trials = 8, .worthwhileShare = always },
+    { .rmsLimit = 0.3, .collapseAngle = 20, .relaxations = 1, .relaxationAngle = 20, .polishes = 2, .angle = std::min(25.0, target), .trials = 8, .worthwhileShare = always },
+    { .rmsLimit = 0.4, .collapseAngle = 20, .relaxations = 1, .relaxationAngle = 25, .polishes = 3, .angle = target, .trials = 8, .worthwhileShare = always },
+    { .rmsLimit = 0.4, .collapseAngle = 20, .relaxations = 1, .relaxationAngle = 25, .polishes = 4, .angle = target, .trials = 8, .worthwhileShare = always },
+  };
+  // clang-format on
+  for (const VolumeRow& row : polishingRows(target, 1, 25, 0)) rows.push_back(row);
+  return sweepsOf(rows);
+}
+
+std::vector<ConditionalSweep> sweepsForImprovedMesh(double target)
+{
+  constexpr double surfaceHeld = 0.6, few = 1.0 / 400;
+  return sweepsOf(polishingRows(target, surfaceHeld, std::max(25.0, target), few));
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What a remesher does to every block of a mesh: passes, grouped into stages that share an envelope.
+
+#include "Coarsening.h"
+#include "EvenLengths.h"
+#include "Improvement.h"
+#include "InterfaceRelabelling.h"
+#include "Polishing.h"
+#include "Relaxation.h"
+#include "SpikeRemoval.h"
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+struct Coarsen ///< coarsenBlock
+{
+  double size; ///< mm, see there
+  CoarseningOptions options;
+};
+struct Relax ///< relaxBlock
+{
+  RelaxationOptions options;
+};
+struct Polish ///< polishBlock
+{
+  PolishingOptions options;
+};
+struct Improve ///< improveBlock
+{
+  ImprovementOptions options;
+};
+struct EvenOut ///< evenLengthsOfBlock
+{
+  EdgeLengthOptions options;
+};
+struct RelabelInterface ///< relabelBlock
+{
+  double keptAngle; ///< degrees
+  double mostLeft;
+};
+struct RemoveSpikes ///< cutSpikesOfBlock
+{
+  SpikeOptions options;
+};
+struct RemoveEars ///< removeEarsOfBlock
+{
+  std::size_t few; ///< tetrahedra
+};
+
+using Pass = std::variant<Coarsen, Relax, Polish, Improve, EvenOut, RelabelInterface, RemoveSpikes, RemoveEars>;
+
+struct Stage
+{
+  EnvelopeBounds bounds;
+  std::vector<Pass> passes; ///< in this order
+};
+
+struct Sweep
+{
+  std::string name; ///< as progress and reports call it
+  std::vector<Stage> stages;
+  /// In one block: borders between blocks are locked, and what is still bad in the end lies at them.
+  bool whole = false;
+};
+
+} // namespace surgicalmesher

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Improvement of a finished labelled mesh, with its own interface as the surface to stay on: what the tetrahedral stage does.
+
+#include "Progress.h"
+#include "SizingFunction.h"
+#include "TetMesh.h"
+#include "TetQuality.h"
+
+namespace surgicalmesher
+{
+
+struct TetrahedraImprovementOptions
+{
+  double surfaceTolerance = 0.017; ///< how far the surface may move from where it was, as a share of the target
+                                   ///< length; four times as far where nothing else mends an angle
+  double targetAngle = usualAngle; ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
+  /// The surface stage has improved the mesh to targetAngle: its sizes are right and its surface is where it belongs.
+  bool isImproved = false;
+};
+
+/// Improves `mesh` (positively wound, face-to-face, label 0 outside; vertices on its hull stay) towards `length` and towards
+/// the target angle. Labels keep their topology, and no operation lowers the worst quality of what it touches.
+/// Deterministic, whatever the number of threads.
+void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const TetrahedraImprovementOptions& options = {},
+                       const Progress& progress = {});
+
+} // namespace surgicalmesher

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "GuardedOperations.h"
+
+namespace surgicalmesher
+{
+
+bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
+{
+  if (m_Complex.onInterface[v])
+  {
+    sheet(v);
+    if (!m_Envelope.moveSheet(p)) return false;
+  }
+  place(v, p);
+  ++m_Counts.moves;
+  return true;
+}
+
+void GuardedOperations::moveBack(std::int32_t v, const Vec3& p)
+{
+  if (m_Complex.onInterface[v])
+  {
+    sheet(v);
+    m_Envelope.handToNearest(p);
+  }
+  place(v, p);
+  --m_Counts.moves;
+}
+
+void GuardedOperations::reassignSamples(std::int32_t v)
+{
+  if (!m_Complex.onInterface[v]) return;
+  sheet(v);
+  if (m_Envelope.hasSampleBeyondTolerance()) m_Envelope.handToNearest(m_Complex.points[v]);
+}
+
+void GuardedOperations::place(std::int32_t v, const Vec3& p)
+{
+  m_Complex.points[v] = p;
+  m_Complex.lengths[v] = float(m_Length(p));
+  for (Star* star : { &m_Star, &m_StarOfV })
+    if (star->vertex != v) star->isMeasured = false;
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// How a mesh evolves from sweep to sweep.
+
+#include "BackgroundMesh.h"
+#include "GuardedOperations.h"
+
+#include <string>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+/// The mesh after one step.
+struct EvolutionStep
+{
+  std::string stage;
+  std::size_t tetrahedra = 0; ///< of tissues
+  std::size_t faces = 0;      ///< between labels; not counted (0) in the lattice, whose neighbours nobody needs
+  double meanDistance = 0;    ///< mm, of the map's smoothed boundary to the surface
+  double maximumDistance = 0; ///< mm
+  OperationCounts operations; ///< since the step before
+};
+
+/// What `background` is like now, after `operations` of a stage called `stage`.
+EvolutionStep evolutionStep(const BackgroundMesh& background, const std::string& stage,
+                            const OperationCounts& operations);
+
+} // namespace surgicalmesher

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SampleTolerances.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// The two voxels whose common face has its centre at p.
+std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
+{
+  std::array<std::array<int, 3>, 2> voxels;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double at = p[a] / map.grid.spacing[a];
+    voxels[0][a] = int(std::lround(at - 0.01));
+    voxels[1][a] = int(std::lround(at + 0.01));
+  }
+  return { labelAt(map, voxels[0]), labelAt(map, voxels[1]) };
+}
+
+/// What share of the usual tolerance a map allows: the voxels that a drift of the surfaces puts into wrong tissues are as many
+/// as their area times the drift, so that a large map whose surfaces lie close together must have less of it. In a small one
+/// they lie close because its bodies are small.
+double roomIn(const BackgroundMesh& background, const TissueMap& map)
+{
+  constexpr std::size_t large = 600000; // faces between tissues
+  constexpr double usual = 3.0;         // voxels of tissue for each
+  if (background.samples.size() < large) return 1;
+  const auto tissue = std::count_if(map.labels.begin(), map.labels.end(), [](Label l) { return l != 0; });
+  const double ratio = double(tissue) / (usual * double(background.samples.size()));
+  return std::clamp(ratio * ratio, 0.5, 1.0);
+}
+
+/// How far the boundary of each tissue may drift, mm: what nobody sees on a thick tissue takes a third of a thin one's
+/// volume. A thin tissue that simplification has left is held the less closely, as what is of its size elsewhere has gone.
+std::map<Label, double> mostDrifts(const std::map<Label, double>& thickness, double voxel,
+                                   const FeatureOptions& features)
+{
+  constexpr double share = 0.28, perScale = 0.08, most = 0.4; // of the thickness
+  std::map<Label, double> result;
+  for (const auto& [label, mm] : thickness)
+  {
+    const double scale = features.protectedLabels.count(label) ? 0 : features.featureScale;
+    result[label] = std::max(0.6 * voxel, std::min(share + perScale * scale, most) * mm);
+  }
+  return result;
+}
+
+} // namespace
+
+void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::map<Label, double>& thickness,
+                   const SizingFunction& length, const ToleranceOptions& options)
+{
+  const double voxel = map.grid.largestSpacing(), room = roomIn(background, map), bound = options.maximumDistance;
+  const std::map<Label, double> drifts = mostDrifts(thickness, map.grid.largestSpacing(), options.features);
+  for (auto& sample : background.samples)
+  {
+    double tolerance = room * (0.42 * voxel + 0.095 * length(sample.position));
+    for (const Label label : labelsBeside(map, sample.position))
+      if (label != 0) tolerance = std::min(tolerance, drifts.at(label));
+    sample.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
+  }
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// How close the mesh has to stay to the boundary of each tissue.
+
+#include "BackgroundMesh.h"
+#include "FeatureSimplification.h"
+#include "SizingFunction.h"
+
+#include <map>
+
+namespace surgicalmesher
+{
+
+struct ToleranceOptions
+{
+  double maximumDistance = 0; ///< mm; no tolerance is larger; 0: no bound
+  FeatureOptions features;    ///< what the map was simplified by
+};
+
+/// Gives every sample of `background`, which lies at the centre of a voxel face of `map`, its tolerance:
+///
+///     min(r (0.42 voxel + 0.095 L), s thickness), at least 0.6 voxel where thickness decides
+///
+/// `thickness`: mean, of each tissue, mm; s = 0.28 + 0.08 F, at most 0.4, with F the feature scale (0 for protected
+/// tissues). r is 1, and less, down to 0.5, in large maps with little tissue for each face between tissues. All in the grid
+/// frame of the map.
+void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::map<Label, double>& thickness,
+                   const SizingFunction& length, const ToleranceOptions& options);
+
+} // namespace surgicalmesher

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "VolumeBalance.h"
+
+#include <algorithm>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+constexpr double most = 0.5; // voxels
+constexpr double gain = 1.5; // angles hold vertices back from where the samples go
+
+/// Corner number k of tetrahedron t, counted from i.
+const Vec3& corner(const TetMesh& mesh, std::int32_t t, int i, int k)
+{
+  return mesh.points[mesh.tetrahedra[t][(i + k) & 3]];
+}
+
+/// Normal of the face opposite corner i, of twice the face's area; its side depends on i.
+Vec3 normal(const TetMesh& mesh, std::int32_t t, int i)
+{
+  const Vec3 &a = corner(mesh, t, i, 1), &b = corner(mesh, t, i, 2), &c = corner(mesh, t, i, 3);
+  return cross(b - a, c - a);
+}
+
+} // namespace
+
+VolumeBalance::VolumeBalance(const TissueMap& map) : m_Most(most * map.grid.smallestSpacing())
+{
+  const Vec3 h = map.grid.spacing;
+  for (const auto& [label, voxels] : countVoxels(map)) m_Volumes[label] = double(voxels) * h.x * h.y * h.z;
+}
+
+void VolumeBalance::apply(BackgroundMesh& background)
+{
+  const TetMesh& mesh = background.mesh;
+  const auto& neighbours = background.neighbours;
+  std::vector<double> missing(labelCount), area(labelCount);
+  for (const auto& [label, volume] : m_Volumes) missing[label] = volume;
+  for (std::int32_t t = 0; t < std::int32_t(mesh.tetrahedra.size()); ++t)
+  {
+    const Label label = mesh.labels[t];
+    missing[label] -=
+      orient(corner(mesh, t, 0, 0), corner(mesh, t, 0, 1), corner(mesh, t, 0, 2), corner(mesh, t, 0, 3)) / 6;
+    for (int i = 0; i < 4; ++i)
+      if (const std::int32_t n = neighbours[t][i]; n >= 0 && mesh.labels[n] != label)
+        area[label] += 0.5 * norm(normal(mesh, t, i));
+  }
+  std::vector<double> steps(labelCount);
+  for (const auto& [label, volume] : m_Volumes)
+    if (label != 0 && area[label] > 0) steps[label] = stepOf(label, missing[label] / area[label]);
+  for (auto& sample : background.samples)
+  {
+    const std::int32_t t = sample.tetrahedron;
+    const int face = sample.face;
+    Vec3 outward = normal(mesh, t, face);
+    if (dot(outward, corner(mesh, t, face, 0) - corner(mesh, t, face, 1)) > 0) outward = -1.0 * outward;
+    const Label inside = mesh.labels[t], beyond = mesh.labels[neighbours[t][face]];
+    sample.position += (steps[inside] - steps[beyond]) / norm(outward) * outward;
+  }
+}
+
+/// How much farther a tissue's boundary goes out, mm.
+double VolumeBalance::stepOf(Label label, double lacking)
+{
+  double& moved = m_Moved[label];
+  const double before = moved;
+  moved = std::clamp(moved + gain * lacking, -m_Most, m_Most);
+  return moved - before;
+}
+
+} // namespace surgicalmesher
