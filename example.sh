@@ -3,11 +3,14 @@
 # usage: ./example.sh [OUTDIR]                             (default build/example)
 #        ./example.sh OUTDIR MAP [--OPTION VALUE]...       with --targets FILE or --path FILE, and any option of the
 #                                                          modules; --nullDisplacement... marks far tissue first
-# Installs Debian packages that are missing, builds the three modules, and leaves the meshes, a report and pictures.
-# With SURGICALMESHER_BIN set to a folder of modules already built, it uses these.
+# Says which Debian packages are missing and how large they are, installs them, builds the three modules, and leaves the
+# meshes, a report and pictures. Earlier results in OUTDIR go once the new ones are complete.
+# With SURGICALMESHER_BIN set to a folder of modules already built, it installs and builds nothing and uses these.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")" && pwd)
+scripts=$root/workflow/example
+python=/usr/bin/python3
 outputs=(scale.nrrd labels.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu {scale,surface,mesh,report}.json
   {surface,tetrahedra,scale,evolution,histograms}.png log.txt)
 
@@ -19,7 +22,7 @@ refuse()
 }
 
 if [[ ${1:-} == -* ]]; then
-  sed -n 's/^# //; 2,5p' "$0" >&2
+  sed -n 's/^# //; 2,8p' "$0" >&2
   [[ $1 == --help ]] && exit 0
   exit 2
 fi
@@ -32,17 +35,40 @@ if (($# > 1)); then
 fi
 
 if [[ -z ${SURGICALMESHER_BIN:-} ]]; then
-  "$root/CMake/build.sh" SurgicalPathScaleCLI SimplexMesherCLI FuchsTetrahedralizerCLI
+  "$root/CMake/build.sh" --for build,example SurgicalPathScaleCLI SimplexMesherCLI FuchsTetrahedralizerCLI
 fi
 export PATH="${SURGICALMESHER_BIN:-$root/build/bin}:$PATH"
-options=$(/usr/bin/python3 "$root/Docs/Example/options.py" "${@:3}") || exit
-mkdir -p "$folder"
+[[ -x $python ]] || refuse 1 "$python: not found, expected the packages of CMake/debian-packages.txt"
+options=$("$python" "$scripts/options.py" "${@:3}") || exit
+inputs=(${map:+"$map"})
+while IFS=$'\t' read -r _ _ value; do
+  if [[ $value == /* && -f $value ]]; then inputs+=("$value"); fi
+done <<<"$options"
+
+# usage: refuse_inputs FOLDER FILE...       none of these files may be one that is read
+refuse_inputs()
+{
+  local into=$1 file input
+  shift
+  for file in "$@"; do
+    for input in "${inputs[@]}"; do
+      [[ ! $input -ef $into/$file ]] || refuse 2 "$input would be overwritten, expected another folder for the results"
+    done
+  done
+}
+
+# Results are made in a folder of their own beside the earlier ones, and take their place when all are there.
+[[ ! -e $folder || -d $folder ]] || refuse 1 "$folder: not a folder, expected one for the results"
+[[ -d $folder ]] || created=1
+mkdir -p "$folder" 2>/dev/null || refuse 1 "$folder: the folder cannot be made"
 folder=$(cd "$folder" && pwd)
-cd "$folder"
-for file in "${outputs[@]}"; do
-  [[ ! $map -ef $file ]] || refuse 2 "$map would be overwritten, expected another folder for the results"
-done
-rm -f -- "${outputs[@]}"
+refuse_inputs "$folder" "${outputs[@]}"
+work=$(mktemp -d "$folder/.example.XXXXXX" 2>/dev/null) || refuse 1 "$folder: nothing can be written there"
+trap 'rm -rf -- "$work"; if [[ -n ${created:-} ]]; then rmdir --ignore-fail-on-non-empty -- "$folder"; fi' EXIT
+trap 'exit 129' HUP
+trap 'exit 130' INT
+trap 'exit 143' TERM
+cd "$work"
 
 # The modules' progress is for a terminal; elsewhere it goes to the log.
 seconds=()
@@ -51,8 +77,10 @@ stage()
   local name=$1 start=$EPOCHREALTIME
   shift
   echo "$name: $*"
-  if [[ -t 1 ]]; then "$@"; else "$@" >>log.txt; fi
+  local status=0
+  if [[ -t 1 ]]; then "$@" || status=$?; else "$@" >>log.txt || status=$?; fi
   seconds+=("$name=$(awk -v a="$start" -v b="$EPOCHREALTIME" 'BEGIN { print b - a }')")
+  return "$status"
 }
 
 # The options that $options deals out to a stage, in the array `words`.
@@ -82,22 +110,38 @@ mesh_own_map()
     surface.vtp mesh.vtu
 }
 
+# Moves all results into the folder; what is there of an earlier run goes.
+deliver()
+{
+  local file
+  shopt -s nullglob dotglob
+  local results=(*)
+  refuse_inputs "$folder" "${results[@]}"
+  for file in "${outputs[@]}"; do
+    [[ -e $file ]] || rm -f -- "$folder/$file"
+  done
+  mv -f -- "${results[@]}" "$folder"
+}
+
 illustrate_and_report()
 {
-  stage pictures xvfb-run -a /usr/bin/python3 "$root/Docs/Example/pictures.py" .
+  local status=0
+  stage pictures "$python" "$scripts/display.py" "$python" "$scripts/pictures.py" . || status=3
   echo
-  /usr/bin/python3 "$root/Docs/Example/report.py" . "${seconds[@]}"
+  "$python" "$scripts/report.py" . "${seconds[@]}"
   echo
-  echo "Written to $folder: scale.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu report.json and five pictures"
+  deliver
+  echo "Written to $folder: scale.nrrd prepared.nrrd ambient.vtu surface.vtp mesh.vtu report.json and pictures (.png)"
+  exit "$status"
 }
 
 if [[ -n $map ]]; then
   mesh_own_map
   illustrate_and_report
-  exit
 fi
 
-cp /usr/share/mricron/templates/jhu189.nii.gz .
+cp /usr/share/mricron/templates/jhu189.nii.gz . 2>/dev/null ||
+  refuse 1 "/usr/share/mricron/templates/jhu189.nii.gz: not found, expected Debian's package mricron-data"
 cat >target.mrk.json <<'END'
 {
   "@schema": "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/markups-schema-v1.0.0.json#",

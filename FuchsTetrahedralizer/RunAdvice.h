@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the panel says of a problem that keeps it from being run, in the user's language.
 

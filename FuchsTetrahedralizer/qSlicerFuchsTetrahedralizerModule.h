@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Slicer's entry to Fuchs Tetrahedralizer: tetrahedra from a surface, to look at, to measure and to export.
 

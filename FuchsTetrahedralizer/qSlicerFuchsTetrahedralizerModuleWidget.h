@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The panel of Fuchs Tetrahedralizer. It follows the scene's parameter node, and the node follows it.
 

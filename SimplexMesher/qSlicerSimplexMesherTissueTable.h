@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The tissues of a map, and what is asked of each: a filter, a table, and buttons for the selected rows. What the user
 /// enters goes to the parameter node, and what the node says is shown.

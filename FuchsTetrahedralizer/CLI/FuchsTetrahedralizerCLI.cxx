@@ -1,17 +1,23 @@
-// FuchsTetrahedralizerCLI: multi-tissue surface (and its ambient tetrahedra) in; labelled tetrahedra, their quality out.
+// SPDX-License-Identifier: Apache-2.0
+// FuchsTetrahedralizerCLI: multi-tissue surface (and its ambient tetrahedra) in; labelled tetrahedra, their quality
+// out.
 
 #include "AmbientMatch.h"
+#include "AvailableMemory.h"
 #include "CommandLine.h"
 #include "ConstitutiveTags.h"
+#include "EdgeDivision.h"
 #include "Errors.h"
 #include "Export.h"
 #include "FaceAdjacency.h"
 #include "FuchsTetrahedralizerCLIXML.h"
+#include "InputChecks.h"
 #include "JsonMember.h"
 #include "MaterialTable.h"
 #include "MeshChecks.h"
 #include "MeshIO.h"
 #include "MeshQuality.h"
+#include "PrintableText.h"
 #include "ShellChoices.h"
 #include "StiffnessConditioning.h"
 #include "SubMeshExport.h"
@@ -21,6 +27,7 @@
 #include "SurfaceValidity.h"
 #include "TetrahedraImprovement.h"
 #include "TissueMapIO.h"
+#include "TissueSurfaces.h"
 #include "VtkExport.h"
 
 #include <rapidjson/document.h>
@@ -40,8 +47,8 @@ namespace
 
 using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
-/// L(x), mm. A scale volume also gives the frame to improve the mesh in: its own, in which copies of all inputs that lie
-/// elsewhere in the world have the same numbers.
+/// L(x), mm. A scale volume also gives the frame to improve the mesh in: its own, in which copies of all inputs that
+/// lie elsewhere in the world have the same numbers.
 struct Lengths
 {
   SizingFunction inWorld;
@@ -72,7 +79,7 @@ Lengths readLengths(const CommandLine& line, const SurfaceFile& content)
 }
 
 /// Makes the surface ready for the start that was chosen; it has labels then.
-void prepareSurface(const CommandLine& line, SurfaceFile& content)
+void prepareSurface(CommandLine& line, const SizingFunction& edgeLength, SurfaceFile& content)
 {
   SurfaceComplex& surface = content.surface;
   const std::string name = line.text("surface");
@@ -82,8 +89,13 @@ void prepareSurface(const CommandLine& line, SurfaceFile& content)
     if (labelled) return;
     throw InputError(name + ": no BoundaryLabels, expected them in a surface with ambient tetrahedra");
   }
+  if (!labelled) requireMillimetres(surface, edgeLength, name);
   surface = labelled ? withoutDuplicatePoints(surface) : closedShellsToTissues(surface, name);
+  if (const std::optional<Label> sole = leaveNeighboursOut(surface))
+    line.message(name + " is the surface of tissue " + std::to_string(*sole) + " alone: its neighbours become outside");
   if (labelled) requireFillable(surface, name);
+  requireMemoryFor(estimateTetrahedra(surface, edgeLength), availableMemory(), name);
+  surface = withDividedEdges(surface, edgeLength);
 }
 
 /// A refusal's triangles go to the file that is named for them, or else beside the mesh that was to be.
@@ -166,17 +178,24 @@ std::vector<ShellChoice> readShells(const CommandLine& line, const TissueTable& 
 }
 
 /// What the command line alone can tell.
-void requireUsableOptions(const CommandLine& line)
+void requireUsableOptions(CommandLine& line)
 {
   if (line.flag("conditioning") && !line.given("report"))
     throw UsageError("--conditioning is given, but no --report, expected both");
-  for (const std::string& file : line.outputNames("export")) exportFormatOf(file);
+  for (const std::string& file : line.outputNames("export"))
+  {
+    for (const ExportSidecar& sidecar : exportSidecars(file))
+    {
+      if (sidecar.isMany) line.alsoWritesMany("export", sidecar.before, sidecar.after);
+      else line.alsoWrites("export", sidecar.before);
+    }
+  }
   const bool chosen = !line.texts("shell").empty();
   if (chosen && !line.given("shells") && !line.given("export"))
     throw UsageError("--shell is given, but neither --shells nor --export");
 }
 
-FiniteElementOptions readFiniteElementOptions(const CommandLine& line, const SurfaceFile& content)
+FiniteElementOptions readFiniteElementOptions(CommandLine& line, const SurfaceFile& content)
 {
   std::set<Label> present;
   for (const auto& sides : content.surface.labels) present.insert(sides.begin(), sides.end());
@@ -184,6 +203,9 @@ FiniteElementOptions readFiniteElementOptions(const CommandLine& line, const Sur
   FiniteElementOptions options;
   const std::string materials = line.text("materials");
   if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present);
+  const std::string missing =
+    materials.empty() ? std::string() : warningOfMaterials(options, present, content.tissues, materials);
+  if (!missing.empty()) line.warning(missing);
   options.shells = readShells(line, content.tissues, present);
   return options;
 }
@@ -265,7 +287,7 @@ rapidjson::Value stiffnessJSON(const StiffnessConditioning& conditioning, rapidj
 }
 
 std::string reportOf(const MeshFile& content, const SubMeshes& division, const MeshQuality& quality, bool fromAmbient,
-                     bool withConditioning)
+                     bool withConditioning, const std::vector<std::string>& warnings)
 {
   rapidjson::StringBuffer buffer;
   JsonWriter json(buffer);
@@ -282,6 +304,10 @@ std::string reportOf(const MeshFile& content, const SubMeshes& division, const M
     members.AddMember("stiffness", stiffnessJSON(stiffnessConditioning(content.mesh), allocator), allocator);
   }
   members.Accept(json);
+  json.Key("warnings");
+  json.StartArray();
+  for (const std::string& warning : warnings) json.String(printable(warning).c_str());
+  json.EndArray();
   json.EndObject();
   return std::string(buffer.GetString()) + "\n";
 }
@@ -296,6 +322,13 @@ std::string summaryOf(const QualityGroup& whole)
   return text.str();
 }
 
+void returnFigures(CommandLine& line, const QualityGroup& whole)
+{
+  line.returnValue("tetrahedronCount", std::to_string(whole.tetrahedra));
+  line.returnValue("pointCount", std::to_string(whole.points));
+  line.returnValue("smallestDihedralAngle", std::to_string(whole.dihedral.minimum));
+}
+
 void mesh(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
@@ -307,13 +340,16 @@ void mesh(CommandLine& line)
   const Lengths lengths = readLengths(line, content);
   const SizingFunction& edgeLength = lengths.inWorld;
   report(progress, 0.1, "tetrahedra");
-  prepareSurface(line, content);
+  prepareSurface(line, edgeLength, content);
+  for (const std::string& warning : warningsOfPlaces(rule, content.surface)) line.warning(warning);
   const FiniteElementOptions options = readFiniteElementOptions(line, content);
   const TetMesh ambient =
     improved(startOf(line, content.surface, edgeLength), lengths, subProgress(progress, 0.3, 0.8));
   report(progress, 0.8, "sub-meshes");
   SubMeshes division;
   const MeshFile result = assemble(ambient, edgeLength, content.tissues, rule, division);
+  const std::string stillness = warningOfStillness(result.constitutive);
+  if (!stillness.empty()) line.warning(stillness);
   report(progress, 0.9, "checks");
   requireSound(result.mesh, "final check");
   writeMesh(result, line.outputFile("mesh"));
@@ -324,9 +360,11 @@ void mesh(CommandLine& line)
   if (!reportFile.empty())
   {
     const bool fromAmbient = !line.text("ambient").empty();
-    writeBytes(reportOf(result, division, quality, fromAmbient, line.flag("conditioning")), reportFile);
+    writeBytes(reportOf(result, division, quality, fromAmbient, line.flag("conditioning"), line.warnings()),
+               reportFile);
   }
   line.message(summaryOf(quality.whole));
+  returnFigures(line, quality.whole);
   report(progress, 1, "done");
 }
 

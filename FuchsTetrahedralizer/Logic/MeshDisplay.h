@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How tetrahedra of a model node are looked at: their colours, and a slice's plane that cuts them open between cells.
 

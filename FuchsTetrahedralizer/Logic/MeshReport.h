@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The quality of a mesh as nodes of the scene: a table, and histograms as plots. The mesh node refers to them by the
 /// roles of vtkMRMLFuchsTetrahedralizerNode; nodes that it already refers to are filled anew.

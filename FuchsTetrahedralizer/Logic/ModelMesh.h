@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Model nodes of the scene as the module and its command-line part take them: in world coordinates, with parent
 /// transforms applied. Nothing here changes a node.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Can a run be started from a parameter node? Cheap enough for every change in a panel.
 

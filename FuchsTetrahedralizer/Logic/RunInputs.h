@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a parameter node of Fuchs Tetrahedralizer names and tells, in the forms that a run and an export take.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Runs FuchsTetrahedralizerCLI for a parameter node; shows, measures and exports the tetrahedra that it leaves, and
 /// those of any other model node.

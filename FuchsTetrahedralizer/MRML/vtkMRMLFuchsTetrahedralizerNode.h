@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the panel of Fuchs Tetrahedralizer shows: the surface, the lengths, what is wanted of the mesh and how it is
 /// looked at. It lives in the scene and is saved with it. Lengths are in mm; 0 means what it means to

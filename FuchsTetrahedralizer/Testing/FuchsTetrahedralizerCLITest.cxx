@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
 #include "FaceAdjacency.h"
 #include "MeshIO.h"
 #include "Shapes.h"
 
+#include <filesystem>
 #include <limits>
 #include <set>
 
@@ -195,4 +197,103 @@ TEST_F(FuchsTetrahedralizerCLI, LeavesNothingWhenKilled)
 {
   writeBall("fine.vtp", 5);
   expectLeavesNothingWhenKilled("--edgeLength 0.7 --report r.json fine.vtp m.vtu", "tetrahedra");
+}
+
+TEST_F(FuchsTetrahedralizerCLI, Trial_B02_SidecarsReplaceNothing)
+{
+  writeBall("x.tissue_5.vtp", 1);
+  const std::string more = "--edgeLength 4 ";
+  expectRefused(more + "--export x.stl --export x.tissue_5.stl ball.vtp m.vtu", 2, "one file per tissue");
+  expectRefused(more + "--export x.inp --report x.inp.names.json ball.vtp m.vtu", 2, "is an output of");
+  expectRefused(more + "--export m.vtu ball.vtp m.vtu", 2, "is an output of");
+  std::filesystem::copy_file(folder.file("ball.vtp"), folder.file("x.tissue_5.stl"));
+  expectRefused(more + "--export x.stl x.tissue_5.stl m.vtu", 2, "which is an input");
+  expectRefused(more + "--export x.stl --materials x.tissue_5.stl ball.vtp m.vtu", 2, "which is an input");
+#ifdef SURGICALMESHER_HDF5
+  expectRefused(more + "--export x.xdmf --export x_facets.xdmf ball.vtp m.vtu", 2, "is an output of");
+#endif
+}
+
+TEST_F(FuchsTetrahedralizerCLI, Trial_B12_TheSurfaceOfOneTissueIsFilled)
+{
+  SurfaceFile part;
+  part.surface = sphere({ 0, 0, 0 }, 10, 3, 2, 1);
+  for (std::size_t t = 0; t < part.surface.labels.size(); ++t)
+  {
+    const Vec3 p = part.surface.points[part.surface.triangles[t][0]];
+    part.surface.labels[t] = { Label(2), Label(p.x > 0 ? 1 : p.y > 0 ? 3 : 0) };
+  }
+  writeSurface(part, folder.file("ts-2.vtp"));
+  const Outcome result = run("--edgeLength 4 ts-2.vtp m.vtu");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.out.find("ts-2.vtp is the surface of tissue 2 alone"), std::string::npos) << result.out;
+  const MeshFile mesh = readMesh(folder.file("m.vtu"));
+  EXPECT_EQ(std::set<Label>(mesh.mesh.labels.begin(), mesh.mesh.labels.end()), std::set<Label>{ 2 });
+}
+
+TEST_F(FuchsTetrahedralizerCLI, Trial_B14_HeadersThatClaimTooMuchAreRefused)
+{
+  folder.write("g.ply",
+               "ply\nformat ascii 1.0\nelement vertex 1000000000\nproperty float x\nproperty float y\n"
+               "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n");
+  expectRefused("--edgeLength 4 g.ply m.vtu", 1, "g.ply: the header claims 1000000000 (element vertex), expected");
+  std::string huge = readBytes(folder.file("ball.vtp"));
+  const std::size_t at = huge.find("NumberOfPoints=\"") + 16;
+  huge.replace(at, huge.find('"', at) - at, "2000000000");
+  folder.write("huge.vtp", huge);
+  expectRefused("--edgeLength 4 huge.vtp m.vtu", 1, "huge.vtp: the header claims 2000000000 (NumberOfPoints)");
+  folder.write("huge.vtk", "# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 900000000 float\n0 0 0\n");
+  expectRefused("--edgeLength 4 huge.vtk m.vtu", 1, "huge.vtk: the header claims 900000000 (POINTS)");
+  folder.write("huge.stl", std::string(80, ' ') + "\xff\xff\xff\x7f" + std::string(100, '\0'));
+  expectRefused("--edgeLength 4 huge.stl m.vtu", 1, "huge.stl: the header claims 2147483647 (triangles)");
+}
+
+TEST_F(FuchsTetrahedralizerCLI, Trial_B14_SizesThatDoNotFitAreRefusedWithTheEstimate)
+{
+  SurfaceFile ball;
+  ball.surface = sphere({ 0, 0, 0 }, 1e6, 2, 5);
+  writeSurface(ball, folder.file("planet.vtp"));
+  expectRefused("--edgeLength 0.5 planet.vtp m.vtu", 1, "planet.vtp: at these edge lengths it takes about");
+}
+
+TEST_F(FuchsTetrahedralizerCLI, Trial_B14_MetresAreNotMillimetres)
+{
+  SurfaceFile ball;
+  ball.surface = sphere({ 0, 0, 0 }, 0.01, 2, 5);
+  ball.surface.labels.clear();
+  writeSurface(ball, folder.file("metres.vtp"));
+  expectRefused("--edgeLength 3 metres.vtp m.vtu", 1,
+                "metres.vtp: the whole surface is 0.0346 mm across, shorter than one edge of 3 mm; expected "
+                "millimetres, found what look like metres");
+}
+
+TEST_F(FuchsTetrahedralizerCLI, Trial_B15_AMeshThatIsHeldStillIsSaid)
+{
+  const Outcome result = run("--edgeLength 4 --targetPoint 1000,0,0 --nullDisplacementRadius 10 ball.vtp m.vtu");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("warning: target (1e+03, 0, 0) mm LPS lies outside the surface"), std::string::npos)
+    << result.err;
+  EXPECT_NE(result.err.find("warning: every tetrahedron is null displacement"), std::string::npos) << result.err;
+}
+
+// Trial, 3b: a tissue that --materials forgot became soft tissue without a word.
+TEST_F(FuchsTetrahedralizerCLI, Trial_3b_TissuesWithoutAMaterialAreListed)
+{
+  SurfaceFile two;
+  two.surface = sphere({ 0, 0, 0 }, 10, 3, 5);
+  append(two.surface, sphere({ 30, 0, 0 }, 10, 3, 7));
+  two.tissues[7].name = "skull";
+  writeSurface(two, folder.file("two.vtp"));
+  folder.write("m.csv", "tissue,youngsModulus,poissonsRatio\n5,9,0.45\n");
+  const Outcome result =
+    run("--edgeLength 4 --materials m.csv --export m.inp --report r.json --returnparameterfile r.txt two.vtp m.vtu "
+        "--progress none");
+  EXPECT_EQ(result.status, 0) << result.err;
+  const std::string warning = "m.csv: no row for 1 of 2 tissues, which get the default of soft tissue, 3 kPa: skull";
+  EXPECT_NE(result.err.find(warning), std::string::npos) << result.err;
+  EXPECT_NE(readBytes(folder.file("r.json")).find(warning), std::string::npos);
+  EXPECT_NE(readBytes(folder.file("m.inp")).find("0.009,"), std::string::npos);
+  EXPECT_EQ(readBytes(folder.file("r.txt")).find("tetrahedronCount = "), 0u);
+  folder.write("bad.csv", "tissue,youngsModulus\n5,9\n");
+  expectRefused("--edgeLength 4 --materials bad.csv two.vtp m2.vtu", 1, "no column poissonsRatio");
 }

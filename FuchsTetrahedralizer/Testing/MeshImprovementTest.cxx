@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Improvement where it is needed most: on the slivers of a constrained Delaunay tetrahedralization.
 
 #include "FaceAdjacency.h"

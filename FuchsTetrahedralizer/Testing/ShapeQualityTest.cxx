@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // From label maps and surfaces to tetrahedra through every stage: what angles simple shapes get, and what the lattice's
 // tetrahedra look like where nothing disturbs them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "Arguments.h"
 
 #include "Errors.h"
@@ -18,6 +19,36 @@ bool looksLikeFlag(const std::string& argument)
   // Negative numbers begin with a dash, too.
   return argument.size() > 1 && argument[0] == '-' && !std::isdigit(static_cast<unsigned char>(argument[1])) &&
          argument[1] != '.';
+}
+
+const char* const progressFormats = "one of xml, bar, plain, json, none";
+
+std::string withoutDashes(const std::string& flag)
+{
+  const std::size_t start = flag.find_first_not_of('-');
+  return start == std::string::npos ? std::string() : flag.substr(start);
+}
+
+/// Letters to insert, delete or replace (Levenshtein, Soviet Physics Doklady 10(8), 1966); letters appended to either
+/// count as one.
+std::size_t changesBetween(const std::string& a, const std::string& b)
+{
+  const std::size_t common = std::min(a.size(), b.size());
+  if (common >= 3 && a.compare(0, common, b, 0, common) == 0) return a.size() == b.size() ? 0 : 1;
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+  {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j)
+    {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({ row[j] + 1, row[j - 1] + 1, replaced });
+    }
+  }
+  return row[b.size()];
 }
 
 class Parser
@@ -60,8 +91,10 @@ private:
     }
 
     if (flag == "--echo" && !attached) m_Result.echo = true;
+    else if (flag == "--quiet" && !attached) m_Result.quiet = true;
+    else if (flag == "--progress") setProgress(takeValue(flag, progressFormats, attached));
     else if (flag == "--returnparameterfile") setReturnParameterFile(takeValue(flag, "a file", attached));
-    else if (flag == "--processinformationaddress") takeValue(flag, "an address", attached);
+    else if (flag == "--processinformationaddress") setHost(takeValue(flag, "an address", attached));
     else parseParameter(findByFlag(flag), flag, attached);
   }
 
@@ -70,6 +103,41 @@ private:
     if (file.empty()) throw UsageError("--returnparameterfile: no value found, a file expected");
     if (!m_Result.returnParameterFile.empty()) throw UsageError("--returnparameterfile: given twice, once expected");
     m_Result.returnParameterFile = file;
+    m_Result.fromHost = true;
+  }
+
+  void setHost(const std::string&) { m_Result.fromHost = true; }
+
+  void setProgress(const std::string& format)
+  {
+    const std::map<std::string, ProgressFormat> formats{ { "xml", ProgressFormat::Xml },
+                                                         { "bar", ProgressFormat::Bar },
+                                                         { "plain", ProgressFormat::Plain },
+                                                         { "json", ProgressFormat::Json },
+                                                         { "none", ProgressFormat::None } };
+    const auto found = formats.find(format);
+    if (found == formats.end())
+      throw UsageError("--progress: '" + format + "' found, " + progressFormats + " expected");
+    m_Result.progress = found->second;
+  }
+
+  /// ", did you mean --targets?" of the known flag that takes the fewest changes, if these are few.
+  std::string nearestFlag(const std::string& flag) const
+  {
+    const std::string wanted = withoutDashes(flag);
+    std::vector<std::string> known{ "help", "version", "xml", "returnparameterfile", "echo", "quiet", "progress" };
+    for (const Parameter* parameter : m_Description.parameters()) known.push_back(parameter->longFlag);
+    std::string nearest;
+    std::size_t fewest = std::min<std::size_t>(wanted.size() / 3 + 1, 5);
+    for (const std::string& name : known)
+    {
+      if (name.empty()) continue;
+      const std::size_t changes = changesBetween(lowerCase(wanted), lowerCase(name));
+      if (changes > fewest || (changes == fewest && !nearest.empty())) continue;
+      nearest = name;
+      fewest = changes;
+    }
+    return nearest.empty() ? "" : "; did you mean --" + nearest + "?";
   }
 
   const Parameter& findByFlag(const std::string& flag) const
@@ -80,7 +148,7 @@ private:
       const bool isShort = !parameter->flag.empty() && flag == "-" + parameter->flag;
       if (isLong || isShort) return *parameter;
     }
-    throw UsageError(flag + ": unknown flag found, one of those that --help lists expected");
+    throw UsageError(flag + ": unknown flag found, one of those that --help lists expected" + nearestFlag(flag));
   }
 
   std::string takeValue(const std::string& flag, const std::string& expected, const std::string* attached)

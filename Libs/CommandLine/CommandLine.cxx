@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "CommandLine.h"
 
 #include "Arguments.h"
@@ -5,6 +6,7 @@
 #include "ModuleDescription.h"
 #include "OutputFiles.h"
 #include "Platform.h"
+#include "PrintableText.h"
 #include "ProgressReport.h"
 #include "Text.h"
 
@@ -14,11 +16,12 @@
 #include <vtkOutputWindow.h>
 
 #include <algorithm>
+#include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <new>
-#include <set>
 #include <stdexcept>
 
 namespace surgicalmesher
@@ -84,43 +87,129 @@ struct CommandLine::Private
     return all.empty() ? std::string() : all.front();
   }
 
-  void refuseToReplaceInput(const Parameter& output, const std::string& file) const;
+  void requireNoInput(const std::string& who, const std::string& file) const;
+  void claim(const std::string& who, const std::string& file);
+  void claimMany(const std::string& who, const std::string& before, const std::string& after);
   void prepareOutputs();
   void echo() const;
   void writeReturnParameterFile();
+
+  std::map<std::string, std::string> claims; ///< what writes a file, by its place
+  struct ManyFiles
+  {
+    std::string who;
+    std::filesystem::path folder;
+    std::string before, after; ///< of the name
+    bool include(const std::string& place) const;
+  };
+  std::vector<ManyFiles> manyFiles;
+  std::vector<std::string> warnings;
 };
 
-/// An output may replace an input of its own kind, as when the host works in place. Of another kind, it is a slip.
-void CommandLine::Private::refuseToReplaceInput(const Parameter& output, const std::string& file) const
+namespace
 {
-  for (const Parameter* input : description.parameters())
+
+bool areTheSame(const std::string& a, const std::string& b)
+{
+  std::error_code error;
+  return std::filesystem::equivalent(a, b, error) || placeOf(a) == placeOf(b);
+}
+
+/// Folders don't count: outputs may go into them.
+std::vector<std::string> inputFiles(const ModuleDescription& description, const Arguments& arguments)
+{
+  std::vector<std::string> files;
+  for (const auto& [name, values] : arguments.values)
   {
-    const bool sameKind = input->type == output.type && input->kind == output.kind;
-    if (!input->isFile() || input->output || sameKind) continue;
-    for (const std::string& inputFile : values(*input))
+    const Parameter& parameter = *description.find(name);
+    if (!parameter.isFile() || parameter.output || parameter.type == "directory") continue;
+    files.insert(files.end(), values.begin(), values.end());
+  }
+  return files;
+}
+
+[[noreturn]] void refuseOutput(const std::string& who, const std::string& file, const std::string& what)
+{
+  throw UsageError(who + ": '" + file + "' is " + what + ", too; another file expected");
+}
+
+} // namespace
+
+bool CommandLine::Private::ManyFiles::include(const std::string& place) const
+{
+  const std::filesystem::path path(place);
+  const std::string name = path.filename().string();
+  if (path.parent_path() != folder || name.size() <= before.size() + after.size()) return false;
+  if (name.compare(0, before.size(), before) != 0) return false;
+  if (name.compare(name.size() - after.size(), after.size(), after) != 0) return false;
+  return std::all_of(name.begin() + before.size(), name.end() - after.size(),
+                     [](unsigned char letter) { return std::isalnum(letter) || letter == '_'; });
+}
+
+void CommandLine::Private::requireNoInput(const std::string& who, const std::string& file) const
+{
+  for (const std::string& input : inputFiles(description, arguments))
+  {
+    if (areTheSame(input, file)) refuseOutput(who, file, "an input");
+  }
+}
+
+void CommandLine::Private::claim(const std::string& who, const std::string& file)
+{
+  requireNoInput(who, file);
+  const std::string place = placeOf(file);
+  const bool isNew = claims.emplace(place, who).second;
+  if (!isNew) refuseOutput(who, file, "an output of " + claims.at(place));
+  for (const ManyFiles& many : manyFiles)
+  {
+    if (many.include(place)) refuseOutput(who, file, "one that " + many.who + " may write");
+  }
+}
+
+void CommandLine::Private::claimMany(const std::string& who, const std::string& before, const std::string& after)
+{
+  const std::filesystem::path path(placeOf(before + "?"));
+  const std::string name = path.filename().string();
+  const ManyFiles many{ who, path.parent_path(), name.substr(0, name.size() - 1), after };
+  const auto refuse = [&](const std::string& file, const std::string& what)
+  {
+    throw UsageError(who + ": one file per tissue, " + many.before + "..." + after + ", may be written to '" + file +
+                     "', which is " + what + "; another name expected");
+  };
+  for (const std::string& input : inputFiles(description, arguments))
+  {
+    if (many.include(placeOf(input))) refuse(input, "an input");
+    std::error_code error;
+    for (std::filesystem::directory_iterator entry(many.folder, error), end; !error && entry != end;
+         entry.increment(error))
     {
-      std::error_code error;
-      if (!std::filesystem::equivalent(inputFile, file, error)) continue;
-      throw UsageError(output.spelling() + ": '" + file + "' is an input, too; another file expected");
+      const std::string file = entry->path().string();
+      if (many.include(file) && areTheSame(input, file)) refuse(input, "an input");
     }
   }
+  for (const auto& [place, other] : claims)
+  {
+    if (many.include(place)) refuse(place, "an output of " + other);
+  }
+  manyFiles.push_back(many);
 }
 
 /// Creates the temporaries before the work begins, so that a place that can't be written to shows at once.
 void CommandLine::Private::prepareOutputs()
 {
-  std::set<std::string> temporaries;
+  std::vector<std::string> files;
+  const auto add = [&](const std::string& who, const std::string& file)
+  {
+    claim(who, file);
+    files.push_back(file);
+  };
   for (const Parameter* parameter : description.parameters())
   {
     if (!parameter->isFile() || !parameter->output) continue;
-    for (const std::string& file : values(*parameter))
-    {
-      refuseToReplaceInput(*parameter, file);
-      if (temporaries.insert(outputs.temporary(file)).second) continue;
-      throw UsageError(parameter->spelling() + ": '" + file + "' is another output, too; another file expected");
-    }
+    for (const std::string& file : values(*parameter)) add(parameter->spelling(), file);
   }
-  if (!arguments.returnParameterFile.empty()) outputs.temporary(arguments.returnParameterFile);
+  if (!arguments.returnParameterFile.empty()) add("--returnparameterfile", arguments.returnParameterFile);
+  for (const std::string& file : files) outputs.temporary(file);
 }
 
 void CommandLine::Private::echo() const
@@ -223,15 +312,21 @@ std::vector<std::string> CommandLine::outputNames(const std::string& name) const
   return d->values(d->parameter(name, isOutput, "output file"));
 }
 
-std::vector<std::string> CommandLine::outputFiles(const std::string& name)
+std::string CommandLine::outputPath(const std::string& finalPath)
 {
-  const auto isOutput = [](const Parameter& p) { return p.isFile() && p.output && p.multiple; };
-  std::vector<std::string> files = d->values(d->parameter(name, isOutput, "list of output files"));
-  for (std::string& file : files) file = d->outputs.temporary(file);
-  return files;
+  d->requireNoInput("output", finalPath);
+  return d->outputs.temporary(finalPath);
 }
 
-std::string CommandLine::outputPath(const std::string& finalPath) { return d->outputs.temporary(finalPath); }
+void CommandLine::alsoWrites(const std::string& name, const std::string& finalPath)
+{
+  d->claim(d->parameter(name).spelling(), finalPath);
+}
+
+void CommandLine::alsoWritesMany(const std::string& name, const std::string& before, const std::string& after)
+{
+  d->claimMany(d->parameter(name).spelling(), before, after);
+}
 
 void CommandLine::commitOutput(const std::string& name)
 {
@@ -257,8 +352,24 @@ Progress CommandLine::progress()
 
 void CommandLine::message(const std::string& line) { d->progress->message(line); }
 
+void CommandLine::warning(const std::string& line)
+{
+  d->warnings.push_back(line);
+  d->progress->warning(line);
+}
+
+const std::vector<std::string>& CommandLine::warnings() const { return d->warnings; }
+
 namespace
 {
+
+ProgressFormat progressFormat(const Arguments& arguments)
+{
+  if (arguments.progress != ProgressFormat::Unset) return arguments.progress;
+  const bool hasHost = arguments.fromHost || std::getenv("SLICER_HOME");
+  if (stdoutIsTerminal()) return ProgressFormat::Bar;
+  return hasHost ? ProgressFormat::Xml : ProgressFormat::Plain;
+}
 
 /// Answers --xml, --help and --version. Returns false if none of them is there.
 bool answerQuestion(const std::vector<std::string>& arguments, const std::string& xml, const std::string& executable)
@@ -285,7 +396,7 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
   const auto failed = [&](int status, const std::string& message)
   {
     const std::string text = line ? line->d->outputs.withFinalNames(message) : message;
-    std::cerr << executable << ": " << oneLine(text) << "\n" << std::flush;
+    std::cerr << executable << ": " << oneLine(printable(text)) << "\n" << std::flush;
     return status;
   };
   const auto run = [&]
@@ -296,10 +407,13 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
     auto data = std::make_unique<CommandLine::Private>();
     data->description = parseModuleDescription(xml);
     data->arguments = parseArguments(data->description, arguments);
-    data->progress = std::make_unique<ProgressReport>(std::cout, stdoutIsTerminal(), data->description.title);
+    const auto warn = [&executable](const std::string& text)
+    { writeToStderr(executable + ": warning: " + text + "\n"); };
+    data->progress = std::make_unique<ProgressReport>(std::cout, progressFormat(data->arguments),
+                                                      data->description.title, data->arguments.quiet, warn);
     line.reset(new CommandLine(std::move(data)));
 
-    installSignalHandlers();
+    installSignalHandlers(executable);
     const QuietStderr quiet;
     silenceVTK();
     if (line->d->arguments.echo) line->d->echo();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The runtime of the command-line modules. One XML per module (Slicer's ModuleDescription) is the single source of
 /// flags, types, defaults, ranges and help; a module is that text and a function:
@@ -9,7 +10,8 @@
 ///
 /// runModule answers --xml, --help and --version, parses and checks the options, hands them to the function, renames
 /// the outputs into place when it returns, and turns what it throws into one line on stderr and an exit status: 0 done,
-/// 1 InputError, 2 UsageError, 3 EngineError or anything else. Outputs appear whole or not at all.
+/// 1 InputError, 2 UsageError, 3 EngineError or anything else. Outputs appear whole or not at all, and never in place
+/// of an input.
 ///
 /// While the function runs, what libraries write to stderr is discarded, unless the environment variable
 /// SURGICALMESHER_DEBUG is set.
@@ -47,11 +49,18 @@ public:
   /// place after the module function has returned. Empty if the output was not asked for. That the place can be written
   /// to has been checked before the function was called; an output that was asked for has to be written.
   std::string outputFile(const std::string& name);
-  std::vector<std::string> outputFiles(const std::string& name); ///< multiple="true"
   /// The final names of the same files, one or many: to write by outputPath(), with sidecars named after them.
   std::vector<std::string> outputNames(const std::string& name) const;
-  /// The same for a file the XML doesn't list (a sidecar next to an output). Throws InputError if it can't be created.
+  /// The same for a file the XML doesn't list (a sidecar next to an output). Throws InputError if it can't be created,
+  /// UsageError if it is an input or another output: announce sidecars before anything is read, so that this shows in
+  /// time.
   std::string outputPath(const std::string& finalPath);
+
+  /// Announces a sidecar of output `name`. Throws UsageError if it is an input, another output or another sidecar.
+  void alsoWrites(const std::string& name, const std::string& finalPath);
+  /// Announces any number of sidecars of output `name`, called `before`, some letters, digits or underscores, and
+  /// `after`.
+  void alsoWritesMany(const std::string& name, const std::string& before, const std::string& after);
 
   /// An output that only a refusal has, to show what is at fault: renamed into place at once, or not to be written.
   void commitOutput(const std::string& name);
@@ -60,10 +69,16 @@ public:
   /// A simple output parameter (channel output, no flag): written to --returnparameterfile as `name = value`.
   void returnValue(const std::string& name, const std::string& value);
 
-  /// XML tags as Slicer reads them when stdout is a pipe, a progress bar on a terminal. Valid as long as this object.
+  /// A progress bar on a terminal; elsewhere tags as Slicer reads them if a host runs the module, which passes
+  /// --returnparameterfile or lives in an environment with SLICER_HOME, else lines with the time left; or what
+  /// --progress asks for. Valid as long as this object.
   Progress progress();
   /// A line on stdout that keeps clear of the progress bar.
   void message(const std::string& line);
+  /// A line on stderr, "<program>: warning: <line>". Hosts take what comes on stderr for errors: for them it goes to
+  /// stdout.
+  void warning(const std::string& line);
+  const std::vector<std::string>& warnings() const; ///< so far
 
   ~CommandLine();
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The answer to --help, made from nothing but the description.
 #include "ModuleDescription.h"
 #include "Text.h"
@@ -75,6 +76,11 @@ Every module
       Write the returned values as lines of name = value.
   --echo
       Print the values of all parameters first.
+  --progress CHOICE
+      How progress is written on stdout: xml (as Slicer reads it), bar, plain (lines with the time left), json (an
+      object per line), none. Default: a bar on a terminal, xml for a host of modules, else plain.
+  --quiet
+      Write nothing on stdout. Warnings and errors go to stderr all the same.
   --processinformationaddress ADDRESS
       Accepted and not used.
 

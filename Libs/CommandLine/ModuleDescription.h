@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A module's XML description (Slicer's ModuleDescription) as plain data.
 

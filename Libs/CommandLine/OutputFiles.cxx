@@ -1,11 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "OutputFiles.h"
 
 #include "Errors.h"
 #include "Platform.h"
+#include "PrintableText.h"
 #include "Text.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <vector>
 
 namespace fs = std::filesystem;
@@ -46,27 +52,52 @@ void requireWritablePlace(const fs::path& path, const std::string& finalPath)
   }
 }
 
-/// The process that a temporary file of `path` on this host belongs to; 0 for any other file.
-int ownerOfTemporary(const fs::path& path, const std::string& candidate)
+constexpr std::size_t longestName = 255; ///< bytes: what nearly every file system takes
+
+/// FNV-1a, 64 bit.
+std::string hashOf(const std::string& text)
 {
-  const std::string name = path.filename().string();
-  const std::string start = "." + name + "." + hostName() + "-";
-  const std::string end = partialMark + fullExtension(name);
-  if (candidate.size() <= start.size() + end.size() || candidate.compare(0, start.size(), start) != 0 ||
-      candidate.compare(candidate.size() - end.size(), end.size(), end) != 0)
-  {
-    return 0;
-  }
-  return parseInteger(candidate.substr(start.size(), candidate.size() - start.size() - end.size())).value_or(0);
+  std::uint64_t hash = 14695981039346656037u;
+  for (const unsigned char byte : text) hash = (hash ^ byte) * 1099511628211u;
+  std::ostringstream digits;
+  digits << std::hex << hash;
+  return digits.str();
 }
 
-void removeLeftovers(const fs::path& path)
+/// The name of this process's temporary file for a file called `name`.
+std::string temporaryName(const std::string& name)
+{
+  const std::string end = "." + hostName() + "-" + std::to_string(processId()) + partialMark + fullExtension(name);
+  if (1 + name.size() + end.size() <= longestName) return "." + name + end;
+  const std::string hash = hashOf(name);
+  std::size_t kept = longestName - std::min(longestName, 2 + hash.size() + end.size());
+  while (kept > 0 && (static_cast<unsigned char>(name[kept]) & 0xc0) == 0x80) --kept; // no half of a character
+  return "." + name.substr(0, kept) + "." + hash + end;
+}
+
+/// The process that a temporary file on this host belongs to; 0 for any other file. `.<name>.<host>-<process>.partial`
+/// and an extension, which the name has, too, unless it was cut.
+int ownerOfTemporary(const std::string& candidate)
+{
+  const std::size_t mark = candidate.rfind(partialMark);
+  const std::string host = "." + hostName() + "-";
+  const std::size_t at = mark == std::string::npos ? mark : candidate.rfind(host, mark);
+  if (at == std::string::npos || at < 2 || candidate[0] != '.') return 0;
+  const std::string name = candidate.substr(1, at - 1);
+  const std::string extension = candidate.substr(mark + std::strlen(partialMark));
+  const bool isCut = candidate.size() == longestName;
+  if (!isCut && extension != fullExtension(name)) return 0;
+  const std::size_t number = at + host.size();
+  return parseInteger(candidate.substr(number, mark - number)).value_or(0);
+}
+
+void removeLeftovers(const fs::path& folder)
 {
   std::error_code error;
   std::vector<fs::path> leftovers;
-  for (fs::directory_iterator entry(path.parent_path(), error), end; !error && entry != end; entry.increment(error))
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
   {
-    const int owner = ownerOfTemporary(path, entry->path().filename().string());
+    const int owner = ownerOfTemporary(entry->path().filename().string());
     if (owner > 0 && !processIsAlive(owner)) leftovers.push_back(entry->path());
   }
   for (const fs::path& leftover : leftovers) fs::remove(leftover, error);
@@ -109,6 +140,14 @@ std::string fullExtension(const std::string& fileName)
   return compound ? before + last : last;
 }
 
+std::string placeOf(const std::string& file)
+{
+  const fs::path path = resolved(file);
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(path.parent_path(), error);
+  return error ? path.string() : (folder / path.filename()).string();
+}
+
 std::string OutputFiles::temporary(const std::string& finalPath)
 {
   const fs::path path = resolved(finalPath);
@@ -116,11 +155,8 @@ std::string OutputFiles::temporary(const std::string& finalPath)
   if (known != m_TemporaryByFinal.end()) return known->second;
 
   requireWritablePlace(path, finalPath);
-  removeLeftovers(path);
-  const std::string name = path.filename().string();
-  const std::string temporary = (path.parent_path() / ("." + name + "." + hostName() + "-" +
-                                                       std::to_string(processId()) + partialMark + fullExtension(name)))
-                                  .string();
+  if (m_CleanedFolders.insert(path.parent_path().string()).second) removeLeftovers(path.parent_path());
+  const std::string temporary = (path.parent_path() / temporaryName(path.filename().string())).string();
   removeOnSignal(temporary);
   if (!std::ofstream(temporary, std::ios::binary))
   {
@@ -135,7 +171,8 @@ std::string OutputFiles::withFinalNames(std::string message) const
 {
   for (const auto& [path, temporary] : m_TemporaryByFinal)
   {
-    for (std::size_t at; (at = message.find(temporary)) != message.npos;) message.replace(at, temporary.size(), path);
+    const std::string found = printable(temporary); // as Error has it
+    for (std::size_t at; (at = message.find(found)) != message.npos;) message.replace(at, found.size(), path);
   }
   return message;
 }

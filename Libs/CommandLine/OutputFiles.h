@@ -1,11 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Output files that appear whole or not at all.
 ///
 /// Each is written as `.<name>.<host>-<process>.partial<extension>` in its final folder and renamed when all are
-/// complete, so that a run that ends half-way, by whatever cause, leaves nothing under a final name. What a killed run
-/// left behind is removed by the next run on the same host that writes the same file.
+/// complete, so that a run that ends half-way, by whatever cause, leaves nothing under a final name. A long name is
+/// cut, with a hash of the whole in its place. What killed runs left in a folder is removed by the next run on the same
+/// host that writes to that folder.
 
 #include <map>
+#include <set>
 #include <string>
 
 namespace surgicalmesher
@@ -13,6 +16,9 @@ namespace surgicalmesher
 
 /// ".vtp" of "a.vtp", ".nii.gz" of "a.nii.gz", ".seg.nrrd" of "a.seg.nrrd", "" of "a".
 std::string fullExtension(const std::string& fileName);
+
+/// Where a file of that name lies, or would: absolute, without symbolic links. The same file has the same place.
+std::string placeOf(const std::string& file);
 
 class OutputFiles
 {
@@ -41,6 +47,7 @@ public:
 
 private:
   std::map<std::string, std::string> m_TemporaryByFinal; ///< absolute paths
+  std::set<std::string> m_CleanedFolders;
 };
 
 } // namespace surgicalmesher

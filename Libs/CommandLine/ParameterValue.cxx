@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a parameter accepts: in words, and as a check.
 #include "Errors.h"
 #include "ModuleDescription.h"

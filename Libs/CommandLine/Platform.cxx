@@ -1,11 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "Platform.h"
 
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
+#include <initializer_list>
 #include <mutex>
+#include <vector>
 
 #ifdef _WIN32
 #include <fcntl.h>
@@ -34,8 +38,51 @@ struct Doomed
 };
 std::atomic<const Doomed*> doomedFiles{ nullptr };
 
+/// Where the user's stderr is: 2, or what QuietStderr has put aside.
+std::atomic<int> stderrDescriptor{ 2 };
+
+void writeAll(int descriptor, const char* text, std::size_t length)
+{
+#ifdef _WIN32
+  const auto written = _write(descriptor, text, unsigned(length));
+#else
+  const auto written = write(descriptor, text, length);
+#endif
+  (void)written; // there is nobody left to tell
+}
+
+/// In memory that no other part of the program frees.
+const std::string* lastWords = nullptr;
+int handlersProcess = 0;
+
+const char* causeOf(int signal)
+{
+  switch (signal)
+  {
+  case SIGINT: return "interrupted";
+  case SIGTERM: return "told to end";
+  case SIGSEGV: return "crashed (memory that is not the program's)";
+  case SIGABRT: return "crashed (aborted by itself)";
+  case SIGFPE: return "crashed (impossible arithmetic)";
+  case SIGILL: return "crashed (impossible instruction)";
+#ifndef _WIN32
+  case SIGBUS: return "crashed (memory that is not there)";
+  case SIGHUP: return "hung up on";
+  case SIGQUIT: return "told to quit";
+  case SIGXCPU: return "out of processor time";
+#endif
+  }
+  return "ended by a signal";
+}
+
 extern "C" void removeDoomedFiles(int signal)
 {
+  std::signal(signal, SIG_DFL);
+  if (processId() != handlersProcess)
+  {
+    std::raise(signal);
+    return;
+  }
   for (const Doomed* doomed = doomedFiles.load(); doomed; doomed = doomed->next)
   {
 #ifdef _WIN32
@@ -44,7 +91,16 @@ extern "C" void removeDoomedFiles(int signal)
     unlink(doomed->file.c_str());
 #endif
   }
-  std::signal(signal, SIG_DFL);
+  const char* const cause = causeOf(signal);
+  const int descriptor = stderrDescriptor.load();
+#ifndef _WIN32
+  if (signal != SIGPIPE)
+#endif
+  {
+    writeAll(descriptor, lastWords->data(), lastWords->size());
+    writeAll(descriptor, cause, std::strlen(cause));
+    writeAll(descriptor, ", no output was written\n", 24);
+  }
   std::raise(signal);
 }
 
@@ -61,13 +117,16 @@ void removeOnSignal(const std::string& file)
 
 void keepOnSignal() { doomedFiles.store(nullptr); }
 
-void installSignalHandlers()
-{
-  std::signal(SIGINT, removeDoomedFiles);
-  std::signal(SIGTERM, removeDoomedFiles);
-}
+void writeToStderr(const std::string& text) { writeAll(stderrDescriptor.load(), text.data(), text.size()); }
 
 #ifdef _WIN32
+
+void installSignalHandlers(const std::string& program)
+{
+  lastWords = new std::string(program + ": "); // outlives every handler
+  handlersProcess = processId();
+  for (const int signal : { SIGINT, SIGTERM, SIGSEGV, SIGABRT, SIGFPE, SIGILL }) std::signal(signal, removeDoomedFiles);
+}
 
 bool stdoutIsTerminal() { return _isatty(_fileno(stdout)) != 0; }
 
@@ -102,20 +161,65 @@ QuietStderr::QuietStderr()
   if (std::getenv("SURGICALMESHER_DEBUG")) return;
   const int nowhere = _open("NUL", _O_WRONLY);
   if (nowhere < 0) return;
-  m_SavedDescriptor = _dup(2);
+  stderrDescriptor = _dup(2);
   _dup2(nowhere, 2);
   _close(nowhere);
 }
 
 QuietStderr::~QuietStderr()
 {
-  if (m_SavedDescriptor < 0) return;
+  if (stderrDescriptor == 2) return;
   std::fflush(stderr);
-  _dup2(m_SavedDescriptor, 2);
-  _close(m_SavedDescriptor);
+  _dup2(stderrDescriptor, 2);
+  _close(stderrDescriptor.exchange(2));
 }
 
 #else
+
+namespace
+{
+
+/// A crash may be that of a stack used up: handlers run on one of their own.
+void useOtherStackForHandlers()
+{
+  constexpr std::size_t size = 1 << 16;
+  static auto& memory = *new std::vector<char>(size); // outlives every handler
+  stack_t stack{};
+  stack.ss_sp = memory.data();
+  stack.ss_size = memory.size();
+  sigaltstack(&stack, nullptr);
+}
+
+/// Leaves alone what is ignored (nohup), and the handlers of sanitizers and debuggers.
+void handle(int signal)
+{
+  struct sigaction present
+  {
+  };
+  if (sigaction(signal, nullptr, &present) != 0 || present.sa_handler != SIG_DFL) return;
+  struct sigaction action
+  {
+  };
+  action.sa_handler = removeDoomedFiles;
+  action.sa_flags = SA_ONSTACK | SA_NODEFER;
+  sigemptyset(&action.sa_mask);
+  sigaction(signal, &action, nullptr);
+}
+
+} // namespace
+
+void installSignalHandlers(const std::string& program)
+{
+  lastWords = new std::string(program + ": "); // outlives every handler
+  handlersProcess = processId();
+  useOtherStackForHandlers();
+  for (const int signal : { SIGHUP, SIGINT, SIGQUIT, SIGILL, SIGABRT, SIGFPE, SIGBUS, SIGSEGV, SIGPIPE, SIGALRM,
+                            SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU })
+  {
+    handle(signal);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+}
 
 bool stdoutIsTerminal() { return isatty(STDOUT_FILENO) != 0; }
 
@@ -143,17 +247,17 @@ QuietStderr::QuietStderr()
   if (std::getenv("SURGICALMESHER_DEBUG")) return;
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere < 0) return;
-  m_SavedDescriptor = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
-  if (m_SavedDescriptor >= 0) dup2(nowhere, STDERR_FILENO);
+  const int saved = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3);
+  if (saved >= 0 && dup2(nowhere, STDERR_FILENO) >= 0) stderrDescriptor = saved;
   close(nowhere);
 }
 
 QuietStderr::~QuietStderr()
 {
-  if (m_SavedDescriptor < 0) return;
+  if (stderrDescriptor == STDERR_FILENO) return;
   std::fflush(stderr);
-  dup2(m_SavedDescriptor, STDERR_FILENO);
-  close(m_SavedDescriptor);
+  dup2(stderrDescriptor, STDERR_FILENO);
+  close(stderrDescriptor.exchange(STDERR_FILENO));
 }
 
 #endif

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the operating systems do differently.
 
@@ -15,11 +16,17 @@ bool processIsAlive(int id); ///< on this host; true in doubt
 /// Hands the file's bytes to the device. Returns false if they can't be stored (a full disk shows here at the latest).
 bool syncToDevice(const std::string& file);
 
-/// From now on SIGINT and SIGTERM remove the files of removeOnSignal() before they end the process as usual.
-void installSignalHandlers();
+/// From now on a signal that ends the process (an interrupt, a hang-up, a closed pipe, a crash with its stack used up)
+/// removes the files of removeOnSignal(), says so in a line on stderr that begins with `program`, and ends the process
+/// as usual. Signals that whoever started the process ignores stay ignored. A file that may not grow any more is no
+/// signal but a write that fails. Processes forked off later keep their hands off the files.
+void installSignalHandlers(const std::string& program);
 /// `file` must be absolute. Safe against a signal at any moment.
 void removeOnSignal(const std::string& file);
 void keepOnSignal(); ///< forgets all files
+
+/// Writes to what stderr was before a QuietStderr.
+void writeToStderr(const std::string& text);
 
 /// While it lives, what libraries write to stderr is discarded: the host logs all of it as errors, and the module's one
 /// line would drown. The environment variable SURGICALMESHER_DEBUG lets it through.
@@ -30,9 +37,6 @@ public:
   ~QuietStderr();
   QuietStderr(const QuietStderr&) = delete;
   QuietStderr& operator=(const QuietStderr&) = delete;
-
-private:
-  int m_SavedDescriptor = -1;
 };
 
 } // namespace surgicalmesher

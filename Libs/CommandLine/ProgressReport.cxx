@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ProgressReport.h"
 
+#include "PrintableText.h"
 #include "Text.h"
 
 #include <algorithm>
@@ -23,10 +25,42 @@ std::string escaped(const std::string& text)
   return result;
 }
 
+/// Of printable text without line ends.
+std::string quoted(const std::string& text)
+{
+  std::string result = "\"";
+  for (const char letter : text)
+  {
+    if (letter == '"' || letter == '\\') result += '\\';
+    result += letter;
+  }
+  return result + "\"";
+}
+
+std::string percent(double fraction)
+{
+  const std::string number = std::to_string(std::lround(fraction * 100));
+  return std::string(3 - number.size(), ' ') + number + " %";
+}
+
 } // namespace
 
-ProgressReport::ProgressReport(std::ostream& stream, bool terminal, const std::string& title)
-  : m_Stream(stream), m_Terminal(terminal), m_Title(title)
+std::string timeLeft(double fraction, double seconds)
+{
+  if (fraction < 0.03 || fraction >= 1 || seconds < 2) return {};
+  const double left = seconds * (1 - fraction) / fraction;
+  if (left > 1e6) return {};
+  const long minutes = std::lround(left / 60);
+  if (left < 55) return std::to_string(left < 10 ? std::lround(left) : 5 * std::lround(left / 5)) + " s";
+  if (minutes < 60) return std::to_string(std::max(minutes, 1L)) + " min";
+  const long rest = minutes % 60;
+  return std::to_string(minutes / 60) + " h" + (rest ? " " + std::to_string(rest) + " min" : "");
+}
+
+ProgressReport::ProgressReport(std::ostream& stream, ProgressFormat format, const std::string& title, bool quiet,
+                               std::function<void(const std::string&)> warn)
+  : m_Stream(stream), m_Format(quiet ? ProgressFormat::None : format), m_Title(title), m_Quiet(quiet),
+    m_Warn(std::move(warn)), m_Start(Clock::now())
 {
 }
 
@@ -34,67 +68,113 @@ void ProgressReport::update(double fraction, const std::string& stage)
 {
   const std::lock_guard<std::mutex> lock(m_Mutex);
   m_LastFraction = std::clamp(fraction, 0.0, 1.0);
+  if (m_Format == ProgressFormat::None) return;
   const bool newStage = !m_InStage || stage != m_Stage;
   const Clock::time_point now = Clock::now();
-  if (!newStage && now - m_LastUpdate < std::chrono::milliseconds(100)) return;
+  const auto pause = std::chrono::milliseconds(m_Format == ProgressFormat::Plain ? 5000 : 100);
+  if (!newStage && now - m_LastUpdate < pause) return;
   m_LastUpdate = now;
   if (newStage) beginStage(stage);
-  if (m_Terminal) drawBar(m_LastFraction);
-  else m_Stream << "<filter-progress>" << formatNumber(m_LastFraction) << "</filter-progress>\n" << std::flush;
+  write(m_LastFraction);
+}
+
+void ProgressReport::write(double fraction)
+{
+  m_WrittenFraction = fraction;
+  const std::string rest = left(fraction);
+  switch (m_Format)
+  {
+  case ProgressFormat::Bar: drawBar(fraction); break;
+  case ProgressFormat::Xml:
+    m_Stream << "<filter-progress>" << formatNumber(fraction) << "</filter-progress>\n" << std::flush;
+    break;
+  case ProgressFormat::Plain:
+    m_Stream << percent(fraction) << "  " << m_Stage << (rest.empty() ? "" : ", about " + rest + " left") << "\n"
+             << std::flush;
+    break;
+  case ProgressFormat::Json:
+    m_Stream << "{\"progress\": " << formatNumber(fraction) << ", \"stage\": " << quoted(m_Stage)
+             << (rest.empty() ? "" : ", \"left\": " + quoted(rest)) << "}\n"
+             << std::flush;
+    break;
+  default: break;
+  }
 }
 
 void ProgressReport::message(const std::string& line)
 {
   const std::lock_guard<std::mutex> lock(m_Mutex);
-  if (m_Terminal && m_BarWidth) m_Stream << "\r" << std::string(m_BarWidth, ' ') << "\r";
-  m_BarWidth = 0;
-  m_Stream << line << "\n" << std::flush;
+  if (m_Quiet) return;
+  wipeBar();
+  const std::string text = oneLine(printable(line));
+  m_Stream << (m_Format == ProgressFormat::Json ? "{\"message\": " + quoted(text) + "}" : text) << "\n" << std::flush;
+}
+
+void ProgressReport::warning(const std::string& line)
+{
+  const std::lock_guard<std::mutex> lock(m_Mutex);
+  const std::string text = oneLine(printable(line));
+  wipeBar();
+  m_Stream << std::flush;
+  if (m_Format == ProgressFormat::Json) m_Stream << "{\"warning\": " << quoted(text) << "}\n" << std::flush;
+  if (m_Format == ProgressFormat::Xml) m_Stream << "warning: " << text << "\n" << std::flush;
+  else if (m_Warn) m_Warn(text);
 }
 
 void ProgressReport::finish()
 {
   const std::lock_guard<std::mutex> lock(m_Mutex);
   if (!m_InStage) return;
-  if (m_Terminal)
+  if (m_Format == ProgressFormat::Bar)
   {
     drawBar(m_LastFraction);
     m_Stream << "\n" << std::flush;
     m_BarWidth = 0;
-    m_InStage = false;
-    return;
   }
-  m_Stream << "<filter-progress>" << formatNumber(m_LastFraction) << "</filter-progress>\n";
+  else if (m_Format == ProgressFormat::Xml || m_LastFraction != m_WrittenFraction) write(m_LastFraction);
   endStage();
 }
 
 void ProgressReport::beginStage(const std::string& stage)
 {
-  if (m_InStage && !m_Terminal) endStage();
-  m_Stage = stage;
+  if (m_InStage) endStage();
+  m_Stage = oneLine(printable(stage));
   m_InStage = true;
   m_StageStart = Clock::now();
-  if (m_Terminal) return;
+  if (m_Format != ProgressFormat::Xml) return;
   m_Stream << "<filter-start>\n<filter-name>" << escaped(m_Title) << "</filter-name>\n<filter-comment> \""
-           << escaped(stage) << "\" </filter-comment>\n</filter-start>\n"
+           << escaped(m_Stage) << "\" </filter-comment>\n</filter-start>\n"
            << std::flush;
 }
 
 void ProgressReport::endStage()
 {
+  m_InStage = false;
+  if (m_Format != ProgressFormat::Xml) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - m_StageStart).count();
   m_Stream << "<filter-end>\n<filter-name>" << escaped(m_Title) << "</filter-name>\n<filter-time>"
            << formatNumber(seconds) << "</filter-time>\n</filter-end>\n"
            << std::flush;
-  m_InStage = false;
+}
+
+std::string ProgressReport::left(double fraction) const
+{
+  return timeLeft(fraction, std::chrono::duration<double>(Clock::now() - m_Start).count());
+}
+
+void ProgressReport::wipeBar()
+{
+  if (m_BarWidth) m_Stream << "\r" << std::string(m_BarWidth, ' ') << "\r";
+  m_BarWidth = 0;
 }
 
 void ProgressReport::drawBar(double fraction)
 {
   constexpr std::size_t cells = 30;
   const auto full = std::size_t(std::lround(fraction * cells));
-  const std::string percent = std::to_string(std::lround(fraction * 100));
-  std::string line = "[" + std::string(full, '#') + std::string(cells - full, '.') + "] " +
-                     std::string(3 - percent.size(), ' ') + percent + " % " + m_Stage.substr(0, 40);
+  const std::string rest = left(fraction);
+  std::string line = "[" + std::string(full, '#') + std::string(cells - full, '.') + "] " + percent(fraction) + " " +
+                     m_Stage.substr(0, 40) + (rest.empty() ? "" : ", about " + rest + " left");
   const std::size_t width = line.size();
   // Blanks wipe what is left of a longer stage name.
   if (width < m_BarWidth) line += std::string(m_BarWidth - width, ' ');

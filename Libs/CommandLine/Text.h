@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Small functions on text. Numbers are read in the C locale and only if the whole text is one.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Flat tetrahedra are what a Delaunay tetrahedralization leaves where four points of a surface lie in one plane but
 /// for rounding, as the quadrangles of a revolved or rotated shape do.

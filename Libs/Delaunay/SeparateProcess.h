@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// For engines that end the process when they fail: failed assertions, exit() and crashes then end another one.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A surface that can't be meshed, and the triangles to look at.
 

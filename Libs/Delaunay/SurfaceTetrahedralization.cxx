@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SurfaceTetrahedralization.h"
+
+#include "Compaction.h"
 
 #include "FaceAdjacency.h"
 #include "FlatTetrahedra.h"
@@ -132,39 +135,17 @@ std::string runTetGen(const SurfaceComplex& surface, const std::vector<Vec3>& po
   return answer;
 }
 
-/// Points TetGen tried and gave up; the first ones keep their ids in any case.
-void dropUnusedPoints(TetMesh& mesh, std::size_t kept)
-{
-  std::vector<std::int32_t> newId(mesh.points.size(), -1);
-  std::fill_n(newId.begin(), kept, 0);
-  for (const auto& tetrahedron : mesh.tetrahedra)
-  {
-    for (const std::int32_t id : tetrahedron) newId[id] = 0;
-  }
-  std::vector<Vec3> points;
-  for (std::size_t i = 0; i < newId.size(); ++i)
-  {
-    if (newId[i] < 0) continue;
-    newId[i] = static_cast<std::int32_t>(points.size());
-    points.push_back(mesh.points[i]);
-  }
-  mesh.points = points;
-  for (auto& tetrahedron : mesh.tetrahedra)
-  {
-    for (std::int32_t& id : tetrahedron) id = newId[id];
-  }
-}
-
 /// The convex hull of all points, tetrahedralized; labels are still missing.
 TetMesh constrainedDelaunay(const SurfaceComplex& surface, const std::vector<Vec3>& points)
 {
   const auto answer = runInSeparateProcess([&] { return runTetGen(surface, points); });
   if (!answer || answer->empty()) throw EngineError("constrained Delaunay: TetGen ended before it was done");
-  const int code = answer->front();
+  const int code = static_cast<unsigned char>(answer->front());
   if (code != 0) throw EngineError("constrained Delaunay: TetGen gave up with " + reasonOf(code));
   TetMesh mesh;
   take(*answer, take(*answer, 1, mesh.points), mesh.tetrahedra);
-  dropUnusedPoints(mesh, surface.points.size());
+  // Points TetGen tried and gave up go; the surface's keep their ids in any case.
+  mesh.points = valuesAt(mesh.points, compactPoints(mesh.tetrahedra, mesh.points.size(), surface.points.size()));
   return mesh;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a surface must be before it can be filled with tetrahedra, and how surfaces from elsewhere become so.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Constitutive classes by distance from the surgery: where tissue deforms most it is worth a nonlinear law, farther
 /// away a linear one, and farthest it is held still (Audette et al., Computer Aided Surgery 12(1), 2007).

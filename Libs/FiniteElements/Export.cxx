@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "Export.h"
 
 #include "AbaqusExport.h"
@@ -49,6 +50,22 @@ const ExportFormat& exportFormatOf(const std::string& file)
     known += (known.empty() ? "" : ", ") + format.extension;
   }
   throw UsageError(file + ": extension \"" + extension + "\" found, one of " + known + " expected");
+}
+
+std::vector<ExportSidecar> exportSidecars(const std::string& file)
+{
+  const std::filesystem::path path(file);
+  const std::string stem = (path.parent_path() / path.stem()).string(), extension = path.extension().string();
+  const std::string& format = exportFormatOf(file).extension;
+  std::vector<ExportSidecar> sidecars{ { file + ".names.json", "" } };
+  if (format == ".stl" || format == ".ply") sidecars.push_back({ stem + ".", extension, true });
+  if (format == ".xdmf")
+  {
+    sidecars.push_back({ stem + ".h5", "" });
+    sidecars.push_back({ stem + "_facets" + extension, "" });
+    sidecars.push_back({ stem + "_facets.h5", "" });
+  }
+  return sidecars;
 }
 
 void exportModel(const FiniteElementModel& model, const std::string& file, const Destination& destination)

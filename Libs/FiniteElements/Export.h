@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Finite-element models into the files of solvers: one format per file extension.
 
@@ -24,6 +25,17 @@ const std::vector<ExportFormat>& exportFormats();
 
 /// Throws UsageError, with the known extensions, unless the extension of `file` (upper or lower case) is one of them.
 const ExportFormat& exportFormatOf(const std::string& file);
+
+/// A file, or one for each tissue, that is written beside an exported one: `before`, the tissue's set name if there are
+/// many, `after`.
+struct ExportSidecar
+{
+  std::string before, after;
+  bool isMany = false;
+};
+
+/// What exportModel writes besides `file`.
+std::vector<ExportSidecar> exportSidecars(const std::string& file);
 
 /// Writes the model, and beside it `<file>.names.json`, the map from set names to tissues (see setNamesJSON). Throws
 /// UsageError for an unknown extension, InputError if a file can't be written to its end.

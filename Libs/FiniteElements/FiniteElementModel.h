@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A mesh as solvers see it: named sets of elements, nodes and faces, materials, shells. Every export is written from
 /// this and from nothing else.

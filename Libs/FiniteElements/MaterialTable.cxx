@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "MaterialTable.h"
 
 #include "Errors.h"
@@ -13,9 +14,10 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double kMegaPascal = 1e-3;   ///< per kPa
-constexpr double kTonnePerMm3 = 1e-12; ///< per kg/m^3
-constexpr const char* kColumnNames[] = { "tissue", "model", "youngsmodulus", "poissonsratio", "density" };
+// Divisors, not factors: a power of ten is a number of the machine, its inverse is not, and 9 kPa is to be 0.009 MPa.
+constexpr double kKiloPascal = 1e3;     ///< per MPa
+constexpr double kKilogramPerM3 = 1e12; ///< per tonne/mm^3
+constexpr const char* kColumnNames[] = { "tissue", "model", "youngsModulus", "poissonsRatio", "density" };
 
 enum Column
 {
@@ -39,7 +41,8 @@ std::string lettersOf(const std::string& text)
 
 int columnOf(const std::string& name)
 {
-  const auto found = std::find(std::begin(kColumnNames), std::end(kColumnNames), lettersOf(name));
+  const auto found = std::find_if(std::begin(kColumnNames), std::end(kColumnNames),
+                                  [&](const char* known) { return lettersOf(known) == lettersOf(name); });
   return found == std::end(kColumnNames) ? -1 : int(found - std::begin(kColumnNames));
 }
 
@@ -73,10 +76,10 @@ TissueMaterial readMaterial(const TextTableRow& row)
   constexpr double huge = 1e30;
   TissueMaterial material;
   material.nonlinearLaw = readLaw(row);
-  material.youngsModulus = kMegaPascal * numberIn(row, ColumnYoung, 0, huge, "a finite number above 0 (kPa)");
+  material.youngsModulus = numberIn(row, ColumnYoung, 0, huge, "a finite number above 0 (kPa)") / kKiloPascal;
   material.poissonsRatio = numberIn(row, ColumnPoisson, -1, 0.5, "a number between -1 and 0.5");
   if (!row.fields[ColumnDensity].empty())
-    material.density = kTonnePerMm3 * numberIn(row, ColumnDensity, 0, huge, "a finite number above 0 (kg/m^3)");
+    material.density = numberIn(row, ColumnDensity, 0, huge, "a finite number above 0 (kg/m^3)") / kKilogramPerM3;
   return material;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Numbers for sets: how formats that know no names tell elements apart.
 ///

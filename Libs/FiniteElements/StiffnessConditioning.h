@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a mesh costs an iterative solver: the conditioning of its stiffness matrix.
 

@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SubMeshExport.h"
+
+#include "Compaction.h"
 
 namespace surgicalmesher
 {
@@ -16,38 +19,6 @@ std::vector<std::int32_t> interfaceNumbers(const std::vector<std::int32_t>& subM
   return numbers;
 }
 
-/// Values at `ids`; nothing if there are none.
-template <class Value>
-std::vector<Value> valuesAt(const std::vector<Value>& values, const std::vector<std::int32_t>& ids)
-{
-  std::vector<Value> result;
-  if (values.empty()) return result;
-  result.reserve(ids.size());
-  for (const std::int32_t id : ids) result.push_back(values[id]);
-  return result;
-}
-
-/// The points of `tetrahedra`, ascending, which are renumbered to them.
-std::vector<std::int32_t> takePoints(std::vector<std::array<std::int32_t, 4>>& tetrahedra, std::size_t pointCount)
-{
-  std::vector<std::int32_t> newId(pointCount, -1), kept;
-  for (const auto& tetrahedron : tetrahedra)
-  {
-    for (const std::int32_t id : tetrahedron) newId[id] = 0;
-  }
-  for (std::size_t i = 0; i < pointCount; ++i)
-  {
-    if (newId[i] < 0) continue;
-    newId[i] = static_cast<std::int32_t>(kept.size());
-    kept.push_back(static_cast<std::int32_t>(i));
-  }
-  for (auto& tetrahedron : tetrahedra)
-  {
-    for (std::int32_t& id : tetrahedron) id = newId[id];
-  }
-  return kept;
-}
-
 } // namespace
 
 MeshFile partOf(const MeshFile& whole, const std::function<bool(std::int32_t subMesh)>& chosen)
@@ -62,7 +33,7 @@ MeshFile partOf(const MeshFile& whole, const std::function<bool(std::int32_t sub
   part.mesh.labels = valuesAt(whole.mesh.labels, tetrahedra);
   part.subMesh = valuesAt(whole.subMesh, tetrahedra);
   part.constitutive = valuesAt(whole.constitutive, tetrahedra);
-  part.volumePointId = takePoints(part.mesh.tetrahedra, whole.mesh.points.size());
+  part.volumePointId = compactPoints(part.mesh.tetrahedra, whole.mesh.points.size());
   part.mesh.points = valuesAt(whole.mesh.points, part.volumePointId);
   part.subMeshInterface = valuesAt(whole.subMeshInterface, part.volumePointId);
   part.interfaceId = valuesAt(interfaceNumbers(whole.subMeshInterface), part.volumePointId);

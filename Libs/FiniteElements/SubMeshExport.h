@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Child and parent apart, for multirate solvers: meshes of their own, and one numbering of the points that they share.
 /// A solver that condenses the parent onto these points (the Norton equivalent of Astley and Hayward, Multirate haptic

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SubMeshes.h"
 
 #include "FaceAdjacency.h"
@@ -149,9 +150,7 @@ std::vector<std::int32_t> constitutiveModels(const TetMesh& mesh, const std::vec
   for (std::size_t t = 0; t < result.size(); ++t) result[t] = subMesh[t] > 0 ? nonlinear : 0;
   for (const auto& [label, tissue] : tissues)
   {
-    std::string name = tissue.name;
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (name != "null displacement") continue;
+    if (!tissue.isNullDisplacement) continue;
     for (std::size_t t = 0; t < result.size(); ++t)
     {
       if (mesh.labels[t] == label) result[t] = nullDisplacement;

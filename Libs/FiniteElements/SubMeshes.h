@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Child and parent: the fine part of the mesh around the target, which a multirate solver advances at a higher rate,
 /// and the rest (Audette et al., Computer Aided Surgery 12(1), 2007: contiguous tetrahedra whose edge lengths approach
@@ -31,7 +32,7 @@ SubMeshes divideIntoSubMeshes(const TetMesh& mesh, const SizingFunction& edgeLen
                               const SubMeshOptions& options = {});
 
 /// Constitutive model of each tetrahedron: 1 (nonlinear) in children, 0 (linear) in the parent, 2 (null displacement)
-/// in tissues named "null displacement", upper or lower case.
+/// in null-displacement tissue.
 std::vector<std::int32_t> constitutiveModels(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh,
                                              const TissueTable& tissues);
 

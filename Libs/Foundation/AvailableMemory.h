@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How much memory a process may still take before the system ends it.
 
@@ -9,8 +10,8 @@ namespace surgicalmesher
 {
 
 /// Bytes that can be had without swapping, counting caches that the kernel would give up: the least of what the machine
-/// has and what the process's control groups (version 1 or 2) leave, as containers and batch systems set them. Empty where
-/// the system does not tell (anywhere but on Linux). `root` is the folder that holds proc and sys.
+/// has and what the process's control groups (version 1 or 2) leave, as containers and batch systems set them. Empty
+/// where the system does not tell (anywhere but on Linux). `root` is the folder that holds proc and sys.
 std::optional<std::uint64_t> availableMemory(const std::string& root = "/");
 
 } // namespace surgicalmesher

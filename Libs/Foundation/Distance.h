@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Distance to surgical targets and paths. Everything in mm, in one frame of the caller's choice.
 
@@ -8,8 +9,8 @@
 namespace surgicalmesher
 {
 
-/// A surgical path linearised into segments, from entry (first point) to target (last point): the set S of Audette et al.,
-/// Computer Aided Surgery 12(1), 2007.
+/// A surgical path linearised into segments, from entry (first point) to target (last point): the set S of Audette et
+/// al., Computer Aided Surgery 12(1), 2007.
 using Path = std::vector<Vec3>;
 
 /// Where the surgeon works.
@@ -30,8 +31,8 @@ double distanceToPaths(const Vec3& x, const std::vector<Path>& paths);
 
 double pathLength(const Path& path);
 
-/// Distance from x to the tube around `path` whose radius goes linearly with arc length from `atEntry` to `atTarget`: the
-/// minimum over all points p of the path of |x - p| - radius(p). Negative inside, zero on its wall.
+/// Distance from x to the tube around `path` whose radius goes linearly with arc length from `atEntry` to `atTarget`:
+/// the minimum over all points p of the path of |x - p| - radius(p). Negative inside, zero on its wall.
 double distanceToTube(const Vec3& x, const Path& path, double atEntry, double atTarget);
 
 } // namespace surgicalmesher

@@ -1,6 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The three ways a run can fail, one per exit status of the executables (0 is success).
-/// Messages are one line and say which file, what was found and what was expected.
+/// Messages are one line and say which file, what was found and what was expected; what() is printable, whatever bytes
+/// of a file or a command line the message quotes.
+
+#include "PrintableText.h"
 
 #include <stdexcept>
 #include <string>
@@ -14,7 +18,9 @@ public:
   int exitStatus() const { return m_ExitStatus; }
 
 protected:
-  Error(int exitStatus, const std::string& message) : std::runtime_error(message), m_ExitStatus(exitStatus) {}
+  Error(int exitStatus, const std::string& message) : std::runtime_error(printable(message)), m_ExitStatus(exitStatus)
+  {
+  }
 
 private:
   int m_ExitStatus;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Members of JSON objects, for any of RapidJSON's writers.
 

@@ -11,7 +11,8 @@
 namespace surgicalmesher
 {
 
-/// Calls f(i) for every i below `count`, in no particular order; neighbouring ones mostly on one thread. f must not throw.
+/// Calls f(i) for every i below `count`, in no particular order; neighbouring ones mostly on one thread. f must not
+/// throw.
 template <class F>
 void parallelFor(std::size_t count, F&& f)
 {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Progress of long work, and the one place where it can be cancelled.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Disjoint sets over 0..n-1; the representative of a set is its smallest member, whatever the order of the unions.
 
@@ -12,7 +13,15 @@ namespace surgicalmesher
 class UnionFind
 {
 public:
+  UnionFind() = default;
   explicit UnionFind(std::size_t count) : m_Parent(count) { std::iota(m_Parent.begin(), m_Parent.end(), 0u); }
+
+  /// A new set of one; returns its number.
+  std::uint32_t add()
+  {
+    m_Parent.push_back(std::uint32_t(m_Parent.size()));
+    return m_Parent.back();
+  }
 
   std::uint32_t find(std::uint32_t i)
   {

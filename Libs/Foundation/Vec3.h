@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Points and vectors of the meshing core: three doubles, millimetres unless a docstring says otherwise.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "InterfaceSmoothing.h"
 
 #include "TetQuality.h"
@@ -146,18 +147,21 @@ void moveSamples(BackgroundMesh& background, const InterfaceGraph& graph, const 
 
 void smoothInterface(KuhnLattice& lattice, const Vec3& voxelSpacing, const SmoothingOptions& options)
 {
-  TetMesh& mesh = lattice.background.mesh;
   const InterfaceGraph graph = makeGraph(lattice);
-  const std::vector<Vec3> target = taubin(graph, mesh.points, options.box * voxelSpacing, options);
-
+  const std::vector<Vec3> target = taubin(graph, lattice.background.mesh.points, options.box * voxelSpacing, options);
   moveSamples(lattice.background, graph, target, options.samples);
+  moveVertices(lattice.background.mesh, graph.vertices, target, options.minimumAngle);
+}
 
-  // Shorten moves until no tetrahedron is worse than allowed. All tetrahedra are judged on the same state and a vertex takes
-  // the shortest of what its tetrahedra ask, so the result does not depend on any order. Only those are judged again of which
-  // a vertex has moved.
+void moveVertices(TetMesh& mesh, const std::vector<std::int32_t>& vertices, const std::vector<Vec3>& target,
+                  double minimumAngle)
+{
+  // Shorten moves until no tetrahedron is worse than allowed. All tetrahedra are judged on the same state and a vertex
+  // takes the shortest of what its tetrahedra ask, so the result does not depend on any order. Only those are judged
+  // again of which a vertex has moved.
   const std::vector<Vec3> home = mesh.points;
   constexpr std::array<float, 9> shares{ 1, 0.75f, 0.55f, 0.4f, 0.28f, 0.2f, 0.12f, 0.06f, 0 };
-  const std::size_t n = graph.vertices.size();
+  const std::size_t n = vertices.size();
   std::vector<std::uint8_t> level(n, 0), moved(mesh.points.size(), 0);
   std::vector<std::atomic<bool>> tooFar(mesh.points.size());
   const auto moveAll = [&](auto&& isToMove)
@@ -168,7 +172,7 @@ void smoothInterface(KuhnLattice& lattice, const Vec3& voxelSpacing, const Smoot
                      {
                        for (vtkIdType i = begin; i < end; ++i)
                        {
-                         const std::int32_t v = graph.vertices[i];
+                         const std::int32_t v = vertices[i];
                          moved[v] = isToMove(i);
                          tooFar[v] = false;
                          if (!moved[v]) continue;
@@ -179,8 +183,8 @@ void smoothInterface(KuhnLattice& lattice, const Vec3& voxelSpacing, const Smoot
     return bool(any);
   };
   const auto isStillTooFar = [&](vtkIdType i)
-  { return tooFar[graph.vertices[i]] && level[i] + 1u < shares.size() && ++level[i] > 0; };
-  const double floor = sine2OfDegrees(options.minimumAngle);
+  { return tooFar[vertices[i]] && level[i] + 1u < shares.size() && ++level[i] > 0; };
+  const double floor = sine2OfDegrees(minimumAngle);
   for (bool any = moveAll([](vtkIdType) { return true; }); any; any = moveAll(isStillTooFar))
     vtkSMPTools::For(0, vtkIdType(mesh.tetrahedra.size()),
                      [&](vtkIdType begin, vtkIdType end)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The sub-voxel position of the tissue boundaries: the voxels' staircase, smoothed without shrinking.
 
@@ -19,5 +20,9 @@ struct SmoothingOptions
 /// Moves the interface vertices of a fresh lattice to the smoothed boundary. Vertices on a curve between three or more
 /// labels move along their neighbours on such curves; where curves meet, and on the border, they stay.
 void smoothInterface(KuhnLattice& lattice, const Vec3& voxelSpacing, const SmoothingOptions& options = {});
+
+/// Moves each of `vertices` as far towards its `target` as leaves no dihedral angle under `minimumAngle` (degrees).
+void moveVertices(TetMesh& mesh, const std::vector<std::int32_t>& vertices, const std::vector<Vec3>& target,
+                  double minimumAngle);
 
 } // namespace surgicalmesher

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "KuhnLattice.h"
 
 #include "Errors.h"
@@ -69,8 +70,8 @@ private:
   std::vector<std::int32_t> m_Before;
 };
 
-/// Lattice coordinates are whole numbers of `unit`s; a cell is `cellUnits` of them, and a voxel `cells` cells along each axis
-/// (so that cells are nearly cubes where voxels are not).
+/// Lattice coordinates are whole numbers of `unit`s; a cell is `cellUnits` of them, and a voxel `cells` cells along
+/// each axis (so that cells are nearly cubes where voxels are not).
 struct Layout
 {
   Index cells{ 1, 1, 1 };
@@ -88,7 +89,7 @@ Layout makeLayout(const Grid& grid, double shortest, const LatticeOptions& optio
 {
   constexpr int margin = 6; // cells of background on every side at least, so that the box never presses on a tissue
   Layout l;
-  const double least = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+  const double least = grid.smallestSpacing();
   double cell = 0;
   for (int a = 0; a < 3; ++a)
   {
@@ -265,8 +266,8 @@ private:
   /// In cells, the largest cube that is cut by tetrahedra; larger ones nearly always hold mixed ones everywhere.
   static constexpr int mostTetrahedralCells = 4;
 
-  /// Only the tetrahedra that voxels of different labels share are cut: half of those in a cube that a boundary crosses lie
-  /// on one side of it.
+  /// Only the tetrahedra that voxels of different labels share are cut: half of those in a cube that a boundary crosses
+  /// lie on one side of it.
   void activateMixedTetrahedra(const Index& corner, int side)
   {
     forEachKuhnTetrahedron({ corner[0] / side, corner[1] / side, corner[2] / side }, side,
@@ -275,8 +276,8 @@ private:
 
   static constexpr int mixedLabel = -1;
 
-  /// The label of all voxels that t, out of a cube of `side`, reaches into, or mixedLabel; then t's bisection, with tag d,
-  /// is active.
+  /// The label of all voxels that t, out of a cube of `side`, reaches into, or mixedLabel; then t's bisection, with tag
+  /// d, is active.
   int activateMixed(const Tet& t, int d, int side)
   {
     Tet left, right;
@@ -301,8 +302,8 @@ private:
     return labelAt(m_Map, { voxel(corner[0], 0), voxel(corner[1], 1), voxel(corner[2], 2) }) != 0;
   }
 
-  /// Whatever the vertices of one level of bisection rest on: an edge's midpoint on the centres of the faces around it, a
-  /// face's centre on the centres of its two cubes, a cube's centre on the cube's corners.
+  /// Whatever the vertices of one level of bisection rest on: an edge's midpoint on the centres of the faces around it,
+  /// a face's centre on the centres of its two cubes, a cube's centre on the cube's corners.
   void close(int half)
   {
     const Index n{ m_Layout.roots[0] * m_Layout.rootUnits(), m_Layout.roots[1] * m_Layout.rootUnits(),
@@ -343,8 +344,8 @@ private:
         }
   }
 
-  /// The six tetrahedra of cube number `cube` of a side. Their paths lead from the corner whose numbers are all even to the
-  /// one where all are odd.
+  /// The six tetrahedra of cube number `cube` of a side. Their paths lead from the corner whose numbers are all even to
+  /// the one where all are odd.
   template <class F>
   static void forEachKuhnTetrahedron(const Index& cube, int side, F&& f)
   {
@@ -451,8 +452,8 @@ private:
     }
   }
 
-  /// Whether triangle abc, in the face of `voxel` across `axis`, covers the face's centre. The centre lies on lattice edges:
-  /// moved off them by a fixed bit, exactly one triangle covers it.
+  /// Whether triangle abc, in the face of `voxel` across `axis`, covers the face's centre. The centre lies on lattice
+  /// edges: moved off them by a fixed bit, exactly one triangle covers it.
   bool coversCentre(const Index& a, const Index& b, const Index& c, int axis, const Index& voxel) const
   {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;

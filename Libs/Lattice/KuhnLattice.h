@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The ambient complex a tissue map starts as: every voxel cut into tetrahedra near the boundaries and where L is small,
-/// ever larger tetrahedra of one label away from them.
+/// The ambient complex a tissue map starts as: every voxel cut into tetrahedra near the boundaries and where L is
+/// small, ever larger tetrahedra of one label away from them.
 ///
-/// Reflected Kuhn cubes under Maubach's bisection (J. M. Maubach, SIAM J. Sci. Comput. 16, 1995): conforming, no dihedral
-/// angle under 45 degrees in cubic cells, and every voxel is a union of tetrahedra. For a well-composed map the labelled complex therefore
-/// has exactly the map's topology and volumes.
+/// Reflected Kuhn cubes under Maubach's bisection (J. M. Maubach, SIAM J. Sci. Comput. 16, 1995): conforming, no
+/// dihedral angle under 45 degrees in cubic cells, and every voxel is a union of tetrahedra. For a well-composed map
+/// the labelled complex therefore has exactly the map's topology and volumes.
 
 #include "BackgroundMesh.h"
 #include "Progress.h"

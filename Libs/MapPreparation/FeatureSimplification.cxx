@@ -1,9 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "FeatureSimplification.h"
 
 #include "PaddedMap.h"
+#include "Parallel.h"
 #include "RegionRemoval.h"
-
-#include <vtkSMPTools.h>
 
 #include <algorithm>
 #include <array>
@@ -105,8 +105,7 @@ public:
   /// Marks the cubes that hold a voxel within `reach` steps along each axis.
   void mark(std::size_t voxel, int reach)
   {
-    const std::array<int, 3> p{ int(voxel % m_Grid.size[0]), int(voxel / m_Grid.size[0] % m_Grid.size[1]),
-                                int(voxel / m_Grid.size[0] / m_Grid.size[1]) };
+    const std::array<int, 3> p = m_Grid.voxelAt(voxel);
     std::array<int, 3> from, to;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -244,19 +243,16 @@ private:
   std::vector<Changes> findChanges(const std::vector<std::size_t>& cubes) const
   {
     std::vector<Changes> changes(cubes.size());
-    vtkSMPTools::For(0, vtkIdType(cubes.size()),
-                     [&](vtkIdType begin, vtkIdType end)
-                     {
-                       for (vtkIdType c = begin; c < end; ++c)
-                       {
-                         m_Dirty.visitVoxels(cubes[c], m_Margin,
-                                             [&](std::size_t voxel)
-                                             {
-                                               const Label label = ruling(voxel);
-                                               if (label != m_Map.labels[voxel]) changes[c].emplace_back(voxel, label);
-                                             });
-                       }
-                     });
+    parallelFor(cubes.size(),
+                [&](vtkIdType c)
+                {
+                  m_Dirty.visitVoxels(cubes[c], m_Margin,
+                                      [&](std::size_t voxel)
+                                      {
+                                        const Label label = ruling(voxel);
+                                        if (label != m_Map.labels[voxel]) changes[c].emplace_back(voxel, label);
+                                      });
+                });
     return changes;
   }
 

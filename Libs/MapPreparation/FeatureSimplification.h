@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Simplification of the tissue map at the scale that the mesh is asked for.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What became of a map, piece by piece: the differences between two maps, by tissue and kind.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "MapPreparation.h"
 
 #include "Errors.h"
@@ -401,11 +402,7 @@ private:
 
   int changesOf(std::size_t voxel) const { return m_States[voxel] & maximumCount; }
 
-  std::array<int, 3> position(std::size_t voxel) const
-  {
-    const auto& size = m_Map.grid.size;
-    return { int(voxel % size[0]), int(voxel / size[0] % size[1]), int(voxel / size[0] / size[1]) };
-  }
+  std::array<int, 3> position(std::size_t voxel) const { return m_Map.grid.voxelAt(voxel); }
 
   bool inMargin(std::size_t voxel) const
   {

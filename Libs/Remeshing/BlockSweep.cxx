@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "BlockSweep.h"
 
-#include <vtkSMPTools.h>
+#include "Compaction.h"
+#include "Parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -23,8 +25,8 @@ struct Range
 
 using Centroid = std::array<float, 3>;
 
-/// A frame that is turned differently in each round, so that what the cuts of one round lock is free in the next: what they
-/// lock stays fine, which would draw the medians along the same axes to the same planes.
+/// A frame that is turned differently in each round, so that what the cuts of one round lock is free in the next: what
+/// they lock stays fine, which would draw the medians along the same axes to the same planes.
 std::array<Vec3, 3> frameOfRound(int round)
 {
   const auto spread = [&](double step) { return 2 * (round * step - std::floor(round * step)) - 1; };
@@ -119,24 +121,21 @@ struct BlockResult
   std::vector<float> newLengths;
 };
 
-class Sweep
+class BlockedMesh
 {
 public:
-  Sweep(BackgroundMesh& ambient, int round, std::size_t most) : m_Ambient(ambient)
+  BlockedMesh(BackgroundMesh& background, int round, std::size_t most) : m_Background(background)
   {
-    const auto& mesh = ambient.mesh;
+    const auto& mesh = background.mesh;
     const std::array<Vec3, 3> frame = frameOfRound(round);
     std::vector<Centroid> centroids(mesh.tetrahedra.size());
-    vtkSMPTools::For(0, vtkIdType(centroids.size()),
-                     [&](vtkIdType begin, vtkIdType end)
-                     {
-                       for (vtkIdType t = begin; t < end; ++t)
-                       {
-                         const auto& x = mesh.tetrahedra[t];
-                         const Vec3 c = mesh.points[x[0]] + mesh.points[x[1]] + mesh.points[x[2]] + mesh.points[x[3]];
-                         centroids[t] = { float(dot(frame[0], c)), float(dot(frame[1], c)), float(dot(frame[2], c)) };
-                       }
-                     });
+    parallelFor(centroids.size(),
+                [&](vtkIdType t)
+                {
+                  const auto& x = mesh.tetrahedra[t];
+                  const Vec3 c = mesh.points[x[0]] + mesh.points[x[1]] + mesh.points[x[2]] + mesh.points[x[3]];
+                  centroids[t] = { float(dot(frame[0], c)), float(dot(frame[1], c)), float(dot(frame[2], c)) };
+                });
     divide(centroids, most);
     sortSamples();
     m_Results.resize(m_Blocks.size());
@@ -162,7 +161,7 @@ public:
 
   void merge()
   {
-    auto& mesh = m_Ambient.mesh;
+    auto& mesh = m_Background.mesh;
     std::vector<Start> starts(m_Results.size() + 1);
     starts[0].point = mesh.points.size();
     for (std::size_t b = 0; b < m_Results.size(); ++b)
@@ -172,18 +171,16 @@ public:
       starts[b + 1] = { s.point + r.newPoints.size(), s.tetrahedron + r.tets.size(), s.samples + r.samples.size() };
     }
     mesh.points.resize(starts.back().point);
-    m_Ambient.lengths.resize(starts.back().point);
+    m_Background.lengths.resize(starts.back().point);
     mesh.tetrahedra.resize(starts.back().tetrahedron);
     mesh.labels.resize(starts.back().tetrahedron);
-    m_Ambient.neighbours.resize(starts.back().tetrahedron);
-    m_Ambient.samples.resize(starts.back().samples);
-    vtkSMPTools::For(0, vtkIdType(m_Results.size()), 1,
-                     [&](vtkIdType begin, vtkIdType end)
-                     {
-                       for (vtkIdType b = begin; b < end; ++b) place(m_Results[b], starts[b]);
-                     });
-    matchOpenFaces(mesh, m_Ambient.neighbours); // between blocks
-    dropUnusedPoints();
+    m_Background.neighbours.resize(starts.back().tetrahedron);
+    m_Background.samples.resize(starts.back().samples);
+    parallelForEach(m_Results.size(), [&](vtkIdType b) { place(m_Results[b], starts[b]); });
+    matchOpenFaces(mesh.tetrahedra, mesh.points.size(), m_Background.neighbours); // between blocks
+    const std::vector<std::int32_t> used = compactPointsByUse(mesh.tetrahedra, mesh.points.size());
+    mesh.points = valuesAt(mesh.points, used);
+    m_Background.lengths = valuesAt(m_Background.lengths, used);
   }
 
 private:
@@ -194,14 +191,14 @@ private:
 
   void place(BlockResult& r, const Start& start)
   {
-    auto& mesh = m_Ambient.mesh;
+    auto& mesh = m_Background.mesh;
     for (const auto& [id, position, length] : r.moved) // of no other block: not on its border
     {
       mesh.points[id] = position;
-      m_Ambient.lengths[id] = length;
+      m_Background.lengths[id] = length;
     }
     std::copy(r.newPoints.begin(), r.newPoints.end(), mesh.points.begin() + start.point);
-    std::copy(r.newLengths.begin(), r.newLengths.end(), m_Ambient.lengths.begin() + start.point);
+    std::copy(r.newLengths.begin(), r.newLengths.end(), m_Background.lengths.begin() + start.point);
     std::copy(r.labels.begin(), r.labels.end(), mesh.labels.begin() + start.tetrahedron);
     const std::int32_t shift = std::int32_t(start.point) - m_Known, first = std::int32_t(start.tetrahedron);
     for (std::size_t t = 0; t < r.tets.size(); ++t)
@@ -209,10 +206,10 @@ private:
       {
         const std::int32_t v = r.tets[t][i], n = r.neighbours[t][i];
         mesh.tetrahedra[first + t][i] = v < m_Known ? v : v + shift;
-        m_Ambient.neighbours[first + t][i] = n < 0 ? -1 : n + first;
+        m_Background.neighbours[first + t][i] = n < 0 ? -1 : n + first;
       }
     for (auto& e : r.samples) e.tetrahedron += first;
-    std::copy(r.samples.begin(), r.samples.end(), m_Ambient.samples.begin() + start.samples);
+    std::copy(r.samples.begin(), r.samples.end(), m_Background.samples.begin() + start.samples);
     r = {};
   }
 
@@ -224,18 +221,14 @@ private:
     double cost = 0;
     for (std::size_t t = 0; t < centroids.size(); ++t)
     {
-      cost += m_Ambient.mesh.labels[t] == 0 ? backgroundCost : 1;
+      cost += m_Background.mesh.labels[t] == 0 ? backgroundCost : 1;
       if (cost < stride) continue;
       cost -= stride;
       sample.push_back(centroids[t]);
     }
     const Cuts cuts(std::move(sample), stride, most);
     m_BlockOf.resize(centroids.size());
-    vtkSMPTools::For(0, vtkIdType(centroids.size()),
-                     [&](vtkIdType begin, vtkIdType end)
-                     {
-                       for (vtkIdType t = begin; t < end; ++t) m_BlockOf[t] = cuts.blockOf(centroids[t]);
-                     });
+    parallelFor(centroids.size(), [&](vtkIdType t) { m_BlockOf[t] = cuts.blockOf(centroids[t]); });
     std::vector<std::size_t> start(cuts.blockCount() + 1, 0);
     for (const std::int32_t b : m_BlockOf) ++start[b + 1];
     std::partial_sum(start.begin(), start.end(), start.begin());
@@ -252,20 +245,21 @@ private:
 
   void sortSamples()
   {
-    const std::size_t n = m_Ambient.samples.size();
+    const std::size_t n = m_Background.samples.size();
     const std::vector<std::int32_t>& block = m_BlockOf;
     m_SampleStart.assign(m_Blocks.size() + 1, 0);
-    for (const auto& e : m_Ambient.samples) ++m_SampleStart[block[e.tetrahedron] + 1];
+    for (const auto& e : m_Background.samples) ++m_SampleStart[block[e.tetrahedron] + 1];
     std::partial_sum(m_SampleStart.begin(), m_SampleStart.end(), m_SampleStart.begin());
     m_SampleOrder.resize(n);
     std::vector<std::size_t> at(m_SampleStart.begin(), m_SampleStart.end() - 1);
-    for (std::size_t e = 0; e < n; ++e) m_SampleOrder[at[block[m_Ambient.samples[e].tetrahedron]]++] = std::int32_t(e);
-    m_Known = std::int32_t(m_Ambient.mesh.points.size());
+    for (std::size_t e = 0; e < n; ++e)
+      m_SampleOrder[at[block[m_Background.samples[e].tetrahedron]]++] = std::int32_t(e);
+    m_Known = std::int32_t(m_Background.mesh.points.size());
   }
 
   TetComplex extract(std::size_t b, std::vector<std::int32_t>& globalIds)
   {
-    const auto& mesh = m_Ambient.mesh;
+    const auto& mesh = m_Background.mesh;
     // All -1 between blocks; one per thread, because it is as long as the whole mesh has points.
     static thread_local std::vector<std::int32_t> local;
     if (local.size() < std::size_t(m_Known)) local.resize(m_Known, -1);
@@ -274,7 +268,7 @@ private:
     std::vector<Label> labels;
     tets.reserve(range.end - range.begin);
     labels.reserve(range.end - range.begin);
-    if (!m_Ambient.neighbours.empty()) neighbours.reserve(range.end - range.begin);
+    if (!m_Background.neighbours.empty()) neighbours.reserve(range.end - range.begin);
     for (std::size_t i = range.begin; i < range.end; ++i)
     {
       auto t = mesh.tetrahedra[m_Order[i]];
@@ -289,8 +283,8 @@ private:
       }
       tets.push_back(t);
       labels.push_back(mesh.labels[m_Order[i]]);
-      if (m_Ambient.neighbours.empty()) continue;
-      auto across = m_Ambient.neighbours[m_Order[i]];
+      if (m_Background.neighbours.empty()) continue;
+      auto across = m_Background.neighbours[m_Order[i]];
       for (auto& n : across) n = n >= 0 && m_BlockOf[n] == std::int32_t(b) ? m_LocalTet[n] : -1;
       neighbours.push_back(across);
     }
@@ -299,7 +293,7 @@ private:
     for (std::int32_t v : globalIds)
     {
       points.push_back(mesh.points[v]);
-      lengths.push_back(m_Ambient.lengths[v]);
+      lengths.push_back(m_Background.lengths[v]);
       local[v] = -1;
     }
     TetComplex complex(std::move(points), std::move(lengths), std::move(tets), std::move(labels),
@@ -307,8 +301,8 @@ private:
     complex.samples.reserve(m_SampleStart[b + 1] - m_SampleStart[b]);
     for (std::size_t i = m_SampleStart[b]; i < m_SampleStart[b + 1]; ++i)
     {
-      const auto& e = m_Ambient.samples[m_SampleOrder[i]];
-      complex.addSample(m_LocalTet[e.tetrahedron], e.face, e.position, e.tolerance);
+      const auto& e = m_Background.samples[m_SampleOrder[i]];
+      complex.addSample(m_LocalTet[e.tetrahedron], e.face, e.position, e.tolerance, e.normal);
     }
     return complex;
   }
@@ -324,7 +318,8 @@ private:
       if (complex.vertexTet[v] < 0) continue;
       if (v < own)
       {
-        if (!(complex.points[v] == m_Ambient.mesh.points[ids[v]]) || complex.lengths[v] != m_Ambient.lengths[ids[v]])
+        if (!(complex.points[v] == m_Background.mesh.points[ids[v]]) ||
+            complex.lengths[v] != m_Background.lengths[ids[v]])
           r.moved.push_back({ ids[v], complex.points[v], complex.lengths[v] });
         continue;
       }
@@ -345,35 +340,16 @@ private:
       r.neighbours.push_back(across);
       for (std::int32_t i = 0; i < 4; ++i)
         for (std::int32_t e = complex.sampleHeads[t][i]; e >= 0; e = complex.samples[e].next)
-          r.samples.push_back(
-            { complex.samples[e].position, complex.samples[e].tolerance, std::int32_t(r.tets.size()), i });
+        {
+          const BoundarySample& sample = complex.samples[e];
+          r.samples.push_back({ sample.position, sample.tolerance, std::int32_t(r.tets.size()), i, sample.normal });
+        }
       r.tets.push_back(x);
       r.labels.push_back(complex.labels[t]);
     }
   }
 
-  void dropUnusedPoints()
-  {
-    auto& mesh = m_Ambient.mesh;
-    std::vector<std::int32_t> id(mesh.points.size(), -1);
-    std::vector<Vec3> points;
-    std::vector<float> lengths;
-    for (auto& t : mesh.tetrahedra)
-      for (auto& v : t)
-      {
-        if (id[v] < 0)
-        {
-          id[v] = std::int32_t(points.size());
-          points.push_back(mesh.points[v]);
-          lengths.push_back(m_Ambient.lengths[v]);
-        }
-        v = id[v];
-      }
-    mesh.points = std::move(points);
-    m_Ambient.lengths = std::move(lengths);
-  }
-
-  BackgroundMesh& m_Ambient;
+  BackgroundMesh& m_Background;
   std::int32_t m_Known = 0;
   std::vector<std::int32_t> m_BlockOf, m_Order, m_LocalTet, m_SampleOrder;
   std::vector<Range> m_Blocks;
@@ -391,39 +367,36 @@ std::size_t fairBlock(const TetMesh& mesh)
   return worth > usual ? usual : small;
 }
 
-void sweepBlocks(BackgroundMesh& ambient, int round, std::size_t tetrahedraPerBlock,
+void sweepBlocks(BackgroundMesh& background, int round, std::size_t tetrahedraPerBlock,
                  const std::function<void(TetComplex&)>& work, const Progress& progress)
 {
-  Sweep sweep(ambient, round, std::max<std::size_t>(1, tetrahedraPerBlock));
-  const std::vector<std::size_t> order = sweep.longestFirst();
+  BlockedMesh blocked(background, round, std::max<std::size_t>(1, tetrahedraPerBlock));
+  const std::vector<std::size_t> order = blocked.longestFirst();
   const std::size_t n = order.size();
   std::mutex mutex;
   std::exception_ptr failure; // an exception must not leave a worker thread
   std::atomic<std::size_t> begun{ 0 }, done{ 0 };
-  vtkSMPTools::For(0, vtkIdType(n), 1,
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (vtkIdType i = begin; i < end; ++i)
-                     {
-                       try
-                       {
-                         {
-                           const std::lock_guard<std::mutex> lock(mutex);
-                           if (failure) return;
-                           report(progress, double(done) / double(n), "");
-                         }
-                         sweep.run(order[begun++], work); // in this order, whichever the threads are handed
-                         ++done;
-                       }
-                       catch (...)
-                       {
-                         const std::lock_guard<std::mutex> lock(mutex);
-                         if (!failure) failure = std::current_exception();
-                       }
-                     }
-                   });
+  parallelForEach(n,
+                  [&](vtkIdType)
+                  {
+                    try
+                    {
+                      {
+                        const std::lock_guard<std::mutex> lock(mutex);
+                        if (failure) return;
+                        report(progress, double(done) / double(n), "");
+                      }
+                      blocked.run(order[begun++], work); // in this order, whichever the threads are handed
+                      ++done;
+                    }
+                    catch (...)
+                    {
+                      const std::lock_guard<std::mutex> lock(mutex);
+                      if (!failure) failure = std::current_exception();
+                    }
+                  });
   if (failure) std::rethrow_exception(failure);
-  sweep.merge();
+  blocked.merge();
 }
 
 } // namespace surgicalmesher

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Runs a local-operation algorithm over a whole mesh, block by block, in parallel.
 
@@ -20,11 +21,11 @@ constexpr double backgroundCost = 0.35;
 std::size_t fairBlock(const TetMesh& mesh);
 constexpr std::size_t oneBlock = std::numeric_limits<std::size_t>::max();
 
-/// Cuts the mesh into blocks worth at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs `work` on
-/// each as a TetComplex whose border is locked, and puts the results together in the order of the blocks. `round` turns
-/// the cuts, so that what is locked in one round is free in the next. The result depends on neither the number of threads
-/// nor their timing. If `work` or `progress` throws, so does this, and the mesh is as it was.
-void sweepBlocks(BackgroundMesh& ambient, int round, std::size_t tetrahedraPerBlock,
+/// Cuts the mesh into blocks worth at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs
+/// `work` on each as a TetComplex whose border is locked, and puts the results together in the order of the blocks.
+/// `round` turns the cuts, so that what is locked in one round is free in the next. The result depends on neither the
+/// number of threads nor their timing. If `work` or `progress` throws, so does this, and the mesh is as it was.
+void sweepBlocks(BackgroundMesh& background, int round, std::size_t tetrahedraPerBlock,
                  const std::function<void(TetComplex&)>& work, const Progress& progress = {});
 
 } // namespace surgicalmesher

@@ -27,8 +27,9 @@ void Sheet::addSamples(const TetComplex& complex, std::size_t k)
   const auto [t, face] = faces[k].holder;
   for (std::int32_t e = complex.sampleHeads[t][face]; e >= 0; e = complex.samples[e].next)
   {
-    const double tolerance = complex.samples[e].tolerance;
-    samples.push_back({ complex.samples[e].position, tolerance * tolerance, e, std::int32_t(k), -1, 0 });
+    const BoundarySample& sample = complex.samples[e];
+    const double tolerance = sample.tolerance;
+    samples.push_back({ sample.position, tolerance * tolerance, e, std::int32_t(k), -1, 0, sample.normal });
   }
 }
 

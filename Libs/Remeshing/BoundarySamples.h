@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Interface faces with the boundary samples that they hold: what an operation looks at before it changes the interface.
+/// Interface faces with the boundary samples that they hold: what an operation looks at before it changes the
+/// interface.
 
 #include "TetComplex.h"
 
@@ -26,11 +27,12 @@ struct SheetFace
 struct SheetSample
 {
   Vec3 position;
-  double tolerance2; ///< mm^2
-  std::int32_t id;   ///< in TetComplex::samples
-  std::int32_t from; ///< number of its face in the sheet
-  std::int32_t to;   ///< number of the new face that an operation hands it to; -1: none
-  double distance2;  ///< mm^2, to that face
+  double tolerance2;           ///< mm^2
+  std::int32_t id;             ///< in TetComplex::samples
+  std::int32_t from;           ///< number of its face in the sheet
+  std::int32_t to;             ///< number of the new face that an operation hands it to; -1: none
+  double distance2;            ///< mm^2, to that face
+  std::array<float, 3> normal; ///< as in BackgroundMesh
 };
 
 /// Some interface faces and their samples: those at a vertex, or those that an operation changes.

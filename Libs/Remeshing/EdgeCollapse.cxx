@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+
 // Edge collapse. Vertex u goes into its neighbour v, at p, if all of these allow it, the cheapest asked first:
-//   1. locks and labels (mayCollapse): the star of a locked vertex goes on in another block; a vertex of the interface goes
-//      along it only, and nothing inside a label moves the interface.
+//   1. locks and labels (mayCollapse): the star of a locked vertex goes on in another block; a vertex of the interface
+//      goes along it only, and nothing inside a label moves the interface.
 //   2. lengths (keepsLength): no edge becomes longer than asked for, or one that is grows.
 //   3. quality (qualityAfterCollapse): positive volumes forbid every crossing, and with it the link condition on the
 //      tetrahedra fails nowhere.
 //   4. topology (CollapseTopology::keepsTissues): exact for every label at the edge, junctions included.
 //   5. samples (Envelope::samplesStay): the Hausdorff distance from the map's boundary, pair by pair.
-//   6. triangles (Envelope::trianglesReach) and gaps (Envelope::spansGap): the shape of the new faces, and their distance
-//      from the samples.
+//   6. triangles (Envelope::trianglesReach) and gaps (Envelope::spansGap): the shape of the new faces, and their
+//      distance from the samples.
 
 #include "GuardedOperations.h"
 

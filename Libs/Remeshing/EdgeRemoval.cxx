@@ -12,8 +12,8 @@ namespace
 
 constexpr int maximumRing = 10;
 
-/// The best triangulation of a polygon of the ring of edge ab, each triangle of which makes a tetrahedron with either end:
-/// by dynamic programming over its diagonals (G. Klincsek, Annals of Discrete Mathematics 9, 1980).
+/// The best triangulation of a polygon of the ring of edge ab, each triangle of which makes a tetrahedron with either
+/// end: by dynamic programming over its diagonals (G. Klincsek, Annals of Discrete Mathematics 9, 1980).
 class RingTriangulation
 {
 public:

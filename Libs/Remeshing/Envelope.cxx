@@ -88,9 +88,9 @@ double Envelope::squaredDistanceNow(const Sheet& sheet, const SheetSample& sampl
   return distance2 = squaredDistanceToTriangle(sample.position, corner(0), corner(1), corner(2));
 }
 
-/// Finds the sample the nearest new face of its labels; false if there is none. Begins with the face that takes the place of
-/// its own, if there is one, and beyond the line of a side the distance to that line bounds the distance to the face from
-/// below: both spare most faces the full test.
+/// Finds the sample the nearest new face of its labels; false if there is none. Begins with the face that takes the
+/// place of its own, if there is one, and beyond the line of a side the distance to that line bounds the distance to
+/// the face from below: both spare most faces the full test.
 bool Envelope::findNearestFace(const Sheet& sheet, SheetSample& sample) const
 {
   sample.to = -1;
@@ -118,8 +118,8 @@ bool Envelope::findNearestFace(const Sheet& sheet, SheetSample& sample) const
   return sample.to >= 0;
 }
 
-/// From a sample to the new boundary of either of its labels, the greater distance. To that of background that has vanished
-/// there is none to keep.
+/// From a sample to the new boundary of either of its labels, the greater distance. To that of background that has
+/// vanished there is none to keep.
 double Envelope::squaredDistanceToBoth(const Sheet& sheet, const SheetSample& sample) const
 {
   constexpr double none = std::numeric_limits<double>::max();
@@ -135,9 +135,9 @@ double Envelope::squaredDistanceToBoth(const Sheet& sheet, const SheetSample& sa
   return std::max(toBoundary(Label(labels)), toBoundary(Label(labels >> 16)));
 }
 
-/// Hands a sample to the nearest new face of its labels; false if it would lie beyond its tolerance and farther than it does
-/// now. For labels that others come between, see separatedFactor; where two labels cease to touch, their samples are let go
-/// if the boundary of either stays within tolerance.
+/// Hands a sample to the nearest new face of its labels; false if it would lie beyond its tolerance and farther than it
+/// does now. For labels that others come between, see separatedFactor; where two labels cease to touch, their samples
+/// are let go if the boundary of either stays within tolerance.
 bool Envelope::sampleStays(const Sheet& sheet, SheetSample& sample)
 {
   const double tolerance2 = m_SquaredToleranceFactor * sample.tolerance2;

@@ -2,11 +2,12 @@
 #pragma once
 /// The envelope of the interface: how far it may lie from the boundary samples, and they from it.
 ///
-/// Every sample (TetComplex.h) asks for an interface face of its pair of labels within its tolerance. An operation names the
-/// faces that it takes away (addOldFace, or sheet() for a vertex that moves) and those that take their place (addNewFace);
-/// the envelope hands every sample of the old faces to the nearest new one of its labels, says whether that may be, and
-/// after the change of the complex attaches the samples there. This is the bound on the one-sided Hausdorff distance from
-/// the map's boundary to the mesh, for every pair of labels; vertexDistance bounds the other side.
+/// Every sample (TetComplex.h) asks for an interface face of its pair of labels within its tolerance. An operation
+/// names the faces that it takes away (addOldFace, or sheet() for a vertex that moves) and those that take their place
+/// (addNewFace); the envelope hands every sample of the old faces to the nearest new one of its labels, says whether
+/// that may be, and after the change of the complex attaches the samples there. This is the bound on the one-sided
+/// Hausdorff distance from the map's boundary to the mesh, for every pair of labels; vertexDistance bounds the other
+/// side.
 
 #include "BoundarySamples.h"
 
@@ -15,20 +16,21 @@ namespace surgicalmesher
 
 struct EnvelopeBounds
 {
-  /// Bound on the root mean square distance of the samples that an operation hands on to their faces, in tolerances, unless
-  /// it does not grow. Single samples may use up their tolerance where the others lie close.
+  /// Bound on the root mean square distance of the samples that an operation hands on to their faces, in tolerances,
+  /// unless it does not grow. Single samples may use up their tolerance where the others lie close.
   double rmsLimit = 0.5;
   /// Factor on the tolerance of every sample.
   double toleranceFactor = 1;
-  /// Factor on the quality of triangles between labels: 1 makes their angles count like dihedral ones; 0 leaves them out.
+  /// Factor on the quality of triangles between labels: 1 makes their angles count like dihedral ones; 0 leaves them
+  /// out.
   double triangleWeight = 0;
-  /// Bound, in tolerances, on the distance from an interface vertex, and from the middle of an interface edge longer than its
-  /// target, to the nearest sample of its faces, unless it does not grow; and no vertex inside a label comes to lie on the
-  /// interface beyond it. Prevents spikes: they have good angles, and their sides pass the samples at their foot however long
-  /// they grow. 0: no bound.
+  /// Bound, in tolerances, on the distance from an interface vertex, and from the middle of an interface edge longer
+  /// than its target, to the nearest sample of its faces, unless it does not grow; and no vertex inside a label comes
+  /// to lie on the interface beyond it. Prevents spikes: they have good angles, and their sides pass the samples at
+  /// their foot however long they grow. 0: no bound.
   double vertexDistance = 0;
-  /// Factor, at least 1, on the tolerance to faces of its own pair for a sample whose two labels others have come between,
-  /// if it has the boundary of either label within tolerance.
+  /// Factor, at least 1, on the tolerance to faces of its own pair for a sample whose two labels others have come
+  /// between, if it has the boundary of either label within tolerance.
   double separatedFactor = 1;
 };
 
@@ -52,13 +54,13 @@ public:
   /// Whether every sample of the old faces has a new face within its tolerance, or no farther than its face is now, and
   /// their mean square is within the limit or does not grow.
   bool samplesStay();
-  /// Whether the middle of an edge at v, longer than its target, would lie farther than vertexDistance from the samples of
-  /// the old faces, and farther than with v at `from`.
+  /// Whether the middle of an edge at v, longer than its target, would lie farther than vertexDistance from the samples
+  /// of the old faces, and farther than with v at `from`.
   bool spansGap(std::int32_t v, const Vec3& from) const { return spansGap(m_Old, v, from); }
   /// Whether a corner of t, inside a label so far, would lie on the interface beyond vertexDistance.
   bool laysBare(std::int32_t t) const;
-  /// After samplesStay(): whether at most `mostLeft` would be left of the squared distances, in units of the tolerance, of
-  /// the samples to the faces and of the faces to the samples. A face off all samples has none of its own to say so.
+  /// After samplesStay(): whether at most `mostLeft` would be left of the squared distances, in units of the tolerance,
+  /// of the samples to the faces and of the faces to the samples. A face off all samples has none of its own to say so.
   bool comesNearer(double mostLeft);
 
   /// Takes the samples off the old faces; before the complex changes.

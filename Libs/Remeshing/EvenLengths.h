@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Lengths of the edges between labels, evened out without another vertex: where coarsening can take no more away, or has
-/// taken too much, edges are too short or too long beside others with room to spare.
+/// Lengths of the edges between labels, evened out without another vertex: where coarsening can take no more away, or
+/// has taken too much, edges are too short or too long beside others with room to spare.
 
 #include "GuardedOperations.h"
 #include "TetQuality.h"
@@ -19,8 +20,8 @@ struct EdgeLengthOptions
   double robust = 0;             ///< mm, see quadricOf
 };
 
-/// Moves vertices between labels along their sheets and curves to where more of their edges have even lengths. Then they go to
-/// the fit of their faces to their samples, where that costs none of these lengths.
+/// Moves vertices between labels along their sheets and curves to where more of their edges have even lengths. Then
+/// they go to the fit of their faces to their samples, where that costs none of these lengths.
 void evenLengthsOfBlock(GuardedOperations& operations, const EdgeLengthOptions& options = {});
 
 } // namespace surgicalmesher

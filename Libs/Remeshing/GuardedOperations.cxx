@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all guarded operations measure. The operations themselves: EdgeCollapse, VertexMove, EdgeRemoval, EdgeSplit, Relabel.
+
+// What all guarded operations measure. The operations themselves: EdgeCollapse,
+// VertexMove, EdgeRemoval, EdgeSplit, Relabel.
 
 #include "GuardedOperations.h"
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Edge collapse, vertex move, edge removal (flip), edge split and relabelling on a TetComplex, one file each, with every
-/// guard that keeps the complex's promises: positive volumes and a least quality, the topology of every tissue, the
-/// envelope of the interface, the locks of a block's border. On the dual simplex mesh, collapse, split and flip of interface
-/// edges are Delingette's Eulerian operators T1, T2 and T7 (Audette et al. 2007); done on the tetrahedra of both sides they
-/// can neither tear nor cross.
+/// Edge collapse, vertex move, edge removal (flip), edge split and relabelling on a TetComplex, one file each, with
+/// every guard that keeps the complex's promises: positive volumes and a least quality, the topology of every tissue,
+/// the envelope of the interface, the locks of a block's border. On the dual simplex mesh, collapse, split and flip of
+/// interface edges are Delingette's Eulerian operators T1, T2 and T7 (Audette et al. 2007); done on the tetrahedra of
+/// both sides they can neither tear nor cross.
 ///
-/// An operation that returns false has changed nothing. Stars, measures and samples are kept from one to the next: whoever
-/// changes the complex by other means goes on with new GuardedOperations.
+/// An operation that returns false has changed nothing. Stars, measures and samples are kept from one to the next:
+/// whoever changes the complex by other means goes on with new GuardedOperations.
 ///
-/// *Quality* is worstSine2 (TetQuality.h); tetrahedra of label 0 are thrown away in the end and are let off with a smaller
-/// one: theirs is multiplied by backgroundLeniency. Of the triangles between labels it is smallestSine2 times
+/// *Quality* is worstSine2 (TetQuality.h); tetrahedra of label 0 are thrown away in the end and are let off with a
+/// smaller one: theirs is multiplied by backgroundLeniency. Of the triangles between labels it is smallestSine2 times
 /// EnvelopeBounds::triangleWeight.
 
 #include "Envelope.h"
@@ -75,21 +75,21 @@ public:
   double qualityAt(std::int32_t v) { return qualityAt(v, m_Complex.points[v], -1); }
 
   // --- edge collapse (EdgeCollapse.cxx)
-  /// Whether locks and labels let u go into its neighbour v at all, v staying or moving: one of the interface, only along it
-  /// and wholly seen; one beside it, only without moving it.
+  /// Whether locks and labels let u go into its neighbour v at all, v staying or moving: one of the interface, only
+  /// along it and wholly seen; one beside it, only without moving it.
   bool mayCollapse(std::int32_t u, std::int32_t v, bool moves) const;
 
-  /// The worst quality that merging u into v at p would leave among the changed tetrahedra; some value below `atLeast` if it
-  /// is less than that, or if an edge at v would become longer than maximumRatio times the target (one that is longer
-  /// may stay, but not grow).
+  /// The worst quality that merging u into v at p would leave among the changed tetrahedra; some value below `atLeast`
+  /// if it is less than that, or if an edge at v would become longer than maximumRatio times the target (one that is
+  /// longer may stay, but not grow).
   double qualityAfterCollapse(std::int32_t u, std::int32_t v, const Vec3& p, double atLeast, double maximumRatio);
 
-  /// Merges u into v at p if topology and envelope allow, and the triangles that come to lie between labels: the rest of
-  /// collapse(), once the others have been asked.
+  /// Merges u into v at p if topology and envelope allow, and the triangles that come to lie between labels: the rest
+  /// of collapse(), once the others have been asked.
   bool collapseWithin(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality);
 
-  /// Merges u into its neighbour v, which moves to p, if every changed tetrahedron reaches `minimumQuality` and all of the
-  /// above allow it.
+  /// Merges u into its neighbour v, which moves to p, if every changed tetrahedron reaches `minimumQuality` and all of
+  /// the above allow it.
   bool collapse(std::int32_t u, std::int32_t v, const Vec3& p, double minimumQuality, double maximumRatio);
 
   // --- vertex move (VertexMove.cxx)
@@ -105,8 +105,8 @@ public:
   /// Takes back a move of v from p, the latest first where there were several: nothing is asked of what was so before.
   void moveBack(std::int32_t v, const Vec3& p);
 
-  /// After several moves back: hands samples of v's faces to the nearest of them if some is beyond its tolerance. What one
-  /// move has handed on to a face out of another's sight is still there.
+  /// After several moves back: hands samples of v's faces to the nearest of them if some is beyond its tolerance. What
+  /// one move has handed on to a face out of another's sight is still there.
   void reassignSamples(std::int32_t v);
 
   // --- edge removal (EdgeRemoval.cxx)
@@ -126,8 +126,8 @@ public:
   static constexpr double anyShare = std::numeric_limits<double>::infinity();
 
   /// Gives t to `label`, which lies beyond one of its faces, if that and its own keep their topology and their manifold
-  /// boundaries: t is a simple point of either. With `mostLeft`, only if at most that share of the squared distances between
-  /// the surface and its samples, there and back, is left.
+  /// boundaries: t is a simple point of either. With `mostLeft`, only if at most that share of the squared distances
+  /// between the surface and its samples, there and back, is left.
   bool relabel(std::int32_t t, Label label, double minimumQuality, double mostLeft = anyShare);
 
   /// The position of the sample of v's faces that is nearest to v, if there is any.

@@ -162,8 +162,8 @@ private:
     return true;
   }
 
-  /// Where no vertex alone can move without making another tetrahedron the worst: descends the sum of the squares of what
-  /// all tetrahedra around t lack, vertex by vertex, and keeps the result if the worst of them has become better.
+  /// Where no vertex alone can move without making another tetrahedron the worst: descends the sum of the squares of
+  /// what all tetrahedra around t lack, vertex by vertex, and keeps the result if the worst of them has become better.
   bool moveTogether(std::int32_t t)
   {
     struct Range
@@ -204,8 +204,8 @@ private:
     return false;
   }
 
-  /// Where the vertices are too few for good angles, wherever they lie, as around a tiny body: a new one in the middle of an
-  /// edge, and all around it move together. Taken back if that doesn't help.
+  /// Where the vertices are too few for good angles, wherever they lie, as around a tiny body: a new one in the middle
+  /// of an edge, and all around it move together. Taken back if that doesn't help.
   bool splitAndMoveTogether(std::int32_t t)
   {
     if (!m_Options.split || m_TogetherLeft == 0) return false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Improvement of the worst dihedral angles, worst tetrahedron first, by every guarded operation. Nothing here ever makes the
-/// worst angle of what it touches worse, changes a label's topology, or leaves the envelope.
+/// Improvement of the worst dihedral angles, worst tetrahedron first, by every guarded operation. Nothing here ever
+/// makes the worst angle of what it touches worse, changes a label's topology, or leaves the envelope.
 
 #include "GuardedOperations.h"
 
@@ -25,8 +25,8 @@ struct ImprovementOptions
   int passes = 3; ///< later passes work only where something has changed
 };
 
-/// Worst first: edge removal, vertex optimisation, collapse, split, and moves of several vertices together, as they are or
-/// with a new one among them, of the tetrahedra below the target, until nothing helps.
+/// Worst first: edge removal, vertex optimisation, collapse, split, and moves of several vertices together, as they are
+/// or with a new one among them, of the tetrahedra below the target, until nothing helps.
 void improveBlock(GuardedOperations& operations, const ImprovementOptions& options = {});
 
 } // namespace surgicalmesher

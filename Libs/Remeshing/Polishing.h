@@ -15,8 +15,8 @@ struct PolishingOptions
   double ease = 0.02;      ///< how easily a vertex leaves its samples for better angles: 0 not at all, 1 freely
 };
 
-/// Moves every free vertex once to the least-squares fit of its faces to their samples, and once up the sum of the sines of
-/// the worst angles at it, on the interface along sheets and curves rather than across.
+/// Moves every free vertex once to the least-squares fit of its faces to their samples, and once up the sum of the
+/// sines of the worst angles at it, on the interface along sheets and curves rather than across.
 void polishBlock(GuardedOperations& operations, const PolishingOptions& options = {});
 
 } // namespace surgicalmesher

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The quadric of a vertex: the sum of squared distances of its faces to their boundary samples, as a function of where the
-/// vertex is. Its minimum is the least-squares position (after Garland and Heckbert, SIGGRAPH 1997, with samples of the
-/// boundary in place of planes).
+/// The quadric of a vertex: the sum of squared distances of its faces to their boundary samples, as a function of where
+/// the vertex is. Its minimum is the least-squares position (after Garland and Heckbert, SIGGRAPH 1997, with samples of
+/// the boundary in place of planes).
 
 #include "BoundarySamples.h"
 
@@ -22,8 +22,9 @@ struct Quadric
 };
 
 /// Least squares for the step (mm) of v that brings the faces of its `sheet` nearest to their samples: m step = g. With
-/// `robust` (mm) > 0, a sample at distance d weighs 1 / (1 + d / robust), one round of iteratively reweighted least squares
-/// for the mean distance, and so for the volume between surface and map, instead of its square.
+/// `robust` (mm) > 0, a sample at distance d weighs 1 / (1 + d / robust), one round of iteratively reweighted least
+/// squares for the mean distance, and so for the volume between surface and map, instead of its square. The planes of
+/// samples with a normal, so near to v that the boundary is plane between them, want v itself on them.
 Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust = 0);
 
 /// The same, were v at p.

@@ -37,8 +37,8 @@ private:
       if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : floor)) return;
   }
 
-  /// Where the edges at v would like it: the mean, over its neighbours x, of the point at the target distance from x in the
-  /// direction of v. A descent step of the sum of (|vx| - L)^2.
+  /// Where the edges at v would like it: the mean, over its neighbours x, of the point at the target distance from x in
+  /// the direction of v. A descent step of the sum of (|vx| - L)^2.
   Vec3 towardsMiddle(std::int32_t v)
   {
     const auto& neighbours = m_Operations.neighbours(v);
@@ -47,8 +47,8 @@ private:
     return sum / double(neighbours.size());
   }
 
-  /// The way of v towards (for x too far) or from (for x too near) its target distance to x, and half the way to x itself,
-  /// which evens out the directions.
+  /// The way of v towards (for x too far) or from (for x too near) its target distance to x, and half the way to x
+  /// itself, which evens out the directions.
   Vec3 towardsTarget(std::int32_t v, std::int32_t x) const
   {
     const Vec3 d = m_Complex.points[x] - m_Complex.points[v];
@@ -56,7 +56,8 @@ private:
     return (m_Options.spread * (1 - target / norm(d)) + 1 - m_Options.spread) * d;
   }
 
-  /// Least squares over the samples of the faces at v, held by a spring to the middle of the neighbours on the interface.
+  /// Least squares over the samples of the faces at v, held by a spring to the middle of the neighbours on the
+  /// interface.
   Vec3 onInterface(std::int32_t v)
   {
     Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);

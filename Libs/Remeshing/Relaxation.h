@@ -15,8 +15,9 @@ struct RelaxationOptions
   double robust = 0;     ///< mm, see quadricOf
 };
 
-/// Moves every free vertex once: inside a tissue towards the middle of its neighbours; on a sheet or curve of the interface
-/// towards the middle of its neighbours there and, along the normals, to the least-squares fit of its faces to their samples.
+/// Moves every free vertex once: inside a tissue towards the middle of its neighbours; on a sheet or curve of the
+/// interface towards the middle of its neighbours there and, along the normals, to the least-squares fit of its faces
+/// to their samples.
 void relaxBlock(GuardedOperations& operations, const RelaxationOptions& options = {});
 
 } // namespace surgicalmesher

@@ -19,14 +19,14 @@ struct RemesherOptions
 class Remesher
 {
 public:
-  /// Takes the mesh (positively wound, face-to-face, a whole box or body: vertices on its hull stay). `length` is in the
-  /// frame of its points. `progress` gets the share done of `sweeps` sweeps.
+  /// Takes the mesh (positively wound, face-to-face, a whole box or body: vertices on its hull stay). `length` is in
+  /// the frame of its points. `progress` gets the share done of `sweeps` sweeps.
   Remesher(BackgroundMesh mesh, SizingFunction length, const RemesherOptions& options = {},
            const Progress& progress = {}, std::size_t sweeps = 1);
 
-  /// Labels keep their topology, and no operation lowers the worst quality of what it touches below what its pass allows.
-  /// The result depends on neither the number of threads nor their timing. If the progress throws, so does this, and the
-  /// mesh is as it was before the sweep.
+  /// Labels keep their topology, and no operation lowers the worst quality of what it touches below what its pass
+  /// allows. The result depends on neither the number of threads nor their timing. If the progress throws, so does
+  /// this, and the mesh is as it was before the sweep.
   void run(const Sweep& sweep);
 
   /// Leaves sweeps out; those after them are divided into blocks as if they had been run.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Angles are dihedral, in degrees; tolerances are factors on those of the samples; lengths are mm or, in edges, shares of L.
-// The numbers come from measurements on jhu189, aal, inia19, hncma and the heads, listed in the pages that Schedule.h names.
+
+// Angles are dihedral, in degrees; tolerances are factors on those of the samples;
+// lengths are mm or, in edges, shares of L. The numbers come from measurements on jhu189, aal, inia19, hncma and the
+// heads, listed in the pages that Schedule.h names.
 
 #include "Schedule.h"
 
@@ -180,8 +182,8 @@ std::vector<double> sizeLevels(const MeshSizes& sizes)
 
 bool isCoarse(double level, const MeshSizes& sizes) { return level > 5 * sizes.voxel; }
 
-/// The first levels hold most of the tetrahedra, in a lattice that is still regular: fitting, thoroughness and repair pay
-/// later, and relaxation there costs regular sizes in the end.
+/// The first levels hold most of the tetrahedra, in a lattice that is still regular: fitting, thoroughness and repair
+/// pay later, and relaxation there costs regular sizes in the end.
 Sweep coarsenTo(double level, const MeshSizes& sizes)
 {
   const bool isFirst = level < 2 * sizes.voxel, isFine = level <= 3 * sizes.voxel;
@@ -336,8 +338,8 @@ std::vector<VolumeRow> polishingRows(double target, double rmsFactor, double rel
 
 } // namespace
 
-/// The angle that vertices may fall to while they move rises with what has been reached, and the angle aimed at with it.
-/// Splits cost regular sizes, and come late.
+/// The angle that vertices may fall to while they move rises with what has been reached, and the angle aimed at with
+/// it. Splits cost regular sizes, and come late.
 std::vector<ConditionalSweep> sweepsForRawMesh(double target)
 {
   // clang-format off

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The sweeps of both stages, and every number in them: what the surface stage and the tetrahedral stage run, in which order
-/// and how hard each tries. Methods and measurements: Docs/SimplexMesher.md#method, Docs/FuchsTetrahedralizer.md#method.
+/// The sweeps of both stages, and every number in them: what the surface stage and the tetrahedral stage run, in which
+/// order and how hard each tries. Methods and measurements: Docs/SimplexMesher.md#method,
+/// Docs/FuchsTetrahedralizer.md#method.
 
 #include "Sweep.h"
 #include "TetMesh.h"
@@ -31,8 +32,8 @@ extern const MeshTargets usualTargets;
 /// Where features are of the map's own size, as noise makes them: see hasUnresolvedFeatures.
 extern const MeshTargets noisyTargets;
 
-/// Whether coarsening has left so many bad tetrahedra that features of the map's own size have no room for good ones: to try
-/// for them all would take most of the time and be in vain.
+/// Whether coarsening has left so many bad tetrahedra that features of the map's own size have no room for good ones:
+/// to try for them all would take most of the time and be in vain.
 bool hasUnresolvedFeatures(const TetMesh& mesh);
 
 /// The sizes that the rows below depend on, all in mm.
@@ -44,20 +45,21 @@ struct MeshSizes
 };
 
 // --- surface stage, in this order
-/// Sizes that edges are collapsed to one after the other, the last one `longest`: a single pass to the final lengths would
-/// leave a ragged mesh.
+/// Sizes that edges are collapsed to one after the other, the last one `longest`: a single pass to the final lengths
+/// would leave a ragged mesh.
 std::vector<double> sizeLevels(const MeshSizes& sizes);
 /// Features may be unresolved before this level: edges are then several voxels long.
 bool isCoarse(double level, const MeshSizes& sizes);
 Sweep coarsenTo(double level, const MeshSizes& sizes);
-/// The last level. `thoroughly` false for unresolved features: they hold most of the vertices where they are, and to try
-/// them at every place costs much and gains little.
+/// The last level. `thoroughly` false for unresolved features: they hold most of the vertices where they are, and to
+/// try them at every place costs much and gains little.
 Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly);
 /// The first sweep of improvement, which still coarsens.
 Sweep firstImprovement(const MeshTargets& targets, const MeshSizes& sizes);
 /// Those after it that still coarsen; the angle aimed at rises. Tissues' volumes are balanced before each.
 std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// Without coarsening; what is still bad may go farther from its samples or be split, in the end across the blocks' borders.
+/// Without coarsening; what is still bad may go farther from its samples or be split, in the end across the blocks'
+/// borders.
 std::vector<Sweep> repairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// Vertices go back to their samples as far as angles allow. Tissues' volumes are balanced before each.
 std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& sizes);
@@ -79,8 +81,8 @@ struct ConditionalSweep
 
 /// For tetrahedra that nobody has improved yet, such as constrained Delaunay's. `targetAngle` in degrees, dihedral.
 std::vector<ConditionalSweep> sweepsForRawMesh(double targetAngle);
-/// For a mesh of the surface stage, improved to `targetAngle`: its surface is where it belongs, and a few tetrahedra are
-/// mended where they are.
+/// For a mesh of the surface stage, improved to `targetAngle`: its surface is where it belongs, and a few tetrahedra
+/// are mended where they are.
 std::vector<ConditionalSweep> sweepsForImprovedMesh(double targetAngle);
 
 } // namespace surgicalmesher

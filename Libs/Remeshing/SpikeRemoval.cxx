@@ -20,8 +20,8 @@ std::vector<std::int32_t> tissuesAt(GuardedOperations& operations, std::int32_t 
   return result;
 }
 
-/// Gives all at v to `label`, in whatever order that allows. What leads nowhere is given back, if the samples has not come to
-/// lie too well for that.
+/// Gives all at v to `label`, in whatever order that allows. What leads nowhere is given back, if the samples has not
+/// come to lie too well for that.
 bool takeOff(GuardedOperations& operations, std::int32_t v, Label label, double quality)
 {
   std::vector<std::int32_t> others;

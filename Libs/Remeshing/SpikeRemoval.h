@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Removal of spikes (vertices between two labels that stick out of their boundary samples) and of ears (vertices at which
-/// tissues have hardly a tetrahedron), by relabelling the tetrahedra that they consist of.
+/// Removal of spikes (vertices between two labels that stick out of their boundary samples) and of ears (vertices at
+/// which tissues have hardly a tetrahedron), by relabelling the tetrahedra that they consist of.
 
 #include "GuardedOperations.h"
 #include "TetQuality.h"
@@ -15,7 +15,8 @@ struct SpikeOptions
   std::size_t few = 8;         ///< tetrahedra that it consists of at most
   /// Degrees; what has been let off as background has such dihedral angles if it becomes tissue.
   double keptAngle = usualAngle;
-  /// Degrees; what can't be cut is drawn in as far as such dihedral angles remain, for repairs to raise again. 0: it stays.
+  /// Degrees; what can't be cut is drawn in as far as such dihedral angles remain, for repairs to raise again. 0: it
+  /// stays.
   double pullAngle = 0;
   /// mm; samples is left no farther off than the tip is, nor than this.
   double maximumDistance = std::numeric_limits<double>::infinity();
@@ -24,9 +25,9 @@ struct SpikeOptions
 /// Takes vertices between two labels that stick out of their samples off the interface, or draws them in.
 void cutSpikesOfBlock(GuardedOperations& operations, const SpikeOptions& options = {});
 
-/// Takes vertices at which tissues have at most `few` tetrahedra off the outer boundary, by relabelling these, or fills the
-/// valleys beside them. They are tips of no volume to speak of, but the largest eigenvalues of a stiffness matrix are
-/// theirs.
+/// Takes vertices at which tissues have at most `few` tetrahedra off the outer boundary, by relabelling these, or fills
+/// the valleys beside them. They are tips of no volume to speak of, but the largest eigenvalues of a stiffness matrix
+/// are theirs.
 void removeEarsOfBlock(GuardedOperations& operations, std::size_t few);
 
 } // namespace surgicalmesher

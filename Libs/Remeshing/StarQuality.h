@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The tetrahedra at a vertex, and the triangles between labels, laid out so that several are measured at once wherever the
-/// vertex is put: guarded operations spend more time on this than on anything else.
+/// The tetrahedra at a vertex, and the triangles between labels, laid out so that several are measured at once wherever
+/// the vertex is put: guarded operations spend more time on this than on anything else.
 
 #include "TetComplex.h"
 
@@ -15,17 +16,17 @@ constexpr double backgroundLeniency = 20; ///< worst angles of 32 degrees inside
 class StarQuality
 {
 public:
-  /// `star`: the tetrahedra at v. Stays true until another vertex than v moves, or the star changes. Triangles between labels
-  /// count with `triangleWeight`; 0: not at all.
+  /// `star`: the tetrahedra at v. Stays true until another vertex than v moves, or the star changes. Triangles between
+  /// labels count with `triangleWeight`; 0: not at all.
   void gather(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star,
               double triangleWeight = 0);
 
-  /// The worst quality (see GuardedOperations) with the vertex at p, or some value below `atLeast` if it is less than that.
-  /// What contains the vertex `without` does not count.
+  /// The worst quality (see GuardedOperations) with the vertex at p, or some value below `atLeast` if it is less than
+  /// that. What contains the vertex `without` does not count.
   double worst(const Vec3& p, double atLeast, std::int32_t without = -1) const;
 
-  /// The quality of each tetrahedron, in the order of the star, and of each triangle after them, with the vertex at p. The
-  /// result lives until the next call.
+  /// The quality of each tetrahedron, in the order of the star, and of each triangle after them, with the vertex at p.
+  /// The result lives until the next call.
   const std::vector<double>& each(const Vec3& p);
 
   std::size_t size() const { return m_Size + m_TriangleCount; }

@@ -1,5 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TetComplex.h"
 
+#include "FaceAdjacency.h"
 #include "TetQuality.h"
 
 #include <algorithm>
@@ -38,50 +40,15 @@ TetComplex::TetComplex(std::vector<Vec3> points_, std::vector<float> lengths_, s
       if (vertexTet[v] >= 0 && labels[vertexTet[v]] != labels[t]) onInterface[v] = 1;
       vertexTet[v] = std::int32_t(t);
     }
-  if (neighbours.empty()) matchFaces();
+  if (neighbours.empty())
+  {
+    neighbours.assign(tets.size(), Tet{ -1, -1, -1, -1 });
+    matchOpenFaces(tets, points.size(), neighbours);
+  }
   for (std::size_t t = 0; t < tets.size(); ++t)
     for (int i = 0; i < 4; ++i)
       if (neighbours[t][i] < 0)
         for (int k = 1; k < 4; ++k) locked[tets[t][(i + k) & 3]] = 1;
-}
-
-void TetComplex::matchFaces()
-{
-  neighbours.assign(tets.size(), Tet{ -1, -1, -1, -1 });
-  struct Face
-  {
-    std::int32_t second, third, tet, index;
-  };
-  // Faces bucketed by their smallest vertex: a bucket holds some twenty, so matching inside it is a short linear search.
-  std::vector<std::int32_t> start(points.size() + 1, 0);
-  for (const Tet& t : tets)
-  {
-    const std::int32_t low = std::min(t[0], t[1]), high = std::max(t[0], t[1]);
-    const std::int32_t low2 = std::min(t[2], t[3]), high2 = std::max(t[2], t[3]);
-    start[std::min(low, low2) + 1] += 3;
-    start[std::min({ std::max(low, low2), high, high2 }) + 1] += 1;
-  }
-  for (std::size_t v = 0; v < points.size(); ++v) start[v + 1] += start[v];
-  std::vector<std::int32_t> end(start.begin(), start.end() - 1);
-  std::vector<Face> faces(tets.size() * 4);
-  for (std::int32_t t = 0; t < std::int32_t(tets.size()); ++t)
-    for (std::int32_t i = 0; i < 4; ++i)
-    {
-      const auto f = sortedFace(tets[t], i);
-      Face* const last = faces.data() + end[f[0]];
-      Face* at = faces.data() + start[f[0]];
-      while (at != last && (at->second != f[1] || at->third != f[2])) ++at;
-      if (at == last)
-      {
-        *last = { f[1], f[2], t, i };
-        ++end[f[0]];
-        continue;
-      }
-      neighbours[t][i] = at->tet;
-      neighbours[at->tet][at->index] = t;
-      *at = *(last - 1);
-      --end[f[0]];
-    }
 }
 
 double TetComplex::quality(std::int32_t t) const
@@ -160,10 +127,11 @@ std::pair<std::int32_t, int> TetComplex::holder(std::int32_t t, int i) const
   return { n, 0 };
 }
 
-void TetComplex::addSample(std::int32_t t, int i, const Vec3& position, float tolerance)
+void TetComplex::addSample(std::int32_t t, int i, const Vec3& position, float tolerance,
+                           const std::array<float, 3>& normal)
 {
   const auto [h, j] = holder(t, i);
-  samples.push_back({ position, tolerance, sampleHeads[h][j], -1 });
+  samples.push_back({ position, tolerance, sampleHeads[h][j], normal, -1 });
   sampleHeads[h][j] = std::int32_t(samples.size()) - 1;
 }
 

@@ -1,17 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A labelled tetrahedral complex that is changed by local, guarded operations only.
 ///
 /// The complex fills a box: tetrahedra of label 0 are the space around the tissues. The *interface* is the set of faces
 /// between different labels. Three promises hold before and after every operation:
 ///   - every tetrahedron is wound positively, so the complex is embedded and the interface cannot cross itself;
-///   - at every vertex, each label occupies one disc of the vertex's link, so each tissue's boundary is a 2-manifold and no
+///   - at every vertex, each label occupies one disc of the vertex's link, so each tissue's boundary is a 2-manifold
+///     and no
 ///     operation changes any tissue's topology; only background that tissues enclose may vanish;
-///   - every samples point (a place where the map says that the boundary between two labels is) lies within its tolerance
-///     of a face between these two labels, or of the boundary of either and twice as far from such a face if there is one,
-///     once it does.
+///   - every boundary sample (a place where the map says that the boundary between two labels is) lies within its
+///     tolerance of a face between these two labels, or of the boundary of either and twice as far from such a face if
+///     there is one, once it does.
 ///
-/// A complex may be a block cut out of a larger one. The vertices on its border, whose star may go on outside, are locked:
-/// no operation moves or removes them.
+/// A complex may be a block cut out of a larger one. The vertices on its border, whose star may go on outside, are
+/// locked: no operation moves or removes them.
 
 #include "TetMesh.h"
 
@@ -28,7 +30,8 @@ struct BoundarySample
   Vec3 position;
   float tolerance = 0; ///< mm to the nearest face of its label pair
   std::int32_t next = -1;
-  double distance2 = -1; ///< mm^2, to its face; -1 until somebody has asked
+  std::array<float, 3> normal{ 0, 0, 0 }; ///< as in BackgroundMesh
+  double distance2 = -1;                  ///< mm^2, to its face; -1 until somebody has asked
 };
 
 class TetComplex
@@ -36,8 +39,8 @@ class TetComplex
 public:
   using Tet = std::array<std::int32_t, 4>;
 
-  /// `tets` must be positively wound and face-to-face. `lengths` is the target edge length at each point, mm. `neighbours`
-  /// may be empty: then they are found.
+  /// `tets` must be positively wound and face-to-face. `lengths` is the target edge length at each point, mm.
+  /// `neighbours` may be empty: then they are found.
   TetComplex(std::vector<Vec3> points, std::vector<float> lengths, std::vector<Tet> tets, std::vector<Label> labels,
              std::vector<Tet> neighbours = {});
 
@@ -90,21 +93,22 @@ public:
 
   // --- samples
   /// Adds a point to face i of tetrahedron t, whose sides must differ in label, or which is on the block's border.
-  void addSample(std::int32_t t, int i, const Vec3& position, float tolerance);
+  void addSample(std::int32_t t, int i, const Vec3& position, float tolerance,
+                 const std::array<float, 3>& normal = { 0, 0, 0 });
   /// (tetrahedron, face) that holds the samples of the interface face (t, i).
   std::pair<std::int32_t, int> holder(std::int32_t t, int i) const;
 
   // --- changes of the complex; no guard here
   /// Replaces u by v in star(u); the ring of uv dies. BoundarySample of the faces at u must have been taken before.
   void collapse(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& starOfU);
-  /// Replaces tetrahedra by others that fill the same cavity; every border face keeps its outer neighbour and, if its label
-  /// pair persists, its samples. BoundarySample of inner interface faces must have been taken before. Returns the new ids.
+  /// Replaces tetrahedra by others that fill the same cavity; every border face keeps its outer neighbour and, if its
+  /// label pair persists, its samples. BoundarySample of inner interface faces must have been taken before. Returns the
+  /// new ids.
   std::vector<std::int32_t> replace(const std::vector<std::int32_t>& old, const std::vector<Tet>& tetrahedra,
                                     const std::vector<Label>& newLabels);
   std::int32_t addVertex(const Vec3& p, float length, bool isOnInterface);
 
 private:
-  void matchFaces();
   std::int32_t allocate();
 
   std::vector<std::uint32_t> m_Mark; ///< per tetrahedron, for star()

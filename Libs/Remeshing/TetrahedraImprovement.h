@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Improvement of a finished labelled mesh, with its own interface as the surface to stay on: what the tetrahedral stage does.
+/// Improvement of a finished labelled mesh, with its own interface as the surface to stay on: what the tetrahedral
+/// stage does.
 
 #include "Progress.h"
 #include "SizingFunction.h"
@@ -19,8 +20,8 @@ struct TetrahedraImprovementOptions
   bool isImproved = false;
 };
 
-/// Improves `mesh` (positively wound, face-to-face, label 0 outside; vertices on its hull stay) towards `length` and towards
-/// the target angle. Labels keep their topology, and no operation lowers the worst quality of what it touches.
+/// Improves `mesh` (positively wound, face-to-face, label 0 outside; vertices on its hull stay) towards `length` and
+/// towards the target angle. Labels keep their topology, and no operation lowers the worst quality of what it touches.
 /// Deterministic, whatever the number of threads.
 void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const TetrahedraImprovementOptions& options = {},
                        const Progress& progress = {});

@@ -78,8 +78,8 @@ std::uint32_t CollapseTopology::bitOf(Label label)
   return 1u << std::min<std::size_t>(k, mostLocalLabels);
 }
 
-/// The labels of an end's star that are not at the edge's other end; and which of them are at each vertex of the ring, which
-/// m_Places numbers.
+/// The labels of an end's star that are not at the edge's other end; and which of them are at each vertex of the ring,
+/// which m_Places numbers.
 std::uint32_t CollapseTopology::lookAround(const std::vector<std::int32_t>& star, std::int32_t other,
                                            std::uint32_t RingLabels::*atEnd)
 {
@@ -98,8 +98,8 @@ std::uint32_t CollapseTopology::lookAround(const std::vector<std::int32_t>& star
   return beside;
 }
 
-/// The label, as a bit, that closes over tetrahedron t of the ring of uv once that is gone: the one beyond both its faces; 0
-/// if they are two, or t's own.
+/// The label, as a bit, that closes over tetrahedron t of the ring of uv once that is gone: the one beyond both its
+/// faces; 0 if they are two, or t's own.
 std::uint32_t CollapseTopology::closingOver(std::int32_t t, std::int32_t u, std::int32_t v)
 {
   const auto& c = m_Complex;
@@ -128,13 +128,16 @@ std::uint32_t CollapseTopology::compareEnds(std::int32_t u, std::int32_t v, cons
   return doubtful;
 }
 
-/// A label that is at both ends is cut out of the ball of both stars and comes back as the cone over its share of the ball's
-/// boundary, which changes nothing if what was there was contractible and that share is a disc:
-///   - The stars meet in the ring of uv. Those of its vertices and edges at which both have the label, be it in the ring
+/// A label that is at both ends is cut out of the ball of both stars and comes back as the cone over its share of the
+/// ball's boundary, which changes nothing if what was there was contractible and that share is a disc:
+///   - The stars meet in the ring of uv. Those of its vertices and edges at which both have the label, be it in the
+///     ring
 ///     or beyond, must be a path.
-///   - The share is a disc for certain if the label is not at edge uv, or closes over nothing and meets the link condition
+///   - The share is a disc for certain if the label is not at edge uv, or closes over nothing and meets the link
+///     condition
 ///     on its own boundary; else it is looked at.
-/// Positive volumes see to the link condition on the tetrahedra themselves: the cone from v tiles star(u) only if it holds.
+/// Positive volumes see to the link condition on the tetrahedra themselves: the cone from v tiles star(u) only if it
+/// holds.
 bool CollapseTopology::keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& starOfU,
                                     const std::vector<std::int32_t>& starOfV, const std::vector<std::int32_t>& ring,
                                     const std::vector<std::int32_t>& ringVertices)

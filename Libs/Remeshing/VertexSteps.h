@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Directions for a vertex: where angles get better, and where its samples yields.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Items in space by the cells of a regular grid that their boxes touch: who is near whom.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A simplex mesh in motion: forces that draw it to the tissue boundaries, operators that bring its edges to scale.
 

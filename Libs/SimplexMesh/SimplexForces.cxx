@@ -1,8 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SimplexForces.h"
 
+#include "Parallel.h"
 #include "SimplexGeometry.h"
-
-#include <vtkSMPTools.h>
 
 namespace surgicalmesher
 {
@@ -31,13 +31,12 @@ SimplexNeighbours neighboursOf(const SimplexMesh& mesh, std::size_t v, int side)
 template <class Action>
 void forVertices(const SimplexMesh& mesh, const Action& action)
 {
-  vtkSMPTools::For(0, vtkIdType(mesh.points.size()),
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (vtkIdType v = begin; v < end; ++v)
-                       for (int side = 0; side < 2; ++side)
-                         if (hasNeighbours(mesh, v, side)) action(std::size_t(v), side);
-                   });
+  parallelFor(mesh.points.size(),
+              [&](vtkIdType v)
+              {
+                for (int side = 0; side < 2; ++side)
+                  if (hasNeighbours(mesh, v, side)) action(std::size_t(v), side);
+              });
 }
 
 Bends bendsOf(const SimplexMesh& mesh)
@@ -122,26 +121,23 @@ std::vector<Vec3> imageForces(const SurfaceComplex& dual, const TissueBoundary& 
 {
   std::vector<Vec3> forces(dual.triangles.size());
   std::vector<double> farthest(dual.triangles.size(), 0);
-  vtkSMPTools::For(0, vtkIdType(forces.size()),
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (vtkIdType t = begin; t < end; ++t)
-                     {
-                       const auto& [a, b, c] = dual.triangles[t];
-                       const std::array<Vec3, 3> corners{ dual.points[a], dual.points[b], dual.points[c] };
-                       const Vec3 sum = corners[0] + corners[1] + corners[2],
-                                  n = cross(corners[1] - corners[0], corners[2] - corners[0]);
-                       double way = 0;
-                       for (const Vec3& corner : corners)
-                       {
-                         const Vec3 sample = sum / 6 + corner / 2;
-                         const auto nearest = boundary.nearest(sample, dual.labels[t]);
-                         farthest[t] = std::max(farthest[t], nearest ? nearest->distance : boundary.reach());
-                         if (nearest) way += dot(nearest->position - sample, n) / 3;
-                       }
-                       if (squaredNorm(n) > 0) forces[t] = way / squaredNorm(n) * n;
-                     }
-                   });
+  parallelFor(forces.size(),
+              [&](vtkIdType t)
+              {
+                const auto& [a, b, c] = dual.triangles[t];
+                const std::array<Vec3, 3> corners{ dual.points[a], dual.points[b], dual.points[c] };
+                const Vec3 sum = corners[0] + corners[1] + corners[2],
+                           n = cross(corners[1] - corners[0], corners[2] - corners[0]);
+                double way = 0;
+                for (const Vec3& corner : corners)
+                {
+                  const Vec3 sample = sum / 6 + corner / 2;
+                  const auto nearest = boundary.nearest(sample, dual.labels[t]);
+                  farthest[t] = std::max(farthest[t], nearest ? nearest->distance : boundary.reach());
+                  if (nearest) way += dot(nearest->position - sample, n) / 3;
+                }
+                if (squaredNorm(n) > 0) forces[t] = way / squaredNorm(n) * n;
+              });
   if (distances) *distances = std::move(farthest);
   return forces;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Forces on the vertices of a simplex mesh. A force is the displacement, in mm, to where its term alone would put the
 /// vertex.

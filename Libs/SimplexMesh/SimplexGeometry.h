@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Geometry of one vertex of a 2-simplex mesh and its three neighbours (H. Delingette, "General object reconstruction
 /// based on simplex meshes", Int. J. Computer Vision 32, 1999).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The 2-simplex mesh that is dual to the surface complex of all tissues (Delingette 1999; Audette et al. 2007, figure
 /// 3a).

@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SimplexOperators.h"
+
+#include "Compaction.h"
 
 #include <limits>
 #include <map>
@@ -606,20 +609,14 @@ double SimplexOperators::fusion(std::int32_t a, std::int32_t b) const
 SurfaceComplex SimplexOperators::surface(std::vector<std::int32_t>* pointIds) const
 {
   SurfaceComplex result;
-  std::vector<std::int32_t> newId(m_Points.size(), -1), ids;
-  for (std::size_t p = 0; p < m_Points.size(); ++p)
-    if (!m_At[p].empty())
-    {
-      newId[p] = std::int32_t(ids.size());
-      ids.push_back(std::int32_t(p));
-      result.points.push_back(m_Points[p]);
-    }
   for (const Triangle& t : m_Triangles)
     if (t.corners[0] >= 0)
     {
-      result.triangles.push_back({ newId[t.corners[0]], newId[t.corners[1]], newId[t.corners[2]] });
+      result.triangles.push_back(t.corners);
       result.labels.push_back(t.labels);
     }
+  std::vector<std::int32_t> ids = compactPoints(result.triangles, m_Points.size());
+  result.points = valuesAt(m_Points, ids);
   if (pointIds) *pointIds = std::move(ids);
   return result;
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The Eulerian operators of a simplex mesh (Delingette 1999; Audette et al. 2007, figure 3b), on the surface of all
 /// tissues at once and each with every guard. The mesh is held by its dual triangles: a simplex vertex is the centroid
@@ -59,8 +60,7 @@ public:
   bool alive(std::int32_t face) const { return !m_At[face].empty(); }
   std::size_t faceCount() const;
   std::vector<std::int32_t> faceNeighbours(std::int32_t a) const; ///< ascending
-  const std::vector<std::int32_t>& verticesOf(std::int32_t face) const { return m_At[face]; }
-  Vec3 vertex(std::int32_t v) const;              ///< simplex vertex
+  Vec3 vertex(std::int32_t v) const;                              ///< simplex vertex
   std::size_t mostVertices(std::int32_t a) const; ///< largest number of vertices of face a on the surface of one tissue
   /// Of the shortest simplex edge between faces a and b to its target; infinite if there is none.
   double edgeRatio(std::int32_t a, std::int32_t b) const;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Where the boundary between two tissues is, at sub-voxel position: what attracts the simplex mesh.
 

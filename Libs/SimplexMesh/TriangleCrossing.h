@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Whether two triangles of a surface cross: the test that keeps it free of self-intersections. It errs on the safe
 /// side: what comes within rounding of a crossing counts as one.

@@ -1,9 +1,9 @@
-// limitGradation: branch and bound over a pyramid of minima. A block of voxels is left out when even its least length, at
-// the distance of its nearest corner, would not lower what has been found so far.
+// SPDX-License-Identifier: Apache-2.0
+// limitGradation: branch and bound over a pyramid of minima. A block of voxels is left out when even its least length,
+// at the distance of its nearest corner, would not lower what has been found so far.
 
 #include "Gradation.h"
-
-#include <vtkSMPTools.h>
+#include "Parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,8 +54,8 @@ public:
 
   using Voxel = std::array<int, 3>;
 
-  /// min over voxels y of L(y) + slope |x - y|. `source` goes in as a guess and comes out as the y of the minimum; a good
-  /// guess, such as a neighbour's source, saves most of the search.
+  /// min over voxels y of L(y) + slope |x - y|. `source` goes in as a guess and comes out as the y of the minimum; a
+  /// good guess, such as a neighbour's source, saves most of the search.
   double at(const Voxel& x, Voxel& source) const
   {
     Search search{ x, source, cone(x, source) };
@@ -125,21 +125,18 @@ void limitGradation(ScaleField& scale, double slope)
 {
   const ConeEnvelope envelope(scale, slope);
   const Grid& grid = scale.grid;
-  vtkSMPTools::For(0, grid.size[2],
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (int k = int(begin); k < int(end); ++k)
-                     {
-                       for (int j = 0; j < grid.size[1]; ++j)
-                       {
-                         std::array<int, 3> source{ 0, j, k };
-                         for (int i = 0; i < grid.size[0]; ++i)
-                         {
-                           scale.lengths[grid.index(i, j, k)] = float(envelope.at({ i, j, k }, source));
-                         }
-                       }
-                     }
-                   });
+  parallelFor(grid.size[2],
+              [&](int k)
+              {
+                for (int j = 0; j < grid.size[1]; ++j)
+                {
+                  std::array<int, 3> source{ 0, j, k };
+                  for (int i = 0; i < grid.size[0]; ++i)
+                  {
+                    scale.lengths[grid.index(i, j, k)] = float(envelope.at({ i, j, k }, source));
+                  }
+                }
+              });
 }
 
 } // namespace surgicalmesher

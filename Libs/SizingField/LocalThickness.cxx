@@ -1,8 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "LocalThickness.h"
 
 #include "PaddedMap.h"
-
-#include <vtkSMPTools.h>
+#include "Parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -166,11 +166,7 @@ LocalThickness measureThickness(const TissueMap& map, const ScaleField& scale)
 {
   const TissueMap paddedMap = padded(map, margin);
   std::vector<LocalThickness> slices(map.grid.size[2]);
-  vtkSMPTools::For(0, map.grid.size[2],
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (vtkIdType k = begin; k < end; ++k) slices[k] = measureSlice(map, paddedMap, scale, int(k));
-                   });
+  parallelFor(map.grid.size[2], [&](vtkIdType k) { slices[k] = measureSlice(map, paddedMap, scale, int(k)); });
   LocalThickness result;
   for (const LocalThickness& slice : slices) append(result, slice);
   return result;

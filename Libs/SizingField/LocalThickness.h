@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How thick tissues are, at their surface, compared with the edge length asked for.
 

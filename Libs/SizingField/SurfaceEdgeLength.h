@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Target edge lengths for a surface: from its own points, or from a scale volume around it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Edge lengths that single tissues ask for, brought into the scale.
 

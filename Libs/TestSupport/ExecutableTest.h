@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// An executable as a host sees it: exit status, streams and files. POSIX only.
 

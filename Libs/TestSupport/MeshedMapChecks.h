@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What every meshed map has to be, whatever the map: shared by the tests and the fuzzer.
 

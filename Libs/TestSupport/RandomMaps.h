@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Random label maps for tests that must hold for every map.
 
@@ -26,8 +27,8 @@ inline bool faceConnected(unsigned mask)
   return reached == mask;
 }
 
-/// Whether every label of the map, background included, is joined through faces within every 2x2x2 block, and so are the
-/// others there.
+/// Whether every label of the map, background included, is joined through faces within every 2x2x2 block, and so are
+/// the others there.
 inline bool wellComposed(const TissueMap& map)
 {
   const Grid& grid = map.grid;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Scales for tests, on a grid of their own.
 
@@ -9,7 +10,8 @@
 namespace surgicalmesher::test
 {
 
-/// `low` mm up to `inner` mm from `centre` (world), then towards `high` over `decay` mm; sampled on 16^3 points over `grid`.
+/// `low` mm up to `inner` mm from `centre` (world), then towards `high` over `decay` mm; sampled on 16^3 points over
+/// `grid`.
 inline ScaleField radialScale(const Grid& grid, const Vec3& centre, double low, double high, double inner, double decay)
 {
   constexpr int samples = 16;

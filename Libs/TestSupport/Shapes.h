@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Closed test surfaces. All have tissue `inside` behind their normals and `outside` in front.
 

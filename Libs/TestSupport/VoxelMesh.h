@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Test shapes from voxels: maps painted by a function, and tetrahedra of a map.
 

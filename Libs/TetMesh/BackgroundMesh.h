@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The background tetrahedra: a labelled mesh of a whole box, the tissues and the space around them, with what remeshing
-/// needs to know of the map that it stands for.
+/// The background tetrahedra: a labelled mesh of a whole box, the tissues and the space around them, with what
+/// remeshing needs to know of the map that it stands for.
 
 #include "FaceAdjacency.h"
 
@@ -17,6 +17,8 @@ struct BackgroundMesh
     float tolerance; ///< mm, to the nearest face of its pair of labels
     std::int32_t tetrahedron;
     std::int32_t face; ///< opposite this vertex (0..3); the tetrahedron's label is the larger of the face's two
+    /// Normal of the boundary, out of the larger label, over the radius (mm) in which it is nearly plane; 0: not known.
+    std::array<float, 3> normal{ 0, 0, 0 };
   };
 
   TetMesh mesh;

@@ -1,6 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "BoundaryDistance.h"
-
-#include <vtkSMPTools.h>
+#include "Parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -44,7 +44,7 @@ double distanceToFaces(const TissueMap& map, const Vec3& p, const Voxel& centre)
 {
   constexpr int mostReach = 4; // voxels
   const Vec3 spacing = map.grid.spacing;
-  const double least = std::min({ spacing.x, spacing.y, spacing.z });
+  const double least = map.grid.smallestSpacing();
   double best = mostReach * least * mostReach * least;
   for (int reach = 0; reach <= mostReach; ++reach)
   {
@@ -74,18 +74,15 @@ std::vector<double> boundaryDistances(const SurfaceComplex& surface, const Tissu
   for (std::size_t t = surface.triangles.size(); t-- > 0;)
     for (std::int32_t v : surface.triangles[t]) front[v] = surface.labels[t][1];
   std::vector<double> out(surface.points.size());
-  vtkSMPTools::For(0, vtkIdType(out.size()),
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (vtkIdType v = begin; v < end; ++v)
-                     {
-                       const Vec3& p = surface.points[v];
-                       Voxel centre;
-                       for (int a = 0; a < 3; ++a) centre[a] = int(std::lround(p[a] / map.grid.spacing[a]));
-                       const double distance = distanceToFaces(map, p, centre);
-                       out[v] = labelAt(map, centre) == front[v] ? distance : -distance;
-                     }
-                   });
+  parallelFor(out.size(),
+              [&](vtkIdType v)
+              {
+                const Vec3& p = surface.points[v];
+                Voxel centre;
+                for (int a = 0; a < 3; ++a) centre[a] = int(std::lround(p[a] / map.grid.spacing[a]));
+                const double distance = distanceToFaces(map, p, centre);
+                out[v] = labelAt(map, centre) == front[v] ? distance : -distance;
+              });
   return out;
 }
 

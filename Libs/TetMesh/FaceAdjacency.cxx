@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "FaceAdjacency.h"
+
+#include "Compaction.h"
 
 #include <vtkSMPTools.h>
 
@@ -18,10 +21,10 @@ struct Face
   std::int32_t local;
 };
 
-Face faceOf(const TetMesh& mesh, std::size_t t, int f)
+Face faceOf(const std::vector<std::array<std::int32_t, 4>>& tetrahedra, std::size_t t, int f)
 {
   Face face{ {}, static_cast<std::int32_t>(t), f };
-  for (int c = 0; c < 3; ++c) face.points[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
+  for (int c = 0; c < 3; ++c) face.points[c] = tetrahedra[t][kFaceCorners[f][c]];
   std::sort(face.points.begin(), face.points.end());
   return face;
 }
@@ -55,27 +58,28 @@ FaceAdjacency faceAdjacency(const TetMesh& mesh)
 {
   FaceAdjacency result;
   result.across.assign(mesh.tetrahedra.size(), { -1, -1, -1, -1 });
-  result.overused = matchOpenFaces(mesh, result.across);
+  result.overused = matchOpenFaces(mesh.tetrahedra, mesh.points.size(), result.across);
   return result;
 }
 
-std::vector<std::int32_t> matchOpenFaces(const TetMesh& mesh, AcrossFaces& across)
+std::vector<std::int32_t> matchOpenFaces(const std::vector<std::array<std::int32_t, 4>>& tetrahedra,
+                                         std::size_t pointCount, AcrossFaces& across)
 {
   // Sorted by their first points by counting: of all faces of a mesh, some twenty of each are left to compare.
   const auto forEachOpen = [&](auto&& f)
   {
     for (std::size_t t = 0; t < across.size(); ++t)
       for (int local = 0; local < 4; ++local)
-        if (across[t][local] < 0) f(faceOf(mesh, t, local));
+        if (across[t][local] < 0) f(faceOf(tetrahedra, t, local));
   };
-  std::vector<std::size_t> end(mesh.points.size() + 1, 0);
+  std::vector<std::size_t> end(pointCount + 1, 0);
   forEachOpen([&](const Face& face) { ++end[face.points[0] + 1]; });
   std::partial_sum(end.begin(), end.end(), end.begin());
   std::vector<Face> faces(end.back());
   forEachOpen([&](const Face& face) { faces[end[face.points[0]]++] = face; });
   std::vector<std::int32_t> overused;
   std::mutex mutex;
-  vtkSMPTools::For(0, vtkIdType(mesh.points.size()),
+  vtkSMPTools::For(0, vtkIdType(pointCount),
                    [&](vtkIdType first, vtkIdType last)
                    {
                      std::vector<std::int32_t> here;
@@ -121,9 +125,7 @@ SurfaceComplex interfaceOf(const TetMesh& mesh, std::vector<std::int32_t>* point
 {
   const FaceAdjacency neighbours = faceAdjacency(mesh);
   SurfaceComplex surface;
-  std::vector<std::int32_t> surfaceId(mesh.points.size(), -1);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-  {
     for (int f = 0; f < 4; ++f)
     {
       const std::int32_t beyond = neighbours.across[t][f];
@@ -131,49 +133,27 @@ SurfaceComplex interfaceOf(const TetMesh& mesh, std::vector<std::int32_t>* point
       if (mesh.labels[t] <= front) continue;
       std::array<std::int32_t, 3> triangle;
       for (int c = 0; c < 3; ++c) triangle[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
-      for (const std::int32_t id : triangle) surfaceId[id] = 0;
       surface.triangles.push_back(triangle);
       surface.labels.push_back({ mesh.labels[t], front });
     }
-  }
-  if (pointIds) pointIds->clear();
-  for (std::size_t i = 0; i < surfaceId.size(); ++i)
-  {
-    if (surfaceId[i] < 0) continue;
-    surfaceId[i] = static_cast<std::int32_t>(surface.points.size());
-    surface.points.push_back(mesh.points[i]);
-    if (pointIds) pointIds->push_back(static_cast<std::int32_t>(i));
-  }
-  for (auto& triangle : surface.triangles)
-  {
-    for (std::int32_t& id : triangle) id = surfaceId[id];
-  }
+  std::vector<std::int32_t> ids = compactPoints(surface.triangles, mesh.points.size());
+  surface.points = valuesAt(mesh.points, ids);
+  if (pointIds) *pointIds = std::move(ids);
   return surface;
 }
 
 TetMesh withoutOutside(const TetMesh& mesh, std::vector<std::int32_t>* pointIds)
 {
   TetMesh result;
-  std::vector<std::int32_t> newId(mesh.points.size(), -1);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
   {
     if (mesh.labels[t] == 0) continue;
-    for (const std::int32_t id : mesh.tetrahedra[t]) newId[id] = 0;
     result.tetrahedra.push_back(mesh.tetrahedra[t]);
     result.labels.push_back(mesh.labels[t]);
   }
-  if (pointIds) pointIds->clear();
-  for (std::size_t i = 0; i < newId.size(); ++i)
-  {
-    if (newId[i] < 0) continue;
-    newId[i] = static_cast<std::int32_t>(result.points.size());
-    result.points.push_back(mesh.points[i]);
-    if (pointIds) pointIds->push_back(static_cast<std::int32_t>(i));
-  }
-  for (auto& tetrahedron : result.tetrahedra)
-  {
-    for (std::int32_t& id : tetrahedron) id = newId[id];
-  }
+  std::vector<std::int32_t> ids = compactPoints(result.tetrahedra, mesh.points.size());
+  result.points = valuesAt(mesh.points, ids);
+  if (pointIds) *pointIds = std::move(ids);
   return result;
 }
 

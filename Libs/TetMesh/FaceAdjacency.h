@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Which tetrahedra share a face; the surface between labels, and the mesh without what lies outside.
 
@@ -27,8 +28,9 @@ struct FaceAdjacency
 
 FaceAdjacency faceAdjacency(const TetMesh& mesh);
 
-/// Finds the neighbours that are not in `across` yet; returns the overused tetrahedra among those faces.
-std::vector<std::int32_t> matchOpenFaces(const TetMesh& mesh, AcrossFaces& across);
+/// Finds the neighbours that are not in `across` yet; returns the overused tetrahedra among those faces, ascending.
+std::vector<std::int32_t> matchOpenFaces(const std::vector<std::array<std::int32_t, 4>>& tetrahedra,
+                                         std::size_t pointCount, AcrossFaces& across);
 
 /// Regions of tetrahedra joined through faces: the region of each tetrahedron, numbered from 0 in the order of their
 /// first tetrahedra. `joined(t, f)` says whether the face may be passed; it must say the same from both sides, and is

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What must hold for a surface complex and for labelled tetrahedra, checked from scratch: the last word of every run,
 /// the first about foreign files, and what the tests assert.

@@ -1,6 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "MeshIO.h"
 
+#include "Compaction.h"
 #include "Errors.h"
+#include "HeaderClaims.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -37,6 +40,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <set>
 
 namespace surgicalmesher
@@ -59,6 +63,8 @@ constexpr const char* kTargetAngle = "TargetDihedralAngle";
 constexpr const char* kTissueNames = "TissueNames";
 constexpr const char* kTissueColors = "TissueColors";
 constexpr const char* kTissueRoles = "TissueRoles";
+constexpr const char* kShell = "shell"; // a role, as the next
+constexpr const char* kNullDisplacement = "null displacement";
 
 /// Keeps the first error VTK reports while it lives: readers tell of damaged content in no other way.
 class ErrorWindow : public vtkOutputWindow
@@ -145,7 +151,14 @@ run(Reader* reader, const std::string& file, const std::string& format)
 {
   ErrorCatcher errors;
   reader->SetFileName(file.c_str());
-  reader->Update();
+  try
+  {
+    reader->Update();
+  }
+  catch (const std::bad_alloc&)
+  {
+    refuse(file, "not enough memory for what its " + format + " header promises");
+  }
   if (errors.any()) refuse(file, "not a readable " + format + " file (" + errors.message() + ")");
   if (reader->GetErrorCode() != 0) refuse(file, "not a readable " + format + " file");
   return reader->GetOutput();
@@ -335,38 +348,6 @@ constexpr double kAnyNumber = -std::numeric_limits<double>::infinity();
 constexpr int kHighestLabel = std::numeric_limits<Label>::max();
 constexpr int kHighestInteger = std::numeric_limits<std::int32_t>::max();
 
-/// Drops the points that nothing refers to, in all arrays alike; the order of the others stays.
-template <class Cells>
-std::vector<std::size_t> compact(std::vector<Vec3>& points, Cells& cells)
-{
-  std::vector<std::int32_t> newId(points.size(), -1);
-  for (const auto& cell : cells)
-  {
-    for (const std::int32_t id : cell) newId[id] = 0;
-  }
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    if (newId[i] < 0) continue;
-    newId[i] = static_cast<std::int32_t>(kept.size());
-    points[kept.size()] = points[i];
-    kept.push_back(i);
-  }
-  points.resize(kept.size());
-  for (auto& cell : cells)
-  {
-    for (std::int32_t& id : cell) id = newId[id];
-  }
-  return kept;
-}
-
-void keepOnly(std::vector<double>& values, const std::vector<std::size_t>& kept)
-{
-  if (values.empty()) return;
-  for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
-  values.resize(kept.size());
-}
-
 void requireIdRange(vtkIdType count, const char* what, const std::string& file)
 {
   if (count > kHighestInteger)
@@ -434,13 +415,14 @@ void addFieldData(vtkFieldData* data, const std::set<Label>& present, const Tiss
     ids.push_back(label);
     names.push_back(tissue.name.empty() ? "tissue " + std::to_string(label) : tissue.name);
     colors.insert(colors.end(), tissue.color.begin(), tissue.color.end());
-    roles.push_back(tissue.isShell ? "shell" : "mesh");
+    roles.push_back(tissue.isShell ? kShell : tissue.isNullDisplacement ? kNullDisplacement : "mesh");
   }
   if (ids.empty()) return;
   addArray<vtkIntArray>(data, kTissueIds, ids);
   addStrings(data, kTissueNames, names);
   addArray<vtkDoubleArray>(data, kTissueColors, colors, 3);
-  if (std::count(roles.begin(), roles.end(), "shell") > 0) addStrings(data, kTissueRoles, roles);
+  const bool hasRoles = std::any_of(roles.begin(), roles.end(), [](const std::string& role) { return role != "mesh"; });
+  if (hasRoles) addStrings(data, kTissueRoles, roles);
 }
 
 /// 0 where there is none that means something.
@@ -472,13 +454,15 @@ void writeXML(Writer* writer, vtkDataSet* data, const std::string& file)
   writeBytes(writer->GetOutputString(), file);
 }
 
-void writeLegacy(vtkUnstructuredGrid* grid, const std::string& file)
+void writeLegacy(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts texts)
 {
   ErrorCatcher errors;
   vtkNew<vtkUnstructuredGridWriter> writer;
   writer->SetInputData(grid);
   writer->SetHeader("SurgicalMesher tetrahedra; SPACE=LPS");
-  writer->SetFileTypeToBinary();
+  // What other readers stumble over is left out: bytes to swap, and field data before the points.
+  if (texts == FieldTexts::LeftOut) writer->SetFileTypeToASCII();
+  else writer->SetFileTypeToBinary();
   writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2); // what solvers and older readers understand
   writer->WriteToOutputStringOn();
   if (!writer->Write() || errors.any()) refuse(file, "can't be composed (" + errors.message() + ")");
@@ -529,7 +513,7 @@ std::vector<std::array<std::int32_t, 4>> tetrahedraOf(vtkUnstructuredGrid* grid,
   return tetrahedra;
 }
 
-void requireSound(const TetMesh& mesh, const std::string& file)
+void requirePositive(const TetMesh& mesh, const std::string& file)
 {
   std::vector<bool> used(mesh.points.size(), false);
   for (std::size_t i = 0; i < mesh.tetrahedra.size(); ++i)
@@ -553,6 +537,7 @@ void requireSound(const TetMesh& mesh, const std::string& file)
 SurfaceFile readSurface(const std::string& file)
 {
   requireReadable(file);
+  requireCredibleHeader(file);
   const PolyDataFromFile source = readPolyData(file);
   const vtkSmartPointer<vtkPolyData> data = trianglesOf(source.data, file);
   requireIdRange(data->GetNumberOfPoints(), "points", file);
@@ -594,9 +579,10 @@ SurfaceFile readSurface(const std::string& file)
   result.targetEdgeLength = numbersOf(data->GetPointData(), kTargetEdgeLength, pointCount, 0, file);
   result.boundaryDistance = numbersOf(data->GetPointData(), kBoundaryDistance, pointCount, kAnyNumber, file);
   result.tissues = tissuesOf(source.data->GetFieldData());
-  const std::vector<std::size_t> kept = compact(surface.points, surface.triangles);
-  keepOnly(result.targetEdgeLength, kept);
-  keepOnly(result.boundaryDistance, kept);
+  const std::vector<std::int32_t> kept = compactPoints(surface.triangles, surface.points.size());
+  surface.points = valuesAt(surface.points, kept);
+  result.targetEdgeLength = valuesAt(result.targetEdgeLength, kept);
+  result.boundaryDistance = valuesAt(result.boundaryDistance, kept);
   return result;
 }
 
@@ -643,6 +629,7 @@ void writePolygons(const PolygonFile& content, const std::string& file)
 MeshFile readMesh(const std::string& file)
 {
   requireReadable(file);
+  requireCredibleHeader(file);
   bool ras = false;
   const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(file, ras);
   return meshOfGrid(grid, ras, file);
@@ -670,7 +657,7 @@ MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name
   result.interfaceId = integersOf(grid->GetPointData(), kInterfaceId, pointCount, kHighestInteger, name, -1);
   result.tissues = tissuesOf(grid->GetFieldData());
   result.targetAngle = targetAngleOf(grid->GetFieldData());
-  requireSound(result.mesh, name);
+  requirePositive(result.mesh, name);
   return result;
 }
 
@@ -687,7 +674,9 @@ TissueTable tissuesOf(vtkFieldData* data)
     if (!(id >= 0 && id <= kHighestLabel)) continue;
     Tissue& tissue = table[static_cast<Label>(id)];
     if (names && i < names->GetNumberOfValues()) tissue.name = names->GetValue(i);
-    tissue.isShell = roles && i < roles->GetNumberOfValues() && roles->GetValue(i) == "shell";
+    const std::string role = roles && i < roles->GetNumberOfValues() ? roles->GetValue(i) : std::string();
+    tissue.isShell = role == kShell;
+    tissue.isNullDisplacement = role == kNullDisplacement;
     if (colors && colors->GetNumberOfComponents() == 3 && i < colors->GetNumberOfTuples())
     {
       colors->GetTuple(i, tissue.color.data());
@@ -716,7 +705,8 @@ void writeMesh(const MeshFile& content, const std::string& file, FieldTexts text
   const std::string extension = extensionOf(file);
   if (extension == ".vtk")
   {
-    writeLegacy(grid, file);
+    if (texts == FieldTexts::LeftOut) grid->GetFieldData()->Initialize();
+    writeLegacy(grid, file, texts);
     return;
   }
   if (extension != ".vtu") refuse(file, "tetrahedra are written as .vtu or .vtk");

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Surface complexes and labelled tetrahedra as VTK files.
 ///
@@ -34,8 +35,8 @@ struct SurfaceFile
 SurfaceFile readSurface(const std::string& file);
 
 /// Writes a .vtp: BoundaryLabels (if any), TargetEdgeLength and BoundaryDistance (if not empty), SPACE, TissueIds,
-/// TissueNames, TissueColors (RGB in 0..1) and, where there is a shell, TissueRoles ("mesh", "shell") of the tissues that
-/// occur.
+/// TissueNames, TissueColors (RGB in 0..1) and, where not all are meshed alike, TissueRoles ("mesh", "shell",
+/// "null displacement") of the tissues that occur.
 void writeSurface(const SurfaceFile& content, const std::string& file);
 
 /// Polygons of one tissue each, a simplex mesh for one, and what travels with them in their file.
@@ -70,22 +71,24 @@ struct MeshFile
 /// or flat, points that no tetrahedron uses.
 MeshFile readMesh(const std::string& file);
 
-/// The same from memory. `ras`: the grid's coordinates are RAS, which its field data need not know; `name` stands for the
-/// file in messages.
+/// The same from memory. `ras`: the grid's coordinates are RAS, which its field data need not know; `name` stands for
+/// the file in messages.
 MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name);
 
-/// Names, colours and roles in field data; tables that are incomplete or of other kinds are left out, as nothing depends
-/// on them.
+/// Names, colours and roles in field data; tables that are incomplete or of other kinds are left out, as nothing
+/// depends on them.
 TissueTable tissuesOf(vtkFieldData* data);
 
-/// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them.
+/// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them. Legacy files
+/// without them are text, to eleven digits, and have no field data at all: Gmsh 4.8 refuses it before the points, and
+/// SOFA does not swap the bytes of cell data.
 enum class FieldTexts
 {
   Written,
   LeftOut
 };
 
-/// Writes a .vtu (compressed) or a legacy .vtk (binary), by the file's extension.
+/// Writes a .vtu (compressed) or a legacy .vtk (binary, unless texts are left out), by the file's extension.
 void writeMesh(const MeshFile& content, const std::string& file, FieldTexts texts = FieldTexts::Written);
 
 /// Writes `bytes` to `file`, and throws InputError unless all of them arrived there.

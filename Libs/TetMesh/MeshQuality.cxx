@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "MeshQuality.h"
 
 #include "FaceAdjacency.h"
@@ -142,23 +143,16 @@ struct Context
   Context(const TetMesh& ofMesh, const std::function<double(const Vec3&)>& edgeLength)
     : mesh(ofMesh), measures(mesh.tetrahedra.size())
   {
-    vtkSMPTools::For(0, vtkIdType(measures.size()),
-                     [&](vtkIdType begin, vtkIdType end)
-                     {
-                       for (vtkIdType t = begin; t < end; ++t) measures[t] = measuresOf(mesh, std::size_t(t));
-                     });
+    parallelFor(measures.size(), [&](vtkIdType t) { measures[t] = measuresOf(mesh, std::size_t(t)); });
     if (!edgeLength) return;
     edges = edgesOf(mesh);
     edgeOverTarget.resize(edges.ends.size());
-    vtkSMPTools::For(0, vtkIdType(edgeOverTarget.size()),
-                     [&](vtkIdType begin, vtkIdType end)
-                     {
-                       for (vtkIdType e = begin; e < end; ++e)
-                       {
-                         const Vec3 &a = mesh.points[edges.ends[e][0]], &b = mesh.points[edges.ends[e][1]];
-                         edgeOverTarget[e] = norm(b - a) / edgeLength(0.5 * (a + b));
-                       }
-                     });
+    parallelFor(edgeOverTarget.size(),
+                [&](vtkIdType e)
+                {
+                  const Vec3 &a = mesh.points[edges.ends[e][0]], &b = mesh.points[edges.ends[e][1]];
+                  edgeOverTarget[e] = norm(b - a) / edgeLength(0.5 * (a + b));
+                });
   }
 };
 
@@ -284,22 +278,6 @@ std::string nameOf(Label label, const TissueTable& tissues)
 {
   const auto found = tissues.find(label);
   return found == tissues.end() ? std::string() : found->second.name;
-}
-
-std::string quoted(const std::string& text)
-{
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return result + "\"";
-}
-
-void writeRow(std::ostream& stream, const std::string& kind, int id, const std::string& name, const QualityGroup& group)
-{
-  stream << kind << ',' << id << ',' << quoted(name) << ',' << group.tetrahedra << ',' << group.points << ','
-         << group.volume << ',' << group.dihedral.minimum << ',' << group.dihedral.maximum << ','
-         << group.minimumDihedral.mean << ',' << group.radiusRatio.minimum << ',' << group.radiusRatio.mean << ','
-         << group.scaledJacobian.minimum << ',' << group.scaledJacobian.mean << ',' << group.tetrahedronVolume.minimum
-         << ',' << group.edgeOverTarget.mean << ',' << group.edgesNearTarget << ',' << group.valence.median << '\n';
 }
 
 } // namespace
@@ -443,21 +421,6 @@ std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues)
   writer.EndObject();
   writer.EndObject();
   return buffer.GetString();
-}
-
-std::string qualityCSV(const MeshQuality& quality, const TissueTable& tissues)
-{
-  std::ostringstream stream;
-  stream.imbue(std::locale::classic());
-  stream.precision(9);
-  stream << "group,id,name,tetrahedra,points,volume,dihedral minimum,dihedral maximum,minimum dihedral mean,"
-            "radius ratio minimum,radius ratio mean,scaled Jacobian minimum,scaled Jacobian mean,"
-            "tetrahedron volume minimum,edge over target mean,edges near target,valence median\n";
-  writeRow(stream, "mesh", 0, "", quality.whole);
-  for (const auto& [label, group] : quality.tissues) writeRow(stream, "tissue", label, nameOf(label, tissues), group);
-  for (const auto& [id, group] : quality.subMeshes)
-    writeRow(stream, "subMesh", id, id == 0 ? "parent" : "child", group);
-  return stream.str();
 }
 
 } // namespace surgicalmesher

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How good a tetrahedral mesh is for finite elements: measures of one tetrahedron, and their distributions over the
 /// mesh, its tissues and its sub-meshes.
@@ -77,8 +78,5 @@ MeshQuality assessQuality(const TetMesh& mesh, const std::vector<std::int32_t>& 
 
 /// One JSON object: whole, tissues, subMeshes, histograms.
 std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues);
-
-/// One row per group: the whole mesh, every tissue, every sub-mesh; the first row names the columns.
-std::string qualityCSV(const MeshQuality& quality, const TissueTable& tissues);
 
 } // namespace surgicalmesher

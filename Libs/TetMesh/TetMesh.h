@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A labelled tetrahedral mesh as plain arrays, and the surface complex between its labels: what the stages hand on.
 

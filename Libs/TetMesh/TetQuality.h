@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The measures that every guarded operation compares: the squared sines of a tetrahedron's worst dihedral angle and of a
-/// triangle's smallest one.
+/// The measures that every guarded operation compares: the squared sines of a tetrahedron's worst dihedral angle and of
+/// a triangle's smallest one.
 
 #include "Vec3.h"
 
@@ -10,8 +11,8 @@
 namespace surgicalmesher
 {
 
-/// min over the six edges of sin^2(dihedral angle), in [0, 8/9]; negative if abcd is flat or wound negatively.
-/// Small and large angles count alike: 30 and 150 degrees both give 1/4. With V6 = 6 V and N the face normals of twice the
+/// min over the six edges of sin^2(dihedral angle), in [0, 8/9]; negative if abcd is flat or wound negatively. Small
+/// and large angles count alike: 30 and 150 degrees both give 1/4. With V6 = 6 V and N the face normals of twice the
 /// faces' area, sin(angle at e) = V6 |e| / (|N1| |N2|).
 inline double worstSine2(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
@@ -27,8 +28,8 @@ inline double worstSine2(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
   return v6 * v6 * worst;
 }
 
-/// sin^2 of the smallest angle of a triangle, in [0, 3/4]: that between its two longest sides, whose squared lengths are among
-/// x, y and z; `area2` is the square of twice its area.
+/// sin^2 of the smallest angle of a triangle, in [0, 3/4]: that between its two longest sides, whose squared lengths
+/// are among x, y and z; `area2` is the square of twice its area.
 inline double smallestSine2(double area2, double x, double y, double z)
 {
   const double least = x < y ? x : y, most = x < y ? y : x;

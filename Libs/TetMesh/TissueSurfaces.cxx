@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueSurfaces.h"
 
 #include "Structures.h"
 
 #include <algorithm>
+#include <set>
 
 namespace surgicalmesher
 {
@@ -47,7 +49,43 @@ std::string escaped(const std::string& text)
   return result;
 }
 
+/// Whether the triangles with this label in front close up around a volume.
+bool isWholeInFront(const SurfaceComplex& surface, Label label)
+{
+  std::map<std::pair<std::int32_t, std::int32_t>, int> balance; // of each edge's directions
+  double volume = 0;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+  {
+    if (surface.labels[t][1] != label) continue;
+    const auto& ids = surface.triangles[t];
+    volume -= dot(surface.points[ids[0]], cross(surface.points[ids[1]], surface.points[ids[2]]));
+    for (int n = 0; n < 3; ++n)
+    {
+      const std::int32_t from = ids[n], to = ids[(n + 1) % 3];
+      balance[std::minmax(from, to)] += from < to ? 1 : -1;
+    }
+  }
+  return volume > 0 && std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
 } // namespace
+
+std::optional<Label> leaveNeighboursOut(SurfaceComplex& surface)
+{
+  if (surface.labels.empty()) return {};
+  const Label tissue = surface.labels.front()[0];
+  std::set<Label> neighbours;
+  for (const auto& [behind, front] : surface.labels)
+  {
+    if (behind != tissue) return {};
+    if (front != 0) neighbours.insert(front);
+  }
+  const bool areWhole =
+    std::all_of(neighbours.begin(), neighbours.end(), [&](Label label) { return isWholeInFront(surface, label); });
+  if (tissue == 0 || neighbours.empty() || areWhole) return {};
+  for (auto& sides : surface.labels) sides[1] = 0;
+  return tissue;
+}
 
 std::map<Label, SurfaceFile> tissueSurfaces(const SurfaceFile& content)
 {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The order in which the voxels of every tissue map and scale volume are held, whatever the order of their source.
 

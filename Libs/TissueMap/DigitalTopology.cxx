@@ -1,4 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "DigitalTopology.h"
+
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <array>
@@ -12,43 +15,12 @@ namespace
 using Index = std::uint32_t;
 using Edge = std::pair<Index, Index>; // ascending region indices
 
-/// Sets of runs; every set is represented by its first run.
-class DisjointSets
-{
-public:
-  Index add()
-  {
-    m_Parent.push_back(Index(m_Parent.size()));
-    return m_Parent.back();
-  }
-
-  Index find(Index a)
-  {
-    while (m_Parent[a] != a)
-    {
-      m_Parent[a] = m_Parent[m_Parent[a]];
-      a = m_Parent[a];
-    }
-    return a;
-  }
-
-  void unite(Index a, Index b)
-  {
-    a = find(a);
-    b = find(b);
-    m_Parent[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<Index> m_Parent;
-};
-
 /// The runs of a map, their sets still being united: set 0 is the outside, set r + 1 that of run r.
 struct RunUnion
 {
   const TissueMap& map;
   Regions regions;
-  DisjointSets sets;
+  UnionFind sets;
 
   const Label* row(std::size_t row) const { return map.labels.data() + row * map.grid.size[0]; }
   Index end(std::size_t run, std::size_t row) const

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Digital topology of a label map: its face-connected regions, and the Betti numbers of every tissue under (6, 26)
 /// connectivity (voxels of a tissue are neighbours across faces, those of its complement across corners as well).

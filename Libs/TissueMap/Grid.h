@@ -1,9 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A regular voxel grid in space: where voxel (i, j, k) lies.
 ///
-/// Two frames appear in the project. *World* is the frame of the files (LPS, mm). The *grid frame* has its origin at the
-/// centre of voxel (0, 0, 0), its axes along i, j, k, and millimetres as its unit. The two differ by a rotation and a
-/// translation only, so lengths, angles and the sign of volumes agree. All meshing is done in the grid frame of the
+/// Two frames appear in the project. *World* is the frame of the files (LPS, mm). The *grid frame* has its origin at
+/// the centre of voxel (0, 0, 0), its axes along i, j, k, and millimetres as its unit. The two differ by a rotation and
+/// a translation only, so lengths, angles and the sign of volumes agree. All meshing is done in the grid frame of the
 /// tissue map: a map and its rotated copy then give the same mesh, to rounding, in their own worlds.
 
 #include "Vec3.h"

@@ -1,12 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ImageData.h"
 
 #include "Errors.h"
 #include "TextFile.h"
+#include "Vec3.h"
 
 #include <itk_zlib.h>
 #include <itksys/SystemTools.hxx>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <fstream>
 #include <vector>
 
@@ -132,6 +137,45 @@ std::uint64_t inflatedSize(std::istream& stream, std::uint64_t enough)
 }
 
 } // namespace
+
+std::optional<NiftiPlacement> readNiftiPlacement(const std::string& file)
+{
+  constexpr std::size_t headerSize = 348;
+  std::array<unsigned char, headerSize> bytes{};
+  const gzFile stream = gzopen(file.c_str(), "rb"); // reads what is not compressed, too
+  if (!stream) return {};
+  const bool isWhole = gzread(stream, bytes.data(), headerSize) == int(headerSize);
+  gzclose(stream);
+  const auto integer = [&](std::size_t at, int length, bool swap)
+  {
+    std::uint32_t value = 0;
+    for (int n = 0; n < length; ++n) value |= std::uint32_t(bytes[at + (swap ? length - 1 - n : n)]) << (8 * n);
+    return value;
+  };
+  if (!isWhole || bytes[344] != 'n' || bytes[346] != '1') return {};
+  const bool swap = integer(0, 4, false) != headerSize;
+  NiftiPlacement placement;
+  placement.isInMetres = (bytes[123] & 7) == 1;
+  placement.sformCode = int(integer(254, 2, swap));
+  std::array<Vec3, 3> columns;
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      const std::uint32_t bits = integer(280 + 16 * row + 4 * column, 4, swap);
+      float value = 0;
+      std::memcpy(&value, &bits, sizeof(value));
+      columns[column][row] = value;
+    }
+  }
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const Vec3 &a = columns[axis], &b = columns[(axis + 1) % 3];
+    const double sine = std::min(1.0, std::abs(dot(a, b)) / (norm(a) * norm(b)));
+    placement.skew = std::max(placement.skew, std::asin(sine) * 180 / 3.14159265358979323846);
+  }
+  return placement;
+}
 
 void requireImageData(const std::string& imageFile, std::uint64_t byteCount)
 {

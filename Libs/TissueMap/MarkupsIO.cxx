@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueMapIO.h"
 
 #include "Errors.h"
@@ -57,29 +58,59 @@ Vec3 readPosition(const Json& controlPoint, const std::string& file)
   return p;
 }
 
+/// `isPlaced` of every control point of the file; values of those that are not are dropped with them.
+void readMeasurements(const Json& markup, const std::vector<bool>& isPlaced, Markup& result)
+{
+  const Json* measurements = member(markup, "measurements");
+  if (!measurements || !measurements->IsArray()) return;
+  for (const Json& measurement : measurements->GetArray())
+  {
+    const Json* values = measurement.IsObject() ? member(measurement, "controlPointValues") : nullptr;
+    if (!values || !values->IsArray() || values->Size() != isPlaced.size()) continue;
+    std::vector<double> kept;
+    for (rapidjson::SizeType n = 0; n < values->Size(); ++n)
+    {
+      const Json& value = (*values)[n];
+      if (isPlaced[n] && value.IsNumber() && std::isfinite(value.GetDouble())) kept.push_back(value.GetDouble());
+    }
+    const std::string name = textMember(measurement, "name", "");
+    if (kept.size() == result.points.size() && !name.empty()) result.pointValues[name] = kept;
+  }
+}
+
 /// The control points that are placed: Slicer also keeps points "undefined", "missing" and "preview".
-Points readMarkup(const Json& markup, const std::string& file)
+Markup readMarkup(const Json& markup, const std::string& file)
 {
   const Json* controlPoints = markup.IsObject() ? member(markup, "controlPoints") : nullptr;
   if (!controlPoints || !controlPoints->IsArray()) throw InputError(file + ": a markup without controlPoints");
   const bool ras = isRas(textMember(markup, "coordinateSystem", "LPS"), file);
   const std::string units = textMember(markup, "coordinateUnits", "mm");
   if (units != "mm") throw InputError(file + ": coordinates in \"" + units + "\", expected mm");
-  Points points;
+  Markup result;
+  std::vector<bool> isPlaced;
   for (const Json& controlPoint : controlPoints->GetArray())
   {
-    if (controlPoint.IsObject() && textMember(controlPoint, "positionStatus", "defined") != "defined") continue;
-    points.push_back(toLps(readPosition(controlPoint, file), ras));
+    isPlaced.push_back(!controlPoint.IsObject() || textMember(controlPoint, "positionStatus", "defined") == "defined");
+    if (!isPlaced.back()) continue;
+    result.points.push_back(toLps(readPosition(controlPoint, file), ras));
+    result.labels.push_back(textMember(controlPoint, "label", ""));
   }
+  readMeasurements(markup, isPlaced, result);
   const bool isClosed = textMember(markup, "type", "") == "ClosedCurve";
-  if (isClosed && points.size() > 1) points.push_back(points.front());
-  return points;
+  if (isClosed && result.points.size() > 1)
+  {
+    result.points.push_back(result.points.front());
+    result.labels.push_back(result.labels.front());
+    for (auto& entry : result.pointValues) entry.second.push_back(entry.second.front());
+  }
+  return result;
 }
 
-std::vector<Points> readJson(const std::string& file)
+std::vector<Markup> readJson(const std::string& file)
 {
   rapidjson::Document document;
-  document.Parse<rapidjson::kParseFullPrecisionFlag>(text::readTextFile(file).c_str());
+  // Iterative: nested brackets without end would use up the stack.
+  document.Parse<rapidjson::kParseFullPrecisionFlag | rapidjson::kParseIterativeFlag>(text::readTextFile(file).c_str());
   if (document.HasParseError())
   {
     throw InputError(file + ": not valid JSON at byte " + std::to_string(document.GetErrorOffset()) + " (" +
@@ -87,7 +118,7 @@ std::vector<Points> readJson(const std::string& file)
   }
   const Json* markups = document.IsObject() ? member(document, "markups") : nullptr;
   if (!markups || !markups->IsArray()) throw InputError(file + ": no array \"markups\", expected a markups file");
-  std::vector<Points> lists;
+  std::vector<Markup> lists;
   for (const Json& markup : markups->GetArray()) lists.push_back(readMarkup(markup, file));
   return lists;
 }
@@ -100,8 +131,14 @@ std::string commentValue(const std::string& line, const std::string& key)
   return text::trimmed(line.substr(equal + 1));
 }
 
-/// Where the column is called x; y and z follow it.
-std::size_t firstCoordinate(const std::string& columns, const std::string& file)
+/// Where an .fcsv file keeps what. Version 3 files have label,x,y,z,sel,vis; version 4 files name their columns.
+struct Columns
+{
+  std::size_t x = 1; ///< y and z follow it
+  std::size_t label = 0;
+};
+
+Columns readColumns(const std::string& columns, const std::string& file)
 {
   const std::vector<std::string> names = text::splitFields(columns);
   const auto x = std::find(names.begin(), names.end(), "x");
@@ -109,15 +146,17 @@ std::size_t firstCoordinate(const std::string& columns, const std::string& file)
   {
     throw InputError(file + ": columns \"" + columns + "\", expected x,y,z among them");
   }
-  return std::size_t(x - names.begin());
+  const auto label = std::find(names.begin(), names.end(), "label");
+  return { std::size_t(x - names.begin()), std::size_t(label - names.begin()) };
 }
 
-/// Version 3 files (label,x,y,z,sel,vis) and version 4 files (id,x,y,z,ow,...) both have x second and both default to RAS.
-std::vector<Points> readFcsv(const std::string& file)
+/// Version 3 files (label,x,y,z,sel,vis) and version 4 files (id,x,y,z,ow,...) both have x second and both default to
+/// RAS.
+std::vector<Markup> readFcsv(const std::string& file)
 {
   bool ras = true;
-  std::size_t x = 1;
-  Points points;
+  Columns layout;
+  Markup markup;
   const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
   for (std::size_t n = 0; n < lines.size(); ++n)
   {
@@ -128,20 +167,21 @@ std::vector<Points> readFcsv(const std::string& file)
       const std::string system = commentValue(line, "CoordinateSystem");
       const std::string columns = commentValue(line, "columns");
       if (!system.empty()) ras = isRas(system, file);
-      if (!columns.empty()) x = firstCoordinate(columns, file);
+      if (!columns.empty()) layout = readColumns(columns, file);
       continue;
     }
     const std::vector<std::string> fields = text::splitFields(line);
     Vec3 p;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      if (x + axis < fields.size() && text::parseNumber(fields[x + axis], p[int(axis)])) continue;
+      if (layout.x + axis < fields.size() && text::parseNumber(fields[layout.x + axis], p[int(axis)])) continue;
       throw InputError(file + ":" + std::to_string(n + 1) + ": \"" + line.substr(0, 60) +
                        "\", expected three finite coordinates");
     }
-    points.push_back(toLps(p, ras));
+    markup.points.push_back(toLps(p, ras));
+    markup.labels.push_back(layout.label < fields.size() ? fields[layout.label] : std::string());
   }
-  return { points };
+  return { markup };
 }
 
 bool endsWith(const std::string& text, const std::string& end)
@@ -151,17 +191,24 @@ bool endsWith(const std::string& text, const std::string& end)
 
 } // namespace
 
-std::vector<std::vector<Vec3>> readMarkups(const std::string& file)
+std::vector<Markup> readLabelledMarkups(const std::string& file)
 {
   const std::string name = text::lowerCase(file);
   text::requireReadableFile(file);
-  std::vector<Points> lists;
+  std::vector<Markup> lists;
   if (endsWith(name, ".json")) lists = readJson(file);
   else if (endsWith(name, ".fcsv")) lists = readFcsv(file);
   else throw InputError(file + ": not a markups file, expected .mrk.json or .fcsv");
-  lists.erase(std::remove_if(lists.begin(), lists.end(), [](const Points& points) { return points.empty(); }),
+  lists.erase(std::remove_if(lists.begin(), lists.end(), [](const Markup& markup) { return markup.points.empty(); }),
               lists.end());
   if (lists.empty()) throw InputError(file + ": no control point, expected at least one with a defined position");
+  return lists;
+}
+
+std::vector<std::vector<Vec3>> readMarkups(const std::string& file)
+{
+  std::vector<Points> lists;
+  for (const Markup& markup : readLabelledMarkups(file)) lists.push_back(markup.points);
   return lists;
 }
 
@@ -176,12 +223,15 @@ Focus readFocus(const std::vector<Vec3>& targetPoints, const std::vector<std::st
       focus.targets.insert(focus.targets.end(), points.begin(), points.end());
   }
   if (pathPoints.size() == 1) throw UsageError("--pathPoint is given once, expected two points or more");
+  if (pathPoints.size() > 1 && !(pathLength(pathPoints) > 0))
+    throw UsageError("--pathPoint: a path of length 0, expected points that differ");
   if (!pathPoints.empty()) focus.paths.push_back(pathPoints);
   for (const std::string& file : pathFiles)
   {
     for (const Path& path : readMarkups(file))
     {
       if (path.size() < 2) throw InputError(file + ": a path of one point, expected two points or more");
+      if (!(pathLength(path) > 0)) throw InputError(file + ": a path of length 0, expected points that differ");
       focus.paths.push_back(path);
     }
   }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "MemoryEstimate.h"
 
 #include "Errors.h"
@@ -55,7 +56,7 @@ double countCubes(const TissueMap& map, const ScaleField& scale)
   const Grid& grid = map.grid;
   std::array<int, 3> step;
   for (int axis = 0; axis < 3; ++axis) step[axis] = int((grid.size[axis] - 1) / mostSamplesPerAxis) + 1;
-  const double voxel = std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });
+  const double voxel = grid.smallestSpacing();
   const double nearCubes = grid.spacing.x * grid.spacing.y * grid.spacing.z / (voxel * voxel * voxel); // per voxel
   double cubes = 0;
   for (int k = 0; k < grid.size[2]; k += step[2])
@@ -85,7 +86,7 @@ std::string inGigabytes(std::uint64_t bytes)
 
 std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale)
 {
-  const double voxel = std::min({ map.grid.spacing.x, map.grid.spacing.y, map.grid.spacing.z });
+  const double voxel = map.grid.smallestSpacing();
   double faces = 0;
   for (int axis = 0; axis < 3; ++axis)
   {

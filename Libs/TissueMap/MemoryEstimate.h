@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How much memory meshing a map will take, before it is meshed: better refused at once than ended by the system later.
 
@@ -17,8 +18,8 @@ namespace surgicalmesher
 ///
 ///     bytes = 25 MB + 750 F + 370 K + 40 N
 ///
-/// The constants were fitted to the peaks below and then raised, so that the estimate errs on the safe side. Estimate over
-/// measured peak (MB), islands under 30 mm^3 removed:
+/// The constants were fitted to the peaks below and then raised, so that the estimate errs on the safe side. Estimate
+/// over measured peak (MB), islands under 30 mm^3 removed:
 ///
 ///                                                   measured  estimate
 ///     box of 60 mm of jhu189, L 0.7 to 8 mm             114      1.14
@@ -36,8 +37,8 @@ namespace surgicalmesher
 /// now, and the peak of jhu189 at 1 mm is 352 MB: the estimate is higher than needed by up to two thirds.
 std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale);
 
-/// Throws InputError, with the map's name and both figures, if less than `needed` bytes are available. Does nothing where
-/// `available` is unknown (see availableMemory()).
+/// Throws InputError, with the map's name and both figures, if less than `needed` bytes are available. Does nothing
+/// where `available` is unknown (see availableMemory()).
 void requireMemory(std::uint64_t needed, const std::optional<std::uint64_t>& available, const std::string& mapFile);
 
 } // namespace surgicalmesher

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A map with a margin of background around it: every voxel of the map then has all its neighbours in memory.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Target edge length L(x) over space, read from a scale volume with linear interpolation.
 

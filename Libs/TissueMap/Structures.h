@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The contiguous structures of a map: what each tissue consists of.
 

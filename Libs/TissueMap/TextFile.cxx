@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TextFile.h"
 
 #include "Errors.h"
+#include "PrintableText.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,27 +58,6 @@ std::vector<std::string> splitQuoted(const std::string& line, bool merge, IsSepa
   return parts;
 }
 
-/// Bytes of the UTF-8 character that begins at `i` (Unicode 15, table 3-7); 0 if none does.
-std::size_t characterLength(const std::string& text, std::size_t i)
-{
-  const auto byte = [&](std::size_t n) { return n < text.size() ? static_cast<unsigned char>(text[n]) : 0; };
-  const int first = byte(i), second = byte(i + 1);
-  const std::size_t length = first < 0x80   ? 1
-                             : first < 0xc2 ? 0
-                             : first < 0xe0 ? 2
-                             : first < 0xf0 ? 3
-                             : first < 0xf5 ? 4
-                                            : 0;
-  const int lowest = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
-  const int highest = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
-  if (length > 1 && (second < lowest || second > highest)) return 0;
-  for (std::size_t n = 2; n < length; ++n)
-  {
-    if ((byte(i + n) & 0xc0) != 0x80) return 0;
-  }
-  return length;
-}
-
 } // namespace
 
 void requireReadableFile(const std::string& file)
@@ -129,7 +110,7 @@ std::string legible(const std::string& text)
   std::string result;
   for (std::size_t i = 0; i < text.size();)
   {
-    const std::size_t length = characterLength(text, i);
+    const std::size_t length = utf8Length(text, i);
     const auto first = static_cast<unsigned char>(text[i]);
     if (length == 0) result += '?';
     else if (first < 0x20 || first == 0x7f) result += ' ';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Small text files, line by line: what the readers of tables and markups share.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TextTable.h"
 
 #include "Errors.h"
@@ -51,6 +52,9 @@ TextTable readTextTable(const std::string& file, int columns, const std::functio
     TextTableRow row{ file + ":" + std::to_string(n + 1), text::splitFields(text::legible(line)) };
     const bool isHeader = table.header.where.empty();
     if (isHeader) columnOfField = columnsOf(row, columnOf, names);
+    if (row.fields.size() > columnOfField.size())
+      row.fail(std::to_string(row.fields.size()) + " fields, expected at most " + std::to_string(columnOfField.size()) +
+               ", the columns of the header row");
     row.fields = byColumn(row.fields, columnOfField, columns);
     if (isHeader) table.header = row;
     else table.rows.push_back(row);

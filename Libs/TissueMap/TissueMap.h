@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The label map that everything starts from, and the tissues in it.
 
@@ -20,6 +21,7 @@ struct Tissue
   std::string name;                             ///< empty if unknown
   std::array<double, 3> color{ 0.8, 0.8, 0.8 }; ///< RGB in [0, 1]
   bool isShell = false;                         ///< to be meshed as a surface; the inside may stay hollow
+  bool isNullDisplacement = false;              ///< held still by the simulation
 };
 
 /// Names and colours by label.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueMapIO.h"
 
 #include "CanonicalGrid.h"
@@ -19,7 +20,9 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <sstream>
+#include <type_traits>
 
 namespace surgicalmesher
 {
@@ -28,6 +31,9 @@ namespace
 {
 
 using MetaData = std::map<std::string, std::string>;
+
+/// Of a segment, as Slicer keeps tags: key:value|
+const char* const nullDisplacementTag = "SurgicalMesher.Role:null displacement|";
 
 constexpr double maximumVoxelCount = 2147483648.0; // 2^31: 4 GB of labels
 
@@ -97,6 +103,21 @@ std::vector<itk::ImageIOBase::Pointer> imageFormats()
 
 const char* const formatNames = "NRRD, NIfTI, MetaImage or GIPL";
 
+/// What is wrong with a NIfTI header that the library refuses, and what the user can do; empty for other files and
+/// faults.
+std::string niftiAdvice(const std::string& file)
+{
+  const std::optional<NiftiPlacement> placement = readNiftiPlacement(file);
+  if (!placement) return {};
+  if (placement->isInMetres) return "coordinates in metres, expected mm or microns";
+  if (placement->sformCode == 0 || placement->skew < 1e-5) return {};
+  return "the voxel axes of its sform are not perpendicular to each other (by " +
+         asText(std::ceil(placement->skew * 1000 - 0.5) / 1000) +
+         " degrees), as an affine registration leaves them; expected a grid without shear: resample the map, or give "
+         "the header a qform, "
+         "which counts where the sform has shear";
+}
+
 itk::ImageIOBase::Pointer openImage(const std::string& file)
 {
   text::requireReadableFile(file);
@@ -112,6 +133,8 @@ itk::ImageIOBase::Pointer openImage(const std::string& file)
     }
     catch (const std::exception& error)
     {
+      const std::string advice = niftiAdvice(file);
+      if (!advice.empty()) throw InputError(file + ": " + advice);
       throw InputError(file + ": the image header cannot be read (" + reasonOf(error) + ")");
     }
   }
@@ -153,9 +176,9 @@ double niftiUnit(const MetaData& metaData)
   return spaceUnits == 1 ? 1000 : spaceUnits == 3 ? 0.001 : 1;
 }
 
-/// The sform of a NIfTI header in LPS mm: whether there is one, and it is a placement of perpendicular axes. Where a file
-/// has an sform and a qform that differ, ITK takes the qform unless the sform is of the scanner; nearly everybody else, and
-/// this project, takes the sform, in which atlases are aligned.
+/// The sform of a NIfTI header in LPS mm: whether there is one, and it is a placement of perpendicular axes. Where a
+/// file has an sform and a qform that differ, ITK takes the qform unless the sform is of the scanner; nearly everybody
+/// else, and this project, takes the sform, in which atlases are aligned.
 bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& columns)
 {
   const std::string* code = find(metaData, "sform_code");
@@ -324,9 +347,12 @@ std::vector<Out> gather(const Volume& volume, Convert convert)
 template <typename T>
 Label toLabel(T value, const std::string& file)
 {
-  const double number = double(value);
+  const double given = double(value);
+  const double nearest = std::round(given);
+  const bool isNear = std::is_floating_point_v<T> && std::abs(given - nearest) <= 1e-4;
+  const double number = isNear ? nearest : given;
   if (number >= 0 && number <= 65535 && number == double(Label(number))) return Label(number);
-  throw InputError(file + ": a voxel of value " + asText(number) + ", expected labels: integers from 0 to 65535");
+  throw InputError(file + ": a voxel of value " + asText(given) + ", expected labels: integers from 0 to 65535");
 }
 
 /// One segment of a .seg.nrrd: the voxels of value `value` in layer `layer`.
@@ -349,8 +375,8 @@ long segmentNumber(const Volume& volume, const std::string& key, long minimum, l
   return number;
 }
 
-/// The segments that the header lists, in its order; none if the file is no segmentation. Headers older than shared layers
-/// name neither layer nor value: segment N is then the ones of layer N.
+/// The segments that the header lists, in its order; none if the file is no segmentation. Headers older than shared
+/// layers name neither layer nor value: segment N is then the ones of layer N.
 std::vector<Segment> readSegments(const Volume& volume)
 {
   std::vector<Segment> segments;
@@ -371,6 +397,8 @@ std::vector<Segment> readSegments(const Volume& volume)
       const std::vector<std::string> words = text::splitWords(*color);
       for (std::size_t c = 0; c < 3 && c < words.size(); ++c) text::parseNumber(words[c], segment.tissue.color[c]);
     }
+    const std::string* tags = find(volume.metaData, prefix + "_Tags");
+    segment.tissue.isNullDisplacement = tags && tags->find(nullDisplacementTag) != std::string::npos;
     segments.push_back(segment);
   }
   return segments;
@@ -482,6 +510,7 @@ MetaData segmentMetaData(const TissueTable& table)
     metaData[prefix + "_Layer"] = "0";
     metaData[prefix + "_Name"] = entry.second.name.empty() ? std::to_string(entry.first) : entry.second.name;
     metaData[prefix + "_Color"] = asText(color[0]) + " " + asText(color[1]) + " " + asText(color[2]);
+    if (entry.second.isNullDisplacement) metaData[prefix + "_Tags"] = nullDisplacementTag;
   }
   return metaData;
 }
@@ -508,6 +537,8 @@ TissueMap readTissueMap(const std::string& file)
   }
   return map;
 }
+
+bool keepsTissues(const std::string& file) { return itk::NrrdImageIO::New()->CanWriteFile(file.c_str()); }
 
 void writeTissueMap(const TissueMap& map, const std::string& file)
 {
@@ -537,6 +568,31 @@ ScaleField readScale(const std::string& file)
 void writeScale(const ScaleField& scale, const std::string& file)
 {
   writeVolume(scale.grid, itk::IOComponentEnum::FLOAT, scale.lengths.data(), {}, file);
+}
+
+ScalarImage readImage(const std::string& file)
+{
+  const Volume volume = readVolume(file);
+  if (volume.components > 1)
+  {
+    throw InputError(file + ": " + std::to_string(volume.components) + " values per voxel, expected one");
+  }
+  ScalarImage image;
+  image.grid = volume.grid;
+  image.values = gather<float>(volume,
+                               [&](const auto* voxel)
+                               {
+                                 const float value = float(*voxel);
+                                 if (std::isfinite(value)) return value;
+                                 throw InputError(file + ": a voxel of value " + asText(double(*voxel)) +
+                                                  ", expected finite numbers");
+                               });
+  return image;
+}
+
+void writeImage(const ScalarImage& image, const std::string& file)
+{
+  writeVolume(image.grid, itk::IOComponentEnum::FLOAT, image.values.data(), {}, file);
 }
 
 void requireCover(const ScaleField& scale, const Grid& grid, const std::string& scaleFile)

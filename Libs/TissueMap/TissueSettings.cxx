@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueSettings.h"
 
 #include "Errors.h"
@@ -138,6 +139,8 @@ std::vector<TissueGroup> groupsOf(const TissueSettings& settings)
 void joinGroup(const TissueGroup& group, TissueMap& map, TissueSettings& settings)
 {
   TissueSetting together = settings.at(group.label);
+  const bool isHeld = std::all_of(group.members.begin(), group.members.end(),
+                                  [&](Label member) { return map.table[member].isNullDisplacement; });
   for (const Label member : group.members)
   {
     together = joined(together, settings.at(member));
@@ -147,6 +150,7 @@ void joinGroup(const TissueGroup& group, TissueMap& map, TissueSettings& setting
   }
   settings[group.label] = together;
   map.table[group.label].name = group.name;
+  map.table[group.label].isNullDisplacement = isHeld;
 }
 
 } // namespace

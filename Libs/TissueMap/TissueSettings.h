@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What is asked of single tissues: which are meshed, together or apart, as solids or shells, and how finely.
 

@@ -1,9 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueMapIO.h"
 
 #include "Errors.h"
+#include "NameFormats.h"
 #include "TextFile.h"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace surgicalmesher
 {
@@ -50,6 +53,25 @@ bool parseTissue(const std::vector<std::string>& words, Tissue& tissue)
   return count >= 2;
 }
 
+/// Lines of words, without a row that names columns.
+void readWords(const std::string& file, const TissueRow& take)
+{
+  const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
+  for (std::size_t n = 0; n < lines.size(); ++n)
+  {
+    const std::string line = text::trimmed(lines[n]);
+    if (line.empty() || line[0] == '#') continue;
+    const std::string where = file + ":" + std::to_string(n + 1);
+    const std::vector<std::string> words = text::splitWords(line);
+    long label = 0;
+    Tissue tissue;
+    if (!text::parseInteger(words[0], 0, 65535, label) || !parseTissue(words, tissue))
+      throw InputError(where + ": \"" + line.substr(0, 60) +
+                       "\", expected a label from 0 to 65535, a name and a colour");
+    take(where, words[0], tissue);
+  }
+}
+
 std::string comparable(std::string name)
 {
   std::replace(name.begin(), name.end(), '_', ' ');
@@ -58,33 +80,39 @@ std::string comparable(std::string name)
 
 } // namespace
 
-TissueTable readTissueTable(const std::string& file)
+TissueTable readTissueTable(const std::string& file, std::vector<std::string>* warnings)
 {
   TissueTable table;
-  const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));
-  for (std::size_t n = 0; n < lines.size(); ++n)
+  const auto take = [&](const std::string& where, const std::string& text, const Tissue& tissue)
   {
-    const std::string line = text::trimmed(lines[n]);
-    if (line.empty() || line[0] == '#') continue;
-    const std::vector<std::string> words = text::splitWords(line);
     long label = 0;
-    Tissue tissue;
-    if (!text::parseInteger(words[0], 0, 65535, label) || !parseTissue(words, tissue))
-    {
-      throw InputError(file + ":" + std::to_string(n + 1) + ": \"" + line.substr(0, 60) +
-                       "\", expected a label from 0 to 65535, a name and a colour");
-    }
-    if (label != 0) table[Label(label)] = tissue;
-  }
+    if (!text::parseInteger(text, 0, 65535, label))
+      throw InputError(where + ": label \"" + text.substr(0, 60) + "\", expected one from 0 to 65535");
+    if (label == 0) return;
+    const bool isNew = table.count(Label(label)) == 0;
+    if (!isNew && warnings && table[Label(label)].name != tissue.name)
+      warnings->push_back(where + ": label " + std::to_string(label) +
+                          " is listed for the second time, this row counts");
+    table[Label(label)] = tissue;
+  };
+  const std::string extension = text::lowerCase(std::filesystem::path(file).extension().string());
+  if (extension == ".csv" || extension == ".tsv") readNamedColumns(file, take);
+  else if (extension == ".xml") readFslAtlas(file, take);
+  else readWords(file, take);
   if (table.empty()) throw InputError(file + ": no tissue, expected lines of a label, a name and a colour");
   return table;
 }
 
-void completeTissueTable(TissueMap& map, const std::string& file)
+void completeTissueTable(TissueMap& map, const std::string& file, std::vector<std::string>* warnings)
 {
-  if (!file.empty())
+  const TissueTable given = file.empty() ? TissueTable() : readTissueTable(file, warnings);
+  const bool mapSays =
+    std::any_of(map.table.begin(), map.table.end(), [](const auto& entry) { return entry.second.isNullDisplacement; });
+  for (const auto& [label, tissue] : given)
   {
-    for (const auto& entry : readTissueTable(file)) map.table[entry.first] = entry.second;
+    if (map.table[label].isNullDisplacement) continue;
+    map.table[label] = tissue;
+    map.table[label].isNullDisplacement = !mapSays && comparable(tissue.name) == "null displacement";
   }
   TissueTable present;
   for (const Label label : presentLabels(map))

@@ -1,6 +1,8 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "Report.h"
 
 #include "JsonMember.h"
+#include "PrintableText.h"
 
 #include <rapidjson/prettywriter.h>
 #include <rapidjson/stringbuffer.h>
@@ -208,6 +210,54 @@ void writeEvolution(JsonWriter& json, const std::vector<EvolutionStep>& evolutio
                });
 }
 
+void writeDistances(JsonWriter& json, const char* key, const Distances& distances, const Grid& world)
+{
+  json.Key(key);
+  json.StartObject();
+  writeMember(json, "samples", distances.samples);
+  writeMember(json, "mean", distances.mean);
+  writeMember(json, "maximum", distances.maximum);
+  json.Key("farthest");
+  writePlace(json, world.gridToWorld(distances.farthest));
+  json.EndObject();
+}
+
+void writeMaximumDistance(JsonWriter& json, const SurfaceReport& report, const Distances& fromMap,
+                          const Distances& fromMesh)
+{
+  if (report.maximumDistance == 0) return;
+  json.Key("maximumDistance");
+  json.StartObject();
+  writeMember(json, "asked", report.maximumDistance);
+  writeMember(json, "holds", fromMap.beyond + fromMesh.beyond == 0);
+  writeMember(json, "beyondFromMap", fromMap.beyond);
+  writeMember(json, "beyondFromMesh", fromMesh.beyond);
+  json.EndObject();
+}
+
+void writeFidelity(JsonWriter& json, const SurfaceReport& report)
+{
+  if (report.fidelity.empty()) return;
+  const Distances fromMap = allDistances(report.fidelity, &TissueFidelity::mapToMesh);
+  const Distances fromMesh = allDistances(report.fidelity, &TissueFidelity::meshToMap);
+  json.Key("distances");
+  json.StartObject();
+  writeDistances(json, "mapToMesh", fromMap, report.world);
+  writeDistances(json, "meshToMap", fromMesh, report.world);
+  json.EndObject();
+  writeMaximumDistance(json, report, fromMap, fromMesh);
+  writeObjects(json, "fidelity", report.fidelity,
+               [&](const auto& entry)
+               {
+                 const TissueFidelity& tissue = entry.second;
+                 writeTissue(json, entry.first, report.tissues);
+                 writeMember(json, "mapVolume", tissue.mapVolume);
+                 writeMember(json, "meshVolume", tissue.meshVolume);
+                 writeDistances(json, "mapToMesh", tissue.mapToMesh, report.world);
+                 writeDistances(json, "meshToMap", tissue.meshToMap, report.world);
+               });
+}
+
 } // namespace
 
 std::string reportJson(const SurfaceReport& report)
@@ -230,7 +280,12 @@ std::string reportJson(const SurfaceReport& report)
                });
   writeStructures(json, report.structures);
   writeThickness(json, report);
+  writeFidelity(json, report);
   writeEvolution(json, report.evolution);
+  json.Key("warnings");
+  json.StartArray();
+  for (const std::string& warning : report.warnings) json.String(printable(warning).c_str());
+  json.EndArray();
   json.EndObject();
   return std::string(buffer.GetString(), buffer.GetSize()) + "\n";
 }

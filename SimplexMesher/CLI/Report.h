@@ -1,9 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What a run of the surface stage did, as JSON, and the evolution of its mesh as CSV.
 
 #include "LocalThickness.h"
 #include "ScaledPreparation.h"
 #include "Structures.h"
+#include "TissueFidelity.h"
 #include "TissueMesher.h"
 #include "TissueSettings.h"
 
@@ -27,6 +29,10 @@ struct SurfaceReport
   bool followsThickness = false;
   std::size_t points = 0, triangles = 0;
   std::vector<EvolutionStep> evolution;
+  Grid world;                               ///< the frame of the files; the fidelity's places are in the map's own
+  double maximumDistance = 0;               ///< mm, as asked for; 0: nothing was
+  std::map<Label, TissueFidelity> fidelity; ///< to the prepared map; empty: not assessed
+  std::vector<std::string> warnings;
 };
 
 std::string reportJson(const SurfaceReport& report);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // SimplexMesherCLI: label map and scale in; prepared map, shared surface of all tissues and its ambient tetrahedra out.
 
 #include "AvailableMemory.h"
@@ -5,19 +6,23 @@
 #include "CommandLine.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "IntensityImage.h"
 #include "MemoryEstimate.h"
 #include "MeshChecks.h"
 #include "MeshIO.h"
 #include "Report.h"
 #include "SimplexMesh.h"
 #include "SimplexMesherCLIXML.h"
+#include "TissueFidelity.h"
 #include "TissueMapIO.h"
 #include "TissueScale.h"
 #include "TissueSurfaces.h"
+#include "Warnings.h"
 
 #include <vtkSMPTools.h>
 
 #include <filesystem>
+#include <limits>
 #include <sstream>
 
 using namespace surgicalmesher;
@@ -57,10 +62,14 @@ TetMesh toWorld(TetMesh mesh, const Grid& grid)
 }
 
 /// The map and what is asked of its tissues; groups are joined, and tissues left out are gone.
-TissueMap readMap(const CommandLine& line, SurfaceReport& results)
+TissueMap readMap(CommandLine& line, SurfaceReport& results)
 {
   TissueMap map = readTissueMap(line.text("labelMap"));
-  completeTissueTable(map, line.text("names"));
+  std::vector<std::string> warnings;
+  completeTissueTable(map, line.text("names"), &warnings);
+  const std::string intensities = likenessToIntensities(map);
+  if (!intensities.empty()) warnings.push_back(line.text("labelMap") + ": " + intensities);
+  for (const std::string& warning : warnings) line.warning(warning);
   const std::string file = line.text("tissues");
   if (!file.empty()) results.settings = readTissueSettings(file, map);
   results.selection = selectTissues(map, results.settings);
@@ -179,8 +188,41 @@ void writeAmbient(CommandLine& line, MeshedMap&& mesh, const Grid& world, const 
   writeMesh(ambient, file);
 }
 
-void writeReports(CommandLine& line, const SurfaceReport& results)
+/// What the command line alone can tell.
+void requireUsableOptions(CommandLine& line)
 {
+  for (const std::string& index : line.outputNames("tissueSurfaces"))
+  {
+    const std::filesystem::path name = index;
+    line.alsoWritesMany("tissueSurfaces", (name.parent_path() / name.stem()).string() + "-", ".vtp");
+  }
+}
+
+/// Only for runs that ask for figures: it takes a good second for a million voxel faces.
+void assessDistances(CommandLine& line, const SurfaceComplex& surface, const TissueMap& map, const Grid& world,
+                     SurfaceReport& results)
+{
+  const double bound = line.number("maximumDistance");
+  if (line.outputFile("report").empty() && bound == 0) return;
+  SurfaceComplex inOwnFrame = surface;
+  for (Vec3& p : inOwnFrame.points) p = world.worldToGrid(p);
+  results.world = world;
+  results.maximumDistance = bound;
+  results.fidelity = assessFidelity(inOwnFrame, map, bound > 0 ? bound : std::numeric_limits<double>::infinity());
+  if (bound == 0) return;
+  for (const std::string& warning : warningsOfDistance(results.fidelity, bound, world)) line.warning(warning);
+}
+
+void returnFigures(CommandLine& line, const SurfaceReport& results)
+{
+  line.returnValue("tissueCount", std::to_string(results.topology.size()));
+  line.returnValue("pointCount", std::to_string(results.points));
+  line.returnValue("triangleCount", std::to_string(results.triangles));
+}
+
+void writeReports(CommandLine& line, SurfaceReport& results)
+{
+  results.warnings = line.warnings();
   const std::string report = line.outputFile("report");
   if (!report.empty()) writeBytes(reportJson(results), report);
   const std::string evolution = line.outputFile("evolution");
@@ -196,15 +238,19 @@ void run(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
+  requireUsableOptions(line);
   SurfaceReport results;
   TissueMap map = readMap(line, results);
   const ScaleField asked = readScaleFor(line, map.grid);
   completeShells(results.settings, map, asked);
   TissueMesherOptions options;
   options.maximumDistance = line.number("maximumDistance");
+  options.smoothing = line.number("smoothing");
   options.features = readFeatures(line, results.settings);
   prepare(line, map, asked, options.features, subProgress(progress, 0.02, 0.06), results);
   const ScaleField scale = lengthsFor(line, map, asked, results);
+  const std::string tooShort = warningOfShortLengths(map, scale, line.text("labelMap"));
+  if (!tooShort.empty()) line.warning(tooShort);
   requireMemory(estimateSurfaceMemory(map, scale), availableMemory(), line.text("labelMap"));
 
   const Grid world = map.grid;
@@ -218,6 +264,8 @@ void run(CommandLine& line)
   results.points = content.surface.points.size();
   results.triangles = content.surface.triangles.size();
   results.evolution = mesh.evolution;
+  report(progress, 0.92, "distances");
+  assessDistances(line, content.surface, map, world, results);
 
   report(progress, 0.95, "writing");
   writeSurface(content, line.outputFile("surface"));
@@ -226,6 +274,7 @@ void run(CommandLine& line)
   if (!simplexMesh.empty()) writePolygons(simplexMeshFile(content), simplexMesh);
   writeAmbient(line, std::move(mesh), world, map.table, scale);
   writeReports(line, results);
+  returnFigures(line, results);
   report(progress, 1, "done");
 }
 

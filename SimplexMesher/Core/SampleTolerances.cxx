@@ -23,9 +23,9 @@ std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
   return { labelAt(map, voxels[0]), labelAt(map, voxels[1]) };
 }
 
-/// What share of the usual tolerance a map allows: the voxels that a drift of the surfaces puts into wrong tissues are as many
-/// as their area times the drift, so that a large map whose surfaces lie close together must have less of it. In a small one
-/// they lie close because its bodies are small.
+/// What share of the usual tolerance a map allows: the voxels that a drift of the surfaces puts into wrong tissues are
+/// as many as their area times the drift, so that a large map whose surfaces lie close together must have less of it.
+/// In a small one they lie close because its bodies are small.
 double roomIn(const BackgroundMesh& background, const TissueMap& map)
 {
   constexpr std::size_t large = 600000; // faces between tissues
@@ -37,7 +37,8 @@ double roomIn(const BackgroundMesh& background, const TissueMap& map)
 }
 
 /// How far the boundary of each tissue may drift, mm: what nobody sees on a thick tissue takes a third of a thin one's
-/// volume. A thin tissue that simplification has left is held the less closely, as what is of its size elsewhere has gone.
+/// volume. A thin tissue that simplification has left is held the less closely, as what is of its size elsewhere has
+/// gone.
 std::map<Label, double> mostDrifts(const std::map<Label, double>& thickness, double voxel,
                                    const FeatureOptions& features)
 {
@@ -58,9 +59,10 @@ void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::
 {
   const double voxel = map.grid.largestSpacing(), room = roomIn(background, map), bound = options.maximumDistance;
   const std::map<Label, double> drifts = mostDrifts(thickness, map.grid.largestSpacing(), options.features);
+  const double ofVoxel = options.isSmooth ? 0.25 : 0.42; // steps take up most of the latter
   for (auto& sample : background.samples)
   {
-    double tolerance = room * (0.42 * voxel + 0.095 * length(sample.position));
+    double tolerance = room * (ofVoxel * voxel + 0.095 * length(sample.position));
     for (const Label label : labelsBeside(map, sample.position))
       if (label != 0) tolerance = std::min(tolerance, drifts.at(label));
     sample.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);

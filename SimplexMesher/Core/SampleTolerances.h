@@ -15,15 +15,17 @@ struct ToleranceOptions
 {
   double maximumDistance = 0; ///< mm; no tolerance is larger; 0: no bound
   FeatureOptions features;    ///< what the map was simplified by
+  bool isSmooth = false;      ///< samples will lie on a smooth boundary, not on the voxels' steps
 };
 
 /// Gives every sample of `background`, which lies at the centre of a voxel face of `map`, its tolerance:
 ///
-///     min(r (0.42 voxel + 0.095 L), s thickness), at least 0.6 voxel where thickness decides
+///     min(r (c voxel + 0.095 L), s thickness), at least 0.6 voxel where thickness decides
 ///
+/// with c = 0.25 for samples of a smooth boundary and 0.42 for others.
 /// `thickness`: mean, of each tissue, mm; s = 0.28 + 0.08 F, at most 0.4, with F the feature scale (0 for protected
-/// tissues). r is 1, and less, down to 0.5, in large maps with little tissue for each face between tissues. All in the grid
-/// frame of the map.
+/// tissues). r is 1, and less, down to 0.5, in large maps with little tissue for each face between tissues. All in the
+/// grid frame of the map.
 void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::map<Label, double>& thickness,
                    const SizingFunction& length, const ToleranceOptions& options);
 

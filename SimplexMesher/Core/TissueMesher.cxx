@@ -6,6 +6,7 @@
 #include "Remesher.h"
 #include "SampleTolerances.h"
 #include "Schedule.h"
+#include "SmoothBoundary.h"
 #include "TissueScale.h"
 #include "VolumeBalance.h"
 
@@ -23,8 +24,10 @@ BackgroundMesh startingMesh(const TissueMap& map, const ScaleField& scale, const
                             const SizingFunction& length, const TissueMesherOptions& options, const Progress& progress)
 {
   KuhnLattice lattice = kuhnLattice(map, scale, {}, progress);
-  setTolerances(lattice.background, map, thickness, length, { options.maximumDistance, options.features });
-  smoothInterface(lattice, map.grid.spacing);
+  setTolerances(lattice.background, map, thickness, length,
+                { options.maximumDistance, options.features, options.smoothing > 0 });
+  if (options.smoothing > 0) moveToSmoothBoundary(lattice, map, options.smoothing);
+  else smoothInterface(lattice, map.grid.spacing);
   return std::move(lattice.background);
 }
 

@@ -13,10 +13,12 @@ namespace surgicalmesher
 
 struct TissueMesherOptions
 {
-  /// mm; bound on the distance of any boundary point of the map to the surface. 0: automatic (SampleTolerances.h), 2.1 times
-  /// as much (2.4 in maps full of noise) where an angle cannot be mended otherwise, and up to a voxel more where that keeps a
-  /// tissue's volume.
+  /// mm; bound on the distance of any boundary point of the map to the surface. 0: automatic (SampleTolerances.h), 2.1
+  /// times as much (2.4 in maps full of noise) where an angle cannot be mended otherwise, and up to a voxel more where
+  /// that keeps a tissue's volume.
   double maximumDistance = 0;
+  /// Scale, in voxels, of the smooth boundary that the surface is driven to (SmoothBoundary.h); 0: the voxels' steps.
+  double smoothing = 0;
   FeatureOptions features; ///< what the map was simplified by; thin tissues are then held less closely
 };
 
@@ -27,9 +29,9 @@ struct MeshedMap
   std::vector<EvolutionStep> evolution;
 };
 
-/// Lattice, boundary samples, smooth interface, coarsening by levels of size, improvement, repair, balance of volumes, even
-/// lengths. `map` must be well-composed (prepareMap); every tissue keeps its topology. `scale` is in world coordinates. The
-/// result depends on neither the number of threads nor their timing. Throws EngineError.
+/// Lattice, boundary samples, smooth interface, coarsening by levels of size, improvement, repair, balance of volumes,
+/// even lengths. `map` must be well-composed (prepareMap); every tissue keeps its topology. `scale` is in world
+/// coordinates. The result depends on neither the number of threads nor their timing. Throws EngineError.
 MeshedMap meshTissues(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options,
                       const Progress& progress = {});
 

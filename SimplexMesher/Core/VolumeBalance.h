@@ -15,9 +15,9 @@ public:
   /// The volumes to keep are those of `map`.
   explicit VolumeBalance(const TissueMap& map);
 
-  /// Moves the boundary samples of every tissue that has gained or lost volume along its boundary's normals, by what makes
-  /// up for the volume and half as much again; half a voxel in all at most, a voxel between two tissues. The mesh must know
-  /// its neighbours.
+  /// Moves the boundary samples of every tissue that has gained or lost volume along its boundary's normals, by what
+  /// makes up for the volume and half as much again; half a voxel in all at most, a voxel between two tissues. The mesh
+  /// must know its neighbours.
   void apply(BackgroundMesh& background);
 
 private:

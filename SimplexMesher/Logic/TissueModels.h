@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The closed surface of each tissue as a model of its own, in a folder of the subject hierarchy.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The tissues of a label map or segmentation as the panel lists them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Runs SimplexMesherCLI for a parameter node, and turns what it leaves into nodes that can be seen, read and plotted.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the panel of Simplex Mesher shows: the map, what is asked of its tissues, and which results are wanted. It
 /// lives in the scene and is saved with it. Lengths are in mm, volumes in mm^3; 0 means what it means to

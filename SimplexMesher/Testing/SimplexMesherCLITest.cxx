@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
 #include "MeshIO.h"
 #include "TissueMapIO.h"
@@ -507,4 +508,68 @@ TEST_F(SimplexMesherCLI, LeavesNothingWhenKilled)
   write("large.nrrd", paintedMap({ 48, 48, 48 }, [](int i, int j, int k) { return 1 + (i / 6 + j / 6 + k / 6) % 5; }));
   expectLeavesNothingWhenKilled(
     "--edgeLength 1 --preparedLabelMap p.nrrd --ambient a.vtu --report r.json large.nrrd s.vtp", "coarsening");
+}
+
+TEST_F(SimplexMesherCLI, Trial_B02_TissueSurfacesReplaceNothing)
+{
+  expectRefused("--edgeLength 2 --tissueSurfaces x.vtm map.nrrd x-1.vtp", 2, "which is an output of surface");
+  expectRefused("--edgeLength 2 --tissueSurfaces ./x.vtm --simplexMesh x-7.vtp map.nrrd s.vtp", 2, "x-");
+  expectRefused("--edgeLength 2 --returnparameterfile map.nrrd map.nrrd s.vtp", 2, "is an input, too");
+  expectRefused("--scale scale.nrrd --followedScale scale.nrrd map.nrrd s.vtp", 2, "is an input, too");
+  expectRefused("--edgeLength 2 --preparedLabelMap map.nrrd map.nrrd s.vtp", 2, "is an input, too");
+}
+
+TEST_F(SimplexMesherCLI, Trial_B10_AMaximumDistanceThatDoesNotHoldIsSaid)
+{
+  const Outcome result = run("--edgeLength 4 --maximumDistance 0.001 --report r.json map.nrrd s.vtp");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("the maximum distance of 0.001 mm does not hold: from boundaries of the map"),
+            std::string::npos)
+    << result.err;
+  rapidjson::Document report;
+  report.Parse(readBytes(folder.file("r.json")).c_str());
+  ASSERT_TRUE(report.IsObject());
+  EXPECT_EQ(report["maximumDistance"]["asked"].GetDouble(), 0.001);
+  EXPECT_FALSE(report["maximumDistance"]["holds"].GetBool());
+  EXPECT_GT(report["maximumDistance"]["beyondFromMap"].GetInt(), 0);
+  EXPECT_EQ(report["warnings"].Size(), 2u);
+  expectDone("--edgeLength 4 --maximumDistance 20 --report held.json map.nrrd s.vtp");
+  report.Parse(readBytes(folder.file("held.json")).c_str());
+  EXPECT_TRUE(report["maximumDistance"]["holds"].GetBool());
+  EXPECT_EQ(report["warnings"].Size(), 0u);
+}
+
+TEST_F(SimplexMesherCLI, Trial_B11_LengthsThatTheVoxelsDoNotGiveAreSaid)
+{
+  const Outcome result = run("--edgeLength 0.1 map.nrrd s.vtp");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("edges of 0.1 mm are asked for, but the voxels of map.nrrd give none shorter than 0.25 mm"),
+            std::string::npos)
+    << result.err;
+}
+
+// Trial, 3a: no report had the volume in the map beside that of the mesh, nor distances both ways.
+TEST_F(SimplexMesherCLI, Trial_3a_TheReportHasBothVolumesAndBothDistancesOfEveryTissue)
+{
+  expectDone("--edgeLength 2 --report r.json --preparedLabelMap p.nrrd --returnparameterfile r.txt map.nrrd s.vtp");
+  rapidjson::Document report;
+  report.Parse(readBytes(folder.file("r.json")).c_str());
+  ASSERT_TRUE(report.IsObject());
+  const std::map<Label, double> enclosed = enclosedVolumes("s.vtp");
+  const auto voxels = countVoxels(readTissueMap(folder.file("p.nrrd")));
+  ASSERT_EQ(report["fidelity"].Size(), 2u);
+  for (const auto& tissue : report["fidelity"].GetArray())
+  {
+    const Label label = Label(tissue["label"].GetInt());
+    EXPECT_EQ(tissue["mapVolume"].GetDouble(), double(voxels.at(label)));
+    EXPECT_NEAR(tissue["meshVolume"].GetDouble(), enclosed.at(label), 1e-3);
+    for (const char* side : { "mapToMesh", "meshToMap" })
+    {
+      EXPECT_GT(tissue[side]["mean"].GetDouble(), 0);
+      EXPECT_GE(tissue[side]["maximum"].GetDouble(), tissue[side]["mean"].GetDouble());
+      EXPECT_LE(tissue[side]["maximum"].GetDouble(), report["distances"][side]["maximum"].GetDouble());
+    }
+  }
+  const std::string triangles = "triangleCount = " + std::to_string(report["triangles"].GetInt());
+  EXPECT_NE(readBytes(folder.file("r.txt")).find(triangles), std::string::npos);
 }

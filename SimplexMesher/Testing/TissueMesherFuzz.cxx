@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Meshes small random maps at random scales and checks every result. usage: TissueMesherFuzz [MAPS [FIRST_SEED]]
 // Map n depends on its seed, FIRST_SEED + n, alone. Exit status 1 if one is meshed wrongly.
 

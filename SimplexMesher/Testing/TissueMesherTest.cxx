@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueMesher.h"
 #include "DigitalTopology.h"
 #include "FaceAdjacency.h"
@@ -106,6 +107,35 @@ std::vector<Shape> shapes()
 
 MeshedMap meshed(const TissueMap& map, const ScaleField& scale) { return meshTissues(map, scale, {}); }
 
+MeshedMap meshedSmoothly(const TissueMap& map, const ScaleField& scale)
+{
+  TissueMesherOptions options;
+  options.smoothing = 0.6;
+  return meshTissues(map, scale, options);
+}
+
+/// Mean angle, degrees, between the normals of neighbouring triangles, weighted by the edges' lengths.
+double meanDeflection(const SurfaceComplex& surface)
+{
+  std::map<std::array<std::int32_t, 2>, Vec3> first; // normal of the first triangle at an edge
+  double sum = 0, length = 0;
+  for (const auto& t : surface.triangles)
+  {
+    const auto& p = surface.points;
+    const Vec3 across = cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]), normal = across / norm(across);
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t a = t[k], b = t[(k + 1) % 3];
+      const auto [at, isFirst] = first.insert({ { std::min(a, b), std::max(a, b) }, normal });
+      if (isFirst) continue;
+      const double edge = norm(p[a] - p[b]);
+      sum += edge * std::acos(std::clamp(dot(at->second, normal), -1.0, 1.0)) * 180 / M_PI;
+      length += edge;
+    }
+  }
+  return sum / length;
+}
+
 void expectSameBytes(const MeshedMap& a, const MeshedMap& b)
 {
   EXPECT_EQ(a.background.mesh.points, b.background.mesh.points);
@@ -164,6 +194,8 @@ TEST_P(MeshedShape, IsSoundAndHasTheMapsTopology)
     EXPECT_EQ(faultOf(mesh, shape.map), "");
     ASSERT_FALSE(mesh.evolution.empty());
     EXPECT_EQ(mesh.evolution.back().tetrahedra, withoutOutside(mesh.background.mesh).tetrahedra.size());
+    if (GetParam() != 1.5) continue;
+    EXPECT_EQ(faultOf(meshedSmoothly(shape.map, uniformScale(GetParam())), shape.map), "");
   }
 }
 
@@ -178,6 +210,17 @@ TEST(SurfaceMesher, FollowsASphereAtItsScale)
     const double voxels = double(std::count(map.labels.begin(), map.labels.end(), 1));
     EXPECT_NEAR(checkSurface(surface).at(1).volume, voxels, 0.05 * voxels) << length;
     for (const Vec3& p : surface.points) EXPECT_NEAR(norm(p - Vec3{ 8, 8, 8 }), 7.1, 0.45 + 0.11 * length + 0.5);
+  }
+}
+
+TEST(SurfaceMesher, HasNoStepsWhereLIsAVoxel)
+{
+  const TissueMap map = shapes()[0].map;
+  for (double length : { 1.0, 1.5, 2.0 })
+  {
+    const double steps = meanDeflection(interfaceOf(meshed(map, uniformScale(length)).background.mesh));
+    const SurfaceComplex smooth = interfaceOf(meshedSmoothly(map, uniformScale(length)).background.mesh);
+    EXPECT_LT(meanDeflection(smooth), 0.75 * steps) << length;
   }
 }
 

@@ -1,10 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
 // SurgicalPathScaleCLI: label map, targets and paths in; scale volume, null-displacement map and size estimate out.
 
 #include "CommandLine.h"
 #include "Errors.h"
+#include "IntensityImage.h"
 #include "JsonMember.h"
 #include "MeshSizeEstimate.h"
 #include "NullDisplacement.h"
+#include "PrintableText.h"
 #include "SurgicalPathScaleCLIXML.h"
 #include "SurgicalScale.h"
 #include "TextFile.h"
@@ -18,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 using namespace surgicalmesher;
@@ -35,7 +39,6 @@ struct Results
   float longest = 0;
   NullDisplacement nullDisplacement;
   MeshSizeEstimate estimate;
-  std::vector<std::string> warnings;
 };
 
 std::string rounded(double value, int digits)
@@ -75,21 +78,26 @@ SurgicalScaleOptions readOptions(const CommandLine& line)
   return options;
 }
 
-NullDisplacementOptions readNullDisplacement(const CommandLine& line, const TissueTable& names)
+NullDisplacementOptions readNullDisplacement(const CommandLine& line, const TissueMap& map,
+                                             const std::set<Label>& named)
 {
+  const std::vector<Label> present = presentLabels(map);
   NullDisplacementOptions options;
   options.targetRadius = line.number("nullDisplacementRadius");
   options.pathDistance = line.number("nullDisplacementPathDistance");
   options.pathDistanceAtTarget = line.number("nullDisplacementPathDistanceAtTarget");
+  options.named = named;
   const std::string tissues = line.text("nullDisplacementTissues");
   if (text::trimmed(tissues).empty()) return options;
   for (const std::string& tissue : text::splitFields(tissues))
   {
     Label label = 0;
-    if (!findTissue(tissue, names, label))
+    if (!findTissue(tissue, map.table, label))
     {
       throw UsageError("--nullDisplacementTissues: \"" + tissue + "\" is neither a label nor the name of a tissue");
     }
+    if (!std::binary_search(present.begin(), present.end(), label))
+      throw UsageError("--nullDisplacementTissues: no voxel of tissue " + tissue + " in the label map");
     options.tissues.insert(label);
   }
   return options;
@@ -106,16 +114,17 @@ bool isInside(const Grid& grid, const Vec3& world)
   return true;
 }
 
-std::vector<std::string> findOddities(const TissueMap& map, const Focus& focus, const SurgicalScaleOptions& options)
+void warnOfOddities(CommandLine& line, const TissueMap& map, const Focus& focus, const SurgicalScaleOptions& options)
 {
-  std::vector<std::string> warnings;
+  const std::string intensities = likenessToIntensities(map);
+  if (!intensities.empty()) line.warning(line.text("labelMap") + ": " + intensities);
   const auto warnIfOutside = [&](const char* what, const std::vector<Vec3>& points)
   {
     for (const Vec3& p : points)
     {
       if (isInside(map.grid, p)) continue;
-      warnings.push_back(std::string(what) + " (" + rounded(p.x, 6) + ", " + rounded(p.y, 6) + ", " + rounded(p.z, 6) +
-                         ") mm LPS lies outside the label map");
+      line.warning(std::string(what) + " (" + rounded(p.x, 6) + ", " + rounded(p.y, 6) + ", " + rounded(p.z, 6) +
+                   ") mm LPS lies outside the label map");
     }
   };
   warnIfOutside("target", focus.targets);
@@ -124,10 +133,8 @@ std::vector<std::string> findOddities(const TissueMap& map, const Focus& focus, 
   for (const auto& tissue : options.tissues)
   {
     if (std::binary_search(present.begin(), present.end(), tissue.first)) continue;
-    warnings.push_back("tissue " + std::to_string(tissue.first) +
-                       " has lengths of its own, but no voxel in the label map");
+    line.warning("tissue " + std::to_string(tissue.first) + " has lengths of its own, but no voxel in the label map");
   }
-  return warnings;
 }
 
 void writeParameters(JsonWriter& json, const SurgicalScaleOptions& options, const CommandLine& line)
@@ -161,7 +168,8 @@ void writeFocus(JsonWriter& json, const Focus& focus)
                });
 }
 
-void writeResults(JsonWriter& json, const Results& results, const Grid& map, const Grid& scale)
+void writeResults(JsonWriter& json, const Results& results, const std::vector<std::string>& warnings, const Grid& map,
+                  const Grid& scale)
 {
   const double voxelVolume = map.spacing.x * map.spacing.y * map.spacing.z;
   json.Key("map");
@@ -186,7 +194,10 @@ void writeResults(JsonWriter& json, const Results& results, const Grid& map, con
   writeMember(json, "triangles", std::int64_t(std::llround(results.estimate.triangles)));
   writeMember(json, "tetrahedra", std::int64_t(std::llround(results.estimate.tetrahedra)));
   json.EndObject();
-  writeMember(json, "warnings", results.warnings);
+  json.Key("warnings");
+  json.StartArray();
+  for (const std::string& warning : warnings) json.String(printable(warning).c_str());
+  json.EndArray();
 }
 
 /// Lengths in mm, points in LPS, volumes in mm^3.
@@ -202,23 +213,27 @@ void writeReport(const std::string& file, const CommandLine& line, const Focus& 
   writeMember(json, "labelMap", line.text("labelMap"));
   writeFocus(json, focus);
   writeParameters(json, options, line);
-  writeResults(json, results, map, scale);
+  writeResults(json, results, line.warnings(), map, scale);
   json.EndObject();
   stream << '\n' << std::flush;
   if (!stream) throw InputError(file + ": the report cannot be written whole");
 }
 
-void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, Results& results)
+void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, const std::set<Label>& named,
+                   Results& results)
 {
   const std::string file = line.outputFile("outputLabelMap");
   const bool isAskedFor = line.number("nullDisplacementRadius") > 0 || line.number("nullDisplacementPathDistance") > 0;
-  if (file.empty() && isAskedFor) results.warnings.push_back("null displacement goes nowhere without --outputLabelMap");
+  if (file.empty() && isAskedFor) line.warning("null displacement goes nowhere without --outputLabelMap");
   if (file.empty()) return;
   results.nullDisplacement =
-    markNullDisplacement(map, focus.targets, focus.paths, readNullDisplacement(line, map.table));
-  completeTissueTable(map, line.text("names"));
-  if (results.nullDisplacement.voxelCount == 0)
-    results.warnings.push_back("no voxel is far enough to become null displacement");
+    markNullDisplacement(map, focus.targets, focus.paths, readNullDisplacement(line, map, named));
+  completeTissueTable(map, "");
+  const bool isNothing = results.nullDisplacement.voxelCount == 0;
+  if (isNothing) line.warning("no voxel is far enough to become null displacement");
+  if (!isNothing && !keepsTissues(file))
+    line.warning(line.outputNames("outputLabelMap").front() + ": the format does not keep which label is null " +
+                 "displacement, so that its tetrahedra will not be held still; expected .nrrd");
   line.message("null displacement: " + std::to_string(results.nullDisplacement.voxelCount) + " voxels, label " +
                std::to_string(results.nullDisplacement.label));
   writeTissueMap(map, file);
@@ -232,6 +247,20 @@ void returnEstimate(CommandLine& line, const MeshSizeEstimate& estimate)
                roundedCount(estimate.tetrahedra) + " tetrahedra");
 }
 
+/// Completes the map's names; returns the labels that have names anywhere.
+std::set<Label> nameTissues(CommandLine& line, TissueMap& map)
+{
+  TissueTable all = map.table;
+  std::vector<std::string> warnings;
+  const std::string file = line.text("names");
+  if (!file.empty()) all.merge(readTissueTable(file));
+  completeTissueTable(map, file, &warnings);
+  for (const std::string& warning : warnings) line.warning(warning);
+  std::set<Label> labels;
+  for (const auto& entry : all) labels.insert(entry.first);
+  return labels;
+}
+
 void run(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
@@ -241,13 +270,13 @@ void run(CommandLine& line)
     readFocus(line.points("targetPoint"), line.texts("targets"), line.points("pathPoint"), line.texts("path"));
   SurgicalScaleOptions options = readOptions(line);
   TissueMap map = readTissueMap(line.text("labelMap"));
-  completeTissueTable(map, line.text("names"));
+  const std::set<Label> named = nameTissues(line, map);
   const std::string lengthsFile = line.text("tissueLengths");
   if (!lengthsFile.empty()) options.tissues = readTissueLengths(lengthsFile, options.range, map.table);
   checkScaleOptions(options, map.grid, focus.targets, focus.paths);
 
   Results results;
-  results.warnings = findOddities(map, focus, options);
+  warnOfOddities(line, map, focus, options);
   results.tissueCount = presentLabels(map).size();
   const ScaleField scale =
     computeSurgicalScale(map, focus.targets, focus.paths, options, subProgress(progress, 0.2, 0.6));
@@ -257,11 +286,10 @@ void run(CommandLine& line)
   report(progress, 0.6, "writing the scale");
   writeScale(scale, line.outputFile("scale"));
   report(progress, 0.7, "null displacement");
-  markFarTissue(line, map, focus, results);
+  markFarTissue(line, map, focus, named, results);
   report(progress, 0.8, "estimating the size of the mesh");
   results.estimate = estimateMeshSize(map, scale);
 
-  for (const std::string& warning : results.warnings) line.message("warning: " + warning);
   line.message("edge lengths: " + rounded(results.shortest, 4) + " to " + rounded(results.longest, 4) + " mm");
   returnEstimate(line, results.estimate);
   const std::string reportFile = line.outputFile("report");

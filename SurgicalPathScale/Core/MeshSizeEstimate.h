@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// How large the mesh of a map will be, before anything is meshed.
 
@@ -15,16 +16,16 @@ struct MeshSizeEstimate
 
 /// Expected numbers for this map at this scale; the aim is a factor of 1.5.
 ///
-/// Elements have edge L, or less where a tissue is thinner than that: a tissue's thickness near a voxel is taken as
-/// 4 V / A, with V its volume and A its boundary area in the 12 mm around (a plate of thickness h gives 2 h, a rod or ball
+/// Elements have edge L, or less where a tissue is thinner than that: a tissue's thickness near a voxel is taken as 4 V
+/// / A, with V its volume and A its boundary area in the 12 mm around (a plate of thickness h gives 2 h, a rod or ball
 /// of radius r gives 2 r or 4/3 r). Then, with A_s the area of smooth interface that a voxel face stands for,
 ///
 ///     triangles  = sum over interface faces of A_s / (sqrt(3)/4 (s L)^2)
 ///     tetrahedra = sum over tissue voxels of dV / (c L^3) + b * triangles
 ///
 /// The last term counts the tetrahedra of thin sheets and small tissues, which have surface but hardly volume. The
-/// constants are at the top of MeshSizeEstimate.cxx. Estimate over real number, measured on maps whose islands under
-/// 30 mm^3 were removed only before meshing (a noisy map has less to mesh then, and is overestimated):
+/// constants are at the top of MeshSizeEstimate.cxx. Estimate over real number, measured on maps whose islands under 30
+/// mm^3 were removed only before meshing (a noisy map has less to mesh then, and is overestimated):
 ///
 ///                                                          triangles   tetrahedra
 ///     jhu189, 189 brain tissues, L 1 to 8 mm                    1.00         1.02

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "NullDisplacement.h"
 
 #include "Errors.h"
@@ -33,15 +34,30 @@ void checkOptions(const NullDisplacementOptions& options, const std::vector<Vec3
     throw UsageError("a null-displacement path distance is given, but no path");
 }
 
-Label freeLabel(const TissueMap& map)
+/// After all that are taken, else the smallest that is not; 0 if there is none.
+Label freeLabel(const std::set<Label>& taken)
+{
+  const Label largest = taken.empty() ? Label(0) : *taken.rbegin();
+  if (largest < 65535) return Label(largest + 1);
+  Label free = 1;
+  for (const Label label : taken)
+  {
+    if (label == free) ++free; // of 65535 comes 0
+  }
+  return free;
+}
+
+Label freeLabel(const TissueMap& map, const std::set<Label>& named)
 {
   const std::vector<Label> present = presentLabels(map);
-  if (present.empty() || present.back() < 65535) return Label(present.empty() ? 1 : present.back() + 1);
-  for (std::size_t n = 0; n < present.size(); ++n)
-  {
-    if (present[n] != n + 1) return Label(n + 1);
-  }
-  throw InputError("the label map uses all labels to 65535, none is left for null displacement");
+  std::set<Label> taken(present.begin(), present.end());
+  const Label notInMap = freeLabel(taken);
+  if (notInMap == 0) throw InputError("the label map uses all labels to 65535, none is left for null displacement");
+  taken.insert(named.begin(), named.end());
+  for (const auto& entry : map.table) taken.insert(entry.first);
+  taken.erase(0);
+  const Label notNamed = freeLabel(taken);
+  return notNamed != 0 ? notNamed : notInMap;
 }
 
 /// Which points of the grid frame are near a target or path.
@@ -94,7 +110,7 @@ NullDisplacement markNullDisplacement(TissueMap& map, const std::vector<Vec3>& t
   for (const Label label : options.tissues) takesPart[label] = true;
 
   NullDisplacement result;
-  result.label = freeLabel(map);
+  result.label = freeLabel(map, options.named);
   std::vector<std::size_t> changed(grid.size[2], 0); // by slice
   vtkSMPTools::For(0, grid.size[2],
                    [&](vtkIdType begin, vtkIdType end)
@@ -115,7 +131,10 @@ NullDisplacement markNullDisplacement(TissueMap& map, const std::vector<Vec3>& t
                      }
                    });
   result.voxelCount = std::accumulate(changed.begin(), changed.end(), std::size_t(0));
-  if (result.voxelCount > 0) map.table[result.label].name = "null displacement";
+  if (result.voxelCount == 0) return result;
+  map.table[result.label] = Tissue();
+  map.table[result.label].name = "null displacement";
+  map.table[result.label].isNullDisplacement = true;
   return result;
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SurgicalScale.h"
 
 #include "Errors.h"
@@ -94,7 +95,8 @@ private:
   double m_ToPath = HUGE_VAL;
 };
 
-/// The labels of the map in the box of two scale voxels' side around a point of the map's grid frame, each at least once.
+/// The labels of the map in the box of two scale voxels' side around a point of the map's grid frame, each at least
+/// once.
 void labelsInBox(const TissueMap& map, const Vec3& centre, double halfSide, std::vector<Label>& labels)
 {
   std::array<int, 3> from;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Target edge length from the distance to surgical targets and paths.
 ///
@@ -70,8 +71,8 @@ struct SurgicalScaleOptions
 void checkScaleOptions(const SurgicalScaleOptions& options, const Grid& map, const std::vector<Vec3>& targets,
                        const std::vector<Path>& paths);
 
-/// The grid of a scale volume: the axes of the map's grid, cubic voxels of `spacing`, centred on the map, which it covers
-/// to the outer faces of its voxels with at least one scale voxel to spare on every side.
+/// The grid of a scale volume: the axes of the map's grid, cubic voxels of `spacing`, centred on the map, which it
+/// covers to the outer faces of its voxels with at least one scale voxel to spare on every side.
 Grid scaleGrid(const Grid& map, double spacing);
 
 /// L at the voxel centres of scaleGrid(map.grid, options.spacing); `targets` and `paths` in the world of map.grid.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The scale and the null displacement of a parameter node as overlays in the slice views, coarse enough to follow a
 /// slider, and the size of mesh to expect.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The plot of edge length over distance (figure 4 of Audette et al., Computer Aided Surgery 12(1), 2007).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Runs SurgicalPathScaleCLI for a parameter node, shows in the host's own process what the parameters mean, and makes
 /// its results legible.

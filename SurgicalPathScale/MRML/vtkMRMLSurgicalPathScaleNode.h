@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the panel of Surgical Path Scale shows. It lives in the scene and is saved with it. Names and defaults are
 /// those of SurgicalPathScaleCLI; lengths and distances in mm, and 0 means what it means to that module.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
 #include "TissueMapIO.h"
 
@@ -61,8 +62,9 @@ TEST_F(SurgicalPathScaleCLI, WritesTheNullDisplacementMap)
   expectDone("--path path.fcsv --nullDisplacementPathDistance 5 --nullDisplacementTissues skin --names names.ctbl "
              "--outputLabelMap far.nrrd map.nrrd scale.nrrd");
   const TissueMap far = readTissueMap(folder.file("far.nrrd"));
-  EXPECT_EQ(presentLabels(far), (std::vector<Label>{ 1, 7, 8 }));
-  EXPECT_EQ(far.table.at(8).name, "null displacement");
+  EXPECT_EQ(presentLabels(far), (std::vector<Label>{ 1, 7, 10 }));
+  EXPECT_EQ(far.table.at(10).name, "null displacement");
+  EXPECT_TRUE(far.table.at(10).isNullDisplacement);
   EXPECT_EQ(far.table.at(1).name, "bone");
   EXPECT_EQ(far.table.count(9), 0u);
   for (std::size_t n = 0; n < far.labels.size(); ++n) EXPECT_EQ(far.labels[n] == 1, map.labels[n] == 1);
@@ -90,8 +92,77 @@ TEST_F(SurgicalPathScaleCLI, SaysThatATargetLiesOutside)
 {
   const Outcome result = run("--targetPoint 500,0,40 --report r.json map.nrrd scale.nrrd");
   EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.err, "");
-  EXPECT_NE(result.out.find("target (500, 0, 40) mm LPS lies outside the label map"), std::string::npos) << result.out;
+  EXPECT_EQ(result.err, "SurgicalPathScaleCLI: warning: target (500, 0, 40) mm LPS lies outside the label map\n");
+  EXPECT_NE(readBytes(folder.file("r.json")).find("target (500, 0, 40) mm LPS lies outside"), std::string::npos);
+}
+
+// B1: the new label was one that the table had a name for, which then hid that it is null displacement.
+TEST_F(SurgicalPathScaleCLI, Trial_B01_NullDisplacementIsWhatItIsWhateverTheTableNames)
+{
+  const std::string names = "7 skin 255 200 150 255\n8 Frontal_Mid_Orb_L 1 2 3 255\n60000 Vermis 4 5 6 255\n";
+  folder.write("names.ctbl", names);
+  expectDone("--targetPoint 10,0,40 --nullDisplacementRadius 6 --names names.ctbl --outputLabelMap far.nrrd map.nrrd "
+             "scale.nrrd");
+  TissueMap far = readTissueMap(folder.file("far.nrrd"));
+  EXPECT_EQ(presentLabels(far).back(), 60001);
+  folder.write("more.ctbl", names + "60001 Pons 7 8 9 255\n");
+  completeTissueTable(far, folder.file("more.ctbl"));
+  for (const auto& [label, tissue] : far.table) EXPECT_EQ(tissue.isNullDisplacement, label == 60001) << label;
+  EXPECT_EQ(far.table.at(60001).name, "null displacement");
+}
+
+TEST_F(SurgicalPathScaleCLI, Trial_B01_FormatsThatDoNotKeepItAreWarnedOf)
+{
+  const Outcome result =
+    run("--targetPoint 10,0,40 --nullDisplacementRadius 6 --outputLabelMap far.nii.gz map.nrrd scale.nrrd");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("warning: far.nii.gz: the format does not keep"), std::string::npos) << result.err;
+}
+
+TEST_F(SurgicalPathScaleCLI, Trial_B02_ListsAndTheReturnParameterFileAreNoOutputs)
+{
+  for (const char* name : { "m.mrk.json", "p.mrk.json" })
+    folder.write(name, R"({"markups":[{"type":"Fiducial","controlPoints":[{"position":[10,0,40]}]}]})");
+  expectRefused("--targets m.mrk.json --report m.mrk.json map.nrrd scale.nrrd", 2, "is an input, too");
+  expectRefused("--targets m.mrk.json,p.mrk.json --report p.mrk.json map.nrrd scale.nrrd", 2, "is an input, too");
+  expectRefused("--targets m.mrk.json --path p.mrk.json --report ./p.mrk.json map.nrrd scale.nrrd", 2, "is an input");
+  expectRefused("--targets target.fcsv --returnparameterfile map.nrrd map.nrrd scale.nrrd", 2, "is an input, too");
+  expectRefused("--targets target.fcsv --returnparameterfile scale.nrrd map.nrrd scale.nrrd", 2, "is an output of");
+}
+
+TEST_F(SurgicalPathScaleCLI, Trial_B14_NestedJsonIsRefused)
+{
+  folder.write("deep.mrk.json", std::string(300000, '['));
+  expectRefused("--targets deep.mrk.json map.nrrd scale.nrrd", 1, "deep.mrk.json: not valid JSON");
+  folder.write("deep.mrk.json", std::string(300000, '[') + std::string(300000, ']'));
+  expectRefused("--targets deep.mrk.json map.nrrd scale.nrrd", 1, "deep.mrk.json: no array \"markups\"");
+}
+
+TEST_F(SurgicalPathScaleCLI, Trial_B15_WhatIsNotThereIsSaid)
+{
+  const std::string far = "--nullDisplacementRadius 5 --outputLabelMap far.nrrd ";
+  expectRefused(far + "--targets target.fcsv --nullDisplacementTissues 99 map.nrrd scale.nrrd", 2,
+                "no voxel of tissue 99");
+  folder.write("still.fcsv", "F,1,2,3\nF,1,2,3\nF,1,2,3\n");
+  expectRefused("--path still.fcsv map.nrrd scale.nrrd", 1, "still.fcsv: a path of length 0");
+  expectRefused("--pathPoint 1,2,3 --pathPoint 1,2,3 map.nrrd scale.nrrd", 2, "a path of length 0");
+  folder.write("lengths.csv", "label,minimum\n1,2,3\n");
+  expectRefused("--targets target.fcsv --tissueLengths lengths.csv map.nrrd scale.nrrd", 1,
+                "lengths.csv:2: 3 fields, expected at most 2");
+  folder.write("names.ctbl", "1 bone 1 2 3 255\n1 skin 1 2 3 255\n");
+  const Outcome result = run("--targets target.fcsv --names names.ctbl map.nrrd scale.nrrd");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("names.ctbl:2: label 1 is listed for the second time"), std::string::npos) << result.err;
+}
+
+TEST_F(SurgicalPathScaleCLI, Trial_3a_AnImageOfIntensitiesIsWarnedOf)
+{
+  for (int n = 0; n < int(map.labels.size()); ++n)
+    map.labels[n] = Label(100 + 3 * (n % 12) + 2 * (n / 12 % 10) + n / 120);
+  folder.write("t1.nrrd", nrrd("uint16", nrrdGeometry(map.grid), map.labels));
+  const Outcome result = run("--targets target.fcsv t1.nrrd scale.nrrd");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("t1.nrrd: looks like an image of intensities"), std::string::npos) << result.err;
 }
 
 TEST_F(SurgicalPathScaleCLI, RefusesBadInputWithOneLineAndStatusOne)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueLengths.h"
 
 #include "../../Libs/TissueMap/Testing/TestFiles.h"

@@ -1,6 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the drivers of other meshers share: they print seconds by phase, sizes, and the peak of memory as one JSON object,
-/// or one line on stderr.
+/// What the drivers of other meshers share: they print seconds by phase, sizes, and the peak of memory as one JSON
+/// object, or one line on stderr.
 
 #include <chrono>
 #include <cstddef>

@@ -1,10 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
 // CGAL's Mesh_3 on a label map with a scale, to measure against: the same input, sizes and file format as ours.
 //
 // usage: Mesh3Driver LABELMAP SCALE.nrrd OUT.vtu [--perturb] [--exude] [--facetDistance MM] [--timeLimit SECONDS]
 //
 // L bounds the circumradii of facets and of tetrahedra; facets are at most facetDistance (1 mm) from the boundary that
-// Mesh_3 interpolates; perturbation and exudation may take timeLimit (60 s) each, 0 for no limit. Prints one JSON object:
-// seconds of each phase, sizes, peak memory. CGAL's own chatter is on stderr.
+// Mesh_3 interpolates; perturbation and exudation may take timeLimit (60 s) each, 0 for no limit. Prints one JSON
+// object: seconds of each phase, sizes, peak memory. CGAL's own chatter is on stderr.
 
 #include "Driver.h"
 #include "Errors.h"

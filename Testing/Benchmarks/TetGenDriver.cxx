@@ -1,12 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
 // TetGen inside a surface of ours or of CGAL's, to measure against: the usual way from a label map to tetrahedra in two
 // steps.
 //
 // usage: TetGenDriver SURFACE.vtp|MESH.vtu SCALE.nrrd OUT.vtu
 //
 // SURFACE.vtp is what SimplexMesherCLI leaves. MESH.vtu is what Mesh3Driver leaves without --perturb and --exude; the
-// faces between its tissues are the surface, and nothing else of it is used. TetGen's own quality refinement (-q) with L
-// at the surface's points for its sizes (-m).
-// Prints one JSON object: seconds of each phase, sizes, peak memory.
+// faces between its tissues are the surface, and nothing else of it is used. TetGen's own quality refinement (-q) with
+// L at the surface's points for its sizes (-m). Prints one JSON object: seconds of each phase, sizes, peak memory.
 
 #include "Driver.h"
 #include "Errors.h"

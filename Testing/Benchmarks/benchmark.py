@@ -22,7 +22,7 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
+sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
 import inputs  # noqa: E402
 from maps import write_nrrd  # noqa: E402
 from measures import components_of_mesh, dihedral_angles, edge_ratios, euler_numbers_of_mesh  # noqa: E402

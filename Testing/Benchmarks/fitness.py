@@ -21,11 +21,12 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import FuncFormatter, LogLocator
 from scipy import ndimage, sparse
 from scipy.sparse.csgraph import connected_components
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
+sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
 from elasticity import Cholesky, stiffness, unknowns, weight  # noqa: E402
 from fidelity import around, boundary_of_map, boundary_of_mesh, hausdorff, hausdorff_by_tissue  # noqa: E402
 from measures import TETRAHEDRON_FACES, dihedral_angles, euler_numbers_of_map, euler_numbers_of_mesh  # noqa: E402
@@ -294,9 +295,12 @@ def draw(rows, file):
             axis.plot(*np.transpose(done), color=color, marker=marker, label=mesher, linewidth=1.5, clip_on=False)
         axis.set_title(title, fontsize=11, pad=10)
         axis.set_yscale(scale)
-        axis.minorticks_off()
         if scale == "linear":
             axis.set_ylim(bottom=0)
+        else:
+            axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+        axis.minorticks_off()
         axis.grid(alpha=0.3)
         axis.spines[["top", "right"]].set_visible(False)
     for axis in axes[1]:

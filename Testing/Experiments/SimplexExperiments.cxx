@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The surface experiments of Audette et al. 2007 (figures 5 to 8), on the surface alone: dense boundary, decimation by
 // vtkDecimatePro, simplex mesh adapted to a scale; and vtkDecimatePro down to as many faces, for comparison.
 //

@@ -2,7 +2,8 @@
 """Draws the surface experiments. usage: pictures.py FOLDER
 
 Reads what SimplexExperiments left in FOLDER and writes simplex-cube.png, simplex-brain.png, simplex-tubes.png and
-simplex-path.png beside it, and table.md. Needs a display: on a machine without one, run it by xvfb-run.
+simplex-path.png beside it, and table.md. Needs a display: run it by
+workflow/example/display.py.
 """
 import csv
 import os
@@ -13,11 +14,20 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import vtk
+from matplotlib.colorbar import ColorbarBase
+from matplotlib.colors import LinearSegmentedColormap, Normalize
+from PIL import Image
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "workflow", "example"))
+from views import save_image  # noqa: E402
 
 INK = "#22262e"
 PANEL = 620
-FARTHEST = 3.0  # mm, full red
+FARTHEST = 2.0  # mm, full red
+WHITE_TO_RED = ((1, 1, 1), (1, 0.85, 0.3), (0.85, 0, 0.05))
+NEAR_TARGET = (0.93, 0.55, 0.45)
+PATH = ((84, 6, 66), (84, 92, 84))  # mm, from nose to gland, as SimplexExperiments has it
 
 
 def read(path):
@@ -31,10 +41,8 @@ def triangles_of(surface):
     return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
 
 
-def half(surface, keep, centres, origin, normal):
-    """Those cells to keep whose centres lie on the far side of a plane, if there is one, whole."""
-    if origin is not None:
-        keep = keep & ((centres - origin) @ np.asarray(normal, float) > 0)
+def those(surface, keep):
+    """Those cells to keep."""
     ids = numpy_to_vtk(np.flatnonzero(keep).astype(np.int64), deep=True, array_type=vtk.VTK_ID_TYPE)
     node, selection, extract = vtk.vtkSelectionNode(), vtk.vtkSelection(), vtk.vtkExtractSelection()
     node.SetFieldType(vtk.vtkSelectionNode.CELL)
@@ -49,11 +57,10 @@ def half(surface, keep, centres, origin, normal):
     return geometry.GetOutput()
 
 
-def centres_of(surface):
-    filter_ = vtk.vtkCellCenters()
-    filter_.SetInputData(surface)
-    filter_.Update()
-    return vtk_to_numpy(filter_.GetOutput().GetPoints().GetData())
+def near_target(surface):
+    """Whether each triangle is where the scale is constant."""
+    length = vtk_to_numpy(surface.GetPointData().GetArray("TargetEdgeLength"))
+    return length[triangles_of(surface)].mean(axis=1) <= 1.02 * length.min()
 
 
 def with_distance(simplex, surface):
@@ -81,74 +88,99 @@ def each_once(simplex, surface):
 
 
 def white_to_red():
+    colors = LinearSegmentedColormap.from_list("distance", WHITE_TO_RED)
     table = vtk.vtkLookupTable()
     table.SetNumberOfTableValues(64)
     table.SetRange(0, FARTHEST)
     table.Build()
     for i in range(64):
-        table.SetTableValue(i, 1, 1 - i / 63, 1 - i / 63, 1)
-    return table
+        table.SetTableValue(i, *colors(i / 63)[:3], 1)
+    return colors, table
 
 
-def actors_for(surface, by_distance, colors):
-    mapper, actor = vtk.vtkPolyDataMapper(), vtk.vtkActor()
-    mapper.SetInputData(surface)
-    actor.SetMapper(mapper)
-    mapper.ScalarVisibilityOff()
-    actor.GetProperty().SetAmbient(0.12)
-    actor.GetProperty().SetColor(0.36, 0.42, 0.50) if by_distance else actor.GetProperty().SetColor(0.84, 0.84, 0.81)
-    if colors is not None:
-        label = surface.GetCellData().GetArray("BoundaryLabels") or surface.GetCellData().GetArray("TissueLabel")
-        values = vtk_to_numpy(label)
-        values = lower_label(values) if values.ndim > 1 else values
-        rgb = np.array([colors[int(v)] for v in values], np.uint8)
-        surface.GetCellData().SetScalars(numpy_to_vtk(rgb, deep=True))
-        mapper.SetScalarModeToUseCellData()
-        mapper.ScalarVisibilityOn()
-    extract, edges, lines = vtk.vtkExtractEdges(), vtk.vtkPolyDataMapper(), vtk.vtkActor()
+def mapper_of_edges(surface, by_distance):
+    extract, edges = vtk.vtkExtractEdges(), vtk.vtkPolyDataMapper()
     extract.SetInputData(surface)
     edges.SetInputConnection(extract.GetOutputPort())
     edges.SetScalarVisibility(bool(by_distance))
     if by_distance:
         edges.SetScalarModeToUsePointData()
-        edges.SetLookupTable(white_to_red())
+        edges.SetLookupTable(white_to_red()[1])
         edges.UseLookupTableScalarRangeOn()
     edges.SetResolveCoincidentTopologyToPolygonOffset()
     edges.SetRelativeCoincidentTopologyLineOffsetParameters(0, -4)
+    return edges
+
+
+def actors_for(surface, by_distance, colors, plane):
+    """Faces and edges, cut along a plane (origin, normal) if there is one."""
+    mapper, actor, lines = vtk.vtkPolyDataMapper(), vtk.vtkActor(), vtk.vtkActor()
+    mapper.SetInputData(surface)
+    mapper.ScalarVisibilityOff()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetAmbient(0.25)
+    actor.GetProperty().SetColor(0.36, 0.42, 0.50)
+    if colors is not None:
+        surface.GetCellData().SetScalars(numpy_to_vtk(np.ascontiguousarray(colors), deep=True))
+        mapper.SetScalarModeToUseCellData()
+        mapper.ScalarVisibilityOn()
+    edges = mapper_of_edges(surface, by_distance)
     lines.SetMapper(edges)
     lines.GetProperty().SetColor(0.13, 0.15, 0.18)
-    lines.GetProperty().SetLineWidth(2.4 if by_distance else 1.4)
+    lines.GetProperty().SetLineWidth(3.0 if by_distance else 1.4)
+    lines.GetProperty().SetLighting(not by_distance)
+    for mapped in (mapper, edges) if plane[0] is not None else ():
+        cut = vtk.vtkPlane()
+        cut.SetOrigin(*plane[0])
+        cut.SetNormal(*plane[1])
+        mapped.AddClippingPlane(cut)
     return actor, lines
 
 
-def picture(surface, direction, up, zoom=1.0, focus=None, by_distance=False, colors=None):
+def path_actors(path):
+    """A tube from the first point to the last, and a ball at its end."""
+    line, tube, ball = vtk.vtkLineSource(), vtk.vtkTubeFilter(), vtk.vtkSphereSource()
+    line.SetPoint1(*path[0])
+    line.SetPoint2(*path[1])
+    tube.SetInputConnection(line.GetOutputPort())
+    tube.SetRadius(1.2)
+    tube.SetNumberOfSides(16)
+    ball.SetCenter(*path[1])
+    ball.SetRadius(4)
+    ball.SetThetaResolution(32)
+    ball.SetPhiResolution(32)
+    for source in (tube, ball):
+        mapper, actor = vtk.vtkPolyDataMapper(), vtk.vtkActor()
+        mapper.SetInputConnection(source.GetOutputPort())
+        actor.SetMapper(mapper)
+        actor.GetProperty().SetColor(0.78, 0.06, 0.18)
+        actor.GetProperty().SetAmbient(0.4)
+        yield actor
+
+
+def picture(surface, direction, up, by_distance=False, colors=None, plane=(None, None), path=None):
     renderer, window = vtk.vtkRenderer(), vtk.vtkRenderWindow()
     renderer.SetBackground(1, 1, 1)
-    for actor in actors_for(surface, by_distance, colors):
+    for actor in (*actors_for(surface, by_distance, colors, plane), *(path_actors(path) if path else ())):
         renderer.AddActor(actor)
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
     window.SetSize(2 * PANEL, 2 * PANEL)
     window.AddRenderer(renderer)
     camera = renderer.GetActiveCamera()
-    centre = np.asarray(surface.GetCenter() if focus is None else focus, float)
     camera.SetFocalPoint(*surface.GetCenter())
     camera.SetPosition(*(np.asarray(surface.GetCenter()) - np.asarray(direction, float)))
     camera.SetViewUp(*up)
     renderer.ResetCamera()
-    shift = centre - np.asarray(surface.GetCenter())
-    camera.SetFocalPoint(*(np.asarray(camera.GetFocalPoint()) + shift))
-    camera.SetPosition(*(np.asarray(camera.GetPosition()) + shift))
-    camera.Zoom(1.02 * zoom)
+    camera.Zoom(1.02)
     renderer.ResetCameraClippingRange()
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
     grab.SetInput(window)
     grab.ReadFrontBufferOff()
     grab.Update()
-    image = grab.GetOutput()
-    width, height, _ = image.GetDimensions()
-    pixels = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, 3)[::-1]
+    width, height, _ = grab.GetOutput().GetDimensions()
+    pixels = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).reshape(height, width, 3)[::-1]
     return cropped(pixels.reshape(PANEL, 2, PANEL, 2, 3).mean(axis=(1, 3)).astype(np.uint8))
 
 
@@ -158,37 +190,42 @@ def cropped(pixels, margin=6):
     return pixels[low:rows.max() + margin, left:columns.max() + margin]
 
 
-def sheet(panels, path, columns, curves=None):
-    """Panels (title, pixels), and below them, if any, the two curves of figure 6d."""
-    rows = -(-len(panels) // columns)
-    figure = plt.figure(figsize=(3.1 * columns, 3.65 * rows + (2.6 if curves else 0)), dpi=100)
-    grid = figure.add_gridspec(rows + (1 if curves else 0), columns * 2,
-                               height_ratios=[3.65] * rows + ([2.3] if curves else []))
+def sheet(panels, path, note, curves=None):
+    """Panels (title, pixels) side by side under a note; below them, if any, the two curves of figure 6d. Inches."""
+    width, tall = 3.6 * len(panels), 3.5
+    height = tall + 1.05 + (2.6 if curves else 0)
+    figure = plt.figure(figsize=(width, height), dpi=100)
+    figure.text(0.15 / width, 1 - 0.3 / height, note, fontsize=10, color="#5a6170")
     for n, (title, pixels) in enumerate(panels):
-        row, column = divmod(n, columns)
-        axes = figure.add_subplot(grid[row, 2 * column:2 * column + 2])
+        axes = figure.add_axes(((3.6 * n + 0.1) / width, (height - 1.0 - tall) / height, 3.4 / width, tall / height))
         axes.imshow(pixels)
+        axes.set_anchor("N")
         axes.axis("off")
-        axes.set_title(title, fontsize=9, color=INK)
+        figure.text((3.6 * n + 1.8) / width, 1 - 0.85 / height, title, fontsize=11, color=INK, ha="center")
+    add_color_bar(figure, (width - 2.6) / width, 1 - 0.42 / height, 2.3 / width, 0.12 / height)
     if curves:
         steps, data = curves
-        for axes, key, label in ((figure.add_subplot(grid[rows, :columns]), "faces", "simplex faces"),
-                                 (figure.add_subplot(grid[rows, columns:]), "meanDistance", "mean distance (mm)")):
+        for n, (key, label) in enumerate((("faces", "simplex faces"), ("meanDistance", "mean distance (mm)"))):
+            left = 0.6 + n * width / 2
+            axes = figure.add_axes((left / width, 0.5 / height, (width / 2 - 0.9) / width, 1.9 / height))
             axes.plot(steps, data[key], color="#4c78a8", marker=".", markersize=4)
-            axes.set_xlabel("iteration", fontsize=8, color=INK)
-            axes.set_title(label, fontsize=9, color=INK)
+            axes.set_xlabel("iteration", fontsize=9, color=INK)
+            axes.set_title(label, fontsize=10, color=INK)
             axes.tick_params(labelsize=8)
+            axes.xaxis.get_major_locator().set_params(integer=True)
             axes.grid(alpha=0.3)
             axes.set_ylim(bottom=0)
-    figure.tight_layout(pad=0.9, rect=(0, 0, 1, 0.995))
-    figure.savefig(path, pil_kwargs={"optimize": True})
+    figure.canvas.draw()
+    save_image(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3]), path)
     plt.close(figure)
-    quantize(path)
 
 
-def quantize(path):
-    from PIL import Image
-    Image.open(path).convert("RGB").quantize(160, dither=Image.Dither.NONE).save(path, optimize=True)
+def add_color_bar(figure, left, bottom, width, height):
+    """Of the distance that edges of simplex meshes are coloured by."""
+    bar = ColorbarBase(figure.add_axes((left, bottom, width, height)), cmap=white_to_red()[0],
+                       norm=Normalize(0, FARTHEST), orientation="horizontal", extend="max", ticks=[0, FARTHEST / 2, FARTHEST])
+    bar.ax.tick_params(labelsize=8, length=2, pad=1)
+    bar.ax.set_title("edges of simplex mesh: distance to boundary (mm)", fontsize=8, color=INK, pad=3)
 
 
 def evolution(folder, name):
@@ -197,7 +234,20 @@ def evolution(folder, name):
     return [int(row["iteration"]) for row in rows], {key: [float(row[key]) for row in rows] for key in rows[0]}
 
 
-def panels_of(folder, name, wanted, view, plane=(None, None), colors=None, zoom=1.0, focus=None):
+def face_colors(shown, surface, kept, palette):
+    """(n, 3) bytes of each face: by tissue where there is a palette of them; else grey, and red near the target."""
+    if palette is not None:
+        label = shown.GetCellData().GetArray("BoundaryLabels") or shown.GetCellData().GetArray("TissueLabel")
+        values = vtk_to_numpy(label)
+        values = lower_label(values) if values.ndim > 1 else values
+        return np.array([palette[int(v)] for v in values], np.uint8)
+    if shown.GetCellData().GetArray("BoundaryLabels") is None:
+        return None
+    near = near_target(surface)[kept]
+    return np.rint(255 * np.where(near[:, None], NEAR_TARGET, (0.84, 0.84, 0.81))).astype(np.uint8)
+
+
+def panels_of(folder, name, wanted, view, plane=(None, None), palette=None, path=None):
     rows = {}
     with open(os.path.join(folder, "table.csv"), encoding="utf-8") as file:
         for row in csv.DictReader(file):
@@ -209,10 +259,10 @@ def panels_of(folder, name, wanted, view, plane=(None, None), colors=None, zoom=
         if by_distance:
             shown = with_distance(read(os.path.join(folder, f"{name}-{file}.vtp")), surface)
         keep = each_once(shown, surface) if by_distance else np.ones(surface.GetNumberOfCells(), bool)
-        shown = half(shown, keep, centres_of(shown), *plane)
-        faces = rows[name, key]["faces"]
-        panels.append((f"{title}\n{faces} faces",
-                       picture(shown, *view, zoom=zoom, focus=focus, by_distance=by_distance, colors=colors)))
+        shown = those(shown, keep)
+        colors = face_colors(shown, surface, keep, palette)
+        panels.append((f"{title}, {int(rows[name, key]['faces']):,} faces",
+                       picture(shown, *view, by_distance=by_distance, colors=colors, plane=plane, path=path)))
     return panels
 
 
@@ -242,26 +292,27 @@ def table(folder):
 
 
 def main(folder):
-    path = lambda name: os.path.join(folder, name)
-    front = ((0.5, 1, -0.35), (0, 0, 1))
-    sheet(panels_of(folder, "cube", [("dense boundary", "dense", "dense"), ("vtkDecimatePro", "vtkDecimatePro", "decimated"),
-                                     ("simplex mesh", "simplex", "after-simplex"), ("its dual", "simplex", "after")],
+    def path(name):
+        return os.path.join(folder, name)
+
+    mesh_and_dual = [("simplex mesh", "simplex", "after-simplex"), ("its dual", "simplex", "after")]
+    front, below = ((0.5, 1, -0.35), (0, 0, 1)), ((0.3, 0.25, 1), (0, 1, 0))
+    sheet(panels_of(folder, "cube", [("dense boundary", "dense", "dense"),
+                                     ("vtkDecimatePro", "vtkDecimatePro", "decimated"), *mesh_and_dual],
                     front, plane=((31.5, 31.5, 31.5), (0, 1, 0))),
-          path("simplex-cube.png"), 4)
-    below = ((0.5, 1, 0.45), (0, 0, 1))
-    sheet(panels_of(folder, "brain", [("to begin with", "to begin with", "before"),
-                                      ("simplex mesh", "simplex", "after-simplex"), ("its dual", "simplex", "after")], below),
-          path("simplex-brain.png"), 3, curves=evolution(folder, "brain"))
-    red, yellow, blue = (205, 92, 82), (228, 196, 98), (122, 152, 190)
-    sheet(panels_of(folder, "tubes", [("dense boundary", "dense", "dense"), ("simplex mesh", "simplex", "after-simplex"),
-                                      ("its dual", "simplex", "after")], ((0.3, 1, -0.25), (0, 0, 1)),
-                    colors=[(0, 0, 0), red, yellow]), path("simplex-tubes.png"), 3)
-    surface = read(path("path-after.vtp"))
-    middle = np.asarray(surface.GetCenter())
-    sheet(panels_of(folder, "path", [("dense boundary", "dense", "dense"), ("simplex mesh", "simplex", "after-simplex"),
-                                     ("its dual", "simplex", "after")], ((-1, 0.15, -0.1), (0, 0, 1)),
-                    plane=(middle, (-1, 0, 0)), colors=[(0, 0, 0), yellow, blue, (222, 150, 92)]),
-          path("simplex-path.png"), 3)
+          path("simplex-cube.png"), "Half cut away. Red faces: around the gland, where the scale is constant")
+    sheet(panels_of(folder, "brain", [("to begin with", "to begin with", "before"), *mesh_and_dual], below),
+          path("simplex-brain.png"), "Seen from below. Red faces: around the target, where the scale is constant",
+          curves=evolution(folder, "brain"))
+    red, yellow, blue, orange = (205, 92, 82), (228, 196, 98), (122, 152, 190), (222, 150, 92)
+    dense = [("dense boundary", "dense", "dense"), *mesh_and_dual]
+    sheet(panels_of(folder, "tubes", dense, ((0.3, 1, -0.25), (0, 0, 1)), palette=[(0, 0, 0), red, yellow]),
+          path("simplex-tubes.png"), "Two tubes, red and yellow")
+    middle = np.asarray(read(path("path-after.vtp")).GetCenter())
+    sheet(panels_of(folder, "path", dense, ((-1, 0.15, -0.1), (0, 0, 1)), plane=(middle, (-1, 0, 0)),
+                    palette=[(0, 0, 0), yellow, blue, orange], path=PATH),
+          path("simplex-path.png"), "Half cut away. Red: path to the gland. Blue: brain. Yellow: near the path. "
+                                    "Orange: held still")
     table(folder)
 
 

@@ -8,4 +8,4 @@ folder=${1:-$root/build/experiments}
 mkdir -p "$folder"
 "$root/CMake/build.sh" SimplexExperiments
 "$root/build/Testing/Experiments/SimplexExperiments" "$folder" /usr/share/mricron/templates
-xvfb-run -a /usr/bin/python3 "$root/Testing/Experiments/pictures.py" "$folder"
+/usr/bin/python3 "$root/workflow/example/display.py" /usr/bin/python3 "$root/Testing/Experiments/pictures.py" "$folder"

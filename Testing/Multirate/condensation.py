@@ -19,7 +19,7 @@ from scipy import sparse
 from vtk.util.numpy_support import vtk_to_numpy
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
+sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
 from elasticity import Cholesky, stiffness, unknowns, weight  # noqa: E402
 from meshfiles import read_dataset  # noqa: E402
 

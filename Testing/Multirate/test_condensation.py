@@ -10,7 +10,7 @@ import numpy as np
 from vtk.util.numpy_support import vtk_to_numpy
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
+sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
 from elasticity import Cholesky, stiffness, unknowns  # noqa: E402
 from maps import cut_out, write_nrrd  # noqa: E402
 from meshfiles import read_dataset, read_mesh  # noqa: E402

@@ -27,8 +27,13 @@ def write_cohort(count, damaged):
 
 
 def write_config(config):
+    write_text(json.dumps(config))
+
+
+def write_text(text):
+    """cohort.yaml as it is."""
     with open("cohort.yaml", "w", encoding="utf-8") as file:
-        json.dump(config, file)
+        file.write(text)
 
 
 def read_config():
@@ -36,18 +41,18 @@ def read_config():
         return json.load(file)
 
 
-def run_snakemake(profile, modules, environment=()):
+def run_snakemake(profile, modules, environment=(), root=ROOT, arguments=()):
     """The finished process, with all it said in stdout."""
     return subprocess.run(
-        ["/usr/bin/snakemake", "--snakefile", os.path.join(ROOT, "workflow", "Snakefile"), "--profile",
-         os.path.join(ROOT, "workflow", "profiles", profile), "--configfile", "cohort.yaml"],
+        ["/usr/bin/snakemake", "--snakefile", os.path.join(root, "workflow", "Snakefile"), "--profile",
+         os.path.join(root, "workflow", "profiles", profile), "--configfile", "cohort.yaml", *arguments],
         env={**os.environ, **dict(environment), "SURGICALMESHER_BIN": modules}, stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, timeout=600)
 
 
-def read_summary():
+def read_summary(folder="out"):
     """Patient -> row of summary.csv."""
-    with open(os.path.join("out", "summary.csv"), encoding="utf-8", newline="") as file:
+    with open(os.path.join(folder, "summary.csv"), encoding="utf-8", newline="") as file:
         return {row["patient"]: row for row in csv.DictReader(file)}
 
 

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Benchmarks")]
+sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Benchmarks")]
 import inputs  # noqa: E402
 import page  # noqa: E402
 from maps import cut_out, write_nrrd  # noqa: E402

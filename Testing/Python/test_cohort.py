@@ -1,17 +1,37 @@
 """A cohort of eight maps, one of them damaged, by Snakemake on this machine. usage: test_cohort.py BIN OUTDIR"""
+import csv
+import json
 import os
 import shutil
+import subprocess
 import sys
 import unittest
 
+import nibabel
+import numpy as np
+
 import cohorts
-from cohorts import all_files, assert_one_refused, read_config, read_summary, write_config
+from cohorts import ROOT, all_files, assert_one_refused, read_config, read_summary, write_config, write_text
+
+sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
+from measures import dihedral_angles, signed_volumes  # noqa: E402
+from meshfiles import read_mesh, read_nrrd  # noqa: E402
 
 BIN, OUTDIR = sys.argv[1:3]
 
 
-def run(modules=BIN):
-    return cohorts.run_snakemake("local", modules)
+def run(modules=BIN, **more):
+    return cohorts.run_snakemake("local", modules, **more)
+
+
+def text_of(file):
+    with open(file, encoding="utf-8") as stream:
+        return stream.read()
+
+
+def read_rows(*path):
+    with open(os.path.join(*path), encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
 
 
 def clear_folder():
@@ -52,7 +72,7 @@ class CohortTest(unittest.TestCase):
         write_config(config)
         self.assert_done(run())
         changed = {path.split(os.sep)[1] for path, time in all_files().items() if before.get(path) != time}
-        self.assertEqual(changed, {"p5", "summary.csv", "summary.md"})
+        self.assertEqual(changed, {"p5", "summary.csv", "summary.md", "volumes.csv"})
 
     def test_4_missing_map_is_that_patients_failure(self):
         os.rename("p6.nrrd", "p6.away")
@@ -99,14 +119,149 @@ class CohortTest(unittest.TestCase):
         self.assertTrue(os.path.exists(os.path.join("out", "p1", "scale", "labels.nrrd")))
 
 
+OWN = "minimumEdgeLength: 4, maximumEdgeLength: 6, childRadius: 5"
+
+
+class ConfigurationTest(unittest.TestCase):
+    """Cohorts of small maps, in ways that configurations are written."""
+
+    def setUp(self):
+        clear_folder()
+        cohorts.write_cohort(2, damaged=1)  # p0.nrrd, and p1.nrrd that is cut off
+        self.point = read_config()["patients"]["p0"]["targetPoint"]
+
+    def meshed(self, process, folder="out"):
+        """The patients that have a mesh."""
+        self.assertEqual(process.returncode, 0, process.stdout)
+        return {name for name, row in read_summary(folder).items() if row["state"] == "meshed"}
+
+    def test_names_are_text_whatever_yaml_makes_of_them(self):
+        names = ("010", "007", "1e3", "yes", "2026-11-23", "1_0", "p.1")
+        patients = "".join(f"  {name}: {{map: p0.nrrd, targetPoint: \"{self.point}\"}}\n" for name in names)
+        write_text(f"folder: out\noptions: {{{OWN}}}\npatients:\n{patients}")
+        self.assertEqual(self.meshed(run()), set(names))
+        for name in names:
+            self.assertTrue(os.path.exists(f"out/{name}/mesh/mesh.vtu"), name)
+
+    def test_folders_with_spaces_and_quotes(self):
+        root = os.path.abspath("a source folder")
+        os.makedirs(root)
+        shutil.copytree(os.path.join(ROOT, "workflow"), os.path.join(root, "workflow"))
+        os.rename("p0.nrrd", "the 'first' map.nrrd")
+        folder = "my $cohort's folder"
+        write_config({"folder": folder, "options": cohorts.OPTIONS,
+                      "patients": {"a": {"map": "the 'first' map.nrrd", "targetPoint": self.point}}})
+        self.assertEqual(self.meshed(run(root=root), folder), {"a"})
+        self.assertFalse(os.path.exists("my"))
+
+    def test_booleans_in_quotes(self):
+        for text, on in (("'no'", False), ("no", False), ("'yes'", True), ("true", True)):
+            write_text(f"folder: out\noptions: {{{OWN}, followThickness: {text}}}\n"
+                       f"patients: {{a: {{map: p0.nrrd, targetPoint: \"{self.point}\"}}}}\n")
+            self.assertEqual(self.meshed(run()), {"a"}, text)
+            with open("out/a/surface/report.json", encoding="utf-8") as file:
+                self.assertEqual(json.load(file)["thickness"]["followed"], on, text)
+
+    def test_members_given_to_snakemake(self):
+        write_text(f"folder: out\noptions: {{{OWN}}}\n"
+                   f"patients: {{01: {{map: p0.nrrd, targetPoint: \"{self.point}\"}}}}\n")
+        self.assertEqual(self.meshed(run(arguments=["--config", "folder=elsewhere", "threads=1"]), "elsewhere"), {"01"})
+
+    def test_patients_by_a_pattern(self):
+        os.makedirs("maps")
+        for name in ("003", "anna"):
+            os.makedirs(f"maps/{name}")
+            shutil.copy("p0.nrrd", f"maps/{name}/{name}.nrrd")
+            with open(f"maps/{name}/{name}.mrk.json", "w", encoding="utf-8") as file:
+                position = [float(x) for x in self.point.split(",")]
+                json.dump({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS",
+                                        "controlPoints": [{"id": "1", "position": position}]}]}, file)
+        write_text(f"folder: out\noptions: {{{OWN}, targets: '{{folder}}/{{patient}}.mrk.json'}}\n"
+                   "patients: maps/*/*.nrrd\n")
+        self.assertEqual(self.meshed(run()), {"003", "anna"})
+
+    def test_patients_by_a_table(self):
+        with open("list.csv", "w", encoding="utf-8") as file:
+            file.write(f"patient,map,targetPoint,maximumEdgeLength\n007,p0.nrrd,\"{self.point}\",5\n"
+                       f"008,p1.nrrd,\"{self.point}\",\n")
+        write_text(f"folder: out\noptions: {{{OWN}}}\npatients: list.csv\n")
+        self.assertEqual(self.meshed(run()), {"007"})
+        self.assertEqual(read_summary()["008"]["state"], "refused by scale")
+        with open("out/007/scale/report.json", encoding="utf-8") as file:
+            self.assertEqual(json.load(file)["parameters"]["maximumEdgeLength"], 5)
+
+    def test_patients_of_a_bids_folder(self):
+        labels, affine = read_nrrd("p0.nrrd")
+        anat = "bids/derivatives/seg/sub-01/anat"
+        os.makedirs(anat)
+        image = nibabel.Nifti1Image(labels, np.diag([-1, -1, 1, 1]) @ affine)
+        nibabel.save(image, f"{anat}/sub-01_space-orig_dseg.nii.gz")
+        write_text(f"folder: out\noptions: {{{OWN}, targetPoint: '{self.point}'}}\npatients: bids\n")
+        self.assertEqual(self.meshed(run()), {"sub-01_space-orig"})
+
+    def test_bytes_of_bad_files_and_damaged_results_leave_the_table_whole(self):
+        with open("names.lut", "wb") as file:
+            file.write(b"\xff\x00\x1b[2J\xfe table\n" * 20)
+        patients = {name: {"map": "p0.nrrd", "targetPoint": self.point} for name in ("a", "b", "c", "d")}
+        patients["a"]["names"] = "names.lut"
+        write_config({"folder": "out", "options": cohorts.OPTIONS, "patients": patients})
+        self.assertEqual(self.meshed(run()), {"b", "c", "d"})
+        row = read_summary()["a"]
+        self.assertEqual(row["state"], "refused by scale")
+        self.assertIn("names.lut", row["error"])
+        for text in (row["error"], text_of("out/summary.md")):
+            self.assertNotRegex(text, "[\x00\x1b]")
+        with open("out/b/surface/report.json", "w", encoding="utf-8") as file:
+            file.write("{ half")
+        with open("out/c/mesh/run.json", "w", encoding="utf-8") as file:
+            file.write('{"stage": "x|\\n\\u001b[2J", "status": 1, "error": "a|b\\n| c | d |\\u001b"}')
+        summary = [sys.executable, os.path.join(ROOT, "workflow", "scripts", "summary.py"), "out", *patients]
+        done = subprocess.run(summary, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        rows = read_summary()
+        self.assertEqual([row["state"] for row in rows.values()][0::3], ["refused by scale", "meshed"])
+        self.assertEqual(rows["b"]["state"], "unreadable")
+        self.assertRegex(rows["c"]["error"], r"^a\|b\\n\| c \| d \|\\x1b$")
+        self.assertEqual(len(text_of("out/summary.md").splitlines()), 2 + len(patients))
+
+    def test_volumes_quality_warnings_logs_and_pictures(self):
+        write_config({"folder": "out", "options": cohorts.OPTIONS,
+                      "patients": {"in": {"map": "p0.nrrd", "targetPoint": self.point},
+                                   "far": {"map": "p0.nrrd", "targetPoint": "900,0,0"}}})
+        self.assertEqual(self.meshed(run()), {"in", "far"})
+        rows = read_summary()
+        self.assertIn("outside the label map", rows["far"]["warnings"])
+        labels, affine = read_nrrd("out/in/surface/prepared.nrrd")
+        mesh = read_mesh("out/in/mesh/mesh.vtu")
+        voxel, volume = abs(np.linalg.det(affine[:3, :3])), signed_volumes(mesh)
+        self.assertAlmostEqual(float(rows["in"]["mapVolumeMm3"]), voxel * np.count_nonzero(labels), 0)
+        self.assertAlmostEqual(float(rows["in"]["meshVolumeMm3"]), volume.sum(), 0)
+        self.assertAlmostEqual(float(rows["in"]["meanMinimumDihedralDegrees"]),
+                               dihedral_angles(mesh).min(axis=1).mean(), 1)
+        tissues = [row for row in read_rows("out", "volumes.csv") if row["patient"] == "in"]
+        self.assertEqual([int(row["label"]) for row in tissues], list(np.setdiff1d(labels, [0])))
+        for row in tissues:
+            label = int(row["label"])
+            self.assertAlmostEqual(float(row["mapVolumeMm3"]), voxel * np.count_nonzero(labels == label), 0)
+            self.assertAlmostEqual(float(row["meshVolumeMm3"]), volume[mesh.tissue == label].sum(), 0)
+        for name, row in rows.items():
+            self.assertTrue(os.path.exists(os.path.join("out", row["log"])), name)
+            self.assertGreater(os.path.getsize(os.path.join("out", row["picture"])), 10_000, name)
+
+
 class RefusalTest(unittest.TestCase):
     def setUp(self):
         clear_folder()
 
     def assert_refused(self, config, *words):
         write_config(config)
+        self.assert_one_line(*words)
+
+    def assert_one_line(self, *words):
         process = run()
         self.assertNotEqual(process.returncode, 0)
+        self.assertEqual(process.stdout.count("\n"), 1, process.stdout)
+        self.assertTrue(process.stdout.startswith("configuration: "), process.stdout)
         for word in words:
             self.assertIn(word, process.stdout)
         self.assertFalse(os.path.exists("out"))
@@ -119,7 +274,39 @@ class RefusalTest(unittest.TestCase):
         self.assert_refused({"patients": {"p0": patient}, "options": {"threads": 1}}, "options", "threads")
         self.assert_refused({"patients": {"p0": {"targetPoint": "0,0,0"}}}, "p0 has no map")
         self.assert_refused({"patients": {"../p0": patient}}, "'../p0'")
+        self.assert_refused({"patients": {"p0": patient}, "threads": 1.5}, "threads")
+        for folder in ("", "out/{patient}", ["out"]):
+            self.assert_refused({"patients": {"p0": patient}, "folder": folder}, "folder")
+
+    def test_options_of_other_types(self):
+        patient = {"map": "p0.nrrd", "targetPoint": "0,0,0"}
+        for name, value, expected in (("minimumEdgeLength", "abc", "a number from 0.01 to 100"),
+                                      ("minimumEdgeLength", -1, "a number from 0.01 to 100"),
+                                      ("followThickness", "perhaps", "true or false"),
+                                      ("combine", "larger", "one of smaller, targets, path"),
+                                      ("targetPoint", "1,2", "three numbers"),
+                                      ("targets", {"a": "b"}, "a value or a list"),
+                                      ("export", "/tmp/x.inp", "without a folder")):
+            self.assert_refused({"patients": {"p0": {**patient, name: value}}}, "patient p0", name, expected)
+            self.assert_refused({"patients": {"p0": patient}, "options": {name: value}}, "options", name, expected)
+
+    def test_lists_of_patients(self):
+        self.assert_refused({"patients": "nothing/*.nrrd"}, "nothing/*.nrrd", "no label map found")
+        self.assert_refused({"patients": "nothing.csv"}, "nothing.csv")
+        os.makedirs("bids")
+        self.assert_refused({"patients": "bids"}, "bids", "no label map found")
+        for text, word in (("name,map\n", "expected a header row"), ("patient,map\n1,a\n1,b\n", "1 is there twice"),
+                           ("patient,map\n1,a,b\n", "3 fields, expected 2"), ("patient,map\n1,\n", "1 has no map")):
+            with open("list.csv", "w", encoding="utf-8") as file:
+                file.write(text)
+            self.assert_refused({"patients": "list.csv"}, word)
+        for name in ("a", "b"):
+            os.makedirs(name)
+            open(f"{name}/head.nii.gz", "wb").close()
+        self.assert_refused({"patients": "*/head.nii.gz"}, "are both called head")
+        write_text("folder: out\npatients:\n  a: {map: a}\n  a: {map: b}\n")
+        self.assert_one_line("a is there twice")
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -13,7 +13,7 @@ import nibabel
 import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
+sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
 from maps import LPS_FROM_RAS, cut_out, write_nrrd  # noqa: E402
 from meshfiles import read_mesh  # noqa: E402
 

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
+sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
 import measures  # noqa: E402
 import meshfiles  # noqa: E402
 

@@ -8,9 +8,11 @@ import xml.etree.ElementTree as xml
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MODULES = ("SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer")
+# Programs without a panel of their own: their folder, whose name their page has, too.
+PROGRAMS = {"TemplateFit": "TemplateHexMesher", "TissueMapper": "TissueMapper", "TubePath": "TissueMapper"}
 PAGES = (["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{module}.md" for module in MODULES]
-         + ["Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/Multirate.md", "Docs/Fitness.md", "Docs/Solvers.md",
-            "Docs/Slicer.md", "Docs/Tutorial.md"])
+         + ["Docs/TemplateHexMesher.md", "Docs/TissueMapper.md", "Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/Multirate.md", "Docs/Fitness.md",
+            "Docs/Solvers.md", "Docs/Slicer.md", "Docs/Tutorial.md"])
 
 
 def text_of(*path):
@@ -33,12 +35,20 @@ def example_commands():
 def options_of(module):
     """Long flag -> default, and the names of the positional arguments, as the module's description has them."""
     flags, positional = {}, {}
-    for parameter in xml.fromstring(text_of(module, "CLI", module + "CLI.xml")).iterfind("parameters/*"):
+    description = text_of(PROGRAMS.get(module, module), "CLI", module + "CLI.xml")
+    for parameter in xml.fromstring(description).iterfind("parameters/*"):
         if parameter.find("longflag") is not None:
             flags[parameter.findtext("longflag")] = parameter.findtext("default") or ""
         elif parameter.find("index") is not None:
             positional[int(parameter.findtext("index"))] = parameter.findtext("name")
     return flags, [positional[index] for index in sorted(positional)]
+
+
+def section_of(module):
+    """What a page says of one program: from its usage on, up to that of the next."""
+    page = text_of("Docs", PROGRAMS.get(module, module) + ".md")
+    parts = re.split(r"^(?=    \w+CLI \[options\])", page, flags=re.M)
+    return next(part for part in parts if part.startswith(f"    {module}CLI "))
 
 
 def anchors_of(page):
@@ -57,6 +67,48 @@ class ReadmeTest(unittest.TestCase):
         self.assertEqual(scripts, ["./example.sh", "./test.sh"])
         self.assertEqual([command for command in commands if command not in scripts], example_commands())
 
+    def test_commands_can_be_pasted(self):
+        for page in PAGES:
+            lines = text_of(page).split("\n")
+            for before, line in zip(lines, lines[1:]):
+                if re.match(r" {5,}--\w", line):  # a command goes on
+                    self.assertTrue(before.endswith(" \\"), f"{page}: {line}")
+        text = text_of("README.md") + text_of("Docs/Solvers.md")
+        for command in re.findall(r"^    (?:\./|\w+CLI |run_).*$", text, re.M):
+            self.assertNotIn("...", command)
+
+    def test_first_words_say_which_map_and_which_algorithms(self):
+        introduction = text_of("README.md").split("\n## ")[0]
+        for word in ("*prepared map*", "Maubach", "guarded", "--ambient"):
+            self.assertIn(word, introduction)
+        self.assertNotIn("topology that it has in the map", " ".join(introduction.split()))
+
+    def test_limits_are_told(self):
+        for page, words in (("README.md", ("65535", "several layers", "Windows")),
+                            ("Docs/SimplexMesher.md", ("65535", "several layers", "2.1 times")),
+                            ("Docs/SurgicalPathScale.md", ("straight lines", "smooth", "65535")),
+                            ("Docs/FuchsTetrahedralizer.md", ("In the ideal",)),
+                            ("Docs/Solvers.md", ("sagging_head.py materials", "sagging_head.py clamped"))):
+            for word in words:
+                self.assertIn(word, text_of(page), page)
+        for page in PAGES:
+            self.assertTrue(text_of(page).endswith("\n"), page)
+
+    def test_the_example_installs_no_more_than_it_needs(self):
+        self.assertIn("--for build,example", text_of("example.sh"))
+        sections = re.split(r"^# \[(\w+)\].*\n", text_of("CMake", "debian-packages.txt"), flags=re.M)
+        packages = {name: set(re.findall(r"^[\w.+-]+", text, re.M))
+                    for name, text in zip(sections[1::2], sections[2::2])}
+        self.assertEqual(set(packages), {"build", "example", "cohorts", "tests"})
+        self.assertFalse((packages["build"] | packages["example"]) & (packages["cohorts"] | packages["tests"]))
+        self.assertTrue({"slurmctld", "freefem++", "libgtest-dev"} <= packages["tests"])
+
+    def test_a_section_that_there_is_not_is_refused(self):
+        done = subprocess.run([os.path.join(ROOT, "CMake", "build.sh"), "--for", "everything"], stderr=subprocess.PIPE,
+                              stdout=subprocess.PIPE, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+        self.assertIn("build example cohorts tests", done.stderr)
+
     def test_scripts_are_executable_bash(self):
         for script in ("example.sh", "test.sh", "CMake/build.sh", ".ci/run"):
             path = os.path.join(ROOT, script)
@@ -73,21 +125,22 @@ class ReadmeTest(unittest.TestCase):
 
 class PagesTest(unittest.TestCase):
     def test_every_option_and_its_default_is_in_the_module_page(self):
-        for module in MODULES:
-            rows = re.findall(r"^\| `--(\w+)[^|]*\| *([^|]*?) *\|", text_of("Docs", module + ".md"), re.M)
+        for module in [*MODULES, *PROGRAMS]:
+            rows = re.findall(r"^\| `--(\w+)[^|]*\| *([^|]*?) *\|", section_of(module), re.M)
             flags, _ = options_of(module)
             self.assertEqual(len(rows), len(dict(rows)), f"{module}: an option is there twice")
             self.assertEqual(dict(rows), flags, module)
 
     def test_options_in_running_text_exist(self):
-        known = {flag for module in MODULES for flag in options_of(module)[0]} | {"help", "version", "xml"}
+        known = {flag for module in [*MODULES, *PROGRAMS] for flag in options_of(module)[0]}
+        known |= {"help", "version", "xml"}
         for page in PAGES:
             for flag in re.findall(r"`--(\w+)", text_of(page)):
                 self.assertIn(flag, known, page)
 
     def test_positional_arguments_are_those_of_the_module(self):
-        for module in MODULES:
-            usage = re.search(rf"^    {module}CLI \[options\] (.*)$", text_of("Docs", module + ".md"), re.M).group(1)
+        for module in [*MODULES, *PROGRAMS]:
+            usage = re.search(rf"^    {module}CLI \[options\] (.*)$", section_of(module), re.M).group(1)
             self.assertEqual([word.split(".")[0] for word in usage.split()], options_of(module)[1], module)
 
     def test_links_lead_somewhere(self):

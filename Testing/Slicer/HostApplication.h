@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The host in a test: its real application object with its own modules and ours, a layout of views, no main window.
 ///
@@ -63,8 +64,8 @@ public:
   /// Handles events for so many seconds, for instance to let a debounced preview settle.
   void waitFor(double seconds);
 
-  /// The warnings and errors in the host's log since the last call, one per line; empty if there are none. Of those from
-  /// the host's start, only the ones that name a module or class of ours.
+  /// The warnings and errors in the host's log since the last call, one per line; empty if there are none. Of those
+  /// from the host's start, only the ones that name a module or class of ours.
   std::string complaints();
 
 private:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Small inputs for the modules, made as nodes of a scene, and a check of what a run leaves behind.
 ///

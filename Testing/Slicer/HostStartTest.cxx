@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// The host's own application, started with our module paths as a user adds them: it finds and loads three loadable and
 /// three command-line modules, and its log holds no warning or error that it would not hold without us.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 /// What the modules' tests rely on: that the helpers make what they say, and that the comparisons can fail.
 
 #include "HostApplication.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Letting the host go on with its work while a test or the tutorial waits.
 

@@ -8,11 +8,7 @@ import shutil
 import subprocess
 import sys
 
-import numpy as np
-
-ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.insert(0, os.path.join(ROOT, "Docs", "Example"))
-from meshfiles import cell_array, read_dataset  # noqa: E402
+from sagging_head import materials
 
 BIN, EXAMPLE, OUTDIR = map(os.path.abspath, sys.argv[1:4])
 FORMATS = ("feb", "inp", "mesh", "msh", "msh2", "ply", "stl", "vtk", "vtu", "xdmf")
@@ -22,9 +18,7 @@ os.makedirs(OUTDIR)
 os.chdir(OUTDIR)
 surface = os.path.join(EXAMPLE, "surface.vtp")
 with open("materials.csv", "w", encoding="ascii") as table:
-    table.write("tissue, model, youngsModulus, poissonsRatio, density\n")
-    for label in np.setdiff1d(cell_array(read_dataset(surface), "BoundaryLabels"), [0]):
-        table.write("%d, linear, %d, 0.45, 1000\n" % (label, 6 if label % 2 == 0 else 3))
+    table.write(materials(surface))
 subprocess.run([os.path.join(BIN, "FuchsTetrahedralizerCLI"), "--scale", os.path.join(EXAMPLE, "scale.nrrd"),
                 "--ambient", os.path.join(EXAMPLE, "ambient.vtu"), "--materials", "materials.csv",
                 *(word for extension in FORMATS for word in ("--export", "mesh." + extension)),

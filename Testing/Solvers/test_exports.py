@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
+sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
 from exported import READERS, is_second_side, meshio_read  # noqa: E402
 from measures import TETRAHEDRON_FACES, signed_volumes  # noqa: E402
 from meshfiles import cell_array, read_dataset, read_mesh  # noqa: E402

@@ -14,7 +14,7 @@ import xml.etree.ElementTree as xml
 import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
+sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
 from exported import READERS, meshio_read  # noqa: E402
 from maps import cut_out, write_nrrd  # noqa: E402
 from meshfiles import cell_array, read_dataset, read_mesh  # noqa: E402

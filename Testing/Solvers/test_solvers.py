@@ -14,8 +14,9 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path[:0] = [os.path.join(ROOT, "Docs", "Example"), os.path.join(ROOT, "Testing", "Python")]
+sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
 from meshfiles import read_mesh  # noqa: E402
+from sagging_head import clamped_surfaces  # noqa: E402
 from sidecar import Sidecar  # noqa: E402
 
 EXPORTS = sys.argv[1]
@@ -26,18 +27,6 @@ PROGRAMS = {"calculix": ("inp", "ccx"), "fenicsx": ("xdmf", "dolfinx"), "freefem
 
 def installed(name):
     return shutil.which(name) or importlib.util.find_spec(name)
-
-
-def clamped_surfaces(mesh, sets):
-    """The ends of tissues in the lowest quarter of the head."""
-    height = mesh.points[:, 2]
-    limit = height.min() + 0.25 * np.ptp(height)
-    chosen = []
-    for name, entry in sets.items():
-        if entry["type"] == "faces" and entry["kind"] == "tissueInterface" and entry["ids"][1] == 0:
-            if height[mesh.tetrahedra[mesh.tissue == entry["ids"][0]]].mean() < limit:
-                chosen.append(name)
-    return chosen
 
 
 def run(script, extension, *arguments):

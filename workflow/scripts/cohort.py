@@ -4,45 +4,60 @@ import re
 import shlex
 import sys
 
-from snakemake.exceptions import WorkflowError
-
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "Docs", "Example"))
-from options import PROGRAMS, OptionError, check_value, flag_named, flags_by_stage, is_taken  # noqa: E402
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "example"))
+from configuration import ConfigurationError, patients_of, with_placeholders  # noqa: E402
+from options import (PROGRAMS, TRUTHS, OptionError, check_value, flag_named, flags_by_stage, is_taken,  # noqa: E402
+                     values_of_list)
 
 SETTINGS = {"folder", "threads", "options", "patients"}
-PATIENT_NAME = re.compile(r"[A-Za-z0-9][\w.-]*")
+PATIENT_NAME = re.compile(r"[A-Za-z0-9][\w.-]*", re.ASCII)
+NO_WILDCARDS = re.compile(r"[^{}]*")  # which braces are to Snakemake
+TABLES = ("summary.csv", "summary.md", "volumes.csv")
 
 
 def values_of(option):
     return option if isinstance(option, list) else [option]
 
 
+def threads_of(text):
+    if not re.fullmatch("[1-9][0-9]{0,3}", text, re.ASCII):
+        raise ConfigurationError(f"threads: {text}, expected a whole number from 1 on")
+    return int(text)
+
+
 class Cohort:
-    """`config` has the members folder, threads, options (of all patients) and patients (name -> map and options of its
-    own). Raises WorkflowError on anything else, and on options that no program has."""
+    """`config` is of texts, lists and mappings, with the members folder, threads, options (of all patients) and
+    patients (name -> map and options of its own, or where to find them). Raises ConfigurationError on anything else, and on
+    options that no program takes."""
 
     def __init__(self, config):
         try:
             self.flags = flags_by_stage()
         except OptionError as error:
-            raise WorkflowError(str(error)) from None
+            raise ConfigurationError(str(error)) from None
         for name in config:
             if name not in SETTINGS:
-                raise WorkflowError(f"configuration: unknown member {name}, expected {', '.join(sorted(SETTINGS))}")
-        if not isinstance(config.get("patients"), dict) or not config["patients"]:
-            raise WorkflowError("configuration: no patients, expected --configfile FILE with a mapping `patients`")
+                raise ConfigurationError(f"unknown member {name}, expected {', '.join(sorted(SETTINGS))}")
         self.folder = config.get("folder", "cohort")
-        self.threads = config.get("threads", 2)
+        if not isinstance(self.folder, str) or not self.folder.strip() or not NO_WILDCARDS.fullmatch(self.folder):
+            raise ConfigurationError("folder: expected the name of a folder for the results, without { and }")
+        self.threads = threads_of(config.get("threads", "2"))
         common = config.get("options") or {}
-        self.check("options", common)
-        self.patients = {}
-        for name, patient in config["patients"].items():
-            if not PATIENT_NAME.fullmatch(str(name)):
-                raise WorkflowError(f"configuration: patient {name!r}, expected a name of letters, digits, _ - and .")
-            if not isinstance(patient, dict) or not isinstance(patient.get("map"), str):
-                raise WorkflowError(f"configuration: patient {name} has no map")
-            self.check(f"patient {name}", {key: patient[key] for key in patient if key != "map"})
-            self.patients[str(name)] = {**common, **patient}
+        if not isinstance(common, dict):
+            raise ConfigurationError("options: expected a mapping of options")
+        self.patients = {name: self.patient(name, patient, common)
+                         for name, patient in patients_of(config.get("patients")).items()}
+
+    def patient(self, name, patient, common):
+        """The patient's map and options, checked."""
+        if not PATIENT_NAME.fullmatch(name) or name in TABLES:
+            raise ConfigurationError(f"patient {name!r}, expected a name of letters, digits, _ - and .")
+        if not isinstance(patient, dict) or not isinstance(patient.get("map"), str) or not patient["map"]:
+            raise ConfigurationError(f"patient {name} has no map")
+        own = {option: value for option, value in patient.items() if option != "map"}
+        self.check("options", with_placeholders(common, name, patient["map"]))
+        self.check(f"patient {name}", with_placeholders(own, name, patient["map"]))
+        return {**with_placeholders({**common, **own}, name, patient["map"]), "map": patient["map"]}
 
     def check(self, where, options):
         try:
@@ -51,9 +66,11 @@ class Cohort:
                     raise OptionError("threads is the same for all, expected outside of options and patients")
                 flag = flag_named(name, self.flags)
                 for value in values_of(option):
-                    check_value(name, flag, str(value))
+                    if not isinstance(value, str):
+                        raise OptionError(f"{name}: expected a value or a list of values")
+                    check_value(name, flag, value)
         except OptionError as error:
-            raise WorkflowError(f"configuration: {where}: {error}") from None
+            raise ConfigurationError(f"{where}: {error}") from None
 
     def flags_for(self, stage, patient):
         """(name, Flag) of the options that the patient has and the stage takes."""
@@ -64,8 +81,8 @@ class Cohort:
     def files(self, stage, patient):
         """Input files as they are; missing ones are left to the program, whose message goes into the table."""
         options = self.patients[patient]
-        files = [str(value) for name, flag in self.flags_for(stage, patient) if flag.is_input
-                 for value in values_of(options[name])]
+        files = [file for name, flag in self.flags_for(stage, patient) if flag.is_input
+                 for value in values_of(options[name]) for file in values_of_list(flag, value)]
         if stage != "mesh":
             files.append(options["map"])
         return [file for file in files if os.path.exists(file)]
@@ -74,9 +91,9 @@ class Cohort:
         for name, flag in self.flags_for(stage, patient):
             for value in values_of(self.patients[patient][name]):
                 if flag.kind == "boolean":
-                    yield from ["--" + name] if value else []
+                    yield from ["--" + name] if TRUTHS[value.lower()] else []
                 else:
-                    yield from ["--" + name, os.path.join(folder, value) if flag.is_output else str(value)]
+                    yield from ["--" + name, os.path.join(folder, value) if flag.is_output else value]
 
     def has_null_displacement(self, patient):
         return any(name in self.patients[patient] for name in ("nullDisplacementRadius", "nullDisplacementPathDistance"))

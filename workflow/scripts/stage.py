@@ -14,6 +14,7 @@ import sys
 import time
 
 RESULTS = range(4)
+LONGEST = 500  # characters of a line for a table
 
 
 def read_arguments():
@@ -35,18 +36,31 @@ def failure_of(folder):
     return run if run["status"] else None
 
 
+def printable(text):
+    """Control characters, which a terminal or a table would obey, are written as escapes."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def last_line(text):
+    """What a program says last on stderr is why it ended."""
+    lines = [line for line in text.split("\n") if line.strip()]
+    line = printable(lines[-1]) if lines else "no message"
+    return line if len(line) <= LONGEST else line[:LONGEST] + " ..."
+
+
 def run(arguments):
     start = time.monotonic()
     with open(arguments.log, "w", encoding="utf-8") as log:
         process = subprocess.run(arguments.command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.PIPE,
-                                 text=True, check=False)
-        log.write(process.stderr)
-        lines = process.stderr.split("\n")
+                                 check=False)
+        said = process.stderr.decode("utf-8", "backslashreplace")
+        log.write("\n".join(printable(line) for line in said.split("\n")))
         if process.returncode not in RESULTS:
             end = f"signal {-process.returncode}" if process.returncode < 0 else f"status {process.returncode}"
             log.write(f"{arguments.command[0]} ended by {end}\n")
             sys.exit(1)
-    return {"stage": arguments.stage, "status": process.returncode, "error": lines[0] if process.returncode else "",
+    return {"stage": arguments.stage, "status": process.returncode,
+            "error": last_line(said) if process.returncode else "",
             "seconds": round(time.monotonic() - start, 2),
             "peakMemory": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024}
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the stages before leave for this module: two nested balls, once as files and once as nodes of the host's scene.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // States that a run can get into: every one ends in a sentence, without a crash, a node or a file left behind.
 
 #include "HostApplication.h"

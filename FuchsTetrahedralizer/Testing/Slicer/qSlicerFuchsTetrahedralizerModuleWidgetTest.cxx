@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The panel as a user meets it: it says what is missing, runs the module off the interface, and shows, measures and
 // exports the same tetrahedra that the command line writes.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameter node: what it holds survives a scene's file and a copy, and it tells of changes once.
 
 #include "vtkMRMLFuchsTetrahedralizerNode.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The logic without its panel: closed models, transforms, constitutive classes, meshes from elsewhere, and what a saved
 // scene brings back.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What the parser accepts and refuses.
 #include "Arguments.h"
 #include "CommandLineTestModuleXML.h"
@@ -118,7 +119,9 @@ TEST(Arguments, theHostsOwnFlagsAreKnown)
 TEST(Arguments, refusalsSayWhatWasFoundAndExpected)
 {
   EXPECT_EQ(refusalOfOptions({ "--lenght", "2" }),
-            "--lenght: unknown flag found, one of those that --help lists expected");
+            "--lenght: unknown flag found, one of those that --help lists expected; did you mean --length?");
+  EXPECT_EQ(refusalOfOptions({ "--unlike-any", "2" }),
+            "--unlike-any: unknown flag found, one of those that --help lists expected");
   EXPECT_EQ(refusalOfOptions({ "--length", "0.1" }), "--length: '0.1' found, a number of at least 0.5 expected");
   EXPECT_EQ(refusalOfOptions({ "--length", "2", "--length", "3" }), "--length: given twice, once expected");
   EXPECT_EQ(refusalOf({ "a", "b.vtp", "--length" }), "--length: no value found, a number of at least 0.5 expected");

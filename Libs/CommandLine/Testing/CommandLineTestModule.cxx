@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // A module that ends in every way a module can end.
 #include "CommandLine.h"
 #include "CommandLineTestModuleXML.h"
@@ -48,6 +49,21 @@ void chatter()
   vtkGenericWarningMacro("and VTK, too");
 }
 
+/// Until the stack is used up.
+int recurse(volatile int depth)
+{
+  volatile char frame[4096];
+  frame[0] = char(depth);
+  return depth == 0 ? 0 : recurse(depth + 1) + frame[0];
+}
+
+void announceSidecars(CommandLine& line)
+{
+  const std::string result = line.outputNames("result").front();
+  line.alsoWrites("result", result + ".json");
+  line.alsoWritesMany("result", result.substr(0, result.rfind('.')) + ".part_", ".vtp");
+}
+
 void act(CommandLine& line, const std::string& what)
 {
   if (what == "inputError") throw InputError(line.text("input") + ": nothing found, something expected");
@@ -57,6 +73,12 @@ void act(CommandLine& line, const std::string& what)
   if (what == "longException") throw std::runtime_error("first line\n  second line\n");
   if (what == "number") throw 42;
   if (what == "chatter") chatter();
+  if (what == "recurse") std::cout << recurse(1) << std::flush;
+  if (what == "warn")
+  {
+    line.message("a \"message\"");
+    line.warning("something \x1b odd");
+  }
   if (what == "unknownName") line.text(line.text("folder") + "?");
   if (what == "wrongType") line.integer("text");
   if (what == "wait")
@@ -71,6 +93,7 @@ void run(CommandLine& line)
   const std::string what = line.text("act");
   const Progress progress = line.progress();
   report(progress, 0, "Writing <all>");
+  if (what == "sidecars") announceSidecars(line);
   const std::string text = content(line);
   if (what != "forget") write(text, line.outputFile("result"));
   if (line.given("extra")) write(text, line.outputFile("extra"));

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Descriptions that are read, and those that are refused as a fault of the program.
 #include "ModuleDescription.h"
 #include "CommandLineTestModuleXML.h"

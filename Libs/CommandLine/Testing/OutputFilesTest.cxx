@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Outputs appear whole or not at all, and leave no trace of an attempt.
 #include "OutputFiles.h"
 #include "Errors.h"
@@ -176,15 +177,16 @@ TEST_F(OutputFilesTest, goThroughSymbolicLinks)
 }
 #endif
 
-TEST_F(OutputFilesTest, removeWhatKilledRunsLeftOfTheSameFileAndNothingElse)
+TEST_F(OutputFilesTest, removeWhatKilledRunsLeftInTheFolderAndNothingElse)
 {
   // No process can have this id: it is beyond what any kernel hands out.
   const std::string dead = hostName() + "-2147483646", alive = hostName() + "-" + std::to_string(processId());
   const Names kept{ ".a.vtp." + alive + ".partial.vtp.bak", ".a.vtp.elsewhere-2147483646.partial.vtp",
-                    ".b.vtp." + dead + ".partial.vtp", ".a.vtp." + hostName() + "-1.partial.vtp",
+                    "b.vtp." + dead + ".partial.vtp", ".a.vtp." + hostName() + "-1.partial.vtp",
                     ".a.vtp." + dead + ".partial.vtu" };
   for (const std::string& name : kept) write(folder / name, "x");
   write(folder / (".a.vtp." + dead + ".partial.vtp"), "x");
+  write(folder / (".b.nii.gz." + dead + ".partial.nii.gz"), "x");
   {
     OutputFiles outputs;
     outputs.temporary((folder / "a.vtp").string());

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Progress as the host reads it, and as a bar.
 #include "ProgressReport.h"
 
@@ -23,7 +24,7 @@ int count(const std::string& text, const std::string& pattern)
 TEST(ProgressReport, namesEveryStageOnceInTags)
 {
   std::ostringstream stream;
-  ProgressReport progress(stream, false, "Module");
+  ProgressReport progress(stream, ProgressFormat::Xml, "Module");
   progress.update(0, "One <1>");
   progress.update(0.5, "Two");
   progress.update(1, "Two");
@@ -46,7 +47,7 @@ TEST(ProgressReport, namesEveryStageOnceInTags)
 TEST(ProgressReport, writesAtMostTenTimesASecond)
 {
   std::ostringstream stream;
-  ProgressReport progress(stream, false, "Module");
+  ProgressReport progress(stream, ProgressFormat::Xml, "Module");
   const auto start = std::chrono::steady_clock::now();
   constexpr int updates = 200000;
   for (int i = 0; i < updates; ++i) progress.update(double(i) / updates, "Stage");
@@ -57,7 +58,7 @@ TEST(ProgressReport, writesAtMostTenTimesASecond)
 TEST(ProgressReport, staysWithinZeroAndOne)
 {
   std::ostringstream stream;
-  ProgressReport progress(stream, false, "Module");
+  ProgressReport progress(stream, ProgressFormat::Xml, "Module");
   progress.update(-1, "a");
   progress.update(2, "b");
   progress.finish();
@@ -67,7 +68,7 @@ TEST(ProgressReport, staysWithinZeroAndOne)
 TEST(ProgressReport, drawsOneLineThatEndsWithANewlineOnATerminal)
 {
   std::ostringstream stream;
-  ProgressReport progress(stream, true, "Module");
+  ProgressReport progress(stream, ProgressFormat::Bar, "Module");
   progress.update(0, "A stage with a long name");
   progress.update(1, "Short");
   progress.finish();
@@ -82,10 +83,35 @@ TEST(ProgressReport, drawsOneLineThatEndsWithANewlineOnATerminal)
 TEST(ProgressReport, messagesStandOnLinesOfTheirOwn)
 {
   std::ostringstream stream;
-  ProgressReport progress(stream, true, "Module");
+  ProgressReport progress(stream, ProgressFormat::Bar, "Module");
   progress.update(0.1, "Stage");
   progress.message("12 triangles");
   progress.update(0.2, "Other");
   progress.finish();
   EXPECT_EQ(count(stream.str(), "\r12 triangles\n\r\\["), 1);
+}
+
+TEST(ProgressReport, tellsTheTimeLeftOnceItIsKnown)
+{
+  EXPECT_EQ(timeLeft(0.5, 1), "");
+  EXPECT_EQ(timeLeft(0.01, 10), "");
+  EXPECT_EQ(timeLeft(1, 10), "");
+  EXPECT_EQ(timeLeft(0.5, 4), "4 s");
+  EXPECT_EQ(timeLeft(0.5, 41), "40 s");
+  EXPECT_EQ(timeLeft(0.25, 60), "3 min");
+  EXPECT_EQ(timeLeft(0.1, 800), "2 h");
+  EXPECT_EQ(timeLeft(0.1, 850), "2 h 8 min");
+}
+
+TEST(ProgressReport, plainLinesComeOncePerStageAndSeldomWithin)
+{
+  std::ostringstream stream;
+  ProgressReport progress(stream, ProgressFormat::Plain, "Module");
+  for (int i = 0; i < 100; ++i) progress.update(i / 200.0, "One");
+  progress.update(0.5, "Two");
+  progress.message("12 triangles");
+  progress.finish();
+  EXPECT_EQ(count(stream.str(), "[^\n]*\n"), 3);
+  EXPECT_EQ(count(stream.str(), "  0 %  One\n"), 1);
+  EXPECT_EQ(count(stream.str(), " 50 %  Two\n12 triangles\n"), 1);
 }

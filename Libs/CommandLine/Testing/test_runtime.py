@@ -2,6 +2,7 @@
 
 Usage: test_runtime.py CommandLineTestModule
 """
+import json
 import os
 import pty
 import re
@@ -98,12 +99,67 @@ class Runtime(unittest.TestCase):
         self.assertIn("\nratio: 0.25\n", done.stdout)
 
     def test_progress_in_a_pipe(self):
-        done = self.act("succeed")
+        done = self.act("succeed", "--progress", "xml")
         comments = re.findall(r"<filter-comment>([^<]*)</filter-comment>", done.stdout)
         self.assertEqual(comments, [' "Writing &lt;all>" ', ' "Ending" '])
         progress = [float(value) for value in re.findall(r"<filter-progress>([^<]*)</filter-progress>", done.stdout)]
         self.assertEqual(progress, sorted(progress))
         self.assertEqual(progress[-1], 1)
+
+    def test_hosts_get_tags_and_all_others_lines(self):
+        plain = {name: value for name, value in os.environ.items() if name != "SLICER_HOME"}
+        text = self.act("succeed", env=plain).stdout
+        self.assertRegex(text, r"^  0 %  Writing <all>\n(.* %  Ending.*\n)+$")
+        values = os.path.join(self.folder, "r.params")
+        for tags in (self.act("succeed", env=dict(plain, SLICER_HOME="/somewhere")),
+                     self.act("succeed", "--returnparameterfile", values, env=plain)):
+            self.assertIn("<filter-progress>1</filter-progress>", tags.stdout)
+
+    def test_progress_as_asked_for(self):
+        done = self.act("warn", "--progress", "json")
+        lines = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertEqual(lines[0], {"progress": 0, "stage": "Writing <all>"})
+        self.assertEqual(lines[-1]["progress"], 1)
+        self.assertIn({"message": 'a "message"'}, lines)
+        self.assertIn({"warning": "something \\x1b odd"}, lines)
+        self.assertEqual(self.act("warn", "--progress", "none").stdout, 'a "message"\n')
+        self.assertEqual(self.act("warn", "--quiet").stdout, "")
+        self.assert_failure_of_usage("--progress: 'bars' found, one of xml, bar, plain, json, none expected",
+                                     "--progress", "bars")
+
+    def assert_failure_of_usage(self, message, *arguments):
+        done = self.run_module(*arguments, "in", self.result)
+        self.assertEqual((done.returncode, done.stderr), (2, "CommandLineTestModule: " + message + "\n"))
+
+    def test_warnings_go_to_stderr_but_for_hosts(self):
+        line = "warning: something \\x1b odd\n"
+        for arguments in ([], ["--quiet"], ["--progress", "json"]):
+            done = self.act("warn", *arguments)
+            self.assertEqual((done.returncode, done.stderr), (0, "CommandLineTestModule: " + line))
+        done = self.act("warn", "--progress", "xml")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn(line, done.stdout)
+
+    def test_b08_messages_are_printable(self):
+        done = subprocess.run([MODULE, b"--act=inputError", b"a\xff\x1b[31m", self.result], capture_output=True)
+        self.assertEqual(done.stderr,
+                         b"CommandLineTestModule: a\\xff\\x1b[31m: nothing found, something expected\n")
+        done = subprocess.run([MODULE, b"--\xfe\n", b"in", self.result], capture_output=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertTrue(done.stderr.startswith(b"CommandLineTestModule: --\\xfe : unknown flag found"))
+
+    def test_unknown_flags_name_the_nearest(self):
+        def meant(flag):
+            done = self.run_module(flag, "in", self.result)
+            self.assertEqual(done.returncode, 2)
+            return re.findall(r"did you mean (\S+)\?", done.stderr)
+
+        self.assertEqual(meant("--lenght"), ["--length"])
+        self.assertEqual(meant("-length=2"), ["--length"])
+        self.assertEqual(meant("--LENGTH"), ["--length"])
+        self.assertEqual(meant("--weight"), ["--weights"])
+        self.assertEqual(meant("--quite"), ["--quiet"])
+        self.assertEqual(meant("--nothing-like-it"), [])
 
     def test_progress_on_a_terminal(self):
         try:
@@ -129,13 +185,51 @@ class Runtime(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(os.listdir(self.folder), ["taken.vtp"])
 
-    def test_an_input_of_the_same_kind_may_be_replaced(self):
-        with open(self.result, "w") as file:
-            file.write("older")
-        done = self.run_module("--start", self.result, "in", self.result)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        with open(self.result) as file:
-            self.assertIn("from " + self.result, file.read())
+    def assert_kept(self, name, *arguments):
+        """That the run is refused as a matter of the command line, and the file of this name is what it was."""
+        file = os.path.join(self.folder, name)
+        with open(file, "w") as stream:
+            stream.write("precious")
+        done = self.run_module(*arguments)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("too; another file expected\n", done.stderr)
+        with open(file) as stream:
+            self.assertEqual(stream.read(), "precious")
+
+    def test_b02_no_input_is_replaced_whatever_its_option(self):
+        result, other = self.result, os.path.join(self.folder, "list.vtp")
+        self.assert_kept("result.vtp", "--start", result, "in", result)
+        self.assert_kept("list.vtp", "--list", other, "in", other)
+        self.assert_kept("list.vtp", "--list", "first," + other, "in", other)
+        self.assert_kept("list.vtp", "--list", other, "--returnparameterfile", other, "in", result)
+        self.assert_kept("result.vtp", "--returnparameterfile", result, result, other)
+        self.assert_kept("result.vtp", "in", result, "--returnparameterfile", result)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["list.vtp", "result.vtp"])
+
+    def test_b02_no_sidecar_replaces_an_input_or_another_output(self):
+        sidecar, piece = self.result + ".json", os.path.join(self.folder, "result.part_1.vtp")
+        self.assert_kept("result.vtp.json", "--act", "sidecars", sidecar, self.result)
+        self.assert_kept("result.vtp.json", "--act", "sidecars", "--list", sidecar, "in", self.result)
+        self.assert_kept("result.vtp.json", "--act", "sidecars", "--returnparameterfile", sidecar, "in", self.result)
+        os.remove(sidecar)
+        with open(piece, "w") as stream:
+            stream.write("precious")
+        link = os.path.join(self.folder, "link")
+        os.link(piece, link)
+        for inputs in ([piece], [link], ["--list", piece, "in"]):
+            done = self.run_module("--act", "sidecars", *inputs, self.result)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("one file per tissue, result.part_....vtp, may be written to", done.stderr)
+        with open(piece) as stream:
+            self.assertEqual(stream.read(), "precious")
+        done = self.run_module("--act", "sidecars", "--returnparameterfile", piece, "in", self.result)
+        self.assertEqual(done.returncode, 2, done.stderr)
+
+    def test_b02_one_file_by_two_paths(self):
+        os.mkdir(os.path.join(self.folder, "a"))
+        os.symlink(os.path.join(self.folder, "a"), os.path.join(self.folder, "b"))
+        done = self.run_module("--returnparameterfile", self.folder + "/a/x.vtp", "in", self.folder + "/b/x.vtp")
+        self.assertEqual(done.returncode, 2, done.stderr)
 
     def test_an_input_of_another_kind_is_no_output(self):
         with open(self.result, "w") as file:
@@ -176,10 +270,12 @@ class Runtime(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
-    def wait_for_half(self, folder):
+    def wait_for_half(self, folder, prepare=None, result=None):
         process = subprocess.Popen(
-            [MODULE, "--act", "wait", "--extra", self.extra, "in", self.result], stdout=subprocess.PIPE, text=True)
+            [MODULE, "--act", "wait", "--extra", self.extra, "in", result or self.result], stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE, text=True, preexec_fn=prepare)
         self.addCleanup(process.stdout.close)
+        self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         for line in process.stdout:
@@ -197,6 +293,63 @@ class Runtime(unittest.TestCase):
         for how in (signal.SIGTERM, signal.SIGINT):
             self.end(self.wait_for_half(self.folder), how)
             self.assertEqual(os.listdir(self.folder), [])
+
+    def test_b13_whatever_ends_a_run_leaves_nothing(self):
+        for how in (signal.SIGHUP, signal.SIGQUIT, signal.SIGPIPE, signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS,
+                    signal.SIGFPE, signal.SIGILL, signal.SIGUSR1, signal.SIGALRM):
+            with self.subTest(how):
+                self.end(self.wait_for_half(self.folder), how)
+                self.assertEqual(os.listdir(self.folder), [])
+
+    def test_b13_a_stack_used_up_leaves_nothing(self):
+        done = self.act("recurse")
+        self.assertEqual(done.returncode, -signal.SIGSEGV)
+        self.assertEqual(os.listdir(self.folder), [])
+        self.assertRegex(done.stderr, r"^CommandLineTestModule: crashed .*, no output was written\n$")
+
+    def test_b13_a_closed_pipe_leaves_nothing(self):
+        read, write = os.pipe()
+        os.close(read)
+        done = subprocess.run([MODULE, "--progress", "xml", "in", self.result], stdout=write, stderr=subprocess.PIPE)
+        os.close(write)
+        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_b13_a_file_that_may_not_grow_is_said(self):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+        done = self.act("succeed", "--count", "10000", preexec_fn=limit)
+        self.assert_failure(done, 1, self.result + ": can't be written")
+
+    def test_b13_a_hang_up_that_is_ignored_stays_ignored(self):
+        process = self.wait_for_half(self.folder, lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+        process.send_signal(signal.SIGHUP)
+        self.end(process, signal.SIGTERM)
+
+    def test_an_interrupted_run_says_so(self):
+        process = self.wait_for_half(self.folder)
+        self.end(process, signal.SIGINT)
+        self.assertEqual(process.stderr.read(), "CommandLineTestModule: interrupted, no output was written\n")
+
+    def test_b13_another_run_removes_what_a_kill_left(self):
+        self.end(self.wait_for_half(self.folder), signal.SIGKILL)
+        self.assertEqual(len(os.listdir(self.folder)), 2)
+        other = os.path.join(self.folder, "other.vtp")
+        self.assertEqual(self.run_module("in", other).returncode, 0)
+        self.assertEqual(os.listdir(self.folder), ["other.vtp"])
+
+    def test_b15_names_as_long_as_the_system_takes(self):
+        for letters in ("x", "é", "脳"):
+            name = letters * ((255 - 4) // len(letters.encode())) + ".vtp"
+            result = os.path.join(self.folder, name)
+            done = self.run_module("in", result)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual(os.listdir(self.folder), [name])
+            os.remove(result)
+            self.end(self.wait_for_half(self.folder, result=result), signal.SIGKILL)
+            self.assertEqual(len(os.listdir(self.folder)), 2)
+            self.assertEqual(self.run_module("in", result).returncode, 0)
+            self.assertEqual(os.listdir(self.folder), [name])
+            os.remove(result)
 
     def test_killed_half_way_and_run_again(self):
         self.end(self.wait_for_half(self.folder), signal.SIGKILL)

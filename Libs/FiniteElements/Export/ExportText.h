@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Text that reads back as the same numbers, whatever the host's locale.
 

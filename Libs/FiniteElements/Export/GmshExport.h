@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Gmsh meshes: .msh is version 4.1, .msh2 is 2.2, as Gmsh itself has it. Text.
 ///

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Medit meshes (.mesh), as FreeFEM reads them. Text.
 

@@ -1,4 +1,6 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueSurfaceExport.h"
+#include "Compaction.h"
 
 #include "Errors.h"
 #include "ExportText.h"
@@ -35,20 +37,11 @@ std::map<std::int32_t, Triangles> surfacesOf(const FiniteElementModel& model)
 }
 
 /// Points in the order of the mesh, those of the triangles alone.
-SurfaceComplex compact(const std::vector<Vec3>& points, const Triangles& triangles)
+SurfaceComplex surfaceOf(const std::vector<Vec3>& points, const Triangles& triangles)
 {
-  std::map<std::int32_t, std::int32_t> newId;
-  for (const auto& triangle : triangles)
-  {
-    for (const std::int32_t id : triangle) newId[id] = 0;
-  }
   SurfaceComplex result;
-  for (auto& [id, place] : newId)
-  {
-    place = static_cast<std::int32_t>(result.points.size());
-    result.points.push_back(points[id]);
-  }
-  for (const auto& [a, b, c] : triangles) result.triangles.push_back({ newId[a], newId[b], newId[c] });
+  result.triangles = triangles;
+  result.points = valuesAt(points, compactPoints(result.triangles, points.size()));
   return result;
 }
 
@@ -96,7 +89,7 @@ void writeTissueSurfaces(const FiniteElementModel& model, const std::string& fil
   const std::map<std::int32_t, Triangles> surfaces = surfacesOf(model);
   const auto write = [&](std::int32_t label, const std::string& finalPath)
   {
-    const SurfaceComplex surface = compact(model.content.mesh.points, surfaces.at(label));
+    const SurfaceComplex surface = surfaceOf(model.content.mesh.points, surfaces.at(label));
     const std::string place = destination(finalPath);
     extension == ".stl" ? writeSTL(surface, place) : writePLY(surface, place);
   };

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The closed surface of the mesh and of every tissue, each in a file of its own (.stl, .ply).
 

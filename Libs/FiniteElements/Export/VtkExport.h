@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// VTK's own formats (.vtu, legacy .vtk): tetrahedra alone, as SOFA and SlicerSOFA read them.
 

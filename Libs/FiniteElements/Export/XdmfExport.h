@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// XDMF with HDF5 beside it (.xdmf, .h5), as FEniCSx, ParaView and meshio read them.
 

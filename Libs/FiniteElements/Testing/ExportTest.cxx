@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "Export.h"
 
 #include "../../Libs/TissueMap/Testing/TestFiles.h"
@@ -409,6 +410,16 @@ TEST(Export, VtkFilesHoldTheMesh)
     EXPECT_EQ(read.subMesh, model.content.subMesh);
     EXPECT_EQ(read.constitutive, model.content.constitutive);
   }
+}
+
+// B15: Gmsh refuses field data before the points; SOFA does not swap the bytes of binary cell data.
+TEST(Trial, B15_LegacyFilesForOtherReadersArePlain)
+{
+  const test::TemporaryFolder folder;
+  exportModel(richModel(), folder.file("m.vtk"));
+  const std::string text = test::readBytes(folder.file("m.vtk"));
+  EXPECT_NE(text.find("\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS "), std::string::npos) << text.substr(0, 200);
+  EXPECT_EQ(text.find("TissueIds"), std::string::npos);
 }
 
 TEST(Export, ShellFilesShareThePointsOfTheVolume)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Meshes of voxel maps with tissues, sub-meshes and constitutive classes, for the tests of sets and exports.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The conditioning of the stiffness matrix against its dense eigenvalues, on meshes that are small enough to have them.
 
 #include "StiffnessConditioning.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SubMeshExport.h"
 #include "FaceAdjacency.h"
 #include "SubMeshes.h"

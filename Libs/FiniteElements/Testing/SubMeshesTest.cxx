@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SubMeshes.h"
 #include "FaceAdjacency.h"
 #include "VoxelMesh.h"
@@ -116,12 +117,15 @@ TEST(SubMeshes, SeparateBodiesKeepTheirParents)
   EXPECT_EQ(division.pieces, (std::vector<std::int32_t>{ 2, 1 })) << "the parent is in two bodies";
 }
 
-TEST(ConstitutiveModels, FollowSubMeshAndTissueName)
+// B1: tissues were recognised by their names, which an atlas's table may change.
+TEST(Trial, B01_constitutiveModelsFollowSubMeshAndRoleNotName)
 {
   const TetMesh mesh = block({ 4, 1, 1 }, [](int i, int, int) { return 1 + i / 2; });
   std::vector<std::int32_t> subMesh(mesh.tetrahedra.size(), 0);
   subMesh[0] = 2;
-  const auto models = constitutiveModels(mesh, subMesh, { { 2, { "Null Displacement", {} } }, { 1, { "skin", {} } } });
+  TissueTable tissues{ { 2, { "Frontal Mid Orb L", {} } }, { 1, { "null displacement", {} } } };
+  tissues[2].isNullDisplacement = true;
+  const auto models = constitutiveModels(mesh, subMesh, tissues);
   for (std::size_t t = 0; t < models.size(); ++t) EXPECT_EQ(models[t], mesh.labels[t] == 2 ? 2 : t == 0 ? 1 : 0);
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "KuhnLattice.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"

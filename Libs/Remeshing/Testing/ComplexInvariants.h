@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What holds for every TetComplex, recomputed from its bare arrays.
 
@@ -149,9 +150,9 @@ inline std::vector<bool> meetingLabels(const TetComplex& c)
   return result;
 }
 
-/// Neighbours mutual and across the same three vertices; every used vertex knows one of its tetrahedra; every tetrahedron
-/// positive; the vertices on the interface are known as such; samples only at interface faces, on the side of the larger label, and at faces on a block's border; no
-/// point in two lists or twice in one.
+/// Neighbours mutual and across the same three vertices; every used vertex knows one of its tetrahedra; every
+/// tetrahedron positive; the vertices on the interface are known as such; samples only at interface faces, on the side
+/// of the larger label, and at faces on a block's border; no point in two lists or twice in one.
 inline ::testing::AssertionResult isConsistent(const TetComplex& c)
 {
   const auto failure = [] { return ::testing::AssertionFailure(); };

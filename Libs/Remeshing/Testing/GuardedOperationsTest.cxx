@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "GuardedOperations.h"
 #include "ComplexInvariants.h"
 #include "RandomMaps.h"
@@ -193,8 +194,9 @@ void expectQuality(const ComplexState& before, TetComplex& c, double minimumQual
   }
 }
 
-/// BoundarySample stays within its tolerance of faces of its label pair, or no farther than it was; or both labels still have a
-/// boundary within the tolerance, if they have not vanished, and the pair faces within `separatedFactor` times that, if any.
+/// BoundarySample stays within its tolerance of faces of its label pair, or no farther than it was; or both labels
+/// still have a boundary within the tolerance, if they have not vanished, and the pair faces within `separatedFactor`
+/// times that, if any.
 void expectSamplesKept(const std::vector<SamplePlace>& before, const TetComplex& c, bool backgroundVanished)
 {
   const auto after = samplePlaces(c);
@@ -593,7 +595,8 @@ bool allManifold(const TetMesh& mesh)
   return std::all_of(tissues.begin(), tissues.end(), [](const auto& tissue) { return tissue.second.manifold(); });
 }
 
-/// Along the interface, what looks at the stars of two vertices finds neither more nor less than what looks at everything.
+/// Along the interface, what looks at the stars of two vertices finds neither more nor less than what looks at
+/// everything.
 TEST(Collapse, HappensWhereverEveryTissueStaysAsItWas)
 {
   int allowed = 0, refused = 0;
@@ -637,7 +640,8 @@ std::size_t middleOf(const TetMesh& mesh)
   return inner;
 }
 
-/// A last tetrahedron of background between tissues may go, by a collapse and by taking a label; within one it is a cavity.
+/// A last tetrahedron of background between tissues may go, by a collapse and by taking a label; within one it is a
+/// cavity.
 TEST(GuardedOperations, LetBackgroundVanishBetweenTissuesOnly)
 {
   for (const Label other : { Label(1), Label(2) })

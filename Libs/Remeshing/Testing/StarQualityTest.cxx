@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "StarQuality.h"
 #include "TetQuality.h"
 
@@ -46,8 +47,8 @@ class Stars : public ::testing::TestWithParam<std::size_t>
 
 } // namespace
 
-/// A tetrahedron with two corners and its vertex in line has no area on one side, but a volume as rounding will have it. What
-/// was not a number then hid whatever was wound negatively beside it.
+/// A tetrahedron with two corners and its vertex in line has no area on one side, but a volume as rounding will have
+/// it. What was not a number then hid whatever was wound negatively beside it.
 TEST(StarQuality, OfTheFlatIsANumberAndNotGood)
 {
   std::mt19937 random(1);

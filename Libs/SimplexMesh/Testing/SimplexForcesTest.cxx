@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SimplexForces.h"
 #include "MeshChecks.h"
 #include "Shapes.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "SimplexOperators.h"
 #include "MeshChecks.h"
 #include "RandomMaps.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The few places where Slicer 5.0 and later ones want different code, each behind one name.
 
@@ -6,8 +7,8 @@
 #if __has_include(<vtkMRMLI18N.h>)
 #include <vtkMRMLI18N.h>
 #else
-/// `text` in the user's language, in code without Qt. Slicer has it since 5.6, and its tools collect texts by this name;
-/// before, text stays as it is.
+/// `text` in the user's language, in code without Qt. Slicer has it since 5.6, and its tools collect texts by this
+/// name; before, text stays as it is.
 inline std::string vtkMRMLTr(const char*, const char* text) { return text; }
 #endif
 
@@ -27,8 +28,8 @@ void keepColorNames(ColorNode* colors, long)
   colors->NamesInitialisedOn();
 }
 
-/// To be called before a colour table's names are set. Slicer 5.0 makes up names from the colours unless told that there
-/// are names. Later ones know for every entry whether it is defined, and take being told for an error.
+/// To be called before a colour table's names are set. Slicer 5.0 makes up names from the colours unless told that
+/// there are names. Later ones know for every entry whether it is defined, and take being told for an error.
 template <class ColorNode>
 void keepColorNames(ColorNode* colors)
 {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Points and paths of markups nodes, in LPS mm as the project's files have them, with parent transforms applied.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What the user chose as tissue map, a label map volume or a segmentation, in the forms that the modules need. Nothing
 /// here changes the user's node.

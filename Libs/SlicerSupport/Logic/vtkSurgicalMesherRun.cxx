@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "vtkSurgicalMesherRun.h"
 
 #include <ModuleDescription.h>
@@ -278,8 +279,6 @@ void vtkSurgicalMesherRun::SetCommandLineLogic(vtkMRMLAbstractLogic* logic)
   d.CommandLineNode.TakeReference(d.Logic->CreateNode());
   d.CommandLineNode->SetSaveWithScene(false);
 }
-
-bool vtkSurgicalMesherRun::HasCommandLineLogic() const { return this->Private->Logic != nullptr; }
 
 void vtkSurgicalMesherRun::SetParameter(const std::string& name, const std::string& value)
 {

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// One run of one of the project's command-line modules, by Slicer's own CLI logic, in a process of its own.
 ///
@@ -55,7 +56,6 @@ public:
   /// The logic of the module's CLI, as vtkSlicerModuleLogic::GetModuleLogic returns it; null if the host doesn't have
   /// the module. Parameters, nodes and files of an earlier run are forgotten. Ignored while running.
   void SetCommandLineLogic(vtkMRMLAbstractLogic* logic);
-  bool HasCommandLineLogic() const;
 
   /// Parameters by the name that the module's XML gives them. Numbers reach the module with all their digits.
   void SetParameter(const std::string& name, const std::string& value);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Points and paths of markups nodes, and what comes back of them from a file.
 
 #include "MarkupsInput.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Label maps and segmentations as tissue maps: which voxel is which tissue, where it lies, what it is called.
 
 #include "TissueMapInput.h"

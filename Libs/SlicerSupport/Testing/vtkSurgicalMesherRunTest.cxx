@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // Runs of a command-line module in the host: how they end, and what they leave.
 
 #include "vtkSurgicalMesherRun.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// What keeps a panel from being run, in the user's language, and what a click can do about it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The foot of every panel of the project: a line that says what is missing, with a button that mends it, or why the
 /// last run failed; Apply and Cancel; the host's progress bar and the elapsed time while a run is busy.

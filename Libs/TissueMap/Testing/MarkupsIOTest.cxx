@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TestFiles.h"
 #include "TissueMapIO.h"
 
@@ -128,4 +129,22 @@ TEST(Markups, RefusesDocumentsThatAreNone)
   expectRefused("a.mrk.json", R"({ "markups": [ { "coordinateUnits": "cm", "controlPoints": [] } ] })", "expected mm");
   expectRefused("a.fcsv", "# CoordinateSystem = 2\nF,1,2,3\n", "expected LPS or RAS");
   expectRefused("a.fcsv", "# columns = label,y,x,z\nF,1,2,3\n", "expected x,y,z");
+}
+
+TEST(Markups, KeepsLabelsAndMeasurementsOfPlacedPoints)
+{
+  const TemporaryFolder folder;
+  const std::string json =
+    R"({"markups":[{"type":"Curve","coordinateSystem":"LPS","controlPoints":[
+      {"label":"bone","position":[1,2,3]},{"label":"gone","position":[9,9,9],"positionStatus":"undefined"},
+      {"position":[4,5,6]}],
+      "measurements":[{"name":"Radius","controlPointValues":[0.5,7,0.75]},{"name":"length","value":3},
+      {"name":"short","controlPointValues":[1]}]}]})";
+  const std::vector<Markup> markups = readLabelledMarkups(folder.write("a.mrk.json", json));
+  ASSERT_EQ(markups.size(), 1u);
+  EXPECT_EQ(markups[0].labels, (std::vector<std::string>{ "bone", "" }));
+  ASSERT_EQ(markups[0].pointValues.size(), 1u);
+  EXPECT_EQ(markups[0].pointValues.at("Radius"), (std::vector<double>{ 0.5, 0.75 }));
+  const std::string fcsv = "# columns = id,x,y,z,label\nf1,1,2,3,skin\n";
+  EXPECT_EQ(readLabelledMarkups(folder.write("a.fcsv", fcsv))[0].labels, (std::vector<std::string>{ "skin" }));
 }

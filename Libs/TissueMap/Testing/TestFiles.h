@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Files for tests: a folder that goes away, and images written byte by byte, independently of the project's writers.
 
@@ -91,7 +92,8 @@ inline std::string nrrdGeometry(const Grid& grid)
   return header.str();
 }
 
-/// An NRRD file with raw data; `type` is NRRD's name of T, `geometry` the header's lines on the grid, `more` other ones.
+/// An NRRD file with raw data; `type` is NRRD's name of T, `geometry` the header's lines on the grid, `more` other
+/// ones.
 template <typename T>
 std::string nrrd(const std::string& type, const std::string& geometry, const std::vector<T>& values,
                  const std::string& more = "")

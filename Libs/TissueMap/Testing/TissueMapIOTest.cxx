@@ -1,8 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TissueMapIO.h"
 #include "TestFiles.h"
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <random>
 
 #ifdef __unix__
@@ -564,4 +566,68 @@ TEST(Scale, HasToCoverTheMap)
   expectInputError([&] { requireCover(scale, map, "scale.nrrd"); }, "scale.nrrd", "leaves out part of the label map");
   map = rotated(map, { 0, 0, 1 }, 0.5);
   expectInputError([&] { requireCover(scale, map, "scale.nrrd"); }, "scale.nrrd", "leaves out part of the label map");
+}
+
+// Trial, 3a: labels that arithmetic had left a little off were refused.
+TEST(Trial, 3a_FloatsNearALabelAreThatLabel)
+{
+  const TemporaryFolder folder;
+  const std::vector<float> near{ 0, 1.0000001f, 6.9999995f, 7.00009f, -0.00009f, 0, 0, 65535 };
+  const TissueMap map = readTissueMap(folder.write("map.nrrd", nrrd("float", cubeGeometry(2), near)));
+  EXPECT_EQ(map.labels, (std::vector<Label>{ 0, 1, 7, 7, 0, 0, 0, 65535 }));
+  expectFileRefused("map.nrrd", nrrd("float", cubeGeometry(2), std::vector<float>(8, 6.9995f)),
+                    "a voxel of value 6.99");
+}
+
+// Trial, 3a: the refusal of an affine registration's sform was ITK's own, without a way out.
+TEST(Trial, 3a_ShearedPlacementsAreRefusedWithAWayOut)
+{
+  Nifti nifti;
+  nifti.sformCode = 2;
+  nifti.srow = { 1, 0.001f, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
+  expectFileRefused("map.nii", nifti.content(24), "not perpendicular to each other (by 0.057 degrees)");
+  expectFileRefused("map.nii", nifti.content(24), "expected a grid without shear: resample the map");
+  nifti.qformCode = 1;
+  nifti.srow[1] = 0.1f;
+  const TemporaryFolder folder;
+  expectNear(readTissueMap(folder.write("map.nii", nifti.content(24))).grid.spacing, { 1, 1, 1 }, 1e-6); // the qform's
+}
+
+TEST(Trial, B15_MetresAreNamed)
+{
+  Nifti nifti;
+  nifti.sformCode = 1;
+  nifti.srow = { -0.001f, 0, 0, 0, 0, -0.001f, 0, 0, 0, 0, 0.001f, 3 };
+  nifti.pixdim = { 0.001f, 0.001f, 0.001f };
+  nifti.units = 1;
+  expectFileRefused("map.nii", nifti.content(24), "coordinates in metres, expected mm");
+}
+
+// B1: what is null displacement goes through files as a mark, not as a name.
+TEST(Trial, B01_NullDisplacementGoesThroughMaps)
+{
+  TissueMap map = noisyMap();
+  map.table[presentLabels(map).back()] = { "resting", {} };
+  map.table[presentLabels(map).back()].isNullDisplacement = true;
+  map.table[presentLabels(map).front()] = { "null displacement", {} };
+  const TemporaryFolder folder;
+  writeTissueMap(map, folder.file("map.nrrd"));
+  const TissueMap copy = readTissueMap(folder.file("map.nrrd"));
+  for (const auto& [label, tissue] : copy.table)
+    EXPECT_EQ(tissue.isNullDisplacement, label == presentLabels(map).back()) << label;
+}
+
+TEST(Images, ComeBackAsTheyWereAndHaveNoHoles)
+{
+  const TemporaryFolder folder;
+  ScalarImage image;
+  image.grid = noisyMap().grid;
+  for (std::size_t n = 0; n < image.grid.voxelCount(); ++n) image.values.push_back(0.25f * float(n) - 7);
+  writeImage(image, folder.file("image.nrrd"));
+  const ScalarImage read = readImage(folder.file("image.nrrd"));
+  EXPECT_EQ(read.values, image.values);
+  EXPECT_EQ(read.grid.size, image.grid.size);
+  image.values[3] = std::numeric_limits<float>::infinity();
+  folder.write("hole.nrrd", nrrd("float", nrrdGeometry(image.grid), image.values));
+  expectInputError([&] { readImage(folder.file("hole.nrrd")); }, folder.file("hole.nrrd"), "a voxel of value inf");
 }

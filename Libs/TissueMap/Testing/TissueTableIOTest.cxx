@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "TestFiles.h"
 #include "TissueMapIO.h"
 
@@ -78,4 +79,67 @@ TEST(TissueTable, NamesOfAMapBecomeLegible)
   EXPECT_EQ(map.table.at(4).name, "?? ??? ????");
   EXPECT_EQ(map.table.at(5).name, "cut ??");
   EXPECT_EQ(map.table.at(6).name, "../<x>\"&");
+}
+
+// Trial, 3a: names come in more formats than were read.
+TEST(Trial, 3a_SlicersCommaSeparatedTables)
+{
+  const TemporaryFolder folder;
+  const std::string header = "LabelValue,Name,Color_R,Color_G,Color_B,Color_A,Category_CodeMeaning,Type_CodeMeaning\n";
+  const TissueTable table = readTissueTable(folder.write(
+    "t.csv", header + "0,background,0,0,0,0,,\n7,\"nerve, optic\",255,0,51,255,Tissue,Nerve\n9,,1,2,3,,,Bone\n"));
+  ASSERT_EQ(table.size(), 2u);
+  EXPECT_EQ(table.at(7).name, "nerve, optic");
+  EXPECT_EQ(table.at(7).color, (std::array<double, 3>{ 1, 0, 0.2 }));
+  EXPECT_EQ(table.at(9).name, "Bone");
+  const std::string headless = folder.write("bad.csv", "7,nerve\n");
+  expectInputError([&] { readTissueTable(headless); }, headless, "expected a header row with the columns LabelValue");
+  const std::string fraction = folder.write("worse.csv", header + "1.5,nerve\n");
+  expectInputError([&] { readTissueTable(fraction); }, fraction, ":2: label \"1.5\", expected one from 0 to 65535");
+}
+
+TEST(Trial, 3a_BidsLookUpTables)
+{
+  const TemporaryFolder folder;
+  const TissueTable table = readTissueTable(folder.write(
+    "a_dseg.tsv",
+    "index\tname\tabbreviation\tcolor\tmapping\n1\tGray Matter\tGM\t#ff3300\t1\n2\tWhite Matter\tWM\tn/a\t2\n"));
+  ASSERT_EQ(table.size(), 2u);
+  EXPECT_EQ(table.at(1).name, "Gray Matter");
+  EXPECT_EQ(table.at(1).color, (std::array<double, 3>{ 1, 0.2, 0 }));
+  EXPECT_EQ(table.at(2).color, Tissue().color);
+}
+
+TEST(Trial, 3a_FslAtlases)
+{
+  const auto atlas = [](const std::string& type)
+  {
+    return "<?xml version=\"1.0\"?>\n<atlas version=\"1.0\"><header><name>A</name><type>" + type +
+           "</type></header>\n<data>\n<label index=\"0\" x=\"1\" y=\"2\" z=\"3\">Frontal Pole</label>\n"
+           "<label index=\"47\" x=\"1\" y=\"2\" z=\"3\">Crus I &amp; II</label></data></atlas>\n";
+  };
+  const TemporaryFolder folder;
+  const TissueTable probabilistic = readTissueTable(folder.write("p.xml", atlas("Probabalistic")));
+  EXPECT_EQ(probabilistic.at(1).name, "Frontal Pole");
+  EXPECT_EQ(probabilistic.at(48).name, "Crus I & II");
+  const TissueTable labels = readTissueTable(folder.write("l.xml", atlas("Label")));
+  ASSERT_EQ(labels.size(), 1u);
+  EXPECT_EQ(labels.at(47).name, "Crus I & II");
+  const std::string other = folder.write("other.xml", "<executable><title>x</title></executable>");
+  expectInputError([&] { readTissueTable(other); }, other, "XML of another kind, expected FSL's description");
+  const std::string damaged = folder.write("damaged.xml", "<atlas><data><label index=\"1\">x");
+  expectInputError([&] { readTissueTable(damaged); }, damaged, "not well-formed XML");
+  std::string deep;
+  for (int n = 0; n < 200000; ++n) deep += "<a>";
+  const std::string nested = folder.write("nested.xml", deep);
+  expectInputError([&] { readTissueTable(nested); }, nested, "not well-formed XML");
+}
+
+TEST(Trial, B15_ALabelListedTwiceIsSaid)
+{
+  const TemporaryFolder folder;
+  std::vector<std::string> warnings;
+  const std::string file = folder.write("t.txt", "1 bone\n2 skin\n1 cartilage\n2 skin\n");
+  EXPECT_EQ(readTissueTable(file, &warnings).at(1).name, "cartilage");
+  EXPECT_EQ(warnings, std::vector<std::string>{ file + ":3: label 1 is listed for the second time, this row counts" });
 }

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // What a user can do wrong, or at the wrong moment: a sentence, no crash, and nothing left in the scene or on the disk.
 
 #include "Panel.h"

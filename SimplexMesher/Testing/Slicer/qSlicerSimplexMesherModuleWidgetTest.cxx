@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The panel as a user meets it: it says what is missing, lists the tissues, and its runs leave the nodes that they
 // should, with the very mesh that the command line writes.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameter node: its own methods, and what a scene gives back.
 
 #include "vtkMRMLSimplexMesherNode.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The logic without its panel: the tissues it lists, what it makes of settings by tissue, and its waiting run.
 
 #include "vtkSlicerSimplexMesherLogic.h"

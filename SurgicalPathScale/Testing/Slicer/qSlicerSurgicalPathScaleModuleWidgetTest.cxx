@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The panel in the host: filled by its controls, run by its buttons, and put into every wrong state.
 
 #include "HostApplication.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 // The parameter node: its own methods, what it tells of its inputs, and what a scene gives back.
 
 #include "vtkMRMLSurgicalPathScaleNode.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The road of Docs/Tutorial.md, walked in the host's own application by its panels' own widgets.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// The application's window and views, as the tutorial's pictures show them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// A module that, once the host has started, walks the tutorial and ends the host: exit status 0 if every step did what
 /// it should, 1 if one did not, 77 if the atlas is not installed. It does nothing unless the environment variable

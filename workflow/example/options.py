@@ -4,6 +4,7 @@
 Prints a line STAGE<TAB>FLAG<TAB>VALUE for every module that has a flag; files to read become absolute. The modules are
 asked by --xml. Exit status 2, with one line on stderr, if an option is wrong or joins the stages anyway.
 """
+import math
 import os
 import subprocess
 import sys
@@ -14,19 +15,57 @@ PROGRAMS = {"scale": "SurgicalPathScaleCLI", "surface": "SimplexMesherCLI", "mes
 RESERVED = {"scale", "edgeLength", "ambient", "preparedLabelMap", "outputLabelMap", "report"}
 
 FOCUS = {"targets", "path", "targetPoint", "pathPoint"}
+TRUTHS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no": False, "off": False, "0": False}
 
 
 class OptionError(ValueError):
     """One line."""
 
 
+def number_of(text):
+    try:
+        value = float(text) if "_" not in text else math.nan
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
+
+
 class Flag:
-    """A long flag: the kind of its parameter; whether it names a file to read, or one to write."""
+    """A long flag: what its parameter accepts; whether it names files to read, or one to write."""
 
     def __init__(self, parameter):
         self.kind = parameter.tag
         self.is_input = parameter.findtext("channel") == "input"
         self.is_output = parameter.findtext("channel") == "output"
+        self.is_list = parameter.get("multiple") == "true"
+        self.choices = [element.text for element in parameter.iterfind("element")]
+        self.low, self.high = (number_of(parameter.findtext("constraints/" + bound) or "")
+                               for bound in ("minimum", "maximum"))
+
+    def expected(self):
+        """What is accepted, in words."""
+        if self.choices:
+            return "one of " + ", ".join(self.choices)
+        if self.kind == "boolean":
+            return "true or false"
+        if self.kind == "point":
+            return "three numbers x,y,z"
+        bounds = [f"{word} {bound:g}" for word, bound in (("from", self.low), ("to", self.high)) if bound is not None]
+        return " ".join([{"integer": "a whole number"}.get(self.kind, "a number"), *bounds])
+
+    def accepts(self, text):
+        if self.choices:
+            return text in self.choices
+        if self.kind == "boolean":
+            return text.lower() in TRUTHS
+        if self.kind == "point":
+            numbers = [number_of(part) for part in text.split(",")]
+            return len(numbers) == 3 and None not in numbers
+        if self.kind not in ("integer", "float", "double"):
+            return True
+        number = number_of(text)
+        return (number is not None and (self.kind != "integer" or text.lstrip("+-").isdigit())
+                and (self.low is None or number >= self.low) and (self.high is None or number <= self.high))
 
 
 def flags_by_stage():
@@ -37,6 +76,8 @@ def flags_by_stage():
             description = subprocess.run([program, "--xml"], check=True, stdout=subprocess.PIPE).stdout
         except OSError:
             raise OptionError(f"{program}: not found; expected in SURGICALMESHER_BIN, build/bin or on the path") from None
+        except subprocess.CalledProcessError as error:
+            raise OptionError(f"{program} --xml ended with {error.returncode}, expected its description") from None
         stages[stage] = {parameter.findtext("longflag"): Flag(parameter)
                          for parameter in xml.fromstring(description).iterfind("parameters/*")
                          if parameter.find("longflag") is not None}
@@ -62,7 +103,14 @@ def is_taken(stage, name, given):
 
 
 def check_value(name, flag, value):
-    if flag.is_output and os.path.basename(value) != value:
+    """Raises OptionError if a module would not take it, or if it would write elsewhere."""
+    if not value:
+        raise OptionError(f"{name} has no value")
+    if not flag.accepts(value):
+        raise OptionError(f"{name} {value}: expected {flag.expected()}")
+    if not value.isprintable():
+        raise OptionError(f"{name} {value!r}: expected printable characters")
+    if flag.is_output and (os.path.basename(value) != value or value in (".", "..")):
         raise OptionError(f"{name} {value}: expected the name of a file, without a folder")
 
 
@@ -75,15 +123,31 @@ def parsed(words, stages):
             raise OptionError(f"{word}: expected an option")
         name, equals, value = word[2:].partition("=")
         flag = flag_named(name, stages)
-        if flag.kind == "boolean":
-            value = None
+        if flag.kind == "boolean" and not equals:
+            value = "true"
         elif not equals:
             if not words:
                 raise OptionError(f"--{name}: expected a value")
             value = words.pop(0)
-        if value is not None:
-            check_value(name, flag, value)
-        yield name, value
+        check_value(name, flag, value)
+        if flag.kind != "boolean":
+            yield name, value
+        elif TRUTHS[value.lower()]:
+            yield name, None
+
+
+def values_of_list(flag, value):
+    """The files or texts that a value names: those of a flag that is repeated may be joined by commas."""
+    return value.split(",") if flag.is_list and flag.kind != "point" else [value]
+
+
+def values_passed_on(flag, value):
+    """Of an option's value, what each use of the flag gets; files to read become absolute."""
+    if value is None:
+        return [""]
+    if not flag.is_input:
+        return [value]
+    return [os.path.abspath(file) for file in values_of_list(flag, value)]
 
 
 def main():
@@ -94,8 +158,8 @@ def main():
         for name, value in options:
             for stage, flags in stages.items():
                 if name in flags and is_taken(stage, name, given):
-                    text = "" if value is None else os.path.abspath(value) if flags[name].is_input else value
-                    print(stage, "--" + name, text, sep="\t")
+                    for text in values_passed_on(flags[name], value):
+                        print(stage, "--" + name, text, sep="\t")
     except OptionError as error:
         print(f"options: {error}", file=sys.stderr)
         sys.exit(2)

@@ -1,12 +1,15 @@
 #!/usr/bin/python3
 """Merges the example's reports and prints its figures. usage: report.py FOLDER STAGE=SECONDS...
 
-Reads scale.json, surface.json and mesh.json in FOLDER, writes report.json beside them (one member per stage, and the
-seconds of each), and prints a table of figures.
+Reads scale.json, surface.json and mesh.json in FOLDER, writes report.json beside them (one member per stage, the
+seconds of each, and all warnings), and prints a table of figures that ends in the warnings. Those on targets and paths
+that lie in no tissue are lines on stderr as well; they need prepared.nrrd and surface.vtp.
 """
 import json
 import os
 import sys
+
+STAGES = ("scale", "surface", "mesh")
 
 
 def wrong_tissues(report):
@@ -15,8 +18,26 @@ def wrong_tissues(report):
     return sorted(label for label in wanted.keys() | found.keys() if wanted.get(label) != found.get(label))
 
 
+def places_of_interest(folder, report):
+    """Sentences on targets and ends of paths that lie in no tissue."""
+    from vtk.util.numpy_support import vtk_to_numpy
+
+    from focus import sentences
+    from meshfiles import read_dataset, read_nrrd
+    surface = read_dataset(os.path.join(folder, "surface.vtp"))
+    points = vtk_to_numpy(surface.GetPoints().GetData())
+    return sentences(report["scale"], *read_nrrd(os.path.join(folder, "prepared.nrrd")), points)
+
+
+def stage_warnings(report, places):
+    """Warnings of the stages, but for those that the sentences `places` repeat with more to them."""
+    told = [text for stage in STAGES for text in report[stage].get("warnings", [])]
+    return [text for text in told if not any(place.startswith(text) for place in places)]
+
+
 def compared(number, estimate):
-    return f"{number:,} (estimated {estimate:,}, {round(100 * (estimate / number - 1)):+} %)"
+    share = f", {round(100 * (estimate / number - 1)):+} %" if number else ""
+    return f"{number:,} (estimated {estimate:,}{share})"
 
 
 def rows(report):
@@ -31,23 +52,33 @@ def rows(report):
     yield "dihedral angles", f"{dihedral['minimum']:.1f} to {dihedral['maximum']:.1f} degrees"
     yield "mean of the smallest of each", f"{mesh['minimumDihedral']['mean']:.1f} degrees"
     yield "edges within 0.7..1.4 of target", f"{100 * mesh['edgesNearTarget']:.1f} %"
-    yield "tissues of wrong topology", len(wrong_tissues(report))
+    yield "tissues of wrong topology", f"{len(wrong_tissues(report))} (beside the prepared map)"
     for stage, seconds in report["seconds"].items():
         yield f"time for {stage}", f"{seconds:.1f} s"
+    for warning in report["warnings"]:
+        yield "warning", warning
 
 
 def main():
     folder, *seconds = sys.argv[1:]
     report = {}
-    for stage in ("scale", "surface", "mesh"):
+    for stage in STAGES:
         with open(os.path.join(folder, stage + ".json"), encoding="utf-8") as file:
             report[stage] = json.load(file)
     report["seconds"] = {stage: float(value) for stage, value in (pair.split("=") for pair in seconds)}
+    try:
+        places = places_of_interest(folder, report)
+    except ImportError as error:
+        sys.exit(f"report: {error}, expected the packages that CMake/debian-packages.txt has for the example")
+    report["warnings"] = places + stage_warnings(report, places)
     with open(os.path.join(folder, "report.json"), "w", encoding="utf-8") as file:
         json.dump(report, file, indent=2)
         file.write("\n")
     for name, value in rows(report):
         print(f"{name:<34}{value}")
+    sys.stdout.flush()
+    for place in places:
+        print(f"example.sh: warning: {place}", file=sys.stderr)
 
 
 if __name__ == "__main__":

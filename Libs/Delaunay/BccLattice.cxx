@@ -1,14 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
 #include "BccLattice.h"
 
 #include "Errors.h"
+#include "Parallel.h"
 #include "Place.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
-
-#include <vtkSMPTools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -97,8 +97,8 @@ bool onLattice(const Places& place, Place size)
   return (first == 0 || 2 * first == size) && remainder(1) == first && remainder(2) == first;
 }
 
-/// The lattice's mean edge over L(x) is between half of this and this: collapses mend what is too short, but only splits
-/// what is too long. Where L(x) is the same everywhere, the lattice has just that length.
+/// The lattice's mean edge over L(x) is between half of this and this: collapses mend what is too short, but only
+/// splits what is too long. Where L(x) is the same everywhere, the lattice has just that length.
 constexpr double kCoarsest = 1.000001;
 
 /// An octree of lattice cubes in a box around the surface, every cube as large as L(x) allows.
@@ -250,11 +250,7 @@ std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunct
     if (answer.distance >= kNear * length) return;
     for (int axis = 0; axis < 3; ++axis) p[axis] += kOffLattice * length * scatter(places[i], axis);
   };
-  vtkSMPTools::For(0, static_cast<vtkIdType>(places.size()),
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (vtkIdType i = begin; i < end; ++i) decide(i);
-                   });
+  parallelFor(places.size(), [&](vtkIdType i) { decide(i); });
   std::vector<Vec3> result;
   for (std::size_t i = 0; i < places.size(); ++i)
   {

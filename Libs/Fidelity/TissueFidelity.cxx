@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TissueFidelity.h"
+
+#include "TissueBoundary.h"
+
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+using Voxel = std::array<int, 3>;
+
+void add(Distances& all, double distance, const Vec3& place, double bound)
+{
+  ++all.samples;
+  all.beyond += distance > bound;
+  all.mean += distance; // a sum until finish()
+  if (distance <= all.maximum) return;
+  all.maximum = distance;
+  all.farthest = place;
+}
+
+void add(Distances& all, const Distances& more)
+{
+  all.samples += more.samples;
+  all.beyond += more.beyond;
+  all.mean += more.mean;
+  if (more.maximum <= all.maximum) return;
+  all.maximum = more.maximum;
+  all.farthest = more.farthest;
+}
+
+void finish(Distances& all) { all.mean = all.samples ? all.mean / double(all.samples) : 0; }
+
+/// Distances by tissue, each number of `parts` with sums of its own, so that they can be filled by any thread.
+class Sums
+{
+public:
+  Sums(const std::vector<Label>& labels, std::size_t parts) : m_Labels(labels), m_IndexOf(labelCount, -1)
+  {
+    for (std::size_t n = 0; n < labels.size(); ++n) m_IndexOf[labels[n]] = int(n);
+    m_Sums.resize(parts, std::vector<Distances>(labels.size()));
+  }
+
+  bool has(Label label) const { return m_IndexOf[label] >= 0; }
+  Distances& of(std::size_t part, Label label) { return m_Sums[part][m_IndexOf[label]]; }
+
+  void store(std::map<Label, TissueFidelity>& tissues, Distances TissueFidelity::*side) const
+  {
+    for (std::size_t n = 0; n < m_Labels.size(); ++n)
+    {
+      Distances& all = tissues[m_Labels[n]].*side;
+      for (const std::vector<Distances>& part : m_Sums) add(all, part[n]);
+      finish(all);
+    }
+  }
+
+private:
+  const std::vector<Label>& m_Labels;
+  std::vector<int> m_IndexOf;
+  std::vector<std::vector<Distances>> m_Sums;
+};
+
+/// The triangles by the cells of a regular grid that their boxes touch.
+class TriangleGrid
+{
+public:
+  explicit TriangleGrid(const SurfaceComplex& surface) : m_Surface(surface)
+  {
+    if (surface.triangles.empty()) return;
+    Vec3 low = surface.points[surface.triangles[0][0]], high = low;
+    double extent = 0;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    {
+      const auto [from, to] = box(t);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        low[axis] = std::min(low[axis], from[axis]);
+        high[axis] = std::max(high[axis], to[axis]);
+      }
+      extent += norm(to - from);
+    }
+    m_Origin = low;
+    m_Size = std::max(extent / double(surface.triangles.size()), 1e-9);
+    const auto cells = [&]
+    {
+      return std::ceil((high.x - low.x) / m_Size + 1) * std::ceil((high.y - low.y) / m_Size + 1) *
+             std::ceil((high.z - low.z) / m_Size + 1);
+    };
+    while (cells() > 3e7) m_Size *= 1.5;
+    for (int axis = 0; axis < 3; ++axis) m_Cells[axis] = int(std::floor((high[axis] - low[axis]) / m_Size)) + 1;
+    fill();
+  }
+
+  /// Squared distances from p to the nearest triangle of each of two tissues; infinite for one without triangles.
+  std::array<double, 2> squaredDistances(const Vec3& p, const std::array<Label, 2>& tissues) const
+  {
+    std::array<double, 2> best{ infinity, infinity };
+    if (m_Surface.triangles.empty()) return best;
+    Voxel centre;
+    double margin = infinity; // to the wall of the cell that is nearest
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double place = (p[axis] - m_Origin[axis]) / m_Size;
+      centre[axis] = std::clamp(int(std::floor(place)), -1, m_Cells[axis]);
+      const double inCell = place - centre[axis];
+      margin = std::min({ margin, m_Size * std::max(inCell, 0.0), m_Size * std::max(1 - inCell, 0.0) });
+    }
+    const int rings = std::max({ m_Cells[0], m_Cells[1], m_Cells[2] }) + 1;
+    for (int ring = 0; ring <= rings; ++ring)
+    {
+      visitRing(centre, ring, [&](std::int32_t t) { improve(best, p, tissues, t); });
+      const double seen = margin + m_Size * ring;
+      const bool isDone = (tissues[0] == 0 || best[0] <= seen * seen) && (tissues[1] == 0 || best[1] <= seen * seen);
+      if (isDone) break;
+    }
+    return best;
+  }
+
+private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  std::pair<Vec3, Vec3> box(std::size_t t) const
+  {
+    const auto& [a, b, c] = m_Surface.triangles[t];
+    Vec3 low = m_Surface.points[a], high = low;
+    for (const std::int32_t point : { b, c })
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        low[axis] = std::min(low[axis], m_Surface.points[point][axis]);
+        high[axis] = std::max(high[axis], m_Surface.points[point][axis]);
+      }
+    }
+    return { low, high };
+  }
+
+  std::size_t cell(int i, int j, int k) const { return (std::size_t(k) * m_Cells[1] + j) * m_Cells[0] + i; }
+
+  template <class Visit>
+  void forCells(std::size_t t, const Visit& visit) const
+  {
+    const auto [low, high] = box(t);
+    Voxel from, to;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      from[axis] = std::clamp(int((low[axis] - m_Origin[axis]) / m_Size), 0, m_Cells[axis] - 1);
+      to[axis] = std::clamp(int((high[axis] - m_Origin[axis]) / m_Size), 0, m_Cells[axis] - 1);
+    }
+    for (int k = from[2]; k <= to[2]; ++k)
+      for (int j = from[1]; j <= to[1]; ++j)
+        for (int i = from[0]; i <= to[0]; ++i) visit(cell(i, j, k));
+  }
+
+  void fill()
+  {
+    m_First.assign(std::size_t(m_Cells[0]) * m_Cells[1] * m_Cells[2] + 1, 0);
+    for (std::size_t t = 0; t < m_Surface.triangles.size(); ++t) forCells(t, [&](std::size_t c) { ++m_First[c + 1]; });
+    for (std::size_t c = 1; c < m_First.size(); ++c) m_First[c] += m_First[c - 1];
+    m_Triangles.resize(m_First.back());
+    std::vector<std::size_t> next(m_First.begin(), m_First.end() - 1);
+    for (std::size_t t = 0; t < m_Surface.triangles.size(); ++t)
+      forCells(t, [&](std::size_t c) { m_Triangles[next[c]++] = std::int32_t(t); });
+  }
+
+  template <class Visit>
+  void visitRing(const Voxel& centre, int ring, const Visit& visit) const
+  {
+    const auto range = [&](int axis)
+    { return std::pair(std::max(centre[axis] - ring, 0), std::min(centre[axis] + ring, m_Cells[axis] - 1)); };
+    for (int k = range(2).first; k <= range(2).second; ++k)
+    {
+      for (int j = range(1).first; j <= range(1).second; ++j)
+      {
+        const bool isShell = std::abs(k - centre[2]) == ring || std::abs(j - centre[1]) == ring;
+        for (int i = range(0).first; i <= range(0).second; ++i)
+        {
+          if (!isShell && std::abs(i - centre[0]) != ring)
+          {
+            i = std::max(i, centre[0] + ring - 1);
+            continue;
+          }
+          for (std::size_t n = m_First[cell(i, j, k)]; n < m_First[cell(i, j, k) + 1]; ++n) visit(m_Triangles[n]);
+        }
+      }
+    }
+  }
+
+  void improve(std::array<double, 2>& best, const Vec3& p, const std::array<Label, 2>& tissues, std::int32_t t) const
+  {
+    const std::array<Label, 2>& labels = m_Surface.labels[t];
+    const auto bounds = [&](Label tissue) { return tissue != 0 && (labels[0] == tissue || labels[1] == tissue); };
+    const bool first = bounds(tissues[0]), second = bounds(tissues[1]);
+    if (!first && !second) return;
+    const auto& [a, b, c] = m_Surface.triangles[t];
+    const double d =
+      squaredNorm(nearestOnTriangle(p, m_Surface.points[a], m_Surface.points[b], m_Surface.points[c]) - p);
+    if (first) best[0] = std::min(best[0], d);
+    if (second) best[1] = std::min(best[1], d);
+  }
+
+  const SurfaceComplex& m_Surface;
+  Vec3 m_Origin;
+  double m_Size = 1;
+  Voxel m_Cells{ 0, 0, 0 };
+  std::vector<std::size_t> m_First; ///< per cell, into m_Triangles
+  std::vector<std::int32_t> m_Triangles;
+};
+
+Vec3 faceCentre(const Grid& grid, const Voxel& voxel, int axis)
+{
+  Vec3 p;
+  for (int a = 0; a < 3; ++a) p[a] = (voxel[a] + (a == axis ? 0.5 : 0.0)) * grid.spacing[a];
+  return p;
+}
+
+/// visit(voxel, axis, the labels below and above) of every face between voxels of different labels in slice k, those of
+/// the map's first faces included; k may be -1, as i and j.
+template <class Visit>
+void forFaces(const TissueMap& map, int k, const Visit& visit)
+{
+  for (int j = -1; j < map.grid.size[1]; ++j)
+  {
+    for (int i = -1; i < map.grid.size[0]; ++i)
+    {
+      const Voxel voxel{ i, j, k };
+      const Label below = labelAt(map, voxel);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        Voxel next = voxel;
+        ++next[axis];
+        const Label above = labelAt(map, next);
+        if (above != below) visit(voxel, axis, std::array<Label, 2>{ below, above });
+      }
+    }
+  }
+}
+
+void measureFromMap(const SurfaceComplex& surface, const TissueMap& map, double bound, Sums& sums)
+{
+  const TriangleGrid grid(surface);
+  vtkSMPTools::For(-1, map.grid.size[2],
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (int k = int(begin); k < int(end); ++k)
+                     {
+                       forFaces(map, k,
+                                [&](const Voxel& voxel, int axis, const std::array<Label, 2>& labels)
+                                {
+                                  const Vec3 p = faceCentre(map.grid, voxel, axis);
+                                  const std::array<double, 2> squared = grid.squaredDistances(p, labels);
+                                  for (int side = 0; side < 2; ++side)
+                                  {
+                                    if (labels[side] != 0)
+                                      add(sums.of(std::size_t(k + 1), labels[side]), std::sqrt(squared[side]), p,
+                                          bound);
+                                  }
+                                });
+                     }
+                   });
+}
+
+/// Squared distance from p to the face between a voxel and the next one along the axis.
+double squaredDistanceToFace(const Vec3& p, const Voxel& voxel, int axis, const Vec3& spacing)
+{
+  double squared = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double off = std::abs(p[a] - (a == axis ? voxel[a] + 0.5 : voxel[a]) * spacing[a]);
+    const double outside = std::max(0.0, off - (a == axis ? 0 : 0.5 * spacing[a]));
+    squared += outside * outside;
+  }
+  return squared;
+}
+
+/// From p to the nearest face around the tissue in the map, at most eight of the smallest voxel sides.
+double distanceToFaces(const TissueMap& map, const Vec3& p, Label tissue)
+{
+  constexpr int mostReach = 8;
+  const Vec3& spacing = map.grid.spacing;
+  const double least = std::min({ spacing.x, spacing.y, spacing.z });
+  Voxel centre;
+  for (int a = 0; a < 3; ++a) centre[a] = int(std::lround(p[a] / spacing[a]));
+  double best = mostReach * least * mostReach * least;
+  for (int reach = 0; reach <= mostReach; ++reach)
+  {
+    const double nearest = (reach - 1) * least; // of the faces of this shell
+    if (reach > 0 && best <= nearest * nearest) break;
+    for (int k = -reach; k <= reach; ++k)
+    {
+      for (int j = -reach; j <= reach; ++j)
+      {
+        const bool isInside = std::max(std::abs(j), std::abs(k)) < reach;
+        for (int i = -reach; i <= reach; i += isInside ? 2 * reach : 1)
+        {
+          const Voxel voxel{ centre[0] + i, centre[1] + j, centre[2] + k };
+          const bool isTissue = labelAt(map, voxel) == tissue;
+          for (int axis = 0; axis < 3; ++axis)
+          {
+            Voxel next = voxel;
+            ++next[axis];
+            if ((labelAt(map, next) == tissue) != isTissue)
+              best = std::min(best, squaredDistanceToFace(p, voxel, axis, spacing));
+          }
+        }
+      }
+    }
+  }
+  return std::sqrt(best);
+}
+
+/// Every vertex once for each tissue that it bounds, and every triangle's centroid.
+struct SurfaceSample
+{
+  Vec3 place;
+  Label tissue;
+};
+
+std::vector<SurfaceSample> samplesOf(const SurfaceComplex& surface)
+{
+  std::vector<std::pair<std::int32_t, Label>> corners;
+  std::vector<SurfaceSample> samples;
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+  {
+    const auto& [a, b, c] = surface.triangles[t];
+    const Vec3 centroid = (surface.points[a] + surface.points[b] + surface.points[c]) / 3;
+    for (const Label label : surface.labels[t])
+    {
+      if (label == 0) continue;
+      samples.push_back({ centroid, label });
+      for (const std::int32_t point : { a, b, c }) corners.emplace_back(point, label);
+    }
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  for (const auto& [point, label] : corners) samples.push_back({ surface.points[point], label });
+  return samples;
+}
+
+void measureFromMesh(const SurfaceComplex& surface, const TissueMap& map, double bound, std::size_t parts, Sums& sums)
+{
+  const std::vector<SurfaceSample> samples = samplesOf(surface);
+  vtkSMPTools::For(0, vtkIdType(parts),
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     for (std::size_t part = std::size_t(begin); part < std::size_t(end); ++part)
+                     {
+                       for (std::size_t n = part * samples.size() / parts; n < (part + 1) * samples.size() / parts; ++n)
+                       {
+                         const auto& [place, tissue] = samples[n];
+                         if (sums.has(tissue))
+                           add(sums.of(part, tissue), distanceToFaces(map, place, tissue), place, bound);
+                       }
+                     }
+                   });
+}
+
+} // namespace
+
+std::map<Label, TissueFidelity> assessFidelity(const SurfaceComplex& surface, const TissueMap& map, double bound)
+{
+  const std::vector<Label> labels = presentLabels(map);
+  std::map<Label, TissueFidelity> tissues;
+  const double voxel = map.grid.spacing.x * map.grid.spacing.y * map.grid.spacing.z;
+  for (const auto& [label, voxels] : countVoxels(map))
+  {
+    if (label != 0) tissues[label].mapVolume = double(voxels) * voxel;
+  }
+  for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+  {
+    const auto& [a, b, c] = surface.triangles[t];
+    const double part = dot(surface.points[a], cross(surface.points[b], surface.points[c])) / 6;
+    const auto behind = tissues.find(surface.labels[t][0]), front = tissues.find(surface.labels[t][1]);
+    if (behind != tissues.end()) behind->second.meshVolume += part;
+    if (front != tissues.end()) front->second.meshVolume -= part;
+  }
+  Sums fromMap(labels, std::size_t(map.grid.size[2]) + 1);
+  measureFromMap(surface, map, bound, fromMap);
+  fromMap.store(tissues, &TissueFidelity::mapToMesh);
+  constexpr std::size_t parts = 64;
+  Sums fromMesh(labels, parts);
+  measureFromMesh(surface, map, bound, parts, fromMesh);
+  fromMesh.store(tissues, &TissueFidelity::meshToMap);
+  return tissues;
+}
+
+Distances allDistances(const std::map<Label, TissueFidelity>& tissues, Distances TissueFidelity::*side)
+{
+  Distances all;
+  for (const auto& [label, tissue] : tissues)
+  {
+    Distances sums = tissue.*side;
+    sums.mean *= double(sums.samples);
+    add(all, sums);
+  }
+  finish(all);
+  return all;
+}
+
+} // namespace surgicalmesher

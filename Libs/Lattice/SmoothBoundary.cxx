@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "SmoothBoundary.h"
+
+#include "InterfaceSmoothing.h"
+#include "Parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+constexpr double mostOffset = 0.3;   // voxels, of a tissue's whole boundary
+constexpr double perGaussian = 1.5;  // standard deviation of the fit's weights, in those of the Gaussian
+constexpr double reach = 2.2;        // of the fit, in its standard deviations
+constexpr double leastCosine = 0.35; // between normals, for a sample to count
+constexpr double margin = 0.2;       // voxels, that the boundary stays off the centres of the voxels beside a face
+
+using Index = std::array<int, 3>;
+
+/// In voxel coordinates: the centre of voxel (i, j, k) is at (i, j, k).
+struct Point
+{
+  Index lower; ///< voxel below the face; the other lies one up along `axis`
+  int axis;
+  Label inside; ///< the larger of the two labels
+  Label outside;
+  bool isInsideBelow; ///< `lower` has label `inside`
+  Vec3 position;
+  Vec3 normal;          ///< unit, out of `inside`
+  double curvature = 0; ///< the larger one, per voxel
+
+  Vec3 centre() const
+  {
+    Vec3 c{ double(lower[0]), double(lower[1]), double(lower[2]) };
+    c[axis] += 0.5;
+    return c;
+  }
+};
+
+/// The integral of a one-dimensional Gaussian of standard deviation `sigma` over a voxel at distance x, and its
+/// derivative.
+class VoxelWeight
+{
+public:
+  explicit VoxelWeight(double sigma) : m_Reach(int(std::ceil(3 * sigma)) + 1)
+  {
+    const int n = m_Reach * perVoxel;
+    for (int i = -n - 1; i <= n + 1; ++i)
+    {
+      const double x = double(i) / perVoxel, low = (x - 0.5) / sigma, high = (x + 0.5) / sigma;
+      m_Values.push_back(0.5 * (std::erf(high * M_SQRT1_2) - std::erf(low * M_SQRT1_2)));
+      m_Slopes.push_back((std::exp(-0.5 * high * high) - std::exp(-0.5 * low * low)) / (sigma * std::sqrt(2 * M_PI)));
+    }
+  }
+
+  int reach() const { return m_Reach; }
+
+  /// At |x| up to reach().
+  std::pair<double, double> operator()(double x) const
+  {
+    const double at = std::clamp((x + m_Reach) * perVoxel + 1, 0.0, double(m_Values.size()) - 1.001);
+    const std::size_t i = std::size_t(at);
+    const double t = at - double(i);
+    return { m_Values[i] + t * (m_Values[i + 1] - m_Values[i]), m_Slopes[i] + t * (m_Slopes[i + 1] - m_Slopes[i]) };
+  }
+
+private:
+  static constexpr int perVoxel = 128;
+  int m_Reach;
+  std::vector<double> m_Values, m_Slopes;
+};
+
+/// Where the smoothed indicators of a point's two labels are equal.
+class IndicatorTie
+{
+public:
+  IndicatorTie(const TissueMap& map, double sigma)
+    : m_Map(map), m_Weights{ VoxelWeight(sigma), VoxelWeight(0.7 * sigma), VoxelWeight(0.5 * sigma),
+                             VoxelWeight(0.35 * sigma) }
+  {
+  }
+
+  void place(Point& point) const
+  {
+    for (const VoxelWeight& weight : m_Weights)
+      if (follow(point, weight)) return;
+    point.position = point.centre();
+    point.normal = {};
+    point.normal[point.axis] = point.isInsideBelow ? 1 : -1;
+  }
+
+private:
+  /// Down the gradient from the face's centre; false if the tie is none, or too far off.
+  bool follow(Point& point, const VoxelWeight& weight) const
+  {
+    constexpr double farthest = 0.6;
+    const Vec3 home = point.centre();
+    Vec3 p = home;
+    for (int step = 0; step < 3; ++step)
+    {
+      const auto [value, gradient] = difference(point, p, weight);
+      const double slope = norm(gradient);
+      if (!(slope > 0.05)) return false;
+      p += (-value / (slope * slope)) * gradient;
+      if (squaredNorm(p - home) > farthest * farthest) return false;
+      point.normal = -1.0 / slope * gradient;
+    }
+    if ((point.normal[point.axis] > 0) != point.isInsideBelow) return false;
+    point.position = p;
+    return true;
+  }
+
+  std::pair<double, Vec3> difference(const Point& point, const Vec3& p, const VoxelWeight& weight) const
+  {
+    constexpr int most = 16;
+    std::array<std::array<std::pair<double, double>, most>, 3> w;
+    Index low, count;
+    for (int a = 0; a < 3; ++a)
+    {
+      low[a] = int(std::ceil(p[a])) - weight.reach();
+      count[a] = std::min(most, 2 * weight.reach());
+      for (int i = 0; i < count[a]; ++i) w[a][i] = weight(low[a] + i - p[a]);
+    }
+    double value = 0;
+    Vec3 gradient; // of the weights with respect to the voxels: the other way round for p
+    for (int k = 0; k < count[2]; ++k)
+      for (int j = 0; j < count[1]; ++j)
+      {
+        double row = 0, slope = 0;
+        for (int i = 0; i < count[0]; ++i)
+        {
+          const Label label = labelAt(m_Map, { low[0] + i, low[1] + j, low[2] + k });
+          if (label == point.inside) row += w[0][i].first, slope += w[0][i].second;
+          else if (label == point.outside) row -= w[0][i].first, slope -= w[0][i].second;
+        }
+        value += row * w[1][j].first * w[2][k].first;
+        gradient.x -= slope * w[1][j].first * w[2][k].first;
+        gradient.y -= row * w[1][j].second * w[2][k].first;
+        gradient.z -= row * w[1][j].first * w[2][k].second;
+      }
+    return { value, gradient };
+  }
+
+  const TissueMap& m_Map;
+  const std::array<VoxelWeight, 4> m_Weights;
+};
+
+/// Points in the order of their lower voxels, found by rows.
+class PointRows
+{
+public:
+  PointRows(const std::vector<Point>& points, const Index& size) : m_Points(points), m_Size(size)
+  {
+    m_Start.assign(std::size_t(size[1] + 1) * (size[2] + 1) + 1, 0);
+    for (const Point& p : points) ++m_Start[row(p.lower[1], p.lower[2]) + 1];
+    std::partial_sum(m_Start.begin(), m_Start.end(), m_Start.begin());
+  }
+
+  template <class F>
+  void forEachNear(const Index& voxel, int radius, F&& f) const
+  {
+    for (int k = std::max(-1, voxel[2] - radius); k <= std::min(m_Size[2] - 1, voxel[2] + radius); ++k)
+      for (int j = std::max(-1, voxel[1] - radius); j <= std::min(m_Size[1] - 1, voxel[1] + radius); ++j)
+      {
+        const auto end = m_Points.begin() + m_Start[row(j, k) + 1];
+        auto at = std::lower_bound(m_Points.begin() + m_Start[row(j, k)], end, voxel[0] - radius,
+                                   [](const Point& p, int i) { return p.lower[0] < i; });
+        for (; at != end && at->lower[0] <= voxel[0] + radius; ++at) f(*at);
+      }
+  }
+
+private:
+  std::size_t row(int j, int k) const { return std::size_t(k + 1) * (m_Size[1] + 1) + (j + 1); }
+
+  const std::vector<Point>& m_Points;
+  Index m_Size;
+  std::vector<std::int32_t> m_Start;
+};
+
+/// Weighted least squares for the height a0 + a1 u + a2 v + a3 u^2 + a4 u v + a5 v^2.
+class HeightFit
+{
+public:
+  void add(double u, double v, double height, double weight)
+  {
+    const double basis[6] = { 1, u, v, u * u, u * v, v * v };
+    for (int i = 0; i < 6; ++i)
+    {
+      m_Right[i] += weight * basis[i] * height;
+      for (int j = 0; j <= i; ++j) m_Matrix[i][j] += weight * basis[i] * basis[j];
+    }
+  }
+
+  double weight() const { return m_Matrix[0][0]; }
+
+  /// Bending is held by a spring, so that few points make a plane. False if there are too few for that.
+  bool solve(double spring, double (&a)[6])
+  {
+    for (int i = 3; i < 6; ++i) m_Matrix[i][i] += spring * weight();
+    for (int i = 0; i < 6; ++i)
+    {
+      for (int j = 0; j <= i; ++j)
+      {
+        double sum = m_Matrix[i][j];
+        for (int k = 0; k < j; ++k) sum -= m_Matrix[i][k] * m_Matrix[j][k];
+        if (i == j && !(sum > 1e-6 * m_Matrix[0][0])) return false;
+        m_Matrix[i][j] = i == j ? std::sqrt(sum) : sum / m_Matrix[j][j];
+      }
+      a[i] = m_Right[i];
+      for (int k = 0; k < i; ++k) a[i] -= m_Matrix[i][k] * a[k];
+      a[i] /= m_Matrix[i][i];
+    }
+    for (int i = 5; i >= 0; --i)
+    {
+      for (int k = i + 1; k < 6; ++k) a[i] -= m_Matrix[k][i] * a[k];
+      a[i] /= m_Matrix[i][i];
+    }
+    return true;
+  }
+
+private:
+  double m_Matrix[6][6] = {}, m_Right[6] = {};
+};
+
+/// Two unit vectors across n.
+std::pair<Vec3, Vec3> frameOf(const Vec3& n)
+{
+  const Vec3 other = std::abs(n.x) < 0.6 ? Vec3{ 1, 0, 0 } : Vec3{ 0, 1, 0 };
+  Vec3 u = cross(n, other);
+  u = u / norm(u);
+  return { u, cross(n, u) };
+}
+
+/// Keeps the centres of the voxels beside the face on their sides of the plane through the point.
+void keepLabels(Point& point)
+{
+  Vec3 below{ double(point.lower[0]), double(point.lower[1]), double(point.lower[2]) }, above = below;
+  above[point.axis] += 1;
+  const Vec3& in = point.isInsideBelow ? below : above;
+  const Vec3& out = point.isInsideBelow ? above : below;
+  const double least = dot(point.normal, in - point.position) + margin;
+  const double most = dot(point.normal, out - point.position) - margin;
+  if (least > 0 && most > least) point.position += least * point.normal;
+  else if (most < 0 && most > least) point.position += most * point.normal;
+}
+
+/// `point`, on the quadric through its neighbours of the same labels.
+Point fitted(const Point& point, const PointRows& rows, double sigma)
+{
+  const double squaredReach = reach * reach * sigma * sigma;
+  const auto [u, v] = frameOf(point.normal);
+  HeightFit fit;
+  rows.forEachNear(point.lower, int(std::ceil(reach * sigma)),
+                   [&](const Point& other)
+                   {
+                     if (other.inside != point.inside || other.outside != point.outside) return;
+                     const Vec3 d = other.position - point.position;
+                     const double d2 = squaredNorm(d), cosine = dot(other.normal, point.normal);
+                     if (d2 > squaredReach || cosine < leastCosine) return;
+                     // A voxel face counts by the area that it stands for.
+                     const double area = std::abs(other.normal[other.axis]);
+                     const double weight = area * cosine * cosine * std::exp(-0.5 * d2 / (sigma * sigma));
+                     fit.add(dot(u, d) / sigma, dot(v, d) / sigma, dot(point.normal, d), weight);
+                   });
+  Point result = point;
+  double a[6];
+  if (!fit.solve(0.01, a)) return result;
+  result.position += a[0] * point.normal;
+  const Vec3 n = point.normal - (a[1] / sigma) * u - (a[2] / sigma) * v;
+  result.normal = n / norm(n);
+  result.curvature = 2 * std::sqrt(a[3] * a[3] + a[5] * a[5] + 0.5 * a[4] * a[4]) / (sigma * sigma);
+  keepLabels(result);
+  return result;
+}
+
+/// Offsets of the labels' boundaries, voxels, that give back the volume that the points' ways have taken.
+std::map<Label, double> offsets(const std::vector<Point>& points)
+{
+  std::map<std::pair<Label, Label>, double> areas;
+  std::map<Label, double> lost;
+  for (const Point& p : points)
+  {
+    const double sign = p.isInsideBelow ? 1 : -1;
+    const double swept = sign * (p.position - p.centre())[p.axis];
+    lost[p.inside] -= swept;
+    lost[p.outside] += swept;
+    areas[{ p.inside, p.outside }] += std::abs(p.normal[p.axis]);
+  }
+  std::map<Label, double> result, area;
+  for (const auto& [pair, a] : areas) area[pair.first] += a, area[pair.second] += a;
+  for (int round = 0; round < 20; ++round)
+  {
+    std::map<Label, double> wanted = lost;
+    for (const auto& [pair, a] : areas)
+    {
+      wanted[pair.first] += a * result[pair.second];
+      wanted[pair.second] += a * result[pair.first];
+    }
+    for (const auto& [label, sum] : wanted)
+      if (label != 0 && area[label] > 0) result[label] = std::clamp(sum / area[label], -mostOffset, mostOffset);
+  }
+  return result;
+}
+
+Point pointOf(const Vec3& position, const TissueMap& map)
+{
+  Point point{};
+  double farthest = -1;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double at = position[a] / map.grid.spacing[a];
+    point.lower[a] = int(std::lround(at));
+    if (const double off = std::abs(at - double(point.lower[a])); off > farthest) farthest = off, point.axis = a;
+  }
+  point.lower[point.axis] = int(std::lround(position[point.axis] / map.grid.spacing[point.axis] - 0.5));
+  Index upper = point.lower;
+  ++upper[point.axis];
+  const Label below = labelAt(map, point.lower), above = labelAt(map, upper);
+  point.isInsideBelow = below > above;
+  point.inside = std::max(below, above);
+  point.outside = std::min(below, above);
+  return point;
+}
+
+/// Voxels, within which a surface of that curvature is off its tangent plane by no more than what nobody sees.
+double planeRadius(double curvature)
+{
+  constexpr double invisible = 0.05, least = 0.7, most = 2;
+  return std::clamp(std::sqrt(2 * invisible / std::max(curvature, 1e-3)), least, most);
+}
+
+/// Where the planes of the samples at the voxel faces around a vertex of the interface meet; held at `home`, voxels.
+Vec3 meetingPoint(const Vec3& home, const PointRows& rows)
+{
+  constexpr double spring = 0.05, touching = 0.5 + 1e-6;
+  double m[6] = {}, planes = 0;
+  Vec3 g;
+  Index voxel;
+  for (int a = 0; a < 3; ++a) voxel[a] = int(std::floor(home[a]));
+  rows.forEachNear(voxel, 1,
+                   [&](const Point& point)
+                   {
+                     const Vec3 d = home - point.centre();
+                     for (int a = 0; a < 3; ++a)
+                       if (std::abs(d[a]) > (a == point.axis ? 1e-6 : touching)) return;
+                     const Vec3& n = point.normal;
+                     m[0] += n.x * n.x, m[1] += n.x * n.y, m[2] += n.x * n.z;
+                     m[3] += n.y * n.y, m[4] += n.y * n.z, m[5] += n.z * n.z;
+                     g += dot(n, point.position - home) * n;
+                     planes += 1;
+                   });
+  if (planes == 0) return home;
+  m[0] += spring * planes, m[3] += spring * planes, m[5] += spring * planes;
+  const Vec3 r0{ m[0], m[1], m[2] }, r1{ m[1], m[3], m[4] }, r2{ m[2], m[4], m[5] };
+  const Vec3 c0 = cross(r1, r2);
+  return home + (g.x * c0 + g.y * cross(r2, r0) + g.z * cross(r0, r1)) / dot(r0, c0);
+}
+
+/// Vertices at faces between labels, ascending.
+std::vector<std::int32_t> interfaceVertices(const KuhnLattice& lattice)
+{
+  const TetMesh& mesh = lattice.background.mesh;
+  std::vector<bool> isThere(mesh.points.size(), false);
+  for (const auto& [t, face] : lattice.interfaceFaces)
+    for (int k = 1; k <= 3; ++k) isThere[mesh.tetrahedra[t][(face + k) & 3]] = true;
+  std::vector<std::int32_t> result;
+  for (std::size_t v = 0; v < isThere.size(); ++v)
+    if (isThere[v]) result.push_back(std::int32_t(v));
+  return result;
+}
+
+Vec3 scaled(const Vec3& p, const Vec3& by) { return { p.x * by.x, p.y * by.y, p.z * by.z }; }
+
+/// The smooth boundary's points in the order of their voxels; `order` gives the sample that each belongs to.
+std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& samples, const TissueMap& map, double sigma,
+                                std::vector<std::pair<std::int64_t, std::int32_t>>& order)
+{
+  const Index size = map.grid.size;
+  const std::size_t n = samples.size();
+  std::vector<Point> points(n), next(n);
+  order.resize(n);
+  parallelFor(n,
+              [&](std::size_t i)
+              {
+                next[i] = pointOf(samples[i].position, map);
+                const auto [x, y, z] = next[i].lower;
+                order[i] = { (((z + 1) * std::int64_t(size[1] + 1) + y + 1) * (size[0] + 1) + x + 1) * 3 + next[i].axis,
+                             std::int32_t(i) };
+              });
+  vtkSMPTools::Sort(order.begin(), order.end());
+  const IndicatorTie tie(map, sigma);
+  parallelFor(n,
+              [&](std::size_t i)
+              {
+                points[i] = next[order[i].second];
+                tie.place(points[i]);
+                keepLabels(points[i]);
+              });
+  const PointRows rows(points, size);
+  parallelFor(n, [&](std::size_t i) { next[i] = fitted(points[i], rows, perGaussian * sigma); });
+  points.swap(next);
+  const std::map<Label, double> offset = offsets(points);
+  for (Point& p : points) p.position += (offset.at(p.inside) - offset.at(p.outside)) * p.normal;
+  return points;
+}
+
+} // namespace
+
+void moveToSmoothBoundary(KuhnLattice& lattice, const TissueMap& map, double voxels, double minimumAngle)
+{
+  auto& samples = lattice.background.samples;
+  const Vec3& mm = map.grid.spacing;
+  const Vec3 perMm{ 1 / mm.x, 1 / mm.y, 1 / mm.z };
+  std::vector<std::pair<std::int64_t, std::int32_t>> order;
+  const std::vector<Point> points = smoothPoints(samples, map, voxels, order);
+  parallelFor(points.size(),
+              [&](std::size_t i)
+              {
+                const Point& p = points[i];
+                BackgroundMesh::Sample& sample = samples[order[i].second];
+                sample.position = scaled(p.position, mm);
+                const Vec3 across = scaled(p.normal, perMm);
+                const double radius = map.grid.smallestSpacing() * planeRadius(p.curvature);
+                const Vec3 normal = across / (norm(across) * radius);
+                sample.normal = { float(normal.x), float(normal.y), float(normal.z) };
+              });
+  const PointRows rows(points, map.grid.size);
+  const std::vector<std::int32_t> vertices = interfaceVertices(lattice);
+  std::vector<Vec3> target(vertices.size());
+  parallelFor(vertices.size(),
+              [&](std::size_t i) {
+                target[i] = scaled(meetingPoint(scaled(lattice.background.mesh.points[vertices[i]], perMm), rows), mm);
+              });
+  moveVertices(lattice.background.mesh, vertices, target, minimumAngle);
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Points that cells use, renumbered without gaps.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+/// Values at `ids`, in their order; nothing if there are none.
+template <class Value>
+std::vector<Value> valuesAt(const std::vector<Value>& values, const std::vector<std::int32_t>& ids)
+{
+  std::vector<Value> result;
+  if (values.empty()) return result;
+  result.reserve(ids.size());
+  for (const std::int32_t id : ids) result.push_back(values[id]);
+  return result;
+}
+
+/// Renumbers the points of `cells`, ascending; the first `kept` of all `pointCount` points stay, used or not. Returns
+/// the old ids in the new order.
+template <std::size_t Corners>
+std::vector<std::int32_t> compactPoints(std::vector<std::array<std::int32_t, Corners>>& cells, std::size_t pointCount,
+                                        std::size_t kept = 0)
+{
+  std::vector<std::int32_t> newId(pointCount, -1), oldId;
+  for (std::size_t i = 0; i < kept; ++i) newId[i] = 0;
+  for (const auto& cell : cells)
+    for (const std::int32_t id : cell) newId[id] = 0;
+  for (std::size_t i = 0; i < pointCount; ++i)
+  {
+    if (newId[i] < 0) continue;
+    newId[i] = std::int32_t(oldId.size());
+    oldId.push_back(std::int32_t(i));
+  }
+  for (auto& cell : cells)
+    for (std::int32_t& id : cell) id = newId[id];
+  return oldId;
+}
+
+/// The same in the order in which the cells use them first: neighbours in space lie together in memory.
+template <std::size_t Corners>
+std::vector<std::int32_t> compactPointsByUse(std::vector<std::array<std::int32_t, Corners>>& cells,
+                                             std::size_t pointCount)
+{
+  std::vector<std::int32_t> newId(pointCount, -1), oldId;
+  for (auto& cell : cells)
+    for (std::int32_t& id : cell)
+    {
+      if (newId[id] < 0)
+      {
+        newId[id] = std::int32_t(oldId.size());
+        oldId.push_back(id);
+      }
+      id = newId[id];
+    }
+  return oldId;
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Warnings.h"
+
+#include <algorithm>
+#include <locale>
+#include <sstream>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+std::string rounded(double value)
+{
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(3);
+  text << value;
+  return text.str();
+}
+
+/// From a voxel in every few: lengths vary slowly.
+double shortestLength(const TissueMap& map, const ScaleField& scale)
+{
+  constexpr int mostSamplesPerAxis = 128;
+  const Grid& grid = map.grid;
+  std::array<int, 3> step;
+  for (int axis = 0; axis < 3; ++axis) step[axis] = (grid.size[axis] - 1) / mostSamplesPerAxis + 1;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < grid.size[2]; k += step[2])
+  {
+    for (int j = 0; j < grid.size[1]; j += step[1])
+    {
+      for (int i = 0; i < grid.size[0]; i += step[0])
+      {
+        if (map.labels[grid.index(i, j, k)] == 0) continue;
+        const Vec3 p{ i * grid.spacing.x, j * grid.spacing.y, k * grid.spacing.z };
+        shortest = std::min(shortest, double(scale(grid.gridToWorld(p))));
+      }
+    }
+  }
+  return shortest;
+}
+
+} // namespace
+
+double shortestLatticeLength(const Grid& grid)
+{
+  return std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z }) / 4;
+}
+
+std::string warningOfShortLengths(const TissueMap& map, const ScaleField& scale, const std::string& labelMap)
+{
+  const double asked = shortestLength(map, scale), given = shortestLatticeLength(map.grid);
+  if (!(asked < 0.95 * given)) return {};
+  return "edges of " + rounded(asked) + " mm are asked for, but the voxels of " + labelMap +
+         " give none shorter than " + rounded(given) +
+         " mm, a quarter of their side; resample the map for shorter ones";
+}
+
+std::vector<std::string> warningsOfDistance(const std::map<Label, TissueFidelity>& fidelity, double bound,
+                                            const Grid& world)
+{
+  std::vector<std::string> warnings;
+  const auto check = [&](Distances TissueFidelity::*side, const std::string& what)
+  {
+    const Distances all = allDistances(fidelity, side);
+    if (all.beyond == 0) return;
+    const Vec3 p = world.gridToWorld(all.farthest);
+    warnings.push_back("the maximum distance of " + rounded(bound) + " mm does not hold: " + what + " up to " +
+                       rounded(all.maximum) + " mm away, farthest at (" + rounded(p.x) + ", " + rounded(p.y) + ", " +
+                       rounded(p.z) + ") mm LPS, and " + std::to_string(all.beyond) + " of " +
+                       std::to_string(all.samples) + " places are beyond it");
+  };
+  check(&TissueFidelity::mapToMesh, "from boundaries of the map the surface is");
+  check(&TissueFidelity::meshToMap, "from the surface the boundaries of the map are");
+  return warnings;
+}
+
+} // namespace surgicalmesher

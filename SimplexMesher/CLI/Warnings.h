@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What a run of the surface stage warns of: sentences for the user.
+
+#include "ScaleField.h"
+#include "TissueFidelity.h"
+#include "TissueMap.h"
+
+#include <string>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+/// The shortest edge length that the lattice of the map's voxels gives, mm: a quarter of the smallest voxel side.
+double shortestLatticeLength(const Grid& grid);
+
+/// That tissue asks for shorter edges than the lattice gives; empty if it does not. `labelMap` names the map.
+std::string warningOfShortLengths(const TissueMap& map, const ScaleField& scale, const std::string& labelMap);
+
+/// Where the surface is farther from the map than `bound` (mm), from either side; empty if it is nowhere. `world` is
+/// the frame of the files, the fidelity's places are in the map's own.
+std::vector<std::string> warningsOfDistance(const std::map<Label, TissueFidelity>& fidelity, double bound,
+                                            const Grid& world);
+
+} // namespace surgicalmesher

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+// TemplateFitCLI: template, target and pairs of landmarks in; the template on the patient, and how good it is, out.
+
+#include "Carrying.h"
+#include "CommandLine.h"
+#include "ElementMeshIO.h"
+#include "ElementQuality.h"
+#include "Errors.h"
+#include "JsonMember.h"
+#include "SurfaceDistance.h"
+#include "TemplateFit.h"
+#include "TemplateFitCLIXML.h"
+#include "TissueMapIO.h"
+
+#include <rapidjson/ostreamwrapper.h>
+#include <rapidjson/prettywriter.h>
+#include <vtkSMPTools.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+using namespace surgicalmesher;
+
+namespace
+{
+
+using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
+
+/// Millimetres in one unit of the files.
+struct Units
+{
+  double ofTemplate, ofTarget;
+};
+
+double millimetresIn(const std::string& unit)
+{
+  if (unit == "m") return 1000;
+  return unit == "cm" ? 10 : 1;
+}
+
+NamedPoints readLandmarks(const std::string& file, double unit)
+{
+  NamedPoints landmarks;
+  landmarks.file = file;
+  std::vector<Vec3> positions;
+  for (const Markup& markup : readLabelledMarkups(file))
+  {
+    landmarks.names.insert(landmarks.names.end(), markup.labels.begin(), markup.labels.end());
+    positions.insert(positions.end(), markup.points.begin(), markup.points.end());
+  }
+  landmarks.points.resize(3, Eigen::Index(positions.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    landmarks.points.col(Eigen::Index(i)) = unit * Eigen::Vector3d(positions[i].x, positions[i].y, positions[i].z);
+  return landmarks;
+}
+
+LandmarkPairs readPairs(const CommandLine& line, const Units& units)
+{
+  const std::vector<std::string> files = line.texts("landmarks");
+  if (files.size() != 2)
+    throw UsageError("--landmarks: " + std::to_string(files.size()) +
+                     " files found, expected the template's and the patient's");
+  const LandmarkPairs pairs =
+    pairedByName(readLandmarks(files[0], units.ofTemplate), readLandmarks(files[1], units.ofTarget));
+  requireUsable(pairs, files[0], files[1]);
+  return pairs;
+}
+
+TriangleSurface readTarget(const CommandLine& line, double unit)
+{
+  TriangleSurface target = readSurfaceOf(line.text("target"));
+  const std::string innerFile = line.text("inner");
+  if (!innerFile.empty())
+  {
+    const TriangleSurface inner = readSurfaceOf(innerFile);
+    const auto first = std::int32_t(target.points.cols());
+    Points both(3, first + inner.points.cols());
+    both << target.points, inner.points;
+    target.points = both;
+    for (const Triangle& t : inner.triangles) target.triangles.push_back({ t[0] + first, t[1] + first, t[2] + first });
+  }
+  target.points *= unit;
+  return target;
+}
+
+/// What is carried along, and where it goes: beside the fitted mesh.
+struct Carried
+{
+  std::string source, destination;
+};
+
+std::vector<Carried> carriedFiles(const CommandLine& line)
+{
+  const std::filesystem::path fitted = line.outputNames("fitted").at(0);
+  std::vector<Carried> files;
+  std::set<std::string> taken{ fitted.string() };
+  for (const std::string& file : line.texts("carry"))
+  {
+    const std::string name = fitted.stem().string() + "." + std::filesystem::path(file).stem().string() + ".vtu";
+    const std::string destination = (fitted.parent_path() / name).string();
+    if (!taken.insert(destination).second)
+      throw UsageError("--carry: " + destination + " would be written twice, expected files of different names");
+    files.push_back({ file, destination });
+  }
+  return files;
+}
+
+void writeCarried(CommandLine& line, const Units& units, const Points& from, const Points& to)
+{
+  for (const Carried& file : carriedFiles(line))
+  {
+    const ElementMeshFile content = readElementMesh(file.source);
+    const Points moved = carried(units.ofTemplate * content.mesh.points, from, to);
+    writeElementMesh(content, moved / units.ofTarget, file.source, line.outputPath(file.destination));
+  }
+}
+
+// ---- report ---------------------------------------------------------------------------------------------------------
+
+const char* nameOf(ElementShape shape)
+{
+  constexpr const char* names[] = { "triangles", "quadrilaterals", "tetrahedra", "wedges", "hexahedra" };
+  return names[int(shape)];
+}
+
+void writeQuality(JsonWriter& json, const char* key, const ElementMesh& mesh)
+{
+  json.Key(key);
+  json.StartObject();
+  const std::vector<ElementQuality> quality = elementQuality(mesh);
+  for (const ElementShape shape : { ElementShape::Hexahedron, ElementShape::Wedge, ElementShape::Tetrahedron })
+  {
+    const QualitySummary summary = summaryOf(mesh, quality, shape);
+    if (summary.elements == 0) continue;
+    json.Key(nameOf(shape));
+    json.StartObject();
+    writeMember(json, "elements", summary.elements);
+    writeMember(json, "invalid", summary.invalid);
+    writeMember(json, "minimumScaledJacobian", summary.minimum);
+    writeMember(json, "meanScaledJacobian", summary.mean);
+    writeMember(json, "meanShapeSkew", summary.meanShapeSkew);
+    json.Key("histogramOfMinimum");
+    json.StartArray();
+    for (const std::size_t count : summary.histogram) json.Uint64(count);
+    json.EndArray();
+    json.EndObject();
+  }
+  json.EndObject();
+}
+
+void writeDistance(JsonWriter& json, const char* key, const DistanceSummary& distance)
+{
+  json.Key(key);
+  json.StartObject();
+  writeMember(json, "mean", distance.mean);
+  writeMember(json, "percentile95", distance.percentile95);
+  writeMember(json, "maximum", distance.maximum);
+  json.EndObject();
+}
+
+/// Both ways, of the spline alone or of the fit.
+struct Distances
+{
+  DistanceSummary toTarget, fromTarget;
+};
+
+Distances distancesOf(const ElementMesh& mesh, const Points& points, const TargetSurface& target)
+{
+  const TriangleSurface surface = compacted(points, trianglesOf(outerFaces(mesh.elements), points));
+  return { distanceBetween(surface, target), distanceBetween(target.surface(), TargetSurface(surface)) };
+}
+
+void writeDistances(JsonWriter& json, const char* key, const Distances& distances)
+{
+  json.Key(key);
+  json.StartObject();
+  writeDistance(json, "fittedToTarget", distances.toTarget);
+  writeDistance(json, "targetToFitted", distances.fromTarget);
+  json.EndObject();
+}
+
+void writeLandmarks(JsonWriter& json, const LandmarkPairs& pairs, const Points& fitted)
+{
+  json.Key("landmarks");
+  json.StartArray();
+  for (std::size_t i = 0; i < pairs.names.size(); ++i)
+  {
+    json.StartObject();
+    writeMember(json, "name", pairs.names[i]);
+    writeMember(json, "residual", (fitted.col(Eigen::Index(i)) - pairs.target.col(Eigen::Index(i))).norm());
+    json.EndObject();
+  }
+  json.EndArray();
+}
+
+struct Report
+{
+  const ElementMesh& mesh; ///< the template, mm
+  const LandmarkPairs& pairs;
+  const FitResult& fit;
+  Distances ofSpline, ofFit;
+};
+
+/// Lengths in mm, whatever the files' units.
+void writeReport(const std::string& file, const CommandLine& line, const Report& report)
+{
+  std::ofstream stream(file.c_str(), std::ios::binary);
+  rapidjson::OStreamWrapper wrapper(stream);
+  JsonWriter json(wrapper);
+  json.SetMaxDecimalPlaces(6);
+  json.StartObject();
+  writeMember(json, "module", "TemplateFit");
+  writeMember(json, "template", line.text("template"));
+  writeMember(json, "target", line.text("target"));
+  writeMember(json, "templateUnit", line.text("templateUnit"));
+  writeMember(json, "targetUnit", line.text("targetUnit"));
+  writeMember(json, "frame", "LPS");
+  writeMember(json, "lengths", "mm");
+  writeMember(json, "alpha", line.number("alpha"));
+  writeMember(json, "iterations", line.integer("iterations"));
+  writeMember(json, "repairRounds", report.fit.repairRounds);
+  json.Key("quality");
+  json.StartObject();
+  writeQuality(json, "template", report.mesh);
+  writeQuality(json, "spline", { report.fit.spline, report.mesh.elements });
+  writeQuality(json, "fitted", { report.fit.points, report.mesh.elements });
+  json.EndObject();
+  json.Key("distances");
+  json.StartObject();
+  writeDistances(json, "spline", report.ofSpline);
+  writeDistances(json, "fitted", report.ofFit);
+  json.EndObject();
+  writeLandmarks(json, report.pairs, report.fit.landmarks);
+  json.EndObject();
+  stream << '\n' << std::flush;
+  if (!stream) throw InputError(file + ": the report cannot be written whole");
+}
+
+void tell(CommandLine& line, const Report& report)
+{
+  std::ostringstream text;
+  text.precision(3);
+  const std::vector<ElementQuality> quality = elementQuality({ report.fit.points, report.mesh.elements });
+  for (const ElementShape shape : { ElementShape::Hexahedron, ElementShape::Wedge, ElementShape::Tetrahedron })
+  {
+    const QualitySummary summary = summaryOf(report.mesh, quality, shape);
+    if (summary.elements == 0) continue;
+    text << summary.elements << " " << nameOf(shape) << ", " << summary.invalid << " invalid, scaled Jacobian at least "
+         << summary.minimum << ", on average " << summary.mean << "; ";
+  }
+  text << "fitted to target " << report.ofFit.toTarget.mean << " mm on average, 95 % within "
+       << report.ofFit.toTarget.percentile95 << " mm; target to fitted " << report.ofFit.fromTarget.mean << " and "
+       << report.ofFit.fromTarget.percentile95 << " mm";
+  line.message(text.str());
+}
+
+void run(CommandLine& line)
+{
+  vtkSMPTools::Initialize(line.integer("threads"));
+  const Progress progress = line.progress();
+  report(progress, 0, "reading");
+  const Units units{ millimetresIn(line.text("templateUnit")), millimetresIn(line.text("targetUnit")) };
+  const LandmarkPairs pairs = readPairs(line, units);
+  const std::string templateFile = line.text("template"), fittedName = line.outputNames("fitted").at(0);
+  const ElementMeshFile content = readElementMesh(templateFile);
+  requireRightSideOut(content.mesh, templateFile);
+  requireWritable(content, templateFile, fittedName);
+  carriedFiles(line);
+  const ElementMesh mesh{ units.ofTemplate * content.mesh.points, content.mesh.elements };
+  const TargetSurface target(readTarget(line, units.ofTarget));
+
+  FitOptions options;
+  options.alpha = line.number("alpha");
+  options.iterations = line.integer("iterations");
+  options.landmarkWeight = line.number("landmarkWeight");
+  const FitResult fit = fitTemplate(mesh, pairs, target, options, subProgress(progress, 0.05, 0.8));
+  report(progress, 0.8, "measuring");
+  const Report results{ mesh, pairs, fit, distancesOf(mesh, fit.spline, target),
+                        distancesOf(mesh, fit.points, target) };
+  report(progress, 0.9, "writing");
+  writeElementMesh(content, fit.points / units.ofTarget, templateFile, line.outputFile("fitted"));
+  writeCarried(line, units, mesh.points, fit.points);
+  tell(line, results);
+  const std::string reportFile = line.outputFile("report");
+  if (!reportFile.empty()) writeReport(reportFile, line, results);
+  report(progress, 1, "done");
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return runModule(argc, argv, moduleXML, run); }

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TemplateFit.h"
+
+#include "Errors.h"
+#include "FitEnergy.h"
+#include "Parallel.h"
+#include "ThinPlateSpline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using Eigen::Vector3d;
+
+constexpr double kNormalScale = 4;       ///< mm of distance that weigh as much as normals that differ by 1
+constexpr double kPlaneWeight = 1;       ///< of the squared distance (mm) to the plane at the closest point
+constexpr double kPointWeight = 0.02;    ///< of that to the point itself
+constexpr double kCreaseWeight = 0.3;    ///< of that to the nearest crease
+constexpr double kCreaseReach = 8;       ///< mm
+constexpr double kOrientationReach = 20; ///< mm
+
+/// What stays the same of the template while it moves.
+struct Outline
+{
+  std::vector<Face> faces;
+  std::vector<std::int32_t> nodes;   ///< of the faces, ascending
+  std::vector<std::int32_t> creases; ///< nodes on sharp edges, ascending
+};
+
+Outline outlineOf(const ElementMesh& mesh)
+{
+  Outline outline;
+  outline.faces = outerFaces(mesh.elements);
+  for (const Face& face : outline.faces)
+    outline.nodes.insert(outline.nodes.end(), face.nodes.begin(), face.nodes.begin() + face.size);
+  for (const auto& edge : creasesOf({ mesh.points, trianglesOf(outline.faces, mesh.points) }, kCreaseDegrees))
+    outline.creases.insert(outline.creases.end(), edge.begin(), edge.end());
+  for (auto* ids : { &outline.nodes, &outline.creases })
+  {
+    std::sort(ids->begin(), ids->end());
+    ids->erase(std::unique(ids->begin(), ids->end()), ids->end());
+  }
+  return outline;
+}
+
+/// Area vectors of the faces summed at their nodes, of unit length; a column per point of the mesh.
+Points nodeNormals(const std::vector<Face>& faces, const Points& points)
+{
+  Points normals = Points::Zero(3, points.cols());
+  for (const Face& face : faces)
+  {
+    const auto& n = face.nodes;
+    const Vector3d diagonal = points.col(n[2]) - points.col(n[0]);
+    const Vector3d other =
+      face.size == 3 ? Vector3d(points.col(n[2]) - points.col(n[1])) : Vector3d(points.col(n[3]) - points.col(n[1]));
+    const Vector3d area =
+      face.size == 3 ? Vector3d(Vector3d(points.col(n[1]) - points.col(n[0])).cross(diagonal)) : diagonal.cross(other);
+    for (int i = 0; i < face.size; ++i) normals.col(n[i]) += area;
+  }
+  return normals.colwise().normalized();
+}
+
+/// A pull of one node for each of `nodes` that pullOf(node) gives a weight, in their order.
+template <typename PullOf>
+void addPulls(const std::vector<std::int32_t>& nodes, const PullOf& pullOf, std::vector<Pull>& pulls)
+{
+  std::vector<Pull> found(nodes.size());
+  parallelFor(nodes.size(),
+              [&](std::size_t i)
+              {
+                found[i] = pullOf(nodes[i]);
+                found[i].nodes[0] = nodes[i];
+                found[i].weights[0] = 1;
+              });
+  for (const Pull& pull : found)
+  {
+    if (pull.all != 0 || pull.along != 0) pulls.push_back(pull);
+  }
+}
+
+/// Nodes to the plane at the closest point that faces their way, and a little to the point itself.
+Pull pullToSurface(const TargetSurface& target, const Vector3d& point, const Vector3d& normal)
+{
+  Pull pull;
+  const SurfacePoint closest = target.closest(point, normal, kNormalScale);
+  if (closest.triangle < 0 || closest.onBorder) return pull;
+  const double agreement = std::clamp((normal.dot(closest.normal) - 0.2) / 0.5, 0.0, 1.0);
+  pull.goal = closest.position;
+  pull.direction = closest.normal;
+  pull.along = kPlaneWeight * agreement;
+  pull.all = kPointWeight * agreement;
+  return pull;
+}
+
+/// Nodes of sharp edges to the nearest sharp edge, on which they may slide.
+Pull pullToCrease(const TargetSurface& target, const Vector3d& point)
+{
+  Pull pull;
+  const SurfacePoint closest = target.closestOnCrease(point, kCreaseReach);
+  if (closest.triangle < 0) return pull;
+  pull.goal = closest.position;
+  pull.all = kCreaseWeight;
+  return pull;
+}
+
+/// A landmark's place in the mesh, which need not be where the landmark is.
+struct Attachment
+{
+  Pull pull;
+  Vector3d offset = Vector3d::Zero(); ///< from there to the landmark, after the spline
+};
+
+/// Each landmark at the closest point of the template's surface, or at a node that is closer, drawn to where the spline
+/// takes that point.
+std::vector<Attachment> attached(const ElementMesh& mesh, const Outline& outline, const LandmarkPairs& landmarks,
+                                 const ThinPlateSpline& spline, double weight)
+{
+  const TargetSurface surface({ mesh.points, trianglesOf(outline.faces, mesh.points) });
+  std::vector<Attachment> attachments;
+  for (Eigen::Index i = 0; i < landmarks.source.cols(); ++i)
+  {
+    const Vector3d landmark = landmarks.source.col(i);
+    const SurfacePoint closest = surface.closest(landmark, Vector3d::Zero(), 0);
+    Eigen::Index node = 0;
+    const double toNode = std::sqrt((mesh.points.colwise() - landmark).colwise().squaredNorm().minCoeff(&node));
+    const bool onSurface = (closest.position - landmark).norm() <= toNode;
+    Attachment attachment;
+    Pull& pull = attachment.pull;
+    if (onSurface)
+    {
+      std::copy_n(surface.surface().triangles[closest.triangle].begin(), 3, pull.nodes.begin());
+      std::copy_n(closest.weights.data(), 3, pull.weights.begin());
+    }
+    else
+    {
+      pull.nodes[0] = std::int32_t(node);
+      pull.weights[0] = 1;
+    }
+    pull.goal = spline(pull.position(mesh.points));
+    pull.all = weight;
+    attachment.offset = landmarks.target.col(i) - pull.goal;
+    attachments.push_back(attachment);
+  }
+  return attachments;
+}
+
+/// Elements with a corner that is not positive, and the worst of all.
+struct Validity
+{
+  std::size_t invalid = 0;
+  std::size_t worst = 0;
+  double minimum = 2;
+};
+
+Validity validityOf(const std::vector<Element>& elements, const Points& points)
+{
+  Validity validity;
+  const std::vector<ElementQuality> quality = elementQuality({ points, elements });
+  for (std::size_t e = 0; e < quality.size(); ++e)
+  {
+    if (!(quality[e].minimum > 0)) ++validity.invalid;
+    if (quality[e].minimum >= validity.minimum) continue;
+    validity.minimum = quality[e].minimum;
+    validity.worst = e;
+  }
+  return validity;
+}
+
+[[noreturn]] void refuseInvalid(const ElementMesh& mesh, const Points& points, const Validity& validity, int rounds)
+{
+  const Element& worst = mesh.elements[validity.worst];
+  Vector3d middle = Vector3d::Zero();
+  for (int i = 0; i < nodeCount(worst.shape); ++i) middle += points.col(worst.nodes[i]) / nodeCount(worst.shape);
+  std::ostringstream text;
+  text.precision(4);
+  text << "fit: " << validity.invalid << " elements are still invalid after " << rounds
+       << " rounds of repair, the worst (scaled Jacobian " << validity.minimum << ") at (" << middle.x() << ", "
+       << middle.y() << ", " << middle.z() << ") mm; do the landmarks match?";
+  throw EngineError(text.str());
+}
+
+class Fit
+{
+public:
+  Fit(const ElementMesh& mesh, const LandmarkPairs& landmarks, TargetSurface target, const FitOptions& options)
+    : m_Mesh(mesh), m_Options(options), m_Target(std::move(target)), m_Outline(outlineOf(mesh)), m_Energy(mesh)
+  {
+    const ThinPlateSpline spline(landmarks.source, landmarks.target);
+    m_Spline = spline(mesh.points);
+    m_Points = m_Energy.reference = m_Spline;
+    m_Landmarks = attached(mesh, m_Outline, landmarks, spline, options.landmarkWeight);
+    const Points normals = nodeNormals(m_Outline.faces, m_Points);
+    Points places(3, Eigen::Index(m_Outline.nodes.size())), theirNormals = places;
+    for (std::size_t i = 0; i < m_Outline.nodes.size(); ++i)
+    {
+      places.col(Eigen::Index(i)) = m_Points.col(m_Outline.nodes[i]);
+      theirNormals.col(Eigen::Index(i)) = normals.col(m_Outline.nodes[i]);
+    }
+    m_Target.orientLike(places, theirNormals, kOrientationReach);
+  }
+
+  /// From now on smoothness is that of the displacements from the present shape.
+  void relax() { m_Energy.reference = m_Points; }
+
+  /// Closest points anew, then the energy's descent.
+  void round(const EnergyWeights& weights)
+  {
+    m_Energy.weights = weights;
+    m_Energy.pulls.clear();
+    for (const Attachment& landmark : m_Landmarks) m_Energy.pulls.push_back(landmark.pull);
+    const Points normals = nodeNormals(m_Outline.faces, m_Points);
+    addPulls(
+      m_Outline.nodes,
+      [&](std::int32_t node) { return pullToSurface(m_Target, m_Points.col(node), normals.col(node)); },
+      m_Energy.pulls);
+    addPulls(
+      m_Outline.creases, [&](std::int32_t node) { return pullToCrease(m_Target, m_Points.col(node)); }, m_Energy.pulls);
+    minimise(m_Energy, m_Points, m_Options.iterations);
+  }
+
+  Validity validity() const { return validityOf(m_Mesh.elements, m_Points); }
+
+  FitResult result(int repairRounds) const
+  {
+    FitResult result{ m_Points, m_Spline, Points(3, Eigen::Index(m_Landmarks.size())), repairRounds };
+    for (std::size_t i = 0; i < m_Landmarks.size(); ++i)
+      result.landmarks.col(Eigen::Index(i)) = m_Landmarks[i].pull.position(m_Points) + m_Landmarks[i].offset;
+    return result;
+  }
+
+  const Points& points() const { return m_Points; }
+
+private:
+  const ElementMesh& m_Mesh;
+  FitOptions m_Options;
+  TargetSurface m_Target;
+  Outline m_Outline;
+  FitEnergy m_Energy;
+  Points m_Spline, m_Points;
+  std::vector<Attachment> m_Landmarks;
+};
+
+/// From stiff to soft, each weight twice.
+std::vector<EnergyWeights> fittingRounds(double alpha)
+{
+  std::vector<EnergyWeights> rounds;
+  for (const double factor : { 100, 30, 10, 3, 1 })
+  {
+    for (int twice = 0; twice < 2; ++twice) rounds.push_back({ alpha * factor, 10, 0.25, 0.2 });
+  }
+  return rounds;
+}
+
+/// For the elements' quality, and once more for closeness.
+EnergyWeights polishing(double alpha) { return { alpha, 60, 0.5, 0.1 }; }
+constexpr int kPolishingRounds = 3;
+
+} // namespace
+
+FitResult fitTemplate(const ElementMesh& mesh, const LandmarkPairs& landmarks, TargetSurface target,
+                      const FitOptions& options, const Progress& progress)
+{
+  report(progress, 0, "spline of the landmarks");
+  Fit fit(mesh, landmarks, std::move(target), options);
+  const std::vector<EnergyWeights> rounds = fittingRounds(options.alpha);
+  const double count = double(rounds.size()) + kPolishingRounds;
+  for (std::size_t i = 0; i < rounds.size(); ++i)
+  {
+    report(progress, 0.05 + 0.9 * double(i) / count, "fitting the surface");
+    fit.round(rounds[i]);
+  }
+  EnergyWeights weights = polishing(options.alpha);
+  for (int i = 0; i < kPolishingRounds; ++i)
+  {
+    report(progress, 0.05 + 0.9 * (double(rounds.size()) + i) / count, "improving elements");
+    fit.relax();
+    fit.round(weights);
+  }
+  int repairRounds = 0;
+  Validity validity = fit.validity();
+  for (; validity.invalid > 0 && repairRounds < options.repairRounds; ++repairRounds)
+  {
+    report(progress, 0.95, "repairing elements");
+    weights.hinge *= 2;
+    fit.relax();
+    fit.round(weights);
+    validity = fit.validity();
+  }
+  if (validity.invalid > 0) refuseInvalid(mesh, fit.points(), validity, repairRounds);
+  report(progress, 1, "fitted");
+  return fit.result(repairRounds);
+}
+
+} // namespace surgicalmesher

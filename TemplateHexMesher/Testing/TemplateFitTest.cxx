@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TemplateFit.h"
+
+#include "Carrying.h"
+#include "ElementQuality.h"
+#include "Errors.h"
+#include "FitEnergy.h"
+#include "Slab.h"
+#include "SurfaceDistance.h"
+#include "ThinPlateSpline.h"
+
+#include <gtest/gtest.h>
+#include <vtkSMPTools.h>
+
+#include <random>
+
+using namespace surgicalmesher;
+using namespace surgicalmesher::test;
+
+namespace
+{
+
+std::size_t invalidIn(const ElementMesh& mesh, const Points& points)
+{
+  const ElementMesh moved{ points, mesh.elements };
+  return summaryOf(moved, elementQuality(moved), ElementShape::Hexahedron).invalid;
+}
+
+double distanceTo(const ElementMesh& mesh, const Points& points, const TriangleSurface& target)
+{
+  return distanceBetween(outerSurface({ points, mesh.elements }), TargetSurface(target)).mean;
+}
+
+void expectRefused(const LandmarkPairs& pairs, const std::string& expected)
+{
+  try
+  {
+    requireUsable(pairs, "template.fcsv", "patient.fcsv");
+    FAIL() << "accepted, expected: " << expected;
+  }
+  catch (const InputError& error)
+  {
+    EXPECT_NE(std::string(error.what()).find(expected), std::string::npos) << error.what();
+  }
+}
+
+} // namespace
+
+TEST(ThinPlateSpline, TakesCentresToGoalsAndKeepsAffineMaps)
+{
+  const Points points = slab().points;
+  const LandmarkPairs pairs = everyNth(points, bent(points), 17);
+  const ThinPlateSpline spline(pairs.source, pairs.target);
+  EXPECT_LT((spline(pairs.source) - pairs.target).cwiseAbs().maxCoeff(), 1e-8);
+  const Eigen::Affine3d map =
+    Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()) * Eigen::Scaling(1., 2., 3.);
+  const ThinPlateSpline affine(pairs.source, map * pairs.source);
+  EXPECT_LT((affine(points) - map * points).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+TEST(ThinPlateSpline, FarthestPointsAreDifferentAndSpread)
+{
+  const Points points = slab().points;
+  const std::vector<std::int32_t> chosen = farthestPoints(points, 20);
+  ASSERT_EQ(chosen.size(), 20u);
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+  {
+    for (std::size_t j = 0; j < i; ++j) EXPECT_GT((points.col(chosen[i]) - points.col(chosen[j])).norm(), 10);
+  }
+  EXPECT_EQ(farthestPoints(points, 100000).size(), std::size_t(points.cols()));
+}
+
+TEST(Landmarks, AreMatchedByNameInAnyOrder)
+{
+  NamedPoints a{ "a.fcsv", { "chin", "nose" }, Points(3, 2) }, b{ "b.fcsv", { "nose", "chin" }, Points(3, 2) };
+  a.points << 1, 2, 0, 0, 0, 0;
+  b.points << 20, 10, 0, 0, 0, 0;
+  const LandmarkPairs pairs = pairedByName(a, b);
+  EXPECT_EQ(pairs.target(0, 0), 10);
+  EXPECT_EQ(pairs.target(0, 1), 20);
+  b.names[1] = "ear";
+  EXPECT_THROW(pairedByName(a, b), InputError);
+  b.names = { "nose", "nose" };
+  EXPECT_THROW(pairedByName(a, b), InputError);
+}
+
+TEST(Landmarks, RefusesWhatASplineCanNotUse)
+{
+  const Points points = slab().points;
+  const LandmarkPairs good = everyNth(points, bent(points), 17);
+  EXPECT_NO_THROW(requireUsable(good, "template.fcsv", "patient.fcsv"));
+  LandmarkPairs pairs = everyNth(points, bent(points), 120);
+  expectRefused(pairs, "at least four");
+  pairs = good;
+  pairs.target.row(0) *= -1;
+  expectRefused(pairs, "mirror");
+  pairs = good;
+  pairs.target *= 0.001;
+  expectRefused(pairs, "units");
+  pairs = good;
+  for (Eigen::Index i = 0; i < pairs.source.cols(); ++i) pairs.source.col(i) = Eigen::Vector3d(1, 2, 3) * double(i);
+  expectRefused(pairs, "template.fcsv: all landmarks lie in one line");
+  pairs = good;
+  pairs.target.row(2) = pairs.target.row(0) + 2 * pairs.target.row(1);
+  expectRefused(pairs, "patient.fcsv: all landmarks lie in one plane");
+  pairs = good;
+  pairs.target.col(3) = pairs.target.col(4);
+  expectRefused(pairs, "one place");
+}
+
+TEST(FitEnergy, GradientIsThatOfTheEnergy)
+{
+  const ElementMesh mesh = slab(3, 2, 1);
+  FitEnergy energy(mesh);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> noise(-6, 6); // enough to turn elements over
+  Points points = mesh.points;
+  for (Eigen::Index i = 0; i < points.size(); ++i) points.data()[i] += noise(random);
+  energy.pulls = { { { 0, 1, 2, 0 }, { 0.5, 0.25, 0.25, 0 }, { 1, 2, 3 }, { 0.6, 0.8, 0 }, 1, 0.02 },
+                   { { 7, 0, 0, 0 }, { 1, 0, 0, 0 }, { 0, 0, 0 }, { 0, 0, 1 }, -0.3, 0.3 } };
+  energy.weights = { 1.5, 10, 0.4, 0.2 };
+  Points gradient, unused;
+  energy.evaluate(points, gradient);
+  for (Eigen::Index i = 0; i < points.size(); ++i)
+  {
+    const double h = 1e-5;
+    Points forward = points, backward = points;
+    forward.data()[i] += h;
+    backward.data()[i] -= h;
+    const double slope = (energy.evaluate(forward, unused) - energy.evaluate(backward, unused)) / (2 * h);
+    EXPECT_NEAR(gradient.data()[i], slope, 1e-5 * (1 + std::abs(slope)));
+  }
+}
+
+TEST(FitEnergy, UntanglesElementsThatAreTurnedOver)
+{
+  const ElementMesh mesh = slab();
+  FitEnergy energy(mesh);
+  Points points = mesh.points;
+  const int inner = 5 + 11 * (4 + 9);
+  points.col(inner) += Eigen::Vector3d(18, 12, 0); // past its neighbours
+  ASSERT_GT(invalidIn(mesh, points), 0u);
+  energy.weights = { 0.01, 10, 0.4, 0.2 };
+  energy.reference = points; // smoothness alone would keep it there
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+  {
+    if (i == inner) continue;
+    Pull pull;
+    pull.nodes[0] = std::int32_t(i);
+    pull.weights[0] = 1;
+    pull.goal = mesh.points.col(i);
+    pull.all = 1;
+    energy.pulls.push_back(pull);
+  }
+  minimise(energy, points, 100);
+  EXPECT_EQ(invalidIn(mesh, points), 0u);
+}
+
+TEST(TemplateFit, FollowsABentTargetWithValidElements)
+{
+  const ElementMesh mesh = slab();
+  const Points truth = bent(mesh.points);
+  const TriangleSurface target = outerSurface({ truth, mesh.elements });
+  const LandmarkPairs pairs = everyNth(mesh.points, truth, 23);
+  const FitResult fit = fitTemplate(mesh, pairs, TargetSurface(target));
+  EXPECT_EQ(fit.points.cols(), mesh.points.cols());
+  EXPECT_EQ(invalidIn(mesh, fit.points), 0u);
+  EXPECT_LT(distanceTo(mesh, fit.points, target), 0.3);
+  EXPECT_LT(distanceTo(mesh, fit.points, target), distanceTo(mesh, fit.spline, target) / 2);
+  EXPECT_LT((fit.landmarks - pairs.target).colwise().norm().maxCoeff(), 0.3);
+}
+
+TEST(TemplateFit, DoesNotCareHowTheTargetIsWound)
+{
+  const ElementMesh mesh = slab();
+  const TriangleSurface target = outerSurface({ bent(mesh.points), mesh.elements });
+  const LandmarkPairs pairs = everyNth(mesh.points, bent(mesh.points), 23);
+  const Points expected = fitTemplate(mesh, pairs, TargetSurface(target)).points;
+  TriangleSurface turned = target;
+  for (std::size_t t = 0; t < turned.triangles.size(); t += 3)
+    std::swap(turned.triangles[t][0], turned.triangles[t][1]);
+  const Points points = fitTemplate(mesh, pairs, TargetSurface(turned)).points;
+  EXPECT_LT((points - expected).cwiseAbs().maxCoeff(), 0.05);
+}
+
+TEST(TemplateFit, IsNotPulledOverTheBorderOfASmallerTarget)
+{
+  const ElementMesh mesh = slab();
+  const Points truth = bent(mesh.points);
+  TriangleSurface target = outerSurface({ truth, mesh.elements });
+  const auto isCutOff = [&](const Triangle& t) { return target.points.row(1)(t[0]) > 20; };
+  target.triangles.erase(std::remove_if(target.triangles.begin(), target.triangles.end(), isCutOff),
+                         target.triangles.end());
+  const TriangleSurface cut = compacted(target.points, target.triangles);
+  const FitResult fit = fitTemplate(mesh, everyNth(mesh.points, truth, 23), TargetSurface(cut));
+  EXPECT_EQ(invalidIn(mesh, fit.points), 0u);
+  EXPECT_LT((fit.points - truth).colwise().norm().maxCoeff(), 5);
+}
+
+TEST(TemplateFit, LeavesNoInvalidElementWhereTheSplineDoes)
+{
+  const ElementMesh mesh = slab();
+  Points truth = bent(mesh.points);
+  LandmarkPairs pairs = everyNth(mesh.points, truth, 13);
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0, 4);
+  for (Eigen::Index i = 0; i < pairs.target.size(); ++i) pairs.target.data()[i] += noise(random);
+  ASSERT_GT(invalidIn(mesh, ThinPlateSpline(pairs.source, pairs.target)(mesh.points)), 0u);
+  FitOptions options;
+  options.landmarkWeight = 1;
+  const FitResult fit = fitTemplate(mesh, pairs, TargetSurface(outerSurface({ truth, mesh.elements })), options);
+  EXPECT_EQ(invalidIn(mesh, fit.points), 0u);
+}
+
+TEST(TemplateFit, FitsASurfaceWithoutElementsInside)
+{
+  const ElementMesh whole = slab();
+  ElementMesh sheet;
+  for (const Face& face : outerFaces(whole.elements))
+    sheet.elements.push_back({ ElementShape::Quad, { face.nodes[0], face.nodes[1], face.nodes[2], face.nodes[3] } });
+  sheet.points = whole.points; // with points that no face uses
+  const TriangleSurface target = outerSurface({ bent(whole.points), whole.elements });
+  const FitResult fit = fitTemplate(sheet, everyNth(whole.points, bent(whole.points), 23), TargetSurface(target));
+  EXPECT_LT(distanceTo(sheet, fit.points, target), 0.3);
+}
+
+TEST(TemplateFit, GivesTheSameBytesWhateverTheThreads)
+{
+  const ElementMesh mesh = slab();
+  const TargetSurface target(outerSurface({ bent(mesh.points), mesh.elements }));
+  const LandmarkPairs pairs = everyNth(mesh.points, bent(mesh.points), 23);
+  vtkSMPTools::Initialize(1);
+  const Points one = fitTemplate(mesh, pairs, target).points;
+  vtkSMPTools::Initialize(3);
+  const Points three = fitTemplate(mesh, pairs, target).points;
+  vtkSMPTools::Initialize(0);
+  EXPECT_EQ(one, three);
+}
+
+TEST(TemplateFit, CanBeCancelledAtEveryReport)
+{
+  const ElementMesh mesh = slab(4, 4, 1);
+  const TargetSurface target(outerSurface({ bent(mesh.points), mesh.elements }));
+  const LandmarkPairs pairs = everyNth(mesh.points, bent(mesh.points), 7);
+  int reports = 0;
+  fitTemplate(mesh, pairs, target, {}, [&](double, const std::string&) { ++reports; });
+  ASSERT_GT(reports, 5);
+  for (int stop = 0; stop < reports; ++stop)
+  {
+    int count = 0;
+    const auto cancel = [&](double, const std::string&)
+    {
+      if (count++ == stop) throw std::runtime_error("cancelled");
+    };
+    EXPECT_THROW(fitTemplate(mesh, pairs, target, {}, cancel), std::runtime_error);
+  }
+}
+
+TEST(Carrying, TakesPointsWhereTheNodesGo)
+{
+  const ElementMesh mesh = slab();
+  const Points truth = bent(mesh.points);
+  EXPECT_LT((carried(mesh.points, mesh.points, truth, 50) - truth).cwiseAbs().maxCoeff(), 1e-6);
+  const ElementMesh fine = slab(37, 29, 5);
+  EXPECT_LT((carried(fine.points, mesh.points, truth) - bent(fine.points)).colwise().norm().maxCoeff(), 1.5);
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// TissueMapperCLI: an MR image of a head and training points in; the label map of their classes out.
+
+#include "AvailableMemory.h"
+#include "CommandLine.h"
+#include "Errors.h"
+#include "JsonMember.h"
+#include "ThreadCount.h"
+#include "TissueClassesIO.h"
+#include "TissueMapIO.h"
+#include "TissueMapperCLIXML.h"
+
+#include <rapidjson/ostreamwrapper.h>
+#include <rapidjson/prettywriter.h>
+
+#include <algorithm>
+#include <fstream>
+
+using namespace surgicalmesher;
+
+namespace
+{
+
+using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
+
+/// Colours of an atlas's usual kind, in the order of the classes.
+void colour(TissueTable& table)
+{
+  constexpr std::array<std::array<double, 3>, 10> colours{ { { 0.30, 0.60, 0.85 },
+                                                             { 0.78, 0.56, 0.40 },
+                                                             { 0.95, 0.92, 0.85 },
+                                                             { 0.92, 0.80, 0.35 },
+                                                             { 0.75, 0.30, 0.25 },
+                                                             { 0.90, 0.70, 0.60 },
+                                                             { 0.95, 0.85, 0.60 },
+                                                             { 0.45, 0.65, 0.45 },
+                                                             { 0.55, 0.45, 0.70 },
+                                                             { 0.60, 0.60, 0.60 } } };
+  std::size_t n = 0;
+  for (auto& entry : table) entry.second.color = colours[n++ % colours.size()];
+}
+
+const char* nameOf(Admission admission)
+{
+  switch (admission)
+  {
+  case Admission::Intracranial: return "intracranial";
+  case Admission::Extracranial: return "extracranial";
+  case Admission::Bone: return "bone";
+  default: return "any";
+  }
+}
+
+void writeReport(const std::string& file, const CommandLine& line, const std::vector<TissueClass>& classes,
+                 const Classification& found)
+{
+  std::ofstream stream(file.c_str(), std::ios::binary);
+  rapidjson::OStreamWrapper wrapper(stream);
+  JsonWriter json(wrapper);
+  json.SetMaxDecimalPlaces(6);
+  json.StartObject();
+  writeMember(json, "module", "TissueMapper");
+  writeMember(json, "image", line.text("image"));
+  writeMember(json, "compartments", !line.flag("noCompartments"));
+  writeMember(json, "contiguity", !line.flag("noContiguity"));
+  writeMember(json, "boneThreshold", found.boneThreshold);
+  const std::map<Label, std::size_t> voxels = countVoxels(found.map);
+  json.Key("classes");
+  json.StartArray();
+  for (std::size_t c = 0; c < classes.size(); ++c)
+  {
+    const auto count = voxels.find(classes[c].label);
+    json.StartObject();
+    writeMember(json, "label", classes[c].label);
+    writeMember(json, "name", classes[c].name);
+    writeMember(json, "compartment", nameOf(classes[c].admission));
+    writeMember(json, "trainingPoints", classes[c].points.size());
+    writeMember(json, "voxels", count == voxels.end() ? std::size_t(0) : count->second);
+    writeMember(json, "invalidated", found.invalidated[c]);
+    json.EndObject();
+  }
+  json.EndArray();
+  json.EndObject();
+  stream << '\n' << std::flush;
+  if (!stream) throw InputError(file + ": the report cannot be written whole");
+}
+
+void requireMemory(const ScalarImage& image, const std::string& file)
+{
+  constexpr double bytesPerVoxel = 110; // features of the trees, and the maps they are made of
+  const double needed = 50e6 + bytesPerVoxel * double(image.grid.voxelCount());
+  const std::optional<std::uint64_t> available = availableMemory();
+  if (!available || needed <= double(*available)) return;
+  throw InputError(file + ": an image of this size takes about " + std::to_string(std::lround(needed / 1e6)) +
+                   " MB of memory, found " + std::to_string(std::lround(double(*available) / 1e6)) + " MB available");
+}
+
+void run(CommandLine& line)
+{
+  setThreadCount(line.integer("threads"));
+  const Progress progress = line.progress();
+  report(progress, 0, "reading");
+  if (line.text("training").empty())
+    throw UsageError("--training is missing, expected a markups file of labelled training points");
+  const std::vector<TissueClass> classes = readTissueClasses(line.text("training"), line.text("classes"));
+  const ScalarImage image = readImage(line.text("image"));
+  requireMemory(image, line.text("image"));
+  ClassificationOptions options;
+  options.useCompartments = !line.flag("noCompartments");
+  options.useContiguity = !line.flag("noContiguity");
+  Classification found = classifyTissues(image, classes, options, subProgress(progress, 0.05, 0.95));
+  report(progress, 0.95, "writing");
+  colour(found.map.table);
+  writeTissueMap(found.map, line.outputFile("labelMap"));
+  const std::string namesFile = line.outputFile("names");
+  if (!namesFile.empty()) writeTissueNames(found.map.table, namesFile);
+  const std::string reportFile = line.outputFile("report");
+  if (!reportFile.empty()) writeReport(reportFile, line, classes, found);
+  const std::vector<Label> present = presentLabels(found.map);
+  for (const TissueClass& tissue : classes)
+  {
+    if (!std::binary_search(present.begin(), present.end(), tissue.label))
+      line.message("warning: " + tissue.name + " has no voxel");
+  }
+  line.message(std::to_string(present.size()) + " tissues");
+  report(progress, 1, "done");
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return runModule(argc, argv, moduleXML, run); }

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// TubePathCLI: an image and a few points on a vessel or nerve in; its axis, radius and voxels out.
+
+#include "AvailableMemory.h"
+#include "CommandLine.h"
+#include "Errors.h"
+#include "JsonMember.h"
+#include "PathRefinement.h"
+#include "Place.h"
+#include "ThreadCount.h"
+#include "TissueMapIO.h"
+#include "TubeLabel.h"
+#include "TubePathCLIXML.h"
+#include "TubePathIO.h"
+
+#include <rapidjson/ostreamwrapper.h>
+#include <rapidjson/prettywriter.h>
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <sstream>
+
+using namespace surgicalmesher;
+
+namespace
+{
+
+using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
+
+/// What the run found out, besides its outputs.
+struct Results
+{
+  std::size_t voxels = 0;
+  double weakest = 1; ///< least flux along the path over the mean
+  std::vector<std::string> warnings;
+};
+
+std::string rounded(double value, int digits)
+{
+  std::ostringstream stream;
+  stream.precision(digits);
+  stream << value;
+  return stream.str();
+}
+
+std::vector<Vec3> readPlaces(const CommandLine& line)
+{
+  const std::string file = line.text("points");
+  if (file.empty()) throw UsageError("--points is missing, expected a markups file with points on the tube");
+  const std::vector<std::vector<Vec3>> markups = readMarkups(file);
+  if (markups.size() > 1)
+  {
+    throw InputError(file + ": " + std::to_string(markups.size()) + " markups, expected the points of one tube");
+  }
+  if (markups.front().size() < 2) throw InputError(file + ": one point, expected two or more on the tube");
+  return markups.front();
+}
+
+TubePathOptions readOptions(const CommandLine& line)
+{
+  TubePathOptions options;
+  const std::vector<double> radius = line.numbers("radius");
+  const bool isDefault = radius.size() == 2 && radius[0] == 0 && radius[1] == 0;
+  if (!isDefault && !(radius.size() == 2 && radius[0] > 0 && radius[0] <= radius[1] && radius[1] <= 50))
+  {
+    throw UsageError("--radius: expected two numbers, the smallest and the largest radius, over 0 and at most 50 mm");
+  }
+  options.minimumRadius = radius[0];
+  options.maximumRadius = radius[1];
+  const std::string polarity = line.text("polarity");
+  options.polarity = polarity == "bright" ? Polarity::Bright
+                     : polarity == "dark" ? Polarity::Dark
+                                          : Polarity::Automatic;
+  const std::string potential = line.text("potential");
+  options.potential = potential == "gradient"    ? Potential::Gradient
+                      : potential == "intensity" ? Potential::Intensity
+                                                 : Potential::Flux;
+  options.snapDistance = line.number("snap");
+  options.margin = line.number("margin");
+  return options;
+}
+
+std::vector<TubePath> readBlocked(const CommandLine& line)
+{
+  std::vector<TubePath> tubes;
+  for (const std::string& file : line.texts("block"))
+  {
+    for (const TubePath& tube : readTubePaths(file, 1))
+    {
+      if (tube.points.size() < 2) throw InputError(file + ": a path of one point, expected two points or more");
+      tubes.push_back(tube);
+    }
+  }
+  return tubes;
+}
+
+/// The map the tube joins; one of background, on the image's grid, if there is none.
+TissueMap readMap(const CommandLine& line, const Grid& grid)
+{
+  const std::string file = line.text("addTo");
+  if (!file.empty()) return readTissueMap(file);
+  TissueMap map;
+  map.grid = grid;
+  map.labels.assign(grid.voxelCount(), 0);
+  return map;
+}
+
+void writeLabelMap(CommandLine& line, const TubePath& tube, const Grid& grid, Results& results)
+{
+  const std::string file = line.outputFile("labelMap");
+  if (file.empty()) return;
+  TissueMap map = readMap(line, grid);
+  const Label label = Label(line.integer("label"));
+  if (std::find(map.labels.begin(), map.labels.end(), label) != map.labels.end())
+  {
+    results.warnings.push_back("label " + std::to_string(label) +
+                               " has voxels already: the tube joins them, and may touch them anywhere");
+  }
+  const std::vector<std::size_t> voxels = tubeVoxels(map.grid, tube);
+  if (voxels.empty()) throw InputError(line.text("addTo") + ": the path lies outside the label map");
+  for (const std::size_t n : voxels) map.labels[n] = label;
+  map.table[label].name = line.text("name");
+  map.table[label].color =
+    tube.isBright ? std::array<double, 3>{ 0.85, 0.2, 0.2 } : std::array<double, 3>{ 0.95, 0.85, 0.3 };
+  results.voxels = voxels.size();
+  writeTissueMap(map, file);
+}
+
+void findOddities(const TubePath& tube, Results& results)
+{
+  const double mean = std::accumulate(tube.flux.begin(), tube.flux.end(), 0.0) / double(tube.flux.size());
+  const auto weakest = std::min_element(tube.flux.begin(), tube.flux.end());
+  results.weakest = mean > 0 ? std::max(0.0, *weakest) / mean : 0;
+  if (results.weakest >= 0.2) return;
+  const Vec3& p = tube.points[std::size_t(weakest - tube.flux.begin())];
+  results.warnings.push_back("the tube is hardly to be seen near " + place(p) +
+                             " LPS: a point there makes the path surer");
+}
+
+/// Least, mean and largest of the values.
+void write(JsonWriter& json, const char* key, const std::vector<double>& values)
+{
+  json.Key(key);
+  json.StartObject();
+  writeMember(json, "minimum", *std::min_element(values.begin(), values.end()));
+  writeMember(json, "mean", std::accumulate(values.begin(), values.end(), 0.0) / double(values.size()));
+  writeMember(json, "maximum", *std::max_element(values.begin(), values.end()));
+  json.EndObject();
+}
+
+/// Lengths in mm, points in LPS, flux in the image's unit.
+void writeReport(const std::string& file, const CommandLine& line, const TubePath& tube, const Results& results)
+{
+  std::ofstream stream(file.c_str(), std::ios::binary);
+  rapidjson::OStreamWrapper wrapper(stream);
+  JsonWriter json(wrapper);
+  json.SetMaxDecimalPlaces(6);
+  json.StartObject();
+  writeMember(json, "module", "TubePath");
+  writeMember(json, "image", line.text("image"));
+  json.Key("parameters");
+  json.StartObject();
+  writeMember(json, "minimumRadius", line.numbers("radius")[0]);
+  writeMember(json, "maximumRadius", line.numbers("radius")[1]);
+  for (const char* name : { "polarity", "potential" }) writeMember(json, name, line.text(name));
+  for (const char* name : { "snap", "margin" }) writeMember(json, name, line.number(name));
+  writeMember(json, "label", line.integer("label"));
+  json.EndObject();
+  writeMember(json, "polarity", tube.isBright ? "bright" : "dark");
+  writeMember(json, "points", tube.points.size());
+  writeMember(json, "length", polylineLength(tube.points));
+  write(json, "radius", tube.radii);
+  write(json, "flux", tube.flux);
+  writeMember(json, "weakestFlux", results.weakest);
+  writeMember(json, "voxels", results.voxels);
+  json.Key("warnings");
+  json.StartArray();
+  for (const std::string& warning : results.warnings) json.String(warning.c_str());
+  json.EndArray();
+  json.EndObject();
+  stream << '\n' << std::flush;
+  if (!stream) throw InputError(file + ": the report cannot be written whole");
+}
+
+void requireMemory(double needed, const std::string& imageFile)
+{
+  const std::optional<std::uint64_t> available = availableMemory();
+  if (!available || needed <= double(*available)) return;
+  throw InputError(imageFile + ": the box of the points takes about " + rounded(needed / 1e9, 3) +
+                   " GB of memory, found " + rounded(double(*available) / 1e9, 3) +
+                   " GB available, expected more, or a smaller --margin");
+}
+
+void run(CommandLine& line)
+{
+  setThreadCount(line.integer("threads"));
+  const Progress progress = line.progress();
+  report(progress, 0, "reading");
+  const TubePathOptions options = readOptions(line);
+  if (!line.text("addTo").empty() && line.outputFile("labelMap").empty())
+    throw UsageError("--addTo goes nowhere without --labelMap");
+  const std::vector<Vec3> places = readPlaces(line);
+  const std::vector<TubePath> blocked = readBlocked(line);
+  const std::string imageFile = line.text("image");
+  const ScalarImage image = readImage(imageFile);
+  requireMemory(tubePathMemory(image.grid, places, options), imageFile);
+  const TubePath tube = traceTube(image, places, blocked, options, subProgress(progress, 0.1, 0.9));
+
+  Results results;
+  findOddities(tube, results);
+  report(progress, 0.9, "writing");
+  writeTubePath(tube, line.text("name"), line.outputFile("path"));
+  writeLabelMap(line, tube, image.grid, results);
+  for (const std::string& warning : results.warnings) line.message("warning: " + warning);
+  const double length = polylineLength(tube.points);
+  line.message(std::string(tube.isBright ? "bright" : "dark") + " tube of " + rounded(length, 4) + " mm, radius " +
+               rounded(*std::min_element(tube.radii.begin(), tube.radii.end()), 3) + " to " +
+               rounded(*std::max_element(tube.radii.begin(), tube.radii.end()), 3) + " mm");
+  line.returnValue("length", rounded(length, 8));
+  const std::string reportFile = line.outputFile("report");
+  if (!reportFile.empty()) writeReport(reportFile, line, tube, results);
+  report(progress, 1, "done");
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return runModule(argc, argv, moduleXML, run); }

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "HeadCompartments.h"
+
+#include "ExtraTrees.h"
+#include "Sampling.h"
+
+#include <itkGradientMagnitudeRecursiveGaussianImageFilter.h>
+#include <itkSignedMaurerDistanceMapImageFilter.h>
+#include <itkSmoothingRecursiveGaussianImageFilter.h>
+#include <vtkSMPTools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+using Image = itk::Image<float, 3>;
+using Mask = itk::Image<unsigned char, 3>;
+
+template <typename ItkImage, typename Values>
+typename ItkImage::Pointer asItkImage(const Grid& grid, const Values& values)
+{
+  const auto result = ItkImage::New();
+  typename ItkImage::SizeType size;
+  typename ItkImage::SpacingType spacing;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    size[axis] = grid.size[axis];
+    spacing[axis] = grid.spacing[axis];
+  }
+  result->SetRegions(typename ItkImage::RegionType(size));
+  result->SetSpacing(spacing);
+  result->Allocate();
+  std::copy(values.begin(), values.end(), result->GetBufferPointer());
+  return result;
+}
+
+std::vector<float> valuesOf(const Image& image)
+{
+  const float* values = image.GetBufferPointer();
+  return { values, values + image.GetBufferedRegion().GetNumberOfPixels() };
+}
+
+template <typename Filter>
+std::vector<float> filtered(const Image::Pointer& image, double sigma)
+{
+  const auto filter = Filter::New();
+  filter->SetInput(image);
+  filter->SetSigma(sigma);
+  filter->Update();
+  return valuesOf(*filter->GetOutput());
+}
+
+std::vector<float> blurred(const Image::Pointer& image, double sigma)
+{
+  return filtered<itk::SmoothingRecursiveGaussianImageFilter<Image, Image>>(image, sigma);
+}
+
+/// Distance (mm) of every voxel to the nearest of the mask; 0 in it.
+std::vector<float> distanceTo(const Grid& grid, const std::vector<bool>& mask)
+{
+  using Filter = itk::SignedMaurerDistanceMapImageFilter<Mask, Image>;
+  if (std::find(mask.begin(), mask.end(), true) == mask.end()) return std::vector<float>(mask.size(), 1e6f);
+  const auto filter = Filter::New();
+  filter->SetInput(asItkImage<Mask>(grid, mask));
+  filter->SetSquaredDistance(false);
+  filter->SetUseImageSpacing(true);
+  filter->Update();
+  std::vector<float> distances = valuesOf(*filter->GetOutput());
+  for (float& distance : distances) distance = std::max(0.f, distance);
+  return distances;
+}
+
+/// Dilation and erosion by a ball; what lies beyond the image counts as dilated.
+std::vector<bool> closed(const Grid& grid, const std::vector<bool>& mask, float radius)
+{
+  const std::vector<float> outward = distanceTo(grid, mask);
+  std::vector<bool> rest(mask.size());
+  for (std::size_t n = 0; n < mask.size(); ++n) rest[n] = outward[n] > radius;
+  const std::vector<float> inward = distanceTo(grid, rest);
+  std::vector<bool> result(mask.size());
+  for (std::size_t n = 0; n < mask.size(); ++n) result[n] = mask[n] || inward[n] > radius;
+  return result;
+}
+
+/// Calls visit(neighbour index) for the voxels that share a face with voxel n.
+template <typename Visit>
+void forFaceNeighbours(const Grid& grid, std::size_t n, Visit visit)
+{
+  const std::size_t row = std::size_t(grid.size[0]);
+  const std::size_t layer = row * grid.size[1];
+  const std::size_t i = n % row;
+  const std::size_t j = n / row % grid.size[1];
+  const std::size_t k = n / layer;
+  if (i > 0) visit(n - 1);
+  if (i + 1 < row) visit(n + 1);
+  if (j > 0) visit(n - row);
+  if (j + 1 < std::size_t(grid.size[1])) visit(n + row);
+  if (k > 0) visit(n - layer);
+  if (k + 1 < std::size_t(grid.size[2])) visit(n + layer);
+}
+
+/// Soft tissue by the seeds from which it is reached through the widest ways: 1 outside, -1 inside, 0 not reached.
+std::vector<signed char> widestWays(const Grid& grid, const std::vector<float>& width, const CompartmentSeeds& seeds)
+{
+  struct Front
+  {
+    float width;
+    std::size_t voxel;
+    signed char side;
+    bool operator<(const Front& other) const
+    {
+      return width != other.width ? width < other.width : voxel > other.voxel;
+    }
+  };
+  std::vector<signed char> side(grid.voxelCount(), 0);
+  std::priority_queue<Front> queue;
+  const auto start = [&](const std::vector<std::array<int, 3>>& voxels, signed char which)
+  {
+    for (const std::array<int, 3>& v : voxels)
+    {
+      const std::size_t n = grid.index(v[0], v[1], v[2]);
+      queue.push({ width[n], n, which });
+    }
+  };
+  start(seeds.outside, 1);
+  start(seeds.inside, -1);
+  while (!queue.empty())
+  {
+    const Front front = queue.top();
+    queue.pop();
+    if (side[front.voxel] != 0) continue;
+    side[front.voxel] = front.side;
+    forFaceNeighbours(grid, front.voxel,
+                      [&](std::size_t n)
+                      {
+                        if (side[n] == 0 && width[n] > 0)
+                          queue.push({ std::min(width[n], front.width), n, front.side });
+                      });
+  }
+  return side;
+}
+
+/// What the trees look at, by voxel.
+struct Features
+{
+  std::vector<std::vector<float>> values;
+  void at(std::size_t voxel, float* row) const
+  {
+    for (std::size_t f = 0; f < values.size(); ++f) row[f] = values[f][voxel];
+  }
+};
+
+Features featuresOf(const ScalarImage& image, const std::vector<bool>& isBone, const std::vector<float>& boneDistance,
+                    const std::vector<float>& depth)
+{
+  Features features;
+  features.values.push_back(image.values);
+  const auto itkImage = asItkImage<Image>(image.grid, image.values);
+  for (const double sigma : { 1.0, 2.0, 4.0, 8.0 }) features.values.push_back(blurred(itkImage, sigma));
+  features.values.push_back(filtered<itk::GradientMagnitudeRecursiveGaussianImageFilter<Image, Image>>(itkImage, 1.0));
+  const auto bone = asItkImage<Image>(image.grid, isBone);
+  for (const double sigma : { 2.0, 4.0, 8.0, 16.0 }) features.values.push_back(blurred(bone, sigma));
+  features.values.push_back(boneDistance);
+  features.values.push_back(depth);
+  return features;
+}
+
+/// Probability of lying outside, by voxel of soft tissue; 1 elsewhere.
+std::vector<float> outsideProbability(const Grid& grid, const Features& features, const std::vector<bool>& isSoft,
+                                      const CompartmentSeeds& seeds)
+{
+  constexpr int treeCount = 200;
+  FeatureRows samples;
+  std::vector<bool> isOutside;
+  for (const bool outside : { true, false })
+  {
+    for (const std::array<int, 3>& v : outside ? seeds.outside : seeds.inside)
+    {
+      samples.emplace_back(features.values.size());
+      features.at(grid.index(v[0], v[1], v[2]), samples.back().data());
+      isOutside.push_back(outside);
+    }
+  }
+  const ExtraTrees trees(samples, isOutside, treeCount);
+  std::vector<float> probability(grid.voxelCount(), 1);
+  vtkSMPTools::For(0, vtkIdType(probability.size()), 8192,
+                   [&](vtkIdType begin, vtkIdType end)
+                   {
+                     std::vector<float> row(features.values.size());
+                     for (vtkIdType n = begin; n < end; ++n)
+                     {
+                       if (!isSoft[n]) continue;
+                       features.at(std::size_t(n), row.data());
+                       probability[n] = trees.probability(row.data());
+                     }
+                   });
+  return probability;
+}
+
+/// Minimises the integral of weight |grad u| + force u over 0 <= u <= 1, per voxel, by the primal-dual method with
+/// steps of 1 / sqrt(12). `force` is positive where u should be 0.
+std::vector<float> continuousCut(const Grid& grid, const std::vector<float>& weight, const std::vector<float>& force,
+                                 std::vector<float> u, int iterations, const Progress& progress)
+{
+  const std::size_t count = grid.voxelCount();
+  const std::array<std::size_t, 3> stride{ 1, std::size_t(grid.size[0]), std::size_t(grid.size[0]) * grid.size[1] };
+  const float step = 1 / std::sqrt(12.f);
+  std::array<std::vector<float>, 3> dual;
+  for (std::vector<float>& component : dual) component.assign(count, 0);
+  std::vector<float> extrapolated = u;
+  const auto forRows = [&](const auto& doRow)
+  {
+    vtkSMPTools::For(0, vtkIdType(grid.size[1]) * grid.size[2], 32,
+                     [&](vtkIdType begin, vtkIdType end)
+                     {
+                       for (vtkIdType row = begin; row < end; ++row)
+                         doRow(int(row % grid.size[1]), int(row / grid.size[1]), std::size_t(row) * grid.size[0]);
+                     });
+  };
+  const auto ascend = [&](int j, int k, std::size_t start)
+  {
+    for (int i = 0; i < grid.size[0]; ++i)
+    {
+      const std::size_t n = start + i;
+      const std::array<bool, 3> hasNext{ i + 1 < grid.size[0], j + 1 < grid.size[1], k + 1 < grid.size[2] };
+      float square = 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        const float slope = hasNext[axis] ? extrapolated[n + stride[axis]] - extrapolated[n] : 0;
+        dual[axis][n] += step * slope;
+        square += dual[axis][n] * dual[axis][n];
+      }
+      const float length = std::sqrt(square);
+      if (length <= weight[n]) continue;
+      for (int axis = 0; axis < 3; ++axis) dual[axis][n] *= weight[n] / length;
+    }
+  };
+  const auto descend = [&](int j, int k, std::size_t start)
+  {
+    for (int i = 0; i < grid.size[0]; ++i)
+    {
+      const std::size_t n = start + i;
+      const std::array<int, 3> at{ i, j, k };
+      float divergence = 0;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        if (at[axis] + 1 < grid.size[axis]) divergence += dual[axis][n];
+        if (at[axis] > 0) divergence -= dual[axis][n - stride[axis]];
+      }
+      const float next = std::clamp(u[n] + step * (divergence - force[n]), 0.f, 1.f);
+      extrapolated[n] = 2 * next - u[n];
+      u[n] = next;
+    }
+  };
+  for (int iteration = 0; iteration < iterations; ++iteration)
+  {
+    report(progress, double(iteration) / iterations, "compartments");
+    forRows(ascend);
+    forRows(descend);
+  }
+  return u;
+}
+
+} // namespace
+
+std::vector<bool> headMask(const ScalarImage& image, float threshold)
+{
+  const Grid& grid = image.grid;
+  std::vector<bool> bright(image.values.size());
+  for (std::size_t n = 0; n < bright.size(); ++n) bright[n] = image.values[n] > threshold;
+  const std::vector<bool> whole = closed(grid, bright, 2);
+  std::vector<bool> isOutside(whole.size(), false);
+  std::vector<std::size_t> stack;
+  const auto enter = [&](std::size_t n)
+  {
+    if (whole[n] || isOutside[n]) return;
+    isOutside[n] = true;
+    stack.push_back(n);
+  };
+  for (int k = 0; k < grid.size[2]; ++k)
+    for (int j = 0; j < grid.size[1]; ++j)
+      for (int i = 0; i < grid.size[0]; ++i)
+      {
+        const bool isSide = i == 0 || j == 0 || i + 1 == grid.size[0] || j + 1 == grid.size[1] || k + 1 == grid.size[2];
+        if (isSide) enter(grid.index(i, j, k));
+      }
+  while (!stack.empty())
+  {
+    const std::size_t n = stack.back();
+    stack.pop_back();
+    forFaceNeighbours(grid, n, enter);
+  }
+  isOutside.flip();
+  return isOutside;
+}
+
+std::vector<Compartment> findCompartments(const ScalarImage& image, const BoneContrast& bone,
+                                          const CompartmentSeeds& seeds, const Progress& progress)
+{
+  const Grid& grid = image.grid;
+  report(progress, 0, "head and bone");
+  const std::vector<bool> head = headMask(image, bone.threshold);
+  std::vector<bool> isBone(head.size()), isSoft(head.size()), isBackground(head.size());
+  for (std::size_t n = 0; n < head.size(); ++n)
+  {
+    isBackground[n] = !head[n];
+    isBone[n] = head[n] && image.values[n] <= bone.threshold;
+    isSoft[n] = head[n] && !isBone[n];
+  }
+  const std::vector<float> boneDistance = distanceTo(grid, isBone);
+  const std::vector<float> depth = distanceTo(grid, isBackground);
+  report(progress, 0.15, "compartments");
+  std::vector<float> outside;
+  {
+    const Features features = featuresOf(image, isBone, boneDistance, depth);
+    report(progress, 0.3, "compartments");
+    outside = outsideProbability(grid, features, isSoft, seeds);
+  }
+  report(progress, 0.55, "compartments");
+  std::vector<float> width(head.size(), 0);
+  for (std::size_t n = 0; n < head.size(); ++n) width[n] = isSoft[n] ? std::min(boneDistance[n], depth[n]) : 0;
+  const std::vector<signed char> flood = widestWays(grid, width, seeds);
+
+  constexpr float least = 0.02f; // of a probability
+  std::vector<float> weight(head.size()), force(head.size()), start(head.size());
+  for (std::size_t n = 0; n < head.size(); ++n)
+  {
+    const float p = std::clamp(outside[n], least, 1 - least);
+    force[n] = isSoft[n] ? 0.1f * (std::log(p / (1 - p)) + 0.5f * float(flood[n])) : 5.f;
+    start[n] = force[n] < 0 ? 1.f : 0.f;
+    const float brightness = (image.values[n] - bone.boneMedian) / (bone.softMedian - bone.boneMedian);
+    weight[n] = std::clamp(brightness, 0.05f, 1.f);
+  }
+  const std::vector<float> inside =
+    continuousCut(grid, weight, force, std::move(start), 150, subProgress(progress, 0.6, 1));
+  std::vector<Compartment> compartments(head.size(), Compartment::Background);
+  for (std::size_t n = 0; n < head.size(); ++n)
+  {
+    if (isBone[n]) compartments[n] = Compartment::Bone;
+    else if (isSoft[n]) compartments[n] = inside[n] > 0.5f ? Compartment::Intracranial : Compartment::Extracranial;
+  }
+  return compartments;
+}
+
+} // namespace surgicalmesher

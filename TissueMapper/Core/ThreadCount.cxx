@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ThreadCount.h"
+
+#include <itkMultiThreaderBase.h>
+#include <vtkSMPTools.h>
+
+namespace surgicalmesher
+{
+
+void setThreadCount(int count)
+{
+  vtkSMPTools::Initialize(count);
+  if (count > 0) itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(itk::ThreadIdType(count));
+}
+
+} // namespace surgicalmesher

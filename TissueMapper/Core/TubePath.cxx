@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TubePath.h"
+
+#include "Errors.h"
+#include "FluxField.h"
+#include "MinimalPath.h"
+#include "PathRefinement.h"
+#include "Place.h"
+#include "Sampling.h"
+
+#include <itkGradientMagnitudeRecursiveGaussianImageFilter.h>
+#include <itkSmoothingRecursiveGaussianImageFilter.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+constexpr int radiusCount = 8;
+constexpr float leastSpeed = 0.03f; // of the speed on the tube: what gaps are crossed with
+
+/// A box of voxels, ends included.
+struct Box
+{
+  std::array<int, 3> low;
+  std::array<int, 3> high;
+};
+
+Box boxAround(const Grid& grid, const std::vector<Vec3>& places, double margin)
+{
+  Box box{ grid.size, { 0, 0, 0 } };
+  for (const Vec3& point : places)
+  {
+    const Vec3 p = grid.worldToGrid(point);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double last = grid.size[axis] - 1;
+      const double reach = margin / grid.spacing[axis];
+      const double index = p[axis] / grid.spacing[axis];
+      box.low[axis] = std::min(box.low[axis], int(std::clamp(std::floor(index - reach), 0.0, last)));
+      box.high[axis] = std::max(box.high[axis], int(std::clamp(std::ceil(index + reach), 0.0, last)));
+    }
+  }
+  return box;
+}
+
+ScalarImage cropped(const ScalarImage& image, const Box& box)
+{
+  ScalarImage crop;
+  crop.grid = image.grid;
+  for (int axis = 0; axis < 3; ++axis) crop.grid.size[axis] = box.high[axis] - box.low[axis] + 1;
+  crop.grid.origin = image.grid.gridToWorld(voxelCentre(image.grid, box.low));
+  crop.values.reserve(crop.grid.voxelCount());
+  for (int k = box.low[2]; k <= box.high[2]; ++k)
+  {
+    for (int j = box.low[1]; j <= box.high[1]; ++j)
+    {
+      const auto row = image.values.begin() + std::ptrdiff_t(image.grid.index(box.low[0], j, k));
+      crop.values.insert(crop.values.end(), row, row + crop.grid.size[0]);
+    }
+  }
+  return crop;
+}
+
+std::vector<double> tubeRadii(const Grid& grid, const TubePathOptions& options)
+{
+  const double voxel = voxelLength(grid);
+  const double smallest = options.minimumRadius > 0 ? options.minimumRadius : 0.5 * voxel;
+  const double largest = options.maximumRadius > 0 ? options.maximumRadius : 3.5 * voxel;
+  if (smallest > largest)
+  {
+    throw UsageError("radius: the smallest, " + std::to_string(smallest) + " mm, is above the largest, " +
+                     std::to_string(largest) + " mm");
+  }
+  return radiiBetween(smallest, largest, radiusCount);
+}
+
+/// The place of the highest value near p, less the farther away; p itself if snapDistance is 0.
+Vec3 snapped(const Grid& grid, const std::vector<float>& ridge, const Vec3& p, double snapDistance)
+{
+  if (!(snapDistance > 0)) return p;
+  constexpr int steps = 8;
+  Vec3 best = p;
+  double highest = -1;
+  for (int k = -steps; k <= steps; ++k)
+  {
+    for (int j = -steps; j <= steps; ++j)
+    {
+      for (int i = -steps; i <= steps; ++i)
+      {
+        const Vec3 offset = (snapDistance / steps) * Vec3{ double(i), double(j), double(k) };
+        const double share = squaredNorm(offset) / (snapDistance * snapDistance);
+        if (share > 1 || !isInVolume(grid, p + offset)) continue;
+        const double value = linearValue(grid, ridge, p + offset) * (1 - 0.5 * share);
+        if (value > highest)
+        {
+          highest = value;
+          best = p + offset;
+        }
+      }
+    }
+  }
+  return best;
+}
+
+using ItkImage = itk::Image<float, 3>;
+
+ItkImage::Pointer asItkImage(const ScalarImage& image)
+{
+  const auto result = ItkImage::New();
+  ItkImage::SizeType size;
+  ItkImage::SpacingType spacing;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    size[axis] = image.grid.size[axis];
+    spacing[axis] = image.grid.spacing[axis];
+  }
+  result->SetRegions(ItkImage::RegionType(size));
+  result->SetSpacing(spacing);
+  result->Allocate();
+  std::copy(image.values.begin(), image.values.end(), result->GetBufferPointer());
+  return result;
+}
+
+template <typename Filter>
+std::vector<float> filtered(const ScalarImage& image, double sigma)
+{
+  const auto filter = Filter::New();
+  filter->SetInput(asItkImage(image));
+  filter->SetSigma(sigma);
+  filter->Update();
+  const float* values = filter->GetOutput()->GetBufferPointer();
+  return { values, values + image.values.size() };
+}
+
+/// What the path follows, at least 0, by voxel.
+std::vector<float> ridgeOf(const ScalarImage& image, const FluxField& field, int sign, Potential potential)
+{
+  if (potential == Potential::Flux) return strongestFlux(field, sign);
+  const double sigma = 0.7 * voxelLength(image.grid);
+  if (potential == Potential::Gradient)
+    return filtered<itk::GradientMagnitudeRecursiveGaussianImageFilter<ItkImage, ItkImage>>(image, sigma);
+  std::vector<float> values =
+    filtered<itk::SmoothingRecursiveGaussianImageFilter<ItkImage, ItkImage>>(image, 0.7 * voxelLength(image.grid));
+  std::vector<float> sorted = values;
+  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2), sorted.end());
+  const float median = sorted[sorted.size() / 2];
+  for (float& value : values) value = std::max(0.f, sign * (value - median));
+  return values;
+}
+
+/// 1 or -1: as the flux at the places has it.
+int signOf(const FluxField& field, const std::vector<Vec3>& places, const TubePathOptions& options)
+{
+  if (options.polarity != Polarity::Automatic) return options.polarity == Polarity::Bright ? 1 : -1;
+  double sum = 0;
+  for (const Vec3& point : places)
+  {
+    double strongest[2] = { 0, 0 };
+    for (const std::vector<float>& flux : field.flux)
+    {
+      const double here = linearValue(field.grid, flux, point);
+      strongest[0] = std::max(strongest[0], here);
+      strongest[1] = std::max(strongest[1], -here);
+    }
+    sum += strongest[0] - strongest[1];
+  }
+  return sum >= 0 ? 1 : -1;
+}
+
+void markBall(const Grid& grid, const Vec3& centre, double radius, std::vector<bool>& isIn)
+{
+  std::array<int, 3> low, high;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    low[axis] = std::max(0, int(std::ceil((centre[axis] - radius) / grid.spacing[axis])));
+    high[axis] = std::min(grid.size[axis] - 1, int(std::floor((centre[axis] + radius) / grid.spacing[axis])));
+  }
+  for (int k = low[2]; k <= high[2]; ++k)
+    for (int j = low[1]; j <= high[1]; ++j)
+      for (int i = low[0]; i <= high[0]; ++i)
+      {
+        if (norm(voxelCentre(grid, { i, j, k }) - centre) <= radius) isIn[grid.index(i, j, k)] = true;
+      }
+}
+
+/// Voxels whose centre lies in one of the tubes.
+std::vector<bool> voxelsIn(const Grid& grid, const std::vector<TubePath>& tubes)
+{
+  std::vector<bool> isIn(grid.voxelCount(), false);
+  for (const TubePath& tube : tubes)
+  {
+    for (std::size_t n = 1; n < tube.points.size(); ++n)
+    {
+      const Vec3 edge = tube.points[n] - tube.points[n - 1];
+      const int parts = std::max(1, int(std::ceil(norm(edge) / (0.25 * voxelLength(grid)))));
+      for (int m = 0; m <= parts; ++m)
+      {
+        const double t = double(m) / parts;
+        markBall(grid, grid.worldToGrid(tube.points[n - 1] + t * edge), (1 - t) * tube.radii[n - 1] + t * tube.radii[n],
+                 isIn);
+      }
+    }
+  }
+  return isIn;
+}
+
+/// Speed of the front: the ridge relative to its value at two places, at most 1, over a floor; 0 in blocked voxels.
+std::vector<float> speedBetween(const Grid& grid, const std::vector<float>& ridge, const std::vector<bool>& isBlocked,
+                                const Vec3& first, const Vec3& second)
+{
+  const double reference = 0.5 * (linearValue(grid, ridge, first) + linearValue(grid, ridge, second));
+  std::vector<float> speed(ridge.size());
+  for (std::size_t n = 0; n < ridge.size(); ++n)
+    speed[n] = isBlocked[n] ? 0.f : leastSpeed + std::min(1.f, float(ridge[n] / reference));
+  return speed;
+}
+
+void requirePlaces(const ScalarImage& image, const std::vector<Vec3>& places)
+{
+  if (places.size() < 2) throw InputError("a path needs two points or more, found " + std::to_string(places.size()));
+  for (const Vec3& point : places)
+  {
+    if (!isInVolume(image.grid, image.grid.worldToGrid(point)))
+      throw InputError("point " + place(point) + " LPS lies outside the image");
+  }
+}
+
+} // namespace
+
+double tubePathMemory(const Grid& grid, const std::vector<Vec3>& places, const TubePathOptions& options)
+{
+  const Box box = boxAround(grid, places, options.margin);
+  std::array<int, 3> size;
+  for (int axis = 0; axis < 3; ++axis) size[axis] = box.high[axis] - box.low[axis] + 1;
+  const double voxels = double(size[0]) * size[1] * size[2];
+  return 50e6 + fluxMemory(size, radiusCount) + 4 * voxels;
+}
+
+TubePath traceTube(const ScalarImage& image, const std::vector<Vec3>& places, const std::vector<TubePath>& blocked,
+                   const TubePathOptions& options, const Progress& progress)
+{
+  requirePlaces(image, places);
+  const ScalarImage crop = cropped(image, boxAround(image.grid, places, options.margin));
+  const Grid& grid = crop.grid;
+  const FluxField field = computeFlux(crop, tubeRadii(grid, options), subProgress(progress, 0, 0.6));
+  std::vector<Vec3> knots;
+  for (const Vec3& point : places) knots.push_back(grid.worldToGrid(point));
+  const int sign = signOf(field, knots, options);
+  const std::vector<float> ridge = ridgeOf(crop, field, sign, options.potential);
+  for (Vec3& knot : knots)
+  {
+    const Vec3 given = knot;
+    knot = snapped(grid, ridge, given, options.snapDistance);
+    if (!(linearValue(grid, ridge, knot) > 0))
+    {
+      throw InputError("point " + place(grid.gridToWorld(given)) + " LPS lies on no " + (sign > 0 ? "bright" : "dark") +
+                       " tube of the radii sought");
+    }
+  }
+
+  const std::vector<bool> isBlocked = voxelsIn(grid, blocked);
+  std::vector<Vec3> path{ knots.front() };
+  for (std::size_t n = 1; n < knots.size(); ++n)
+  {
+    report(progress, 0.6 + 0.3 * double(n - 1) / double(knots.size() - 1), "minimal path");
+    const std::vector<float> speed = speedBetween(grid, ridge, isBlocked, knots[n - 1], knots[n]);
+    const std::vector<Vec3> part = minimalPath(grid, speed, knots[n - 1], knots[n]);
+    path.insert(path.end(), part.begin() + 1, part.end());
+  }
+  report(progress, 0.9, "refinement");
+  // The largest of interpolated fluxes is smoother than the interpolated largest one.
+  const auto ridgeAt = [&](const Vec3& p)
+  {
+    if (options.potential != Potential::Flux) return cubicValue(grid, ridge, p);
+    double strongest = 0;
+    for (const std::vector<float>& flux : field.flux) strongest = std::max(strongest, sign * cubicValue(grid, flux, p));
+    return strongest;
+  };
+  path = refinedPath(grid, ridgeAt, path);
+  path = fittedToEnds(path, grid.worldToGrid(places.front()), grid.worldToGrid(places.back()));
+  path = resampled(path, 0.5 * voxelLength(grid));
+
+  TubePath tube;
+  tube.isBright = sign > 0;
+  tube.radii = radiiAlong(field, sign, path);
+  const std::vector<float> strongest =
+    options.potential == Potential::Flux ? std::vector<float>() : strongestFlux(field, sign);
+  for (const Vec3& p : path)
+  {
+    tube.points.push_back(grid.gridToWorld(p));
+    tube.flux.push_back(linearValue(grid, strongest.empty() ? ridge : strongest, p));
+  }
+  report(progress, 1, "refinement");
+  return tube;
+}
+
+} // namespace surgicalmesher

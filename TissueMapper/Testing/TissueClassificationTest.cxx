@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "TissueClassification.h"
+
+#include "Errors.h"
+#include "HeadPhantom.h"
+
+#include <gtest/gtest.h>
+#include <vtkSMPTools.h>
+
+using namespace surgicalmesher;
+using namespace surgicalmesher::test;
+
+namespace
+{
+
+double shareRight(const TissueMap& found, const TissueMap& truth)
+{
+  std::size_t head = 0, right = 0;
+  for (std::size_t n = 0; n < truth.labels.size(); ++n)
+  {
+    head += truth.labels[n] != 0;
+    right += truth.labels[n] != 0 && truth.labels[n] == found.labels[n];
+  }
+  return double(right) / double(head);
+}
+
+/// Voxels called `label` that are none.
+std::size_t falsePositives(const TissueMap& found, const TissueMap& truth, Label label)
+{
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < truth.labels.size(); ++n) count += found.labels[n] == label && truth.labels[n] != label;
+  return count;
+}
+
+} // namespace
+
+TEST(TissueClassification, PartsByPlaceWhatLooksAlike)
+{
+  const HeadPhantom head = headPhantom(3);
+  const std::vector<TissueClass> classes = trainingOf(head.truth, 20);
+  const Classification with = classifyTissues(head.image, classes, {});
+  ClassificationOptions without;
+  without.useCompartments = false;
+  const Classification flat = classifyTissues(head.image, classes, without);
+  EXPECT_GT(shareRight(with.map, head.truth), 0.97);
+  for (const Label label : { 1, 5 }) // CSF and muscle: 70 % fewer
+  {
+    EXPECT_LT(double(falsePositives(with.map, head.truth, label)),
+              0.3 * double(falsePositives(flat.map, head.truth, label)))
+      << label;
+  }
+}
+
+TEST(TissueClassification, NoClassIsWhereItIsNotAdmitted)
+{
+  const HeadPhantom head = headPhantom(6);
+  const Classification found = classifyTissues(head.image, trainingOf(head.truth, 20), {});
+  for (std::size_t n = 0; n < found.map.labels.size(); ++n)
+  {
+    const Label label = found.map.labels[n];
+    const Compartment compartment = found.compartments[n];
+    EXPECT_EQ(label == 0, compartment == Compartment::Background);
+    EXPECT_EQ(label == 7, compartment == Compartment::Bone);
+    EXPECT_EQ(label >= 1 && label <= 3, compartment == Compartment::Intracranial);
+  }
+}
+
+TEST(TissueClassification, TheFrontStopsInAHoleOfTheSkull)
+{
+  const HeadPhantom head = headPhantom(2);
+  const Classification found = classifyTissues(head.image, trainingOf(head.truth, 20), {});
+  const Grid& grid = head.truth.grid;
+  std::size_t leaked = 0;
+  for (int k = 0; k < grid.size[2]; ++k)
+    for (int j = 0; j < grid.size[1]; ++j)
+      for (int i = 0; i < grid.size[0]; ++i)
+      {
+        const bool isBeyond = norm(grid.gridToWorld({ double(i), double(j), double(k) })) > 25;
+        leaked += isBeyond && found.compartments[grid.index(i, j, k)] == Compartment::Intracranial;
+      }
+  EXPECT_LT(leaked, 20u);
+}
+
+TEST(TissueClassification, LimitsAndContiguityTakeAwayWhatIsNotReached)
+{
+  HeadPhantom head = headPhantom(0);
+  // A ball of fat's brightness, apart from the rest of the fat.
+  const Grid& grid = head.truth.grid;
+  std::vector<std::size_t> island;
+  for (int k = 0; k < grid.size[2]; ++k)
+    for (int j = 0; j < grid.size[1]; ++j)
+      for (int i = 0; i < grid.size[0]; ++i)
+      {
+        if (norm(grid.gridToWorld({ double(i), double(j), double(k) }) - Vec3{ 0, 26, 0 }) < 1.8)
+          island.push_back(grid.index(i, j, k));
+      }
+  for (const std::size_t n : island) head.image.values[n] = 165;
+  std::vector<TissueClass> classes = trainingOf(head.truth, 20);
+  classes[3].isContiguous = true;
+  const Classification found = classifyTissues(head.image, classes, {});
+  for (const std::size_t n : island) EXPECT_NE(found.map.labels[n], 4);
+  EXPECT_GE(found.invalidated[3], island.size());
+  ClassificationOptions without;
+  without.useContiguity = false;
+  const Classification flat = classifyTissues(head.image, classes, without);
+  for (const std::size_t n : island) EXPECT_EQ(flat.map.labels[n], 4);
+  classes[3].points.resize(1);
+  classes[3].limit = 5;
+  const Classification near = classifyTissues(head.image, classes, {});
+  for (int k = 0; k < grid.size[2]; ++k)
+    for (int j = 0; j < grid.size[1]; ++j)
+      for (int i = 0; i < grid.size[0]; ++i)
+      {
+        if (near.map.labels[grid.index(i, j, k)] != 4) continue;
+        EXPECT_LE(norm(grid.gridToWorld({ double(i), double(j), double(k) }) - classes[3].points[0]), 5.01);
+      }
+}
+
+TEST(TissueClassification, IsTheSameOnOneThreadAndMany)
+{
+  const HeadPhantom head = headPhantom(4);
+  const std::vector<TissueClass> classes = trainingOf(head.truth, 10);
+  vtkSMPTools::Initialize(1);
+  const Classification one = classifyTissues(head.image, classes, {});
+  vtkSMPTools::Initialize(3);
+  const Classification three = classifyTissues(head.image, classes, {});
+  vtkSMPTools::Initialize();
+  EXPECT_EQ(one.map.labels, three.map.labels);
+}
+
+TEST(TissueClassification, RefusesWhatItCanNotTellApart)
+{
+  const HeadPhantom head = headPhantom(2);
+  const std::vector<TissueClass> classes = trainingOf(head.truth, 5);
+  const auto expectRefused = [&](std::vector<TissueClass> changed)
+  { EXPECT_THROW(classifyTissues(head.image, changed, {}), InputError); };
+  expectRefused({ classes[0] });
+  std::vector<TissueClass> changed = classes;
+  changed[2].points.clear();
+  expectRefused(changed);
+  changed = classes;
+  changed[2].points[0] = { 400, 0, 0 };
+  expectRefused(changed);
+  changed = classes;
+  changed.pop_back(); // no bone
+  expectRefused(changed);
+  changed = classes;
+  changed[5].admission = Admission::Bone; // two
+  expectRefused(changed);
+  expectRefused({ classes[0], classes[1], classes[6] }); // nothing outside
+  changed = classes;
+  std::swap(changed[3].points, changed[6].points); // bone as bright as fat
+  expectRefused(changed);
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ExecutableTest.h"
+#include "HeadPhantom.h"
+#include "TissueMapIO.h"
+
+#include <rapidjson/document.h>
+
+using namespace surgicalmesher;
+using namespace surgicalmesher::test;
+
+namespace
+{
+
+class TissueMapperCLI : public ExecutableTest
+{
+protected:
+  TissueMapperCLI() : ExecutableTest(TISSUEMAPPERCLI), head(headPhantom(3)) {}
+
+  void SetUp() override
+  {
+    writeImage(head.image, folder.file("t1.nrrd"));
+    folder.write("points.fcsv", fcsv(trainingOf(head.truth, 15)));
+  }
+
+  static std::string fcsv(const std::vector<TissueClass>& classes)
+  {
+    std::ostringstream text;
+    text << "# CoordinateSystem = LPS\n# columns = label,x,y,z\n";
+    for (const TissueClass& tissue : classes)
+      for (const Vec3& p : tissue.points) text << tissue.name << "," << p.x << "," << p.y << "," << p.z << "\n";
+    return text.str();
+  }
+
+  HeadPhantom head;
+};
+
+} // namespace
+
+TEST_F(TissueMapperCLI, WritesAMapWithNames)
+{
+  expectDone("--training points.fcsv --names names.ctbl --report r.json t1.nrrd map.nrrd");
+  const TissueMap map = readTissueMap(folder.file("map.nrrd"));
+  EXPECT_EQ(presentLabels(map), (std::vector<Label>{ 1, 2, 3, 4, 5, 6, 7 }));
+  EXPECT_EQ(map.table.at(2).name, "grey matter");
+  EXPECT_EQ(readTissueTable(folder.file("names.ctbl")).at(3).name, "white matter");
+  std::size_t right = 0;
+  for (std::size_t n = 0; n < map.labels.size(); ++n) right += map.labels[n] == head.truth.labels[n];
+  EXPECT_GT(double(right), 0.97 * double(map.labels.size()));
+  rapidjson::Document report;
+  report.Parse(readBytes(folder.file("r.json")).c_str());
+  ASSERT_EQ(report["classes"].Size(), 7u);
+  EXPECT_STREQ(report["classes"][6]["compartment"].GetString(), "bone");
+  EXPECT_EQ(report["classes"][0]["voxels"].GetUint64(), countVoxels(map).at(1));
+}
+
+TEST_F(TissueMapperCLI, NumbersClassesAsTheTableSays)
+{
+  folder.write("classes.csv", "label,name,compartment\n11,csf,\n12,Grey matter,\n13,white matter,intracranial\n"
+                              "24,fat,\n25,muscle,\n26,skin,extracranial\n40,skull,bone\n");
+  expectDone("--training points.fcsv --classes classes.csv --threads 2 t1.nrrd a.nrrd");
+  EXPECT_EQ(presentLabels(readTissueMap(folder.file("a.nrrd"))), (std::vector<Label>{ 11, 12, 13, 24, 25, 26, 40 }));
+  expectDone("--training points.fcsv --classes classes.csv --threads 1 t1.nrrd b.nrrd");
+  EXPECT_EQ(readBytes(folder.file("a.nrrd")), readBytes(folder.file("b.nrrd")));
+}
+
+TEST_F(TissueMapperCLI, RefusesBadInputWithOneLine)
+{
+  folder.write("unnamed.fcsv", "# columns = label,x,y,z\n,0,0,0\n");
+  folder.write("one.fcsv", "# columns = label,x,y,z\nskull,0,0,22\nskull,0,0,23\n");
+  folder.write("outside.fcsv", "# columns = label,x,y,z\nskull,0,0,22\nskin,0,0,900\n");
+  folder.write("absent.csv", "label,name\n1,tumour\n");
+  folder.write("some.csv", "label,name\n1,CSF\n");
+  folder.write("word.csv", "label,name,compartment\n1,CSF,brain\n");
+  folder.write("same.csv", "label,name\n1,CSF\n1,fat\n");
+  const std::string training = "--training points.fcsv ";
+  expectRefused("t1.nrrd map.nrrd", 2, "--training is missing");
+  expectRefused(training + "missing.nrrd map.nrrd", 1, "missing.nrrd: no such file");
+  expectRefused("--training unnamed.fcsv t1.nrrd map.nrrd", 1, "without a label");
+  expectRefused("--training one.fcsv t1.nrrd map.nrrd", 1, "one class, skull, is trained");
+  expectRefused("--training outside.fcsv t1.nrrd map.nrrd", 1, "lies outside the image");
+  expectRefused(training + "--classes absent.csv t1.nrrd map.nrrd", 1, "absent.csv:2: class tumour");
+  expectRefused(training + "--classes some.csv t1.nrrd map.nrrd", 1, "trained, but not in the table");
+  expectRefused(training + "--classes word.csv t1.nrrd map.nrrd", 1, "word.csv:2: compartment");
+  expectRefused(training + "--classes same.csv t1.nrrd map.nrrd", 1, "same.csv:3: label 1");
+}
