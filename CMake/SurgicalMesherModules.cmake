@@ -42,7 +42,7 @@ function(surgicalmesher_add_module_mrml name)
     NAME vtkSlicer${name}ModuleMRML
     EXPORT_DIRECTIVE VTK_SLICER_${upper}_MODULE_MRML_EXPORT
     SRCS ${files}
-    TARGET_LIBRARIES MRMLCore SurgicalMesherFlags ${ARG_LINK})
+    TARGET_LIBRARIES vtkSurgicalMesherSupportMRML SurgicalMesherFlags ${ARG_LINK})
   surgicalmesher_publish_headers(vtkSlicer${name}ModuleMRML)
 endfunction()
 

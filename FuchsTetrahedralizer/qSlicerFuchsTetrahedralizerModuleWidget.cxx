@@ -2,6 +2,7 @@
 #include "qSlicerFuchsTetrahedralizerModuleWidget.h"
 #include "ui_qSlicerFuchsTetrahedralizerModuleWidget.h"
 
+#include "ParameterPanel.h"
 #include "RunAdvice.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 #include "vtkSlicerFuchsTetrahedralizerLogic.h"
@@ -35,13 +36,13 @@
 #include <QSignalBlocker>
 #include <QTimer>
 
-#include <functional>
 #include <vector>
 
 using Node = vtkMRMLFuchsTetrahedralizerNode;
 using Logic = vtkSlicerFuchsTetrahedralizerLogic;
 
-class qSlicerFuchsTetrahedralizerModuleWidgetPrivate : public Ui_qSlicerFuchsTetrahedralizerModuleWidget
+class qSlicerFuchsTetrahedralizerModuleWidgetPrivate : public Ui_qSlicerFuchsTetrahedralizerModuleWidget,
+                                                       public surgicalmesher::ParameterPanel<Node>
 {
   Q_DECLARE_PUBLIC(qSlicerFuchsTetrahedralizerModuleWidget)
 
@@ -59,15 +60,6 @@ public:
   void bindParameters();
   void bindDisplay();
   void bindButtons();
-  /// A control and a value of the node: each change of one goes to the other.
-  template <class Get, class Set>
-  void bind(ctkSliderWidget* slider, Get get, Set set);
-  template <class Get, class Set>
-  void bind(QCheckBox* box, Get get, Set set);
-  template <class Get, class Set>
-  void bind(QComboBox* box, Get get, Set set);
-  void bind(qMRMLNodeComboBox* box, const char* role);
-  void bind(qMRMLCheckableNodeComboBox* box, const char* role);
 
   void observeInputs();
   void updateDisplay();
@@ -78,10 +70,8 @@ public:
   QString summaryOfMesh() const;
   void say(const QString& sentence, bool isError = false);
 
-  vtkWeakPointer<Node> Parameters;
   std::vector<vtkWeakPointer<vtkMRMLNode>> Inputs; ///< observed
   vtkWeakPointer<vtkMRMLSliceNode> Slice;          ///< that the clip slider moves
-  std::vector<std::function<void()>> Refreshers;   ///< of controls, from the node
   bool IsMeshNew = false;                          ///< the run is to make it
 
 protected:
@@ -110,78 +100,6 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::setNode(Node* node)
 
 // ---- controls and node ----------------------------------------------------------------------------------------------
 
-template <class Get, class Set>
-void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(ctkSliderWidget* slider, Get get, Set set)
-{
-  QObject::connect(slider, &ctkSliderWidget::valueChanged, q_ptr,
-                   [this, set](double value)
-                   {
-                     if (this->Parameters) (this->Parameters->*set)(value);
-                   });
-  this->Refreshers.push_back([this, slider, get] { slider->setValue((this->Parameters->*get)()); });
-}
-
-template <class Get, class Set>
-void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(QCheckBox* box, Get get, Set set)
-{
-  QObject::connect(box, &QCheckBox::toggled, q_ptr,
-                   [this, set](bool value)
-                   {
-                     if (this->Parameters) (this->Parameters->*set)(value);
-                   });
-  this->Refreshers.push_back([this, box, get] { box->setChecked((this->Parameters->*get)()); });
-}
-
-template <class Get, class Set>
-void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(QComboBox* box, Get get, Set set)
-{
-  QObject::connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), q_ptr,
-                   [this, set](int value)
-                   {
-                     if (this->Parameters) (this->Parameters->*set)(value);
-                   });
-  this->Refreshers.push_back([this, box, get] { box->setCurrentIndex((this->Parameters->*get)()); });
-}
-
-void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(qMRMLNodeComboBox* box, const char* role)
-{
-  QObject::connect(box, QOverload<vtkMRMLNode*>::of(&qMRMLNodeComboBox::currentNodeChanged), q_ptr,
-                   [this, role](vtkMRMLNode* node)
-                   {
-                     if (this->Parameters) this->Parameters->SetNode(role, node);
-                   });
-  // The box would go on to a neighbour, which the next run could overwrite.
-  QObject::connect(box, &qMRMLNodeComboBox::nodeAboutToBeRemoved, q_ptr,
-                   [box](vtkMRMLNode* node)
-                   {
-                     if (box->currentNode() == node) box->setCurrentNode(nullptr);
-                   });
-  this->Refreshers.push_back([this, box, role] { box->setCurrentNode(this->Parameters->GetNodeReference(role)); });
-}
-
-void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bind(qMRMLCheckableNodeComboBox* box, const char* role)
-{
-  QObject::connect(box, &qMRMLCheckableNodeComboBox::checkedNodesChanged, q_ptr,
-                   [this, box, role]
-                   {
-                     if (!this->Parameters) return;
-                     const QList<vtkMRMLNode*> checked = box->checkedNodes();
-                     this->Parameters->SetNodes(role, std::vector<vtkMRMLNode*>(checked.begin(), checked.end()));
-                   });
-  this->Refreshers.push_back(
-    [this, box, role]
-    {
-      const QSignalBlocker blocker(box); // the boxes change one by one
-      const std::vector<vtkMRMLNode*> chosen = this->Parameters->GetNodes(role);
-      for (vtkMRMLNode* node : box->nodes())
-      {
-        const bool isChosen = std::find(chosen.begin(), chosen.end(), node) != chosen.end();
-        const Qt::CheckState state = isChosen ? Qt::Checked : Qt::Unchecked;
-        if (box->checkState(node) != state) box->setCheckState(node, state);
-      }
-    });
-}
-
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindInputs()
 {
   for (qMRMLNodeComboBox* box : std::initializer_list<qMRMLNodeComboBox*>{ this->TargetComboBox, this->PathComboBox })
@@ -203,29 +121,9 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindInputs()
 
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindParameters()
 {
-  QObject::connect(this->ShellTissuesLineEdit, &QLineEdit::textChanged, q_ptr,
-                   [this](const QString& text)
-                   {
-                     if (this->Parameters) this->Parameters->SetShellTissues(text.toStdString());
-                   });
-  this->Refreshers.push_back(
-    [this]
-    {
-      const QString text = QString::fromStdString(this->Parameters->GetShellTissues());
-      if (this->ShellTissuesLineEdit->text() != text) this->ShellTissuesLineEdit->setText(text); // keeps the cursor
-    });
+  this->bind(this->ShellTissuesLineEdit, &QLineEdit::textChanged, &Node::GetShellTissues, &Node::SetShellTissues);
   this->bind(this->ShellThicknessSlider, &Node::GetShellThickness, &Node::SetShellThickness);
-  QObject::connect(this->MaterialsPathLineEdit, &ctkPathLineEdit::currentPathChanged, q_ptr,
-                   [this](const QString& path)
-                   {
-                     if (this->Parameters) this->Parameters->SetMaterialsFile(path.toStdString());
-                   });
-  this->Refreshers.push_back(
-    [this]
-    {
-      const QString path = QString::fromStdString(this->Parameters->GetMaterialsFile());
-      if (this->MaterialsPathLineEdit->currentPath() != path) this->MaterialsPathLineEdit->setCurrentPath(path);
-    });
+  this->bind(this->MaterialsPathLineEdit, &Node::GetMaterialsFile, &Node::SetMaterialsFile);
   this->bind(this->TargetComboBox, Node::TargetRole());
   this->bind(this->PathComboBox, Node::PathRole());
   this->bind(this->NonlinearDistanceSlider, &Node::GetNonlinearDistance, &Node::SetNonlinearDistance);
@@ -235,12 +133,7 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindParameters()
   this->bind(this->NullDisplacementPathDistanceAtTargetSlider, &Node::GetNullDisplacementPathDistanceAtTarget,
              &Node::SetNullDisplacementPathDistanceAtTarget);
   this->bind(this->ConditioningCheckBox, &Node::GetConditioning, &Node::SetConditioning);
-  QObject::connect(this->ThreadsSpinBox, QOverload<int>::of(&QSpinBox::valueChanged), q_ptr,
-                   [this](int threads)
-                   {
-                     if (this->Parameters) this->Parameters->SetThreads(threads);
-                   });
-  this->Refreshers.push_back([this] { this->ThreadsSpinBox->setValue(this->Parameters->GetThreads()); });
+  this->bind(this->ThreadsSpinBox, &Node::GetThreads, &Node::SetThreads);
 }
 
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindDisplay()
@@ -468,7 +361,7 @@ void qSlicerFuchsTetrahedralizerModuleWidget::updateFromNode()
     section->setEnabled(d->Parameters != nullptr);
   d->observeInputs();
   if (!d->Parameters || !this->isEntered() || this->mrmlScene()->IsBatchProcessing()) return;
-  for (const auto& refresh : d->Refreshers) refresh();
+  d->show();
   d->updateSurface();
   d->updateMarkups();
   d->updateMesh();

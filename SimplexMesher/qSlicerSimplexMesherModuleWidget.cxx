@@ -2,6 +2,7 @@
 #include "qSlicerSimplexMesherModuleWidget.h"
 
 #include "PanelObstacle.h"
+#include "ParameterPanel.h"
 #include "ui_qSlicerSimplexMesherModuleWidget.h"
 #include "vtkMRMLSimplexMesherNode.h"
 #include "vtkSlicerSimplexMesherLogic.h"
@@ -28,7 +29,8 @@ using surgicalmesher::PanelObstacle;
 using Node = vtkMRMLSimplexMesherNode;
 using Problem = vtkSlicerSimplexMesherLogic::Problem;
 
-class qSlicerSimplexMesherModuleWidgetPrivate : public Ui_qSlicerSimplexMesherModuleWidget
+class qSlicerSimplexMesherModuleWidgetPrivate : public Ui_qSlicerSimplexMesherModuleWidget,
+                                                public surgicalmesher::ParameterPanel<Node>
 {
   Q_DECLARE_PUBLIC(qSlicerSimplexMesherModuleWidget)
   qSlicerSimplexMesherModuleWidget* const q_ptr;
@@ -38,20 +40,14 @@ public:
 
   vtkSlicerSimplexMesherLogic* logic() const { return vtkSlicerSimplexMesherLogic::SafeDownCast(q_ptr->logic()); }
 
-  vtkWeakPointer<vtkMRMLSimplexMesherNode> Parameters;
   vtkWeakPointer<vtkMRMLNode> TissueMap; ///< whose tissues are listed
   vtkWeakPointer<vtkMRMLNode> Scale;     ///< observed
   QTimer ListTimer;
-  bool IsUpdating = false; ///< controls follow the node, not the other way round
 
   void setParameterNode(vtkMRMLSimplexMesherNode* node);
   void observeTissueMap(vtkMRMLNode* node);
   void observeScale(vtkMRMLNode* node);
-  void connectControls();
-  void connectSelector(qMRMLNodeComboBox* selector, const char* role);
-  template <class Control, class Signal, class Setter>
-  void connectValue(Control* control, Signal signal, Setter setter);
-  void showValues();
+  void bindControls();
   void showReports();
   void showObstacle();
 
@@ -99,74 +95,34 @@ void qSlicerSimplexMesherModuleWidgetPrivate::observeScale(vtkMRMLNode* node)
   this->Scale = node;
 }
 
-/// A value goes from its control to the node by `setter`, unless the control has just been told by the node.
-template <class Control, class Signal, class Setter>
-void qSlicerSimplexMesherModuleWidgetPrivate::connectValue(Control* control, Signal signal, Setter setter)
+void qSlicerSimplexMesherModuleWidgetPrivate::bindControls()
 {
-  QObject::connect(control, signal, q_ptr,
-                   [this, setter](auto value)
-                   {
-                     if (this->Parameters && !this->IsUpdating) (this->Parameters->*setter)(value);
-                   });
-}
-
-void qSlicerSimplexMesherModuleWidgetPrivate::connectSelector(qMRMLNodeComboBox* selector, const char* role)
-{
-  QObject::connect(
-    selector, static_cast<void (qMRMLNodeComboBox::*)(vtkMRMLNode*)>(&qMRMLNodeComboBox::currentNodeChanged), q_ptr,
-    [this, role](vtkMRMLNode* node)
+  this->bind(this->TissueMapSelector, Node::TissueMapRole());
+  this->bind(this->ScaleSelector, Node::ScaleRole());
+  this->bind(this->SurfaceSelector, Node::SurfaceRole());
+  this->bind(this->PreparedLabelMapSelector, Node::PreparedLabelMapRole());
+  this->bind(this->SimplexMeshSelector, Node::SimplexMeshRole());
+  this->bind(this->FollowedScaleSelector, Node::FollowedScaleRole());
+  this->bind(this->ScaleRadioButton, &Node::GetUseScale, &Node::SetUseScale);
+  this->bind(this->EdgeLengthSlider, &Node::GetEdgeLength, &Node::SetEdgeLength);
+  this->bind(this->TissueModelsCheckBox, &Node::GetTissueModels, &Node::SetTissueModels);
+  this->bind(this->KeepAmbientCheckBox, &Node::GetKeepAmbient, &Node::SetKeepAmbient);
+  this->bind(this->ReportCheckBox, &Node::GetReport, &Node::SetReport);
+  this->bind(this->MinimumIslandVolumeSpinBox, &Node::GetMinimumIslandVolume, &Node::SetMinimumIslandVolume);
+  this->bind(this->MinimumCavityVolumeSpinBox, &Node::GetMinimumCavityVolume, &Node::SetMinimumCavityVolume);
+  this->bind(this->FeatureScaleSlider, &Node::GetFeatureScale, &Node::SetFeatureScale);
+  this->bind(this->MaximumDistanceSpinBox, &Node::GetMaximumDistance, &Node::SetMaximumDistance);
+  this->bind(this->GradationSlider, &Node::GetGradation, &Node::SetGradation);
+  this->bind(this->FollowThicknessCheckBox, &Node::GetFollowThickness, &Node::SetFollowThickness);
+  this->bind(this->ThreadsSpinBox, &Node::GetThreads, &Node::SetThreads);
+  this->onShow(
+    [this]
     {
-      if (this->Parameters && !this->IsUpdating) this->Parameters->SetNode(role, node);
+      const bool useScale = this->Parameters->GetUseScale();
+      this->EdgeLengthRadioButton->setChecked(!useScale);
+      this->ScaleSelector->setEnabled(useScale);
+      this->EdgeLengthSlider->setEnabled(!useScale);
     });
-}
-
-void qSlicerSimplexMesherModuleWidgetPrivate::connectControls()
-{
-  this->connectSelector(this->TissueMapSelector, Node::TissueMapRole());
-  this->connectSelector(this->ScaleSelector, Node::ScaleRole());
-  this->connectSelector(this->SurfaceSelector, Node::SurfaceRole());
-  this->connectSelector(this->PreparedLabelMapSelector, Node::PreparedLabelMapRole());
-  this->connectSelector(this->SimplexMeshSelector, Node::SimplexMeshRole());
-  this->connectSelector(this->FollowedScaleSelector, Node::FollowedScaleRole());
-  const auto spun = static_cast<void (QDoubleSpinBox::*)(double)>(&QDoubleSpinBox::valueChanged);
-  this->connectValue(this->ScaleRadioButton, &QRadioButton::toggled, &Node::SetUseScale);
-  this->connectValue(this->EdgeLengthSlider, &ctkSliderWidget::valueChanged, &Node::SetEdgeLength);
-  this->connectValue(this->TissueModelsCheckBox, &QCheckBox::toggled, &Node::SetTissueModels);
-  this->connectValue(this->KeepAmbientCheckBox, &QCheckBox::toggled, &Node::SetKeepAmbient);
-  this->connectValue(this->ReportCheckBox, &QCheckBox::toggled, &Node::SetReport);
-  this->connectValue(this->MinimumIslandVolumeSpinBox, spun, &Node::SetMinimumIslandVolume);
-  this->connectValue(this->MinimumCavityVolumeSpinBox, spun, &Node::SetMinimumCavityVolume);
-  this->connectValue(this->FeatureScaleSlider, &ctkSliderWidget::valueChanged, &Node::SetFeatureScale);
-  this->connectValue(this->MaximumDistanceSpinBox, spun, &Node::SetMaximumDistance);
-  this->connectValue(this->GradationSlider, &ctkSliderWidget::valueChanged, &Node::SetGradation);
-  this->connectValue(this->FollowThicknessCheckBox, &QCheckBox::toggled, &Node::SetFollowThickness);
-  this->connectValue(this->ThreadsSpinBox, static_cast<void (QSpinBox::*)(int)>(&QSpinBox::valueChanged),
-                     &Node::SetThreads);
-}
-
-void qSlicerSimplexMesherModuleWidgetPrivate::showValues()
-{
-  Node* const p = this->Parameters;
-  this->TissueMapSelector->setCurrentNode(p->GetTissueMapNode());
-  this->ScaleSelector->setCurrentNode(p->GetScaleNode());
-  this->SurfaceSelector->setCurrentNode(p->GetSurfaceNode());
-  this->PreparedLabelMapSelector->setCurrentNode(p->GetPreparedLabelMapNode());
-  this->SimplexMeshSelector->setCurrentNode(p->GetSimplexMeshNode());
-  this->FollowedScaleSelector->setCurrentNode(p->GetFollowedScaleNode());
-  (p->GetUseScale() ? this->ScaleRadioButton : this->EdgeLengthRadioButton)->setChecked(true);
-  this->EdgeLengthSlider->setValue(p->GetEdgeLength());
-  this->ScaleSelector->setEnabled(p->GetUseScale());
-  this->EdgeLengthSlider->setEnabled(!p->GetUseScale());
-  this->TissueModelsCheckBox->setChecked(p->GetTissueModels());
-  this->KeepAmbientCheckBox->setChecked(p->GetKeepAmbient());
-  this->ReportCheckBox->setChecked(p->GetReport());
-  this->MinimumIslandVolumeSpinBox->setValue(p->GetMinimumIslandVolume());
-  this->MinimumCavityVolumeSpinBox->setValue(p->GetMinimumCavityVolume());
-  this->FeatureScaleSlider->setValue(p->GetFeatureScale());
-  this->MaximumDistanceSpinBox->setValue(p->GetMaximumDistance());
-  this->GradationSlider->setValue(p->GetGradation());
-  this->FollowThicknessCheckBox->setChecked(p->GetFollowThickness());
-  this->ThreadsSpinBox->setValue(p->GetThreads());
 }
 
 /// The tables and plots that there are.
@@ -208,7 +164,7 @@ PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::obstacle()
              {},
              {} };
   case Problem::TissueMap:
-    return surgicalmesher::tissueMapObstacle(check.tissueMap, this->Parameters->GetTissueMapNode(),
+    return surgicalmesher::tissueMapObstacle(check.tissueMap, this->Parameters->GetNodeReference(Node::TissueMapRole()),
                                              this->TissueMapSelector);
   case Problem::NothingToMesh:
   case Problem::LengthsContradict:
@@ -275,7 +231,7 @@ void qSlicerSimplexMesherModuleWidget::setup()
   d->ListTimer.setSingleShot(true);
   d->ListTimer.setInterval(300);
   connect(&d->ListTimer, SIGNAL(timeout()), this, SLOT(listTissues()));
-  d->connectControls();
+  d->bindControls();
   connect(d->RunWidget, SIGNAL(applyRequested()), this, SLOT(apply()));
   connect(d->RunWidget, SIGNAL(runEnded()), this, SLOT(onRunEnded()));
   connect(d->ReportTableComboBox, SIGNAL(currentIndexChanged(int)), this, SLOT(showReport()));
@@ -338,7 +294,8 @@ void qSlicerSimplexMesherModuleWidget::onSceneChanged()
 {
   Q_D(qSlicerSimplexMesherModuleWidget);
   if (d->Parameters && !d->Parameters->GetScene()) this->onSceneReplaced();
-  if (d->Parameters && !d->Parameters->GetTissueMapNode()) d->ListTimer.start(); // there may be one to choose now
+  if (d->Parameters && !d->Parameters->GetNodeReference(Node::TissueMapRole()))
+    d->ListTimer.start(); // there may be one to choose now
 }
 
 void qSlicerSimplexMesherModuleWidget::updateFromNode()
@@ -350,12 +307,11 @@ void qSlicerSimplexMesherModuleWidget::updateFromNode()
     d->TissueTable->setTissues({});
     return;
   }
-  d->IsUpdating = true;
-  d->showValues();
-  d->IsUpdating = false;
+  d->show();
   d->showReports();
-  if (d->Scale != d->Parameters->GetScaleNode()) d->observeScale(d->Parameters->GetScaleNode());
-  vtkMRMLNode* map = d->Parameters->GetTissueMapNode();
+  if (d->Scale != d->Parameters->GetScalarVolumeNode(Node::ScaleRole()))
+    d->observeScale(d->Parameters->GetScalarVolumeNode(Node::ScaleRole()));
+  vtkMRMLNode* map = d->Parameters->GetNodeReference(Node::TissueMapRole());
   if (map != d->TissueMap) d->observeTissueMap(map);
   else if (!map) this->listTissues(); // the map itself may have been deleted
   else d->showObstacle();
@@ -394,7 +350,7 @@ void qSlicerSimplexMesherModuleWidget::onRunEnded()
 {
   Q_D(qSlicerSimplexMesherModuleWidget);
   vtkSurgicalMesherRun* run = d->logic()->GetRun();
-  vtkMRMLModelNode* surface = d->Parameters ? d->Parameters->GetSurfaceNode() : nullptr;
+  vtkMRMLModelNode* surface = d->Parameters ? d->Parameters->GetModelNode(Node::SurfaceRole()) : nullptr;
   if (run->GetStatus() != vtkSurgicalMesherRun::Completed || !surface || !surface->GetPolyData()) return;
   d->RunWidget->setResult(tr("%L1 triangles between %L2 points, in %3 s.")
                             .arg(qlonglong(surface->GetPolyData()->GetNumberOfCells()))

@@ -2,6 +2,7 @@
 #include "qSlicerSurgicalPathScaleModuleWidget.h"
 
 #include "PanelObstacle.h"
+#include "ParameterPanel.h"
 #include "ScaleProfile.h"
 #include "ui_qSlicerSurgicalPathScaleModuleWidget.h"
 #include "vtkMRMLSurgicalPathScaleNode.h"
@@ -19,7 +20,6 @@
 #include <vtkSlicerPlotsLogic.h>
 
 #include <vtkImageData.h>
-#include <vtkWeakPointer.h>
 
 #include <QElapsedTimer>
 #include <QLocale>
@@ -33,7 +33,8 @@ using Node = vtkMRMLSurgicalPathScaleNode;
 using Logic = vtkSlicerSurgicalPathScaleLogic;
 using Problem = Logic::Problem;
 
-class qSlicerSurgicalPathScaleModuleWidgetPrivate : public Ui_qSlicerSurgicalPathScaleModuleWidget
+class qSlicerSurgicalPathScaleModuleWidgetPrivate : public Ui_qSlicerSurgicalPathScaleModuleWidget,
+                                                    public surgicalmesher::ParameterPanel<Node>
 {
   Q_DECLARE_PUBLIC(qSlicerSurgicalPathScaleModuleWidget)
   qSlicerSurgicalPathScaleModuleWidget* const q_ptr;
@@ -43,19 +44,12 @@ public:
 
   Logic* logic() const { return Logic::SafeDownCast(q_ptr->logic()); }
 
-  vtkWeakPointer<vtkMRMLSurgicalPathScaleNode> Parameters;
-  QTimer PreviewTimer;     ///< a slider being dragged asks for one preview, not for hundreds
-  QTimer EstimateTimer;    ///< the estimate takes longer, and waits until the sliders rest
-  bool IsUpdating = false; ///< controls follow the node, not the other way round
+  QTimer PreviewTimer;  ///< a slider being dragged asks for one preview, not for hundreds
+  QTimer EstimateTimer; ///< the estimate takes longer, and waits until the sliders rest
 
   void setParameterNode(vtkMRMLSurgicalPathScaleNode* node);
   void setupPlacing(qSlicerMarkupsPlaceWidget* place, qMRMLNodeComboBox* selector);
-  void connectControls();
-  void connectSelector(qMRMLNodeComboBox* selector, const char* role);
-  template <class Control, class Signal, class Setter>
-  void connectValue(Control* control, Signal signal, Setter setter);
-  void connectTexts();
-  void showValues();
+  void bindControls();
   void scheduleUpdates();
   void showObstacle(const Logic::Check& check);
   void placePoints(qMRMLNodeComboBox* selector, qSlicerMarkupsPlaceWidget* place);
@@ -103,109 +97,37 @@ void qSlicerSurgicalPathScaleModuleWidgetPrivate::setupPlacing(qSlicerMarkupsPla
   QObject::connect(selector, SIGNAL(currentNodeChanged(vtkMRMLNode*)), place, SLOT(setCurrentNode(vtkMRMLNode*)));
 }
 
-/// A value goes from its control to the node by `setter`, unless the control has just been told by the node.
-template <class Control, class Signal, class Setter>
-void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectValue(Control* control, Signal signal, Setter setter)
+void qSlicerSurgicalPathScaleModuleWidgetPrivate::bindControls()
 {
-  QObject::connect(control, signal, q_ptr,
-                   [this, setter](auto value)
-                   {
-                     if (this->Parameters && !this->IsUpdating) (this->Parameters->*setter)(value);
-                   });
-}
-
-void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectSelector(qMRMLNodeComboBox* selector, const char* role)
-{
-  QObject::connect(
-    selector, static_cast<void (qMRMLNodeComboBox::*)(vtkMRMLNode*)>(&qMRMLNodeComboBox::currentNodeChanged), q_ptr,
-    [this, role](vtkMRMLNode* node)
+  this->bind(this->TissueMapSelector, Node::TissueMapRole());
+  this->bind(this->TargetsSelector, Node::TargetsRole());
+  this->bind(this->PathSelector, Node::PathRole());
+  this->bind(this->FurtherMarkupsSelector, Node::FurtherMarkupsRole());
+  this->bind(this->ScaleSelector, Node::ScaleRole());
+  this->bind(this->OutputLabelMapSelector, Node::OutputLabelMapRole());
+  this->bind(this->MinimumEdgeLengthSlider, &Node::GetMinimumEdgeLength, &Node::SetMinimumEdgeLength);
+  this->bind(this->MaximumEdgeLengthSlider, &Node::GetMaximumEdgeLength, &Node::SetMaximumEdgeLength);
+  this->bind(this->ChildRadiusSlider, &Node::GetChildRadius, &Node::SetChildRadius);
+  this->bind(this->DecayLengthSlider, &Node::GetDecayLength, &Node::SetDecayLength);
+  this->bind(this->NullDisplacementRadiusSpinBox, &Node::GetNullDisplacementRadius, &Node::SetNullDisplacementRadius);
+  this->bind(this->NullDisplacementPathDistanceSpinBox, &Node::GetNullDisplacementPathDistance,
+             &Node::SetNullDisplacementPathDistance);
+  this->bind(this->NullDisplacementPathDistanceAtTargetSpinBox, &Node::GetNullDisplacementPathDistanceAtTarget,
+             &Node::SetNullDisplacementPathDistanceAtTarget);
+  this->bind(this->NullDisplacementTissuesLineEdit, &QLineEdit::editingFinished, &Node::GetNullDisplacementTissues,
+             &Node::SetNullDisplacementTissues);
+  this->bindData(this->CombineComboBox, &Node::GetCombine, &Node::SetCombine);
+  this->bind(this->PathChildRadiusSpinBox, &Node::GetPathChildRadius, &Node::SetPathChildRadius);
+  this->bind(this->PathDecayLengthSpinBox, &Node::GetPathDecayLength, &Node::SetPathDecayLength);
+  this->bind(this->GradationSpinBox, &Node::GetGradation, &Node::SetGradation);
+  this->bind(this->SpacingSpinBox, &Node::GetSpacing, &Node::SetSpacing);
+  this->bind(this->TissueLengthsPathLineEdit, &Node::GetTissueLengths, &Node::SetTissueLengths);
+  this->onShow(
+    [this]
     {
-      if (this->Parameters && !this->IsUpdating) this->Parameters->SetNode(role, node);
+      this->OutputLabelMapSelector->setEnabled(this->Parameters->WantsNullDisplacement());
+      this->ProfileCheckBox->setChecked(this->Parameters->GetPlotChartNode(Node::ProfileChartRole()) != nullptr);
     });
-}
-
-void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectControls()
-{
-  this->connectSelector(this->TissueMapSelector, Node::TissueMapRole());
-  this->connectSelector(this->TargetsSelector, Node::TargetsRole());
-  this->connectSelector(this->PathSelector, Node::PathRole());
-  this->connectSelector(this->ScaleSelector, Node::ScaleRole());
-  this->connectSelector(this->OutputLabelMapSelector, Node::OutputLabelMapRole());
-  const auto slid = &ctkSliderWidget::valueChanged;
-  this->connectValue(this->MinimumEdgeLengthSlider, slid, &Node::SetMinimumEdgeLength);
-  this->connectValue(this->MaximumEdgeLengthSlider, slid, &Node::SetMaximumEdgeLength);
-  this->connectValue(this->ChildRadiusSlider, slid, &Node::SetChildRadius);
-  this->connectValue(this->DecayLengthSlider, slid, &Node::SetDecayLength);
-  const auto spun = static_cast<void (QDoubleSpinBox::*)(double)>(&QDoubleSpinBox::valueChanged);
-  this->connectValue(this->NullDisplacementRadiusSpinBox, spun, &Node::SetNullDisplacementRadius);
-  this->connectValue(this->NullDisplacementPathDistanceSpinBox, spun, &Node::SetNullDisplacementPathDistance);
-  this->connectValue(this->NullDisplacementPathDistanceAtTargetSpinBox, spun,
-                     &Node::SetNullDisplacementPathDistanceAtTarget);
-  this->connectValue(this->PathChildRadiusSpinBox, spun, &Node::SetPathChildRadius);
-  this->connectValue(this->PathDecayLengthSpinBox, spun, &Node::SetPathDecayLength);
-  this->connectValue(this->GradationSpinBox, spun, &Node::SetGradation);
-  this->connectValue(this->SpacingSpinBox, spun, &Node::SetSpacing);
-  this->connectTexts();
-}
-
-void qSlicerSurgicalPathScaleModuleWidgetPrivate::connectTexts()
-{
-  const auto connectText = [this](auto* control, auto signal, void (Node::*setter)(std::string), auto text)
-  {
-    QObject::connect(control, signal, q_ptr,
-                     [=]
-                     {
-                       if (this->Parameters && !this->IsUpdating) (this->Parameters->*setter)(text().toStdString());
-                     });
-  };
-  connectText(this->NullDisplacementTissuesLineEdit, &QLineEdit::editingFinished, &Node::SetNullDisplacementTissues,
-              [this] { return this->NullDisplacementTissuesLineEdit->text(); });
-  connectText(this->TissueLengthsPathLineEdit, &ctkPathLineEdit::currentPathChanged, &Node::SetTissueLengths,
-              [this] { return this->TissueLengthsPathLineEdit->currentPath(); });
-  connectText(this->CombineComboBox, static_cast<void (QComboBox::*)(int)>(&QComboBox::currentIndexChanged),
-              &Node::SetCombine, [this] { return this->CombineComboBox->currentData().toString(); });
-  QObject::connect(this->FurtherMarkupsSelector, &qMRMLCheckableNodeComboBox::checkedNodesChanged, q_ptr,
-                   [this]
-                   {
-                     if (!this->Parameters || this->IsUpdating) return;
-                     const QList<vtkMRMLNode*> nodes = this->FurtherMarkupsSelector->checkedNodes();
-                     this->Parameters->SetFurtherMarkups({ nodes.begin(), nodes.end() });
-                   });
-}
-
-void qSlicerSurgicalPathScaleModuleWidgetPrivate::showValues()
-{
-  Node* const p = this->Parameters;
-  this->TissueMapSelector->setCurrentNode(p->GetTissueMapNode());
-  this->TargetsSelector->setCurrentNode(p->GetNodeReference(Node::TargetsRole()));
-  this->PathSelector->setCurrentNode(p->GetNodeReference(Node::PathRole()));
-  this->ScaleSelector->setCurrentNode(p->GetScaleNode());
-  this->OutputLabelMapSelector->setCurrentNode(p->GetOutputLabelMapNode());
-  this->OutputLabelMapSelector->setEnabled(p->WantsNullDisplacement());
-  this->MinimumEdgeLengthSlider->setValue(p->GetMinimumEdgeLength());
-  this->MaximumEdgeLengthSlider->setValue(p->GetMaximumEdgeLength());
-  this->ChildRadiusSlider->setValue(p->GetChildRadius());
-  this->DecayLengthSlider->setValue(p->GetDecayLength());
-  this->ProfileCheckBox->setChecked(p->GetProfileChartNode() != nullptr);
-  this->NullDisplacementRadiusSpinBox->setValue(p->GetNullDisplacementRadius());
-  this->NullDisplacementPathDistanceSpinBox->setValue(p->GetNullDisplacementPathDistance());
-  this->NullDisplacementPathDistanceAtTargetSpinBox->setValue(p->GetNullDisplacementPathDistanceAtTarget());
-  this->NullDisplacementTissuesLineEdit->setText(QString::fromStdString(p->GetNullDisplacementTissues()));
-  this->CombineComboBox->setCurrentIndex(
-    qMax(0, this->CombineComboBox->findData(QString::fromStdString(p->GetCombine()))));
-  this->PathChildRadiusSpinBox->setValue(p->GetPathChildRadius());
-  this->PathDecayLengthSpinBox->setValue(p->GetPathDecayLength());
-  this->GradationSpinBox->setValue(p->GetGradation());
-  this->SpacingSpinBox->setValue(p->GetSpacing());
-  this->TissueLengthsPathLineEdit->setCurrentPath(QString::fromStdString(p->GetTissueLengths()));
-  std::vector<vtkMRMLNode*> further;
-  p->GetNodeReferences(Node::FurtherMarkupsRole(), further);
-  for (int n = 0; n < this->FurtherMarkupsSelector->nodeCount(); ++n)
-  {
-    vtkMRMLNode* node = this->FurtherMarkupsSelector->nodeFromIndex(n);
-    const bool isChosen = std::find(further.begin(), further.end(), node) != further.end();
-    this->FurtherMarkupsSelector->setCheckState(node, isChosen ? Qt::Checked : Qt::Unchecked);
-  }
 }
 
 void qSlicerSurgicalPathScaleModuleWidgetPrivate::scheduleUpdates()
@@ -232,7 +154,7 @@ PanelObstacle qSlicerSurgicalPathScaleModuleWidgetPrivate::obstacle(const Logic:
              {},
              {} };
   case Problem::TissueMap:
-    return surgicalmesher::tissueMapObstacle(check.tissueMap, this->Parameters->GetTissueMapNode(),
+    return surgicalmesher::tissueMapObstacle(check.tissueMap, this->Parameters->GetNodeReference(Node::TissueMapRole()),
                                              this->TissueMapSelector);
   case Problem::NoFocus:
   case Problem::PathOfOnePoint:
@@ -334,7 +256,7 @@ void qSlicerSurgicalPathScaleModuleWidget::setup()
   d->EstimateTimer.setInterval(500);
   connect(&d->PreviewTimer, SIGNAL(timeout()), this, SLOT(updatePreview()));
   connect(&d->EstimateTimer, SIGNAL(timeout()), this, SLOT(updateEstimate()));
-  d->connectControls();
+  d->bindControls();
   // What there is to choose from is part of what is missing; known once the scene has changed.
   connect(d->TissueMapSelector, SIGNAL(nodeAdded(vtkMRMLNode*)), this, SLOT(onInputChanged()), Qt::QueuedConnection);
   connect(d->TissueMapSelector, SIGNAL(nodeAboutToBeRemoved(vtkMRMLNode*)), this, SLOT(onInputChanged()),
@@ -412,12 +334,11 @@ void qSlicerSurgicalPathScaleModuleWidget::updateFromNode()
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
   this->setEnabled(d->Parameters != nullptr);
   if (!d->Parameters) return;
-  d->IsUpdating = true;
-  d->showValues();
-  d->IsUpdating = false;
+  d->show();
   // While a scene is being read, a part of the plot may be there without the others.
   const bool isReading = this->mrmlScene()->IsBatchProcessing();
-  if (d->Parameters->GetProfileChartNode() && !isReading) surgicalmesher::plotProfile(d->Parameters);
+  if (d->Parameters->GetPlotChartNode(Node::ProfileChartRole()) && !isReading)
+    surgicalmesher::plotProfile(d->Parameters);
   this->onInputChanged();
 }
 
@@ -452,7 +373,7 @@ void qSlicerSurgicalPathScaleModuleWidget::updateEstimate()
 void qSlicerSurgicalPathScaleModuleWidget::showProfile(bool isWanted)
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
-  if (!d->Parameters || d->IsUpdating) return;
+  if (!d->isListening()) return;
   if (!isWanted) return surgicalmesher::removeProfile(d->Parameters);
   vtkMRMLPlotChartNode* chart = surgicalmesher::plotProfile(d->Parameters);
   auto* plots = vtkSlicerPlotsLogic::SafeDownCast(d->logic()->GetModuleLogic("Plots"));
@@ -470,7 +391,7 @@ void qSlicerSurgicalPathScaleModuleWidget::onRunEnded()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
   vtkSurgicalMesherRun* run = d->logic()->GetRun();
-  vtkMRMLScalarVolumeNode* scale = d->Parameters ? d->Parameters->GetScaleNode() : nullptr;
+  vtkMRMLScalarVolumeNode* scale = d->Parameters ? d->Parameters->GetScalarVolumeNode(Node::ScaleRole()) : nullptr;
   if (run->GetStatus() != vtkSurgicalMesherRun::Completed || !scale || !scale->GetImageData()) return;
   d->PreviewCheckBox->setChecked(false); // the result takes its place
   d->logic()->ShowResult(d->Parameters);

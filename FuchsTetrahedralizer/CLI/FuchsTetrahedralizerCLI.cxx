@@ -98,23 +98,26 @@ void prepareSurface(CommandLine& line, const SizingFunction& edgeLength, Surface
   surface = withDividedEdges(surface, edgeLength);
 }
 
-/// A refusal's triangles go beside the mesh that was to be, for the user to look at.
+/// A refusal's triangles go to the file that is named for them, or else beside the mesh that was to be.
 [[noreturn]] void refuseWithTriangles(CommandLine& line, const SurfaceRefused& refusal)
 {
   const std::filesystem::path folder = std::filesystem::path(line.outputFile("mesh")).parent_path();
   const std::string stem = std::filesystem::path(line.text("surface")).stem().string();
-  const std::string file = (folder / (stem + ".offending.vtp")).string();
+  const std::string besideMesh = (folder / (stem + ".offending.vtp")).string();
+  const std::string named = line.outputFile("offendingTriangles");
   SurfaceFile content;
   content.surface = refusal.offending();
   try
   {
-    writeSurface(content, file);
+    writeSurface(content, named.empty() ? besideMesh : named);
+    line.commitOutput("offendingTriangles");
   }
-  catch (const InputError&)
+  catch (const Error&)
   {
     throw InputError(refusal.what());
   }
-  throw InputError(std::string(refusal.what()) + "; these triangles are in " + file);
+  if (!named.empty()) throw InputError(refusal.what());
+  throw InputError(std::string(refusal.what()) + "; these triangles are in " + besideMesh);
 }
 
 /// Tetrahedra to begin with, and what the surface stage has improved them to.
@@ -154,27 +157,8 @@ TetMesh improved(Start start, const Lengths& lengths, const Progress& progress)
 
 ConstitutiveRule readConstitutiveRule(const CommandLine& line)
 {
-  ConstitutiveRule rule;
-  rule.targets = line.points("targetPoint");
-  for (const std::string& file : line.texts("targets"))
-  {
-    for (const std::vector<Vec3>& points : readMarkups(file))
-    {
-      rule.targets.insert(rule.targets.end(), points.begin(), points.end());
-    }
-  }
-  const Path typed = line.points("pathPoint");
-  if (typed.size() == 1) throw UsageError("--pathPoint is given once, expected two points or more");
-  if (!typed.empty()) rule.paths.push_back(typed);
-  for (const std::string& file : line.texts("path"))
-  {
-    for (const Path& path : readMarkups(file))
-    {
-      if (path.size() < 2) throw InputError(file + ": a path of one point, expected two points or more");
-      if (!(pathLength(path) > 0)) throw InputError(file + ": a path of length 0, expected points that differ");
-      rule.paths.push_back(path);
-    }
-  }
+  ConstitutiveRule rule{ readFocus(line.points("targetPoint"), line.texts("targets"), line.points("pathPoint"),
+                                   line.texts("path")) };
   rule.nonlinearDistance = line.number("nonlinearDistance");
   rule.nullTargetRadius = line.number("nullDisplacementRadius");
   rule.nullPathDistance = line.number("nullDisplacementPathDistance");
@@ -269,38 +253,27 @@ void writeChildAndParent(CommandLine& line, const MeshFile& whole)
   writeMesh(children, childFile);
 }
 
-void write(JsonWriter& json, const char* key, const std::vector<std::int32_t>& values)
-{
-  json.Key(key);
-  json.StartArray();
-  for (const std::int32_t value : values) json.Int(value);
-  json.EndArray();
-}
-
 void writeSubMeshes(JsonWriter& json, const SubMeshes& division)
 {
   json.Key("subMeshes");
   json.StartObject();
   writeMember(json, "children", division.children);
-  write(json, "pieces", division.pieces);
-  write(json, "interfacePoints", division.interfacePoints);
+  writeMember(json, "pieces", division.pieces);
+  writeMember(json, "interfacePoints", division.interfacePoints);
   json.EndObject();
 }
 
 void writeTopology(JsonWriter& json, const TetMesh& mesh)
 {
-  json.Key("topology");
-  json.StartArray();
-  for (const auto& [label, betti] : meshTopology(mesh))
-  {
-    json.StartObject();
-    writeMember(json, "label", label);
-    writeMember(json, "components", betti.components);
-    writeMember(json, "tunnels", betti.tunnels);
-    writeMember(json, "cavities", betti.cavities);
-    json.EndObject();
-  }
-  json.EndArray();
+  writeObjects(json, "topology", meshTopology(mesh),
+               [&](const auto& tissue)
+               {
+                 const auto& [label, betti] = tissue;
+                 writeMember(json, "label", label);
+                 writeMember(json, "components", betti.components);
+                 writeMember(json, "tunnels", betti.tunnels);
+                 writeMember(json, "cavities", betti.cavities);
+               });
 }
 
 rapidjson::Value stiffnessJSON(const StiffnessConditioning& conditioning, rapidjson::Document::AllocatorType& allocator)
@@ -400,6 +373,7 @@ void run(CommandLine& line)
   try
   {
     mesh(line);
+    line.discardOutput("offendingTriangles");
   }
   catch (const SurfaceRefused& refusal)
   {

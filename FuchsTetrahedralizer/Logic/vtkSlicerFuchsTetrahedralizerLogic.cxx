@@ -293,6 +293,8 @@ void vtkSlicerFuchsTetrahedralizerLogic::PrepareOutputs(vtkMRMLFuchsTetrahedrali
   }
   this->ReportFile = this->Run->NewTemporaryFile(".json");
   this->Run->SetParameter("report", this->ReportFile);
+  this->OffendingTrianglesFile = this->Run->NewTemporaryFile(".vtp");
+  this->Run->SetParameter("offendingTriangles", this->OffendingTrianglesFile);
 }
 
 void vtkSlicerFuchsTetrahedralizerLogic::OnRunEvent(unsigned long event)
@@ -303,28 +305,24 @@ void vtkSlicerFuchsTetrahedralizerLogic::OnRunEvent(unsigned long event)
   if (event == vtkSurgicalMesherRun::CompletedEvent && status == vtkSurgicalMesherRun::Completed) this->FinishRun();
 }
 
-/// The module's refusal ends with the name of a file of triangles.
+/// What the surface was refused for, if the module failed because of some of its triangles.
 void vtkSlicerFuchsTetrahedralizerLogic::ShowTrianglesAtFault()
 {
-  const std::string refusal = this->Run->GetErrorText(), announcement = "; these triangles are in ";
-  const std::size_t at = refusal.find(announcement);
-  if (at == refusal.npos || !this->GetMRMLScene()) return;
-  const std::string file = refusal.substr(at + announcement.size());
+  if (!this->GetMRMLScene() || vtksys::SystemTools::FileLength(this->OffendingTrianglesFile) == 0) return;
   const std::string failure = failureOf(
     [&]
     {
       auto* model = vtkMRMLModelNode::SafeDownCast(this->GetMRMLScene()->AddNewNodeByClass(
         "vtkMRMLModelNode", vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "Triangles at fault")));
-      model->SetAndObserveMesh(polyDataOf(readSurface(file).surface));
+      model->SetAndObserveMesh(polyDataOf(readSurface(this->OffendingTrianglesFile).surface));
       model->CreateDefaultDisplayNodes();
       model->GetDisplayNode()->SetColor(0.84, 0.10, 0.11);
       model->GetDisplayNode()->SetEdgeVisibility(true);
       model->GetDisplayNode()->SetLineWidth(3);
-      this->Run->SetErrorText(refusal.substr(0, at) + "; " +
+      this->Run->SetErrorText(this->Run->GetErrorText() + "; " +
                               vtkMRMLTr("vtkSlicerFuchsTetrahedralizerLogic", "the triangles are in the model") +
                               " \"" + model->GetName() + "\"");
     });
-  vtksys::SystemTools::RemoveFile(file);
   if (!failure.empty()) vtkErrorMacro(<< failure);
 }
 

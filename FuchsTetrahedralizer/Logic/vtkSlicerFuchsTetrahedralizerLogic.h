@@ -159,6 +159,7 @@ private:
   vtkWeakPointer<vtkMRMLFuchsTetrahedralizerNode> Parameters;       ///< of the run
   std::map<std::string, vtkSmartPointer<vtkMRMLModelNode>> Results; ///< of the run, by output role
   std::string ReportFile;                                           ///< of the run
+  std::string OffendingTrianglesFile;                               ///< of the run; empty unless the surface is refused
   struct AmbientCheck; ///< the last answer of belongTogether(), which takes its time
   AmbientCheck* const LastAmbientCheck;
 };

@@ -4,27 +4,21 @@
 /// looked at. It lives in the scene and is saved with it. Lengths are in mm; 0 means what it means to
 /// FuchsTetrahedralizerCLI.
 
+#include "vtkMRMLSurgicalMesherParameterNode.h"
 #include "vtkSlicerFuchsTetrahedralizerModuleMRMLExport.h"
-
-#include <vtkMRMLNode.h>
 
 #include <string>
 #include <vector>
 
-class vtkMRMLModelNode;
-
-class VTK_SLICER_FUCHSTETRAHEDRALIZER_MODULE_MRML_EXPORT vtkMRMLFuchsTetrahedralizerNode : public vtkMRMLNode
+class VTK_SLICER_FUCHSTETRAHEDRALIZER_MODULE_MRML_EXPORT vtkMRMLFuchsTetrahedralizerNode
+  : public vtkMRMLSurgicalMesherParameterNode
 {
 public:
   static vtkMRMLFuchsTetrahedralizerNode* New();
-  vtkTypeMacro(vtkMRMLFuchsTetrahedralizerNode, vtkMRMLNode);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkTypeMacro(vtkMRMLFuchsTetrahedralizerNode, vtkMRMLSurgicalMesherParameterNode);
 
   vtkMRMLNode* CreateNodeInstance() override;
   const char* GetNodeTagName() override { return "FuchsTetrahedralizer"; }
-  void ReadXMLAttributes(const char** atts) override;
-  void WriteXML(ostream& of, int indent) override;
-  void CopyContent(vtkMRMLNode* node, bool deepCopy = true) override;
 
   /// Where edge lengths come from.
   enum EdgeLengthSourceType
@@ -57,32 +51,24 @@ public:
   };
 
   /// Roles of the nodes referred to. Inputs:
-  static const char* SurfaceRole(); ///< one model with BoundaryLabels, or closed models, in this order
-  static const char* ScaleRole();   ///< scalar volume of edge lengths
-  static const char* TargetRole();  ///< markups; their points are targets of constitutive classes
-  static const char* PathRole();    ///< markups; each is a path from entry to target
+  static const char* SurfaceRole() { return "surface"; } ///< a model with BoundaryLabels, or closed ones, in this order
+  static const char* ScaleRole() { return "scale"; }     ///< scalar volume of edge lengths
+  static const char* TargetRole() { return "target"; }   ///< markups; their points are targets of constitutive classes
+  static const char* PathRole() { return "path"; }       ///< markups; each is a path from entry to target
   /// Outputs; models.
-  static const char* MeshRole();       ///< a new one where there is none
-  static const char* ParentMeshRole(); ///< none: not wanted, as below
-  static const char* ChildMeshRole();
-  static const char* ShellsRole();
+  static const char* MeshRole() { return "mesh"; }             ///< a new one where there is none
+  static const char* ParentMeshRole() { return "parentMesh"; } ///< none: not wanted, as below
+  static const char* ChildMeshRole() { return "childMesh"; }
+  static const char* ShellsRole() { return "shells"; }
   /// Of the *surface* node: model of the tetrahedra around it, a head start.
-  static const char* AmbientTetrahedraRole();
+  static const char* AmbientTetrahedraRole() { return "ambientTetrahedra"; }
   /// Of the *mesh* node.
-  static const char* QualityTableRole(); ///< table, one row per group of tetrahedra
-  static const char* HistogramRole();    ///< plot charts, in the order of vtkSlicerFuchsTetrahedralizerLogic::Histogram
-
-  /// Refers to `node`, which may be null, in `role`, and to no other.
-  void SetNode(const char* role, vtkMRMLNode* node);
-  void SetNodes(const char* role, const std::vector<vtkMRMLNode*>& nodes);
-  /// Those that are in the scene.
-  std::vector<vtkMRMLNode*> GetNodes(const char* role);
-  vtkMRMLModelNode* GetModelNode(const char* role);
+  static const char* QualityTableRole() { return "qualityTable"; } ///< table, one row per group of tetrahedra
+  /// Plot charts, in the order of vtkSlicerFuchsTetrahedralizerLogic::Histogram.
+  static const char* HistogramRole() { return "histogram"; }
 
   vtkGetMacro(EdgeLengthSource, int);
   void SetEdgeLengthSource(int source);
-  static const char* GetEdgeLengthSourceAsString(int source);
-  static int GetEdgeLengthSourceFromString(const char* name);
   vtkGetMacro(EdgeLength, double);
   vtkSetMacro(EdgeLength, double);
   /// Whether the surface's ambient tetrahedra are begun from where there are such.
@@ -117,12 +103,8 @@ public:
 
   vtkGetMacro(ColorBy, int);
   void SetColorBy(int colorBy);
-  static const char* GetColorByAsString(int colorBy);
-  static int GetColorByFromString(const char* name);
   vtkGetMacro(ClipPlane, int);
   void SetClipPlane(int plane);
-  static const char* GetClipPlaneAsString(int plane);
-  static int GetClipPlaneFromString(const char* name);
   /// Whether the other side of the plane is shown.
   vtkGetMacro(ClipFlipped, bool);
   vtkSetMacro(ClipFlipped, bool);
@@ -136,6 +118,8 @@ protected:
   ~vtkMRMLFuchsTetrahedralizerNode() override = default;
   vtkMRMLFuchsTetrahedralizerNode(const vtkMRMLFuchsTetrahedralizerNode&) = delete;
   void operator=(const vtkMRMLFuchsTetrahedralizerNode&) = delete;
+
+  std::vector<Value> GetValues() override;
 
   int EdgeLengthSource = FromSurface;
   double EdgeLength = 2;

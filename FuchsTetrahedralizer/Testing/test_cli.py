@@ -85,6 +85,13 @@ def read(path):
     return reader.GetOutput()
 
 
+def read_surface(path):
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(path)
+    reader.Update()
+    return reader.GetOutput()
+
+
 def one_in_five():
     """A tetrahedron of tissue 3 within four of background, and its four triangles."""
     corners = [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]
@@ -227,13 +234,16 @@ class FuchsTetrahedralizer(unittest.TestCase):
         crossing = together(label(sphere(5), 1, 0), label(sphere(5, 6), 2, 0))
         self.refused(1, "cuts itself", "--edgeLength", "2", write(crossing, "crossing.vtp"))
         offending = os.path.join(FOLDER, "crossing.offending.vtp")
-        reader = vtk.vtkXMLPolyDataReader()
-        reader.SetFileName(offending)
-        reader.Update()
-        self.assertGreater(reader.GetOutput().GetNumberOfCells(), 4)
+        self.assertGreater(read_surface(offending).GetNumberOfCells(), 4)
         plane = output_of(vtk.vtkPlaneSource())
         self.refused(1, "the surface is open", "--edgeLength", "1", write(plane, "plane.stl"))
         self.assertTrue(os.path.exists(os.path.join(FOLDER, "plane.offending.vtp")))
+        os.remove(offending)
+        named = os.path.join(FOLDER, "named.vtp")
+        self.refused(1, "cuts itself", "--edgeLength", "2", "--offendingTriangles", named,
+                     os.path.join(FOLDER, "crossing.vtp"))
+        self.assertGreater(read_surface(named).GetNumberOfCells(), 4)
+        self.assertFalse(os.path.exists(offending))
         turned = label(sphere(5), 1, 0)
         turned.GetCellData().GetArray("BoundaryLabels").SetTuple2(7, 0, 1)
         self.refused(1, "mismatched sides", "--edgeLength", "2", write(turned, "turned.vtp"))

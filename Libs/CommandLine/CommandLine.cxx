@@ -328,6 +328,16 @@ void CommandLine::alsoWritesMany(const std::string& name, const std::string& bef
   d->claimMany(d->parameter(name).spelling(), before, after);
 }
 
+void CommandLine::commitOutput(const std::string& name)
+{
+  for (const std::string& file : this->outputNames(name)) d->outputs.commit(file);
+}
+
+void CommandLine::discardOutput(const std::string& name)
+{
+  for (const std::string& file : this->outputNames(name)) d->outputs.discard(file);
+}
+
 void CommandLine::returnValue(const std::string& name, const std::string& value)
 {
   d->parameter(

@@ -62,6 +62,10 @@ public:
   /// `after`.
   void alsoWritesMany(const std::string& name, const std::string& before, const std::string& after);
 
+  /// An output that only a refusal has, to show what is at fault: renamed into place at once, or not to be written.
+  void commitOutput(const std::string& name);
+  void discardOutput(const std::string& name);
+
   /// A simple output parameter (channel output, no flag): written to --returnparameterfile as `name = value`.
   void returnValue(const std::string& name, const std::string& value);
 

@@ -112,6 +112,23 @@ void requireWritten(const fs::path& temporary, const fs::path& path)
     throw InputError(path.string() + ": disk full or failing, room for the file expected");
 }
 
+void moveIntoPlace(const std::map<std::string, std::string>& temporaryByFinal)
+{
+  for (const auto& [path, temporary] : temporaryByFinal) requireWritten(temporary, path);
+  std::vector<std::string> inPlace;
+  for (const auto& [path, temporary] : temporaryByFinal)
+  {
+    std::error_code error;
+    fs::rename(temporary, path, error);
+    if (error)
+    {
+      for (const std::string& file : inPlace) fs::remove(file, error);
+      throw InputError(path + ": can't be replaced, a writable file expected");
+    }
+    inPlace.push_back(path);
+  }
+}
+
 } // namespace
 
 std::string fullExtension(const std::string& fileName)
@@ -162,21 +179,26 @@ std::string OutputFiles::withFinalNames(std::string message) const
 
 void OutputFiles::commit()
 {
-  for (const auto& [path, temporary] : m_TemporaryByFinal) requireWritten(temporary, path);
-  std::vector<std::string> inPlace;
-  for (const auto& [path, temporary] : m_TemporaryByFinal)
-  {
-    std::error_code error;
-    fs::rename(temporary, path, error);
-    if (error)
-    {
-      for (const std::string& file : inPlace) fs::remove(file, error);
-      throw InputError(path + ": can't be replaced, a writable file expected");
-    }
-    inPlace.push_back(path);
-  }
+  moveIntoPlace(m_TemporaryByFinal);
   m_TemporaryByFinal.clear();
   keepOnSignal();
+}
+
+void OutputFiles::commit(const std::string& finalPath)
+{
+  const auto known = m_TemporaryByFinal.find(resolved(finalPath).string());
+  if (known == m_TemporaryByFinal.end()) return;
+  moveIntoPlace({ *known });
+  m_TemporaryByFinal.erase(known);
+}
+
+void OutputFiles::discard(const std::string& finalPath)
+{
+  const auto known = m_TemporaryByFinal.find(resolved(finalPath).string());
+  if (known == m_TemporaryByFinal.end()) return;
+  std::error_code error;
+  fs::remove(known->second, error);
+  m_TemporaryByFinal.erase(known);
 }
 
 OutputFiles::~OutputFiles()

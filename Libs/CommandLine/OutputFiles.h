@@ -34,6 +34,12 @@ public:
   /// file is then left under its final name.
   void commit();
 
+  /// The same for one file, whatever becomes of the others.
+  void commit(const std::string& finalPath);
+
+  /// Removes the temporary of a file that is not to be written after all.
+  void discard(const std::string& finalPath);
+
   OutputFiles() = default;
   OutputFiles(const OutputFiles&) = delete;
   OutputFiles& operator=(const OutputFiles&) = delete;

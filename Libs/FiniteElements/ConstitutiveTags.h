@@ -11,10 +11,8 @@
 namespace surgicalmesher
 {
 
-struct ConstitutiveRule
+struct ConstitutiveRule : Focus
 {
-  std::vector<Vec3> targets;
-  std::vector<Path> paths;
   double nonlinearDistance = 0; ///< mm from a target or path; 0: classes stay as they are
   // Null displacement, with the meaning that NullDisplacementOptions gives to the same names.
   double nullTargetRadius = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FiniteElementModel.h"
+#include "JsonMember.h"
 #include "SetNames.h"
 #include "SetTags.h"
 
@@ -13,17 +14,7 @@ namespace
 
 using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
-void write(JsonWriter& json, const char* key, const std::string& value)
-{
-  json.Key(key);
-  json.String(validUtf8(value).c_str());
-}
-
-void write(JsonWriter& json, const char* key, double value)
-{
-  json.Key(key);
-  json.Double(value);
-}
+void write(JsonWriter& json, const char* key, const std::string& value) { writeMember(json, key, validUtf8(value)); }
 
 /// Begins the set's object; the caller ends it.
 void writeSet(JsonWriter& json, const SetInfo& set, const std::string& type, std::size_t size)
@@ -34,34 +25,18 @@ void writeSet(JsonWriter& json, const SetInfo& set, const std::string& type, std
   write(json, "kind", nameOf(set.kind));
   write(json, "original", set.original);
   json.SetFormatOptions(rapidjson::kFormatSingleLineArray);
-  json.Key("ids");
-  json.StartArray();
-  for (const std::int32_t id : set.ids) json.Int(id);
-  json.EndArray();
-  json.Key("color");
-  json.StartArray();
-  for (const double channel : set.color) json.Double(channel);
-  json.EndArray();
+  writeMember(json, "ids", set.ids);
+  writeMember(json, "color", set.color);
   json.SetFormatOptions(rapidjson::kFormatDefault);
-  json.Key("size");
-  json.Uint64(size);
-}
-
-void writeTag(JsonWriter& json, std::int32_t tag)
-{
-  json.Key("tag");
-  json.Int(tag);
+  writeMember(json, "size", size);
 }
 
 /// And the tags of the disjoint pieces that formats with one number per face know.
 void writeFaceTags(JsonWriter& json, const SetTags& tags, std::int32_t tag)
 {
-  writeTag(json, tag);
-  json.Key("faceTags");
+  writeMember(json, "tag", tag);
   json.SetFormatOptions(rapidjson::kFormatSingleLineArray);
-  json.StartArray();
-  for (const std::int32_t piece : piecesOf(tags, tag)) json.Int(piece);
-  json.EndArray();
+  writeMember(json, "faceTags", piecesOf(tags, tag));
   json.SetFormatOptions(rapidjson::kFormatDefault);
 }
 
@@ -73,7 +48,7 @@ void writeSets(JsonWriter& json, const FiniteElementModel& model)
   for (std::size_t i = 0; i < model.elementSets.size(); ++i)
   {
     writeSet(json, model.elementSets[i], "elements", model.elementSets[i].tetrahedra.size());
-    writeTag(json, tags.elementSets[i]);
+    writeMember(json, "tag", tags.elementSets[i]);
     json.EndObject();
   }
   for (std::size_t i = 0; i < model.surfaces.size(); ++i)
@@ -86,14 +61,14 @@ void writeSets(JsonWriter& json, const FiniteElementModel& model)
   for (const NodeSet& set : model.nodeSets)
   {
     writeSet(json, set, "nodes", set.points.size());
-    if (set.kind == SetKind::NullDisplacement) writeTag(json, tags.nullDisplacement);
+    if (set.kind == SetKind::NullDisplacement) writeMember(json, "tag", tags.nullDisplacement);
     json.EndObject();
   }
   for (std::size_t i = 0; i < model.shells.size(); ++i)
   {
     const Shell& shell = model.shells[i];
     writeSet(json, shell, "shell", shell.triangles.size());
-    write(json, "thickness", shell.thickness);
+    writeMember(json, "thickness", shell.thickness);
     write(json, "material", model.materials[shell.material].name);
     writeFaceTags(json, tags, tags.shells[i]);
     json.EndObject();
@@ -103,29 +78,21 @@ void writeSets(JsonWriter& json, const FiniteElementModel& model)
 
 void writeMaterials(JsonWriter& json, const FiniteElementModel& model)
 {
-  json.Key("materials");
-  json.StartArray();
-  for (const Material& material : model.materials)
-  {
-    json.StartObject();
-    write(json, "name", material.name);
-    write(json, "law", std::string(material.law == MaterialLaw::NeoHookean ? "neo-Hookean" : "linear elastic"));
-    write(json, "youngsModulus", material.youngsModulus);
-    write(json, "poissonsRatio", material.poissonsRatio);
-    write(json, "density", material.density);
-    json.EndObject();
-  }
-  json.EndArray();
-  json.Key("sections");
-  json.StartArray();
-  for (const Section& section : model.sections)
-  {
-    json.StartObject();
-    write(json, "elements", model.elementSets[section.elementSet].name);
-    write(json, "material", model.materials[section.material].name);
-    json.EndObject();
-  }
-  json.EndArray();
+  writeObjects(json, "materials", model.materials,
+               [&](const Material& material)
+               {
+                 write(json, "name", material.name);
+                 writeMember(json, "law", material.law == MaterialLaw::NeoHookean ? "neo-Hookean" : "linear elastic");
+                 writeMember(json, "youngsModulus", material.youngsModulus);
+                 writeMember(json, "poissonsRatio", material.poissonsRatio);
+                 writeMember(json, "density", material.density);
+               });
+  writeObjects(json, "sections", model.sections,
+               [&](const Section& section)
+               {
+                 write(json, "elements", model.elementSets[section.elementSet].name);
+                 write(json, "material", model.materials[section.material].name);
+               });
 }
 
 } // namespace
@@ -137,9 +104,9 @@ std::string setNamesJSON(const FiniteElementModel& model)
   json.StartObject();
   json.Key("units");
   json.StartObject();
-  write(json, "length", std::string("mm"));
-  write(json, "stress", std::string("MPa"));
-  write(json, "density", std::string("tonne/mm^3"));
+  writeMember(json, "length", "mm");
+  writeMember(json, "stress", "MPa");
+  writeMember(json, "density", "tonne/mm^3");
   json.EndObject();
   writeSets(json, model);
   writeMaterials(json, model);

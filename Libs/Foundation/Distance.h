@@ -13,6 +13,13 @@ namespace surgicalmesher
 /// al., Computer Aided Surgery 12(1), 2007.
 using Path = std::vector<Vec3>;
 
+/// Where the surgeon works.
+struct Focus
+{
+  std::vector<Vec3> targets;
+  std::vector<Path> paths; ///< of two points or more each
+};
+
 /// Distance from x to the nearest of `points` (d_R, the minimum over several centres); infinity if there are none.
 double distanceToPoints(const Vec3& x, const std::vector<Vec3>& points);
 

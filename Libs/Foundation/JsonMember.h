@@ -2,26 +2,62 @@
 #pragma once
 /// Members of JSON objects, for any of RapidJSON's writers.
 
+#include "Vec3.h"
+
 #include <string_view>
 #include <type_traits>
 
 namespace surgicalmesher
 {
 
-/// "key": value. `value` is a bool, an integer, a floating-point number or a text.
+/// `value` is a bool, an integer, a floating-point number, a text, a point, or a range of such values: an array.
 template <class Writer, class Value>
-void writeMember(Writer& json, const char* key, const Value& value)
+void writeValue(Writer& json, const Value& value)
 {
-  json.Key(key);
   if constexpr (std::is_same_v<Value, bool>) json.Bool(value);
   else if constexpr (std::is_floating_point_v<Value>) json.Double(value);
   else if constexpr (std::is_integral_v<Value> && std::is_signed_v<Value>) json.Int64(value);
   else if constexpr (std::is_integral_v<Value>) json.Uint64(value);
-  else
+  else if constexpr (std::is_convertible_v<const Value&, std::string_view>)
   {
     const std::string_view text = value;
     json.String(text.data(), static_cast<unsigned>(text.size()));
   }
+  else if constexpr (std::is_same_v<Value, Vec3>)
+  {
+    json.StartArray();
+    for (int axis = 0; axis < 3; ++axis) json.Double(value[axis]);
+    json.EndArray();
+  }
+  else
+  {
+    json.StartArray();
+    for (const auto& item : value) writeValue(json, item);
+    json.EndArray();
+  }
+}
+
+/// "key": value, see writeValue().
+template <class Writer, class Value>
+void writeMember(Writer& json, const char* key, const Value& value)
+{
+  json.Key(key);
+  writeValue(json, value);
+}
+
+/// "key": an array of one object per item, whose members writeItem(item) writes.
+template <class Writer, class Items, class WriteItem>
+void writeObjects(Writer& json, const char* key, const Items& items, const WriteItem& writeItem)
+{
+  json.Key(key);
+  json.StartArray();
+  for (const auto& item : items)
+  {
+    json.StartObject();
+    writeItem(item);
+    json.EndObject();
+  }
+  json.EndArray();
 }
 
 } // namespace surgicalmesher

@@ -255,10 +255,7 @@ void write(Writer& writer, const char* key, const Histogram& histogram)
   writer.StartObject();
   writeMember(writer, "low", histogram.low);
   writeMember(writer, "high", histogram.high);
-  writer.Key("counts");
-  writer.StartArray();
-  for (const std::size_t value : histogram.counts) writer.Uint64(value);
-  writer.EndArray();
+  writeMember(writer, "counts", histogram.counts);
   writer.EndObject();
 }
 
@@ -403,28 +400,19 @@ std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues)
   writer.StartObject();
   writeMembers(writer, quality.whole);
   writer.EndObject();
-  writer.Key("tissues");
-  writer.StartArray();
-  for (const auto& [label, group] : quality.tissues)
-  {
-    writer.StartObject();
-    writeMember(writer, "label", label);
-    writer.Key("name");
-    writer.String(nameOf(label, tissues).c_str());
-    writeMembers(writer, group);
-    writer.EndObject();
-  }
-  writer.EndArray();
-  writer.Key("subMeshes");
-  writer.StartArray();
-  for (const auto& [id, group] : quality.subMeshes)
-  {
-    writer.StartObject();
-    writeMember(writer, "subMesh", static_cast<std::size_t>(id));
-    writeMembers(writer, group);
-    writer.EndObject();
-  }
-  writer.EndArray();
+  writeObjects(writer, "tissues", quality.tissues,
+               [&](const auto& tissue)
+               {
+                 writeMember(writer, "label", tissue.first);
+                 writeMember(writer, "name", nameOf(tissue.first, tissues));
+                 writeMembers(writer, tissue.second);
+               });
+  writeObjects(writer, "subMeshes", quality.subMeshes,
+               [&](const auto& subMesh)
+               {
+                 writeMember(writer, "subMesh", static_cast<std::size_t>(subMesh.first));
+                 writeMembers(writer, subMesh.second);
+               });
   writer.Key("histograms");
   writer.StartObject();
   write(writer, "dihedral", quality.dihedral);

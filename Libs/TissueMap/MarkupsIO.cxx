@@ -212,4 +212,30 @@ std::vector<std::vector<Vec3>> readMarkups(const std::string& file)
   return lists;
 }
 
+Focus readFocus(const std::vector<Vec3>& targetPoints, const std::vector<std::string>& targetFiles,
+                const Path& pathPoints, const std::vector<std::string>& pathFiles)
+{
+  Focus focus;
+  focus.targets = targetPoints;
+  for (const std::string& file : targetFiles)
+  {
+    for (const Points& points : readMarkups(file))
+      focus.targets.insert(focus.targets.end(), points.begin(), points.end());
+  }
+  if (pathPoints.size() == 1) throw UsageError("--pathPoint is given once, expected two points or more");
+  if (pathPoints.size() > 1 && !(pathLength(pathPoints) > 0))
+    throw UsageError("--pathPoint: a path of length 0, expected points that differ");
+  if (!pathPoints.empty()) focus.paths.push_back(pathPoints);
+  for (const std::string& file : pathFiles)
+  {
+    for (const Path& path : readMarkups(file))
+    {
+      if (path.size() < 2) throw InputError(file + ": a path of one point, expected two points or more");
+      if (!(pathLength(path) > 0)) throw InputError(file + ": a path of length 0, expected points that differ");
+      focus.paths.push_back(path);
+    }
+  }
+  return focus;
+}
+
 } // namespace surgicalmesher

@@ -3,6 +3,7 @@
 /// Files in and out: label maps, scale volumes, tissue tables, markups. All throw InputError with the file's name, what
 /// was found and what was expected. Writers write the file as named: atomic replacement is the caller's (CommandLine).
 
+#include "Distance.h"
 #include "ScalarImage.h"
 #include "ScaleField.h"
 #include "TissueMap.h"
@@ -63,6 +64,12 @@ bool findTissue(const std::string& text, const TissueTable& names, Label& label)
 /// has points; points that are not placed (positionStatus) are left out. Refused: no point at all, coordinates that are
 /// no finite numbers, another unit than mm.
 std::vector<std::vector<Vec3>> readMarkups(const std::string& file);
+
+/// Targets and paths as the command-line modules take them: typed points, of which those of --pathPoint are one path,
+/// and markups files. Every point of a target file is a target, every markup of a path file a path. Throws UsageError
+/// for a typed path of one point or of no length, InputError for one of a file.
+Focus readFocus(const std::vector<Vec3>& targetPoints, const std::vector<std::string>& targetFiles,
+                const Path& pathPoints, const std::vector<std::string>& pathFiles);
 
 /// One markup with what its control points carry besides their places.
 struct Markup

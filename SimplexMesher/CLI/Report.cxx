@@ -28,21 +28,6 @@ void writePlace(JsonWriter& json, const Vec3& place)
   json.EndArray();
 }
 
-/// An array of one object per item, filled by writeItem(item).
-template <typename Items, typename WriteItem>
-void writeObjects(JsonWriter& json, const char* key, const Items& items, const WriteItem& writeItem)
-{
-  json.Key(key);
-  json.StartArray();
-  for (const auto& item : items)
-  {
-    json.StartObject();
-    writeItem(item);
-    json.EndObject();
-  }
-  json.EndArray();
-}
-
 void writeTissue(JsonWriter& json, Label label, const TissueTable& table)
 {
   writeMember(json, "label", label);

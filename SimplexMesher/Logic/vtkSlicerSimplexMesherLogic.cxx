@@ -92,10 +92,10 @@ bool covers(vtkMRMLVolumeNode* scale, vtkMRMLVolumeNode* map)
 Problem scaleProblem(Node* parameters)
 {
   if (!parameters->GetUseScale()) return parameters->GetEdgeLength() > 0 ? Problem::None : Problem::NoEdgeLength;
-  vtkMRMLScalarVolumeNode* scale = parameters->GetScaleNode();
+  vtkMRMLScalarVolumeNode* scale = parameters->GetScalarVolumeNode(Node::ScaleRole());
   if (!scale || !scale->GetImageData()) return Problem::NoScale;
   if (isUnderWarp(scale)) return Problem::ScaleWarped;
-  auto* map = vtkMRMLLabelMapVolumeNode::SafeDownCast(parameters->GetTissueMapNode());
+  auto* map = vtkMRMLLabelMapVolumeNode::SafeDownCast(parameters->GetNodeReference(Node::TissueMapRole()));
   return !map || isUnderWarp(map) || covers(scale, map) ? Problem::None : Problem::ScaleTooSmall;
 }
 
@@ -283,7 +283,7 @@ Check vtkSlicerSimplexMesherLogic::FindProblem(vtkMRMLSimplexMesherNode* paramet
                                                const std::vector<TissueRow>& tissues)
 {
   Check check;
-  check.tissueMap = checkTissueMap(parameters->GetTissueMapNode());
+  check.tissueMap = checkTissueMap(parameters->GetNodeReference(Node::TissueMapRole()));
   if (!this->GetModuleLogic("SimplexMesherCLI")) check.problem = Problem::NoModule;
   else if (check.tissueMap != TissueMapProblem::None) check.problem = Problem::TissueMap;
   else check.problem = scaleProblem(parameters);
@@ -319,7 +319,7 @@ bool vtkSlicerSimplexMesherLogic::StartAndWait(vtkMRMLSimplexMesherNode* paramet
 bool vtkSlicerSimplexMesherLogic::Prepare(vtkMRMLSimplexMesherNode* parameters)
 {
   if (this->Run->IsBusy()) return false;
-  vtkMRMLNode* tissueMap = parameters->GetTissueMapNode();
+  vtkMRMLNode* tissueMap = parameters->GetNodeReference(Node::TissueMapRole());
   const std::vector<TissueRow> tissues = listTissues(tissueMap);
   if (this->FindProblem(parameters, tissues).problem != Problem::None) return false;
   const TissueMapNodes map = makeTissueMapNodes(tissueMap);
@@ -335,7 +335,7 @@ bool vtkSlicerSimplexMesherLogic::Prepare(vtkMRMLSimplexMesherNode* parameters)
   setInput("labelMap", map.labelMap);
   setInput("names", map.colors);
   setInput("tissues", settingsTable(parameters, tissues, map.labelMap->GetImageData()));
-  if (parameters->GetUseScale()) setInput("scale", copyForRun(parameters->GetScaleNode()));
+  if (parameters->GetUseScale()) setInput("scale", copyForRun(parameters->GetScalarVolumeNode(Node::ScaleRole())));
   else this->Run->SetParameter("edgeLength", parameters->GetEdgeLength());
   this->Run->SetParameter("minimumIslandVolume", parameters->GetMinimumIslandVolume());
   this->Run->SetParameter("minimumCavityVolume", parameters->GetMinimumCavityVolume());
@@ -351,8 +351,10 @@ bool vtkSlicerSimplexMesherLogic::Prepare(vtkMRMLSimplexMesherNode* parameters)
 
 void vtkSlicerSimplexMesherLogic::PrepareOutputs(vtkMRMLSimplexMesherNode* parameters)
 {
-  const std::string name = parameters->GetTissueMapNode()->GetName() + (" " + vtkMRMLTr("SimplexMesher", "surface"));
-  vtkMRMLModelNode* surface = outputModel(parameters->GetSurfaceNode(), parameters->GetScene(), name, this->Run);
+  const std::string name =
+    parameters->GetNodeReference(Node::TissueMapRole())->GetName() + (" " + vtkMRMLTr("SimplexMesher", "surface"));
+  vtkMRMLModelNode* surface =
+    outputModel(parameters->GetModelNode(Node::SurfaceRole()), parameters->GetScene(), name, this->Run);
   this->Surface = surface;
   this->Run->SetParameterNode("surface", surface);
   if (parameters->GetKeepAmbient()) this->Run->SetParameterNode("ambient", ambientNode(surface, this->Run));
@@ -363,9 +365,9 @@ void vtkSlicerSimplexMesherLogic::PrepareOutputs(vtkMRMLSimplexMesherNode* param
     this->Run->AddOutputNode(node, false);
     this->Run->SetParameterNode(parameter, node);
   };
-  setChosen("preparedLabelMap", parameters->GetPreparedLabelMapNode());
-  setChosen("simplexMesh", parameters->GetSimplexMeshNode());
-  setChosen("followedScale", parameters->GetFollowedScaleNode());
+  setChosen("preparedLabelMap", parameters->GetLabelMapNode(Node::PreparedLabelMapRole()));
+  setChosen("simplexMesh", parameters->GetModelNode(Node::SimplexMeshRole()));
+  setChosen("followedScale", parameters->GetScalarVolumeNode(Node::FollowedScaleRole()));
   this->ReportFile = parameters->GetReport() ? this->Run->NewTemporaryFile(".json") : std::string();
   if (!this->ReportFile.empty()) this->Run->SetParameter("report", this->ReportFile);
 }
@@ -392,9 +394,10 @@ void vtkSlicerSimplexMesherLogic::FinishRun()
 void vtkSlicerSimplexMesherLogic::FinishSurface(vtkMRMLModelNode* surface)
 {
   vtkMRMLColorTableNode* colors = showTissueColors(surface, "BoundaryLabels"); // by the higher label of the two
-  vtkMRMLLabelMapVolumeNode* prepared = this->Parameters->GetPreparedLabelMapNode();
+  vtkMRMLLabelMapVolumeNode* prepared = this->Parameters->GetLabelMapNode(Node::PreparedLabelMapRole());
   if (prepared && prepared->GetDisplayNode()) prepared->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
-  if (vtkMRMLModelNode* mesh = this->Parameters->GetSimplexMeshNode()) showTissueColors(mesh, "TissueLabel");
+  if (vtkMRMLModelNode* mesh = this->Parameters->GetModelNode(Node::SimplexMeshRole()))
+    showTissueColors(mesh, "TissueLabel");
   // Tetrahedra of an earlier surface would mislead the volume stage.
   if (!this->Parameters->GetKeepAmbient()) removeNode(surface->GetNodeReference(Node::AmbientTetrahedraRole()));
   if (this->Parameters->GetTissueModels()) makeTissueModels(surface);

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vtkMRMLSimplexMesherNode.h"
 
-#include <vtkMRMLLabelMapVolumeNode.h>
-#include <vtkMRMLModelNode.h>
-#include <vtkMRMLPlotChartNode.h>
-#include <vtkMRMLScalarVolumeNode.h>
-#include <vtkMRMLTableNode.h>
-
 #include <vtkObjectFactory.h>
 
 #include <array>
@@ -86,157 +80,29 @@ TissueRole roleOf(const std::string& name)
 
 vtkMRMLNodeNewMacro(vtkMRMLSimplexMesherNode);
 
-const char* vtkMRMLSimplexMesherNode::TissueMapRole() { return "tissueMap"; }
-const char* vtkMRMLSimplexMesherNode::ScaleRole() { return "scale"; }
-const char* vtkMRMLSimplexMesherNode::SurfaceRole() { return "surface"; }
-const char* vtkMRMLSimplexMesherNode::PreparedLabelMapRole() { return "preparedLabelMap"; }
-const char* vtkMRMLSimplexMesherNode::SimplexMeshRole() { return "simplexMesh"; }
-const char* vtkMRMLSimplexMesherNode::FollowedScaleRole() { return "followedScale"; }
-const char* vtkMRMLSimplexMesherNode::TissueTableRole() { return "tissueTable"; }
-const char* vtkMRMLSimplexMesherNode::EvolutionTableRole() { return "evolutionTable"; }
-const char* vtkMRMLSimplexMesherNode::EvolutionChartRole() { return "evolutionChart"; }
-const char* vtkMRMLSimplexMesherNode::AmbientTetrahedraRole() { return "ambientTetrahedra"; }
-
 vtkMRMLSimplexMesherNode::vtkMRMLSimplexMesherNode()
 {
-  this->HideFromEditors = 1;
-  for (const char* role : { TissueMapRole(), ScaleRole(), SurfaceRole(), PreparedLabelMapRole(), SimplexMeshRole(),
-                            FollowedScaleRole(), TissueTableRole(), EvolutionTableRole(), EvolutionChartRole() })
-  {
-    this->AddNodeReferenceRole(role, (std::string(role) + "NodeRef").c_str());
-  }
+  this->AddRoles({ TissueMapRole(), ScaleRole(), SurfaceRole(), PreparedLabelMapRole(), SimplexMeshRole(),
+                   FollowedScaleRole(), TissueTableRole(), EvolutionTableRole(), EvolutionChartRole() },
+                 "NodeRef");
 }
 
-void vtkMRMLSimplexMesherNode::ReadXMLAttributes(const char** atts)
+std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLSimplexMesherNode::GetValues()
 {
-  const int wasModifying = this->StartModify();
-  Superclass::ReadXMLAttributes(atts);
-  vtkMRMLReadXMLBeginMacro(atts);
-  vtkMRMLReadXMLBooleanMacro(useScale, UseScale);
-  vtkMRMLReadXMLFloatMacro(edgeLength, EdgeLength);
-  vtkMRMLReadXMLFloatMacro(minimumIslandVolume, MinimumIslandVolume);
-  vtkMRMLReadXMLFloatMacro(minimumCavityVolume, MinimumCavityVolume);
-  vtkMRMLReadXMLFloatMacro(featureScale, FeatureScale);
-  vtkMRMLReadXMLFloatMacro(maximumDistance, MaximumDistance);
-  vtkMRMLReadXMLBooleanMacro(followThickness, FollowThickness);
-  vtkMRMLReadXMLFloatMacro(gradation, Gradation);
-  vtkMRMLReadXMLIntMacro(threads, Threads);
-  vtkMRMLReadXMLBooleanMacro(tissueModels, TissueModels);
-  vtkMRMLReadXMLBooleanMacro(keepAmbient, KeepAmbient);
-  vtkMRMLReadXMLBooleanMacro(report, Report);
-  vtkMRMLReadXMLStdStringMacro(tissues, Tissues);
-  vtkMRMLReadXMLEndMacro();
-  this->EndModify(wasModifying);
-}
-
-void vtkMRMLSimplexMesherNode::WriteXML(ostream& of, int indent)
-{
-  Superclass::WriteXML(of, indent);
-  const std::streamsize precision = of.precision(15); // lengths come back as they were
-  vtkMRMLWriteXMLBeginMacro(of);
-  vtkMRMLWriteXMLBooleanMacro(useScale, UseScale);
-  vtkMRMLWriteXMLFloatMacro(edgeLength, EdgeLength);
-  vtkMRMLWriteXMLFloatMacro(minimumIslandVolume, MinimumIslandVolume);
-  vtkMRMLWriteXMLFloatMacro(minimumCavityVolume, MinimumCavityVolume);
-  vtkMRMLWriteXMLFloatMacro(featureScale, FeatureScale);
-  vtkMRMLWriteXMLFloatMacro(maximumDistance, MaximumDistance);
-  vtkMRMLWriteXMLBooleanMacro(followThickness, FollowThickness);
-  vtkMRMLWriteXMLFloatMacro(gradation, Gradation);
-  vtkMRMLWriteXMLIntMacro(threads, Threads);
-  vtkMRMLWriteXMLBooleanMacro(tissueModels, TissueModels);
-  vtkMRMLWriteXMLBooleanMacro(keepAmbient, KeepAmbient);
-  vtkMRMLWriteXMLBooleanMacro(report, Report);
-  vtkMRMLWriteXMLStdStringMacro(tissues, Tissues);
-  vtkMRMLWriteXMLEndMacro();
-  of.precision(precision);
-}
-
-void vtkMRMLSimplexMesherNode::CopyContent(vtkMRMLNode* node, bool deepCopy)
-{
-  MRMLNodeModifyBlocker blocker(this);
-  Superclass::CopyContent(node, deepCopy);
-  vtkMRMLCopyBeginMacro(node);
-  vtkMRMLCopyBooleanMacro(UseScale);
-  vtkMRMLCopyFloatMacro(EdgeLength);
-  vtkMRMLCopyFloatMacro(MinimumIslandVolume);
-  vtkMRMLCopyFloatMacro(MinimumCavityVolume);
-  vtkMRMLCopyFloatMacro(FeatureScale);
-  vtkMRMLCopyFloatMacro(MaximumDistance);
-  vtkMRMLCopyBooleanMacro(FollowThickness);
-  vtkMRMLCopyFloatMacro(Gradation);
-  vtkMRMLCopyIntMacro(Threads);
-  vtkMRMLCopyBooleanMacro(TissueModels);
-  vtkMRMLCopyBooleanMacro(KeepAmbient);
-  vtkMRMLCopyBooleanMacro(Report);
-  vtkMRMLCopyStdStringMacro(Tissues);
-  vtkMRMLCopyEndMacro();
-}
-
-void vtkMRMLSimplexMesherNode::PrintSelf(ostream& os, vtkIndent indent)
-{
-  Superclass::PrintSelf(os, indent);
-  vtkMRMLPrintBeginMacro(os, indent);
-  vtkMRMLPrintBooleanMacro(UseScale);
-  vtkMRMLPrintFloatMacro(EdgeLength);
-  vtkMRMLPrintFloatMacro(MinimumIslandVolume);
-  vtkMRMLPrintFloatMacro(MinimumCavityVolume);
-  vtkMRMLPrintFloatMacro(FeatureScale);
-  vtkMRMLPrintFloatMacro(MaximumDistance);
-  vtkMRMLPrintBooleanMacro(FollowThickness);
-  vtkMRMLPrintFloatMacro(Gradation);
-  vtkMRMLPrintIntMacro(Threads);
-  vtkMRMLPrintBooleanMacro(TissueModels);
-  vtkMRMLPrintBooleanMacro(KeepAmbient);
-  vtkMRMLPrintBooleanMacro(Report);
-  vtkMRMLPrintStdStringMacro(Tissues);
-  vtkMRMLPrintEndMacro();
-}
-
-vtkMRMLNode* vtkMRMLSimplexMesherNode::GetTissueMapNode() { return this->GetNodeReference(TissueMapRole()); }
-
-vtkMRMLScalarVolumeNode* vtkMRMLSimplexMesherNode::GetScaleNode()
-{
-  return vtkMRMLScalarVolumeNode::SafeDownCast(this->GetNodeReference(ScaleRole()));
-}
-
-vtkMRMLModelNode* vtkMRMLSimplexMesherNode::GetSurfaceNode()
-{
-  return vtkMRMLModelNode::SafeDownCast(this->GetNodeReference(SurfaceRole()));
-}
-
-vtkMRMLLabelMapVolumeNode* vtkMRMLSimplexMesherNode::GetPreparedLabelMapNode()
-{
-  return vtkMRMLLabelMapVolumeNode::SafeDownCast(this->GetNodeReference(PreparedLabelMapRole()));
-}
-
-vtkMRMLModelNode* vtkMRMLSimplexMesherNode::GetSimplexMeshNode()
-{
-  return vtkMRMLModelNode::SafeDownCast(this->GetNodeReference(SimplexMeshRole()));
-}
-
-vtkMRMLScalarVolumeNode* vtkMRMLSimplexMesherNode::GetFollowedScaleNode()
-{
-  return vtkMRMLScalarVolumeNode::SafeDownCast(this->GetNodeReference(FollowedScaleRole()));
-}
-
-vtkMRMLTableNode* vtkMRMLSimplexMesherNode::GetTissueTableNode()
-{
-  return vtkMRMLTableNode::SafeDownCast(this->GetNodeReference(TissueTableRole()));
-}
-
-vtkMRMLTableNode* vtkMRMLSimplexMesherNode::GetEvolutionTableNode()
-{
-  return vtkMRMLTableNode::SafeDownCast(this->GetNodeReference(EvolutionTableRole()));
-}
-
-vtkMRMLPlotChartNode* vtkMRMLSimplexMesherNode::GetEvolutionChartNode()
-{
-  return vtkMRMLPlotChartNode::SafeDownCast(this->GetNodeReference(EvolutionChartRole()));
-}
-
-void vtkMRMLSimplexMesherNode::SetNode(const char* role, vtkMRMLNode* node)
-{
-  this->SetNodeReferenceID(role, node ? node->GetID() : nullptr);
+  const Text tissues{ [this] { return this->GetTissues(); }, [this](const std::string& t) { this->SetTissues(t); } };
+  return { { "useScale", &this->UseScale },
+           { "edgeLength", &this->EdgeLength },
+           { "minimumIslandVolume", &this->MinimumIslandVolume },
+           { "minimumCavityVolume", &this->MinimumCavityVolume },
+           { "featureScale", &this->FeatureScale },
+           { "maximumDistance", &this->MaximumDistance },
+           { "followThickness", &this->FollowThickness },
+           { "gradation", &this->Gradation },
+           { "threads", &this->Threads },
+           { "tissueModels", &this->TissueModels },
+           { "keepAmbient", &this->KeepAmbient },
+           { "report", &this->Report },
+           { "tissues", tissues } };
 }
 
 void vtkMRMLSimplexMesherNode::SetTissueSettings(const Settings& settings)

@@ -4,58 +4,34 @@
 /// lives in the scene and is saved with it. Lengths are in mm, volumes in mm^3; 0 means what it means to
 /// SimplexMesherCLI.
 
-#include "vtkSlicerSimplexMesherModuleMRMLExport.h"
-
 #include "TissueSettings.h"
-
-#include <vtkMRMLNode.h>
+#include "vtkMRMLSurgicalMesherParameterNode.h"
+#include "vtkSlicerSimplexMesherModuleMRMLExport.h"
 
 #include <map>
 #include <string>
 
-class vtkMRMLLabelMapVolumeNode;
-class vtkMRMLModelNode;
-class vtkMRMLPlotChartNode;
-class vtkMRMLScalarVolumeNode;
-class vtkMRMLTableNode;
-
-class VTK_SLICER_SIMPLEXMESHER_MODULE_MRML_EXPORT vtkMRMLSimplexMesherNode : public vtkMRMLNode
+class VTK_SLICER_SIMPLEXMESHER_MODULE_MRML_EXPORT vtkMRMLSimplexMesherNode : public vtkMRMLSurgicalMesherParameterNode
 {
 public:
   static vtkMRMLSimplexMesherNode* New();
-  vtkTypeMacro(vtkMRMLSimplexMesherNode, vtkMRMLNode);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkTypeMacro(vtkMRMLSimplexMesherNode, vtkMRMLSurgicalMesherParameterNode);
 
   vtkMRMLNode* CreateNodeInstance() override;
   const char* GetNodeTagName() override { return "SimplexMesher"; }
-  void ReadXMLAttributes(const char** atts) override;
-  void WriteXML(ostream& of, int indent) override;
-  void CopyContent(vtkMRMLNode* node, bool deepCopy = true) override;
 
   /// Roles of the nodes referred to.
-  static const char* TissueMapRole();         ///< label map or segmentation
-  static const char* ScaleRole();             ///< scalar volume of edge lengths
-  static const char* SurfaceRole();           ///< model; a new one where there is none
-  static const char* PreparedLabelMapRole();  ///< label map; none: not wanted
-  static const char* SimplexMeshRole();       ///< model; none: not wanted
-  static const char* FollowedScaleRole();     ///< scalar volume; none: not wanted
-  static const char* TissueTableRole();       ///< table: the report by tissue
-  static const char* EvolutionTableRole();    ///< table: the report step by step
-  static const char* EvolutionChartRole();    ///< plot of the latter
-  static const char* AmbientTetrahedraRole(); ///< of the *surface* node: model of the tetrahedra around it
-
-  vtkMRMLNode* GetTissueMapNode();
-  vtkMRMLScalarVolumeNode* GetScaleNode();
-  vtkMRMLModelNode* GetSurfaceNode();
-  vtkMRMLLabelMapVolumeNode* GetPreparedLabelMapNode();
-  vtkMRMLModelNode* GetSimplexMeshNode();
-  vtkMRMLScalarVolumeNode* GetFollowedScaleNode();
-  vtkMRMLTableNode* GetTissueTableNode();
-  vtkMRMLTableNode* GetEvolutionTableNode();
-  vtkMRMLPlotChartNode* GetEvolutionChartNode();
-
-  /// Refers to `node`, which may be null, in `role`.
-  void SetNode(const char* role, vtkMRMLNode* node);
+  static const char* TissueMapRole() { return "tissueMap"; }               ///< label map or segmentation
+  static const char* ScaleRole() { return "scale"; }                       ///< scalar volume of edge lengths
+  static const char* SurfaceRole() { return "surface"; }                   ///< model; a new one where there is none
+  static const char* PreparedLabelMapRole() { return "preparedLabelMap"; } ///< label map; none: not wanted
+  static const char* SimplexMeshRole() { return "simplexMesh"; }           ///< model; none: not wanted
+  static const char* FollowedScaleRole() { return "followedScale"; }       ///< scalar volume; none: not wanted
+  static const char* TissueTableRole() { return "tissueTable"; }           ///< table: the report by tissue
+  static const char* EvolutionTableRole() { return "evolutionTable"; }     ///< table: the report step by step
+  static const char* EvolutionChartRole() { return "evolutionChart"; }     ///< plot of the latter
+  /// Of the *surface* node: model of the tetrahedra around it.
+  static const char* AmbientTetrahedraRole() { return "ambientTetrahedra"; }
 
   /// Whether edge lengths come from the scale volume; otherwise EdgeLength holds everywhere.
   vtkGetMacro(UseScale, bool);
@@ -106,6 +82,8 @@ protected:
   ~vtkMRMLSimplexMesherNode() override = default;
   vtkMRMLSimplexMesherNode(const vtkMRMLSimplexMesherNode&) = delete;
   void operator=(const vtkMRMLSimplexMesherNode&) = delete;
+
+  std::vector<Value> GetValues() override;
 
   /// The settings as one line of text: records end with ';', fields with '|', and both and '%' are written as %XX.
   std::string GetTissues() const;

@@ -31,12 +31,6 @@ namespace
 
 using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
 
-struct Focus
-{
-  std::vector<Vec3> targets;
-  std::vector<Path> paths;
-};
-
 /// What the run found out, besides its outputs.
 struct Results
 {
@@ -60,39 +54,6 @@ std::string roundedCount(double count)
 {
   const double unit = count < 1000 ? 1 : std::pow(10.0, std::floor(std::log10(count)) - 2);
   return std::to_string(std::llround(count / unit) * std::llround(unit));
-}
-
-void requireLength(const Path& path, const std::string& where)
-{
-  if (path.size() < 2) throw InputError(where + ": a path of one point, expected two points or more");
-  if (!(pathLength(path) > 0)) throw InputError(where + ": a path of length 0, expected points that differ");
-}
-
-Focus readFocus(const CommandLine& line)
-{
-  Focus focus;
-  focus.targets = line.points("targetPoint");
-  for (const std::string& file : line.texts("targets"))
-  {
-    for (const std::vector<Vec3>& points : readMarkups(file))
-    {
-      focus.targets.insert(focus.targets.end(), points.begin(), points.end());
-    }
-  }
-  const Path typed = line.points("pathPoint");
-  if (typed.size() == 1) throw UsageError("--pathPoint is given once, expected two points or more");
-  if (typed.size() > 1 && !(pathLength(typed) > 0))
-    throw UsageError("--pathPoint: a path of length 0, expected points that differ");
-  if (!typed.empty()) focus.paths.push_back(typed);
-  for (const std::string& file : line.texts("path"))
-  {
-    for (const Path& path : readMarkups(file))
-    {
-      requireLength(path, file);
-      focus.paths.push_back(path);
-    }
-  }
-  return focus;
 }
 
 Combination readCombination(const CommandLine& line)
@@ -176,27 +137,6 @@ void warnOfOddities(CommandLine& line, const TissueMap& map, const Focus& focus,
   }
 }
 
-void write(JsonWriter& json, const char* key, const std::array<int, 3>& values)
-{
-  json.Key(key);
-  json.StartArray();
-  for (const int value : values) json.Int(value);
-  json.EndArray();
-}
-
-void write(JsonWriter& json, const char* key, const std::vector<Vec3>& points)
-{
-  json.Key(key);
-  json.StartArray();
-  for (const Vec3& point : points)
-  {
-    json.StartArray();
-    for (int axis = 0; axis < 3; ++axis) json.Double(point[axis]);
-    json.EndArray();
-  }
-  json.EndArray();
-}
-
 void writeParameters(JsonWriter& json, const SurgicalScaleOptions& options, const CommandLine& line)
 {
   json.Key("parameters");
@@ -219,17 +159,13 @@ void writeParameters(JsonWriter& json, const SurgicalScaleOptions& options, cons
 
 void writeFocus(JsonWriter& json, const Focus& focus)
 {
-  write(json, "targets", focus.targets);
-  json.Key("paths");
-  json.StartArray();
-  for (const Path& path : focus.paths)
-  {
-    json.StartObject();
-    writeMember(json, "length", pathLength(path));
-    write(json, "points", path);
-    json.EndObject();
-  }
-  json.EndArray();
+  writeMember(json, "targets", focus.targets);
+  writeObjects(json, "paths", focus.paths,
+               [&](const Path& path)
+               {
+                 writeMember(json, "length", pathLength(path));
+                 writeMember(json, "points", path);
+               });
 }
 
 void writeResults(JsonWriter& json, const Results& results, const std::vector<std::string>& warnings, const Grid& map,
@@ -238,12 +174,12 @@ void writeResults(JsonWriter& json, const Results& results, const std::vector<st
   const double voxelVolume = map.spacing.x * map.spacing.y * map.spacing.z;
   json.Key("map");
   json.StartObject();
-  write(json, "size", map.size);
+  writeMember(json, "size", map.size);
   writeMember(json, "tissues", results.tissueCount);
   json.EndObject();
   json.Key("scale");
   json.StartObject();
-  write(json, "size", scale.size);
+  writeMember(json, "size", scale.size);
   writeMember(json, "shortest", results.shortest);
   writeMember(json, "longest", results.longest);
   json.EndObject();
@@ -330,7 +266,8 @@ void run(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
-  const Focus focus = readFocus(line);
+  const Focus focus =
+    readFocus(line.points("targetPoint"), line.texts("targets"), line.points("pathPoint"), line.texts("path"));
   SurgicalScaleOptions options = readOptions(line);
   TissueMap map = readTissueMap(line.text("labelMap"));
   const std::set<Label> named = nameTissues(line, map);

@@ -11,12 +11,6 @@ namespace surgicalmesher
 {
 
 /// Where the mesh has to be fine, in LPS mm.
-struct Focus
-{
-  std::vector<Vec3> targets;
-  std::vector<Path> paths; ///< of two points or more each
-};
-
 Focus focusOf(vtkMRMLSurgicalPathScaleNode* parameters);
 
 /// Throws InputError if the table of lengths by tissue cannot be used with the tissues' `names`.

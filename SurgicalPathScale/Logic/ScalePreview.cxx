@@ -33,6 +33,8 @@
 namespace surgicalmesher
 {
 
+using Node = vtkMRMLSurgicalPathScaleNode;
+
 namespace
 {
 
@@ -199,7 +201,7 @@ const TissueMap& ScalePreview::tissueMap(vtkMRMLNode* input)
 
 void ScalePreview::show(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  const TissueMap& map = this->tissueMap(parameters->GetTissueMapNode());
+  const TissueMap& map = this->tissueMap(parameters->GetNodeReference(Node::TissueMapRole()));
   const Focus focus = focusOf(parameters);
   SurgicalScaleOptions options = scaleOptions(parameters, map.table);
   options.spacing = coarseSpacing(map.grid, options.spacing, previewVoxels);
@@ -310,7 +312,7 @@ void ScalePreview::hide()
 
 MeshSizeEstimate ScalePreview::estimate(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  const TissueMap& map = this->tissueMap(parameters->GetTissueMapNode());
+  const TissueMap& map = this->tissueMap(parameters->GetNodeReference(Node::TissueMapRole()));
   const Focus focus = focusOf(parameters);
   SurgicalScaleOptions options = scaleOptions(parameters, map.table);
   options.spacing = coarseSpacing(map.grid, options.spacing, estimateVoxels);

@@ -22,6 +22,8 @@
 namespace surgicalmesher
 {
 
+using Node = vtkMRMLSurgicalPathScaleNode;
+
 namespace
 {
 
@@ -120,12 +122,12 @@ bool isComplete(vtkMRMLPlotChartNode* chart)
 
 vtkMRMLPlotChartNode* plotProfile(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  vtkMRMLPlotChartNode* chart = parameters->GetProfileChartNode();
+  vtkMRMLPlotChartNode* chart = parameters->GetPlotChartNode(Node::ProfileChartRole());
   if (!isComplete(chart))
   {
     removeProfile(parameters);
     chart = addChart(parameters->GetScene());
-    parameters->SetNode(vtkMRMLSurgicalPathScaleNode::ProfileChartRole(), chart);
+    parameters->SetNode(Node::ProfileChartRole(), chart);
   }
   const Profile profile = profileOf(parameters);
   chart->GetNthPlotSeriesNode(1)->SetOpacity(profile.areSame() ? 0 : 1);
@@ -136,7 +138,7 @@ vtkMRMLPlotChartNode* plotProfile(vtkMRMLSurgicalPathScaleNode* parameters)
 
 void removeProfile(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  vtkMRMLPlotChartNode* chart = parameters->GetProfileChartNode();
+  vtkMRMLPlotChartNode* chart = parameters->GetPlotChartNode(Node::ProfileChartRole());
   if (!chart) return;
   std::vector<vtkMRMLNode*> nodes;
   for (int n = 0; n < chart->GetNumberOfPlotSeriesNodes(); ++n)

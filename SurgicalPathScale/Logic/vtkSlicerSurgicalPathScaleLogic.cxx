@@ -28,6 +28,7 @@
 #include <cstdlib>
 
 using namespace surgicalmesher;
+using Node = vtkMRMLSurgicalPathScaleNode;
 
 namespace
 {
@@ -52,7 +53,7 @@ vtkMRMLVolumeNode* addOutput(vtkMRMLSurgicalPathScaleNode* parameters, const cha
                              const std::string& what)
 {
   vtkMRMLScene* scene = parameters->GetScene();
-  vtkMRMLNode* map = parameters->GetTissueMapNode();
+  vtkMRMLNode* map = parameters->GetNodeReference(Node::TissueMapRole());
   const std::string name = (map ? map->GetName() + std::string(" ") : std::string()) + what;
   vtkMRMLNode* node = scene->AddNewNodeByClass(className, scene->GenerateUniqueName(name));
   parameters->SetNode(role, node);
@@ -130,7 +131,7 @@ vtkSlicerSurgicalPathScaleLogic::Check
 vtkSlicerSurgicalPathScaleLogic::FindProblem(vtkMRMLSurgicalPathScaleNode* parameters)
 {
   if (!this->GetModuleLogic("SurgicalPathScaleCLI")) return { Problem::NoModule, TissueMapProblem::None, {} };
-  const TissueMapProblem tissueMap = checkTissueMap(parameters->GetTissueMapNode());
+  const TissueMapProblem tissueMap = checkTissueMap(parameters->GetNodeReference(Node::TissueMapRole()));
   if (tissueMap != TissueMapProblem::None) return { Problem::TissueMap, tissueMap, {} };
 
   const auto found = [](Problem problem, const std::string& name = {}) {
@@ -154,7 +155,7 @@ vtkSlicerSurgicalPathScaleLogic::FindProblem(vtkMRMLSurgicalPathScaleNode* param
   if (!hasPath && parameters->GetNullDisplacementPathDistance() > 0) return found(Problem::NullDisplacementPath);
   try
   {
-    const TissueTable names = tissueTable(parameters->GetTissueMapNode());
+    const TissueTable names = tissueTable(parameters->GetNodeReference(Node::TissueMapRole()));
     scaleOptions(parameters, names);
     if (parameters->WantsNullDisplacement()) nullDisplacementOptions(parameters, names);
   }
@@ -187,7 +188,7 @@ bool vtkSlicerSurgicalPathScaleLogic::Prepare(vtkMRMLSurgicalPathScaleNode* para
   if (this->Run->IsBusy() || this->StartProblem.problem != Problem::None) return false;
   vtkSurgicalMesherRun* run = this->Run;
   run->SetCommandLineLogic(this->GetModuleLogic("SurgicalPathScaleCLI"));
-  const TissueMapNodes map = makeTissueMapNodes(parameters->GetTissueMapNode());
+  const TissueMapNodes map = makeTissueMapNodes(parameters->GetNodeReference(Node::TissueMapRole()));
   if (!map.labelMap)
   {
     this->StartProblem = { Problem::TissueMap, map.problem, {} };
@@ -270,30 +271,30 @@ void vtkSlicerSurgicalPathScaleLogic::FinishRun()
 
 void vtkSlicerSurgicalPathScaleLogic::FinishScale(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  vtkMRMLVolumeNode* volume = parameters->GetScaleNode();
+  vtkMRMLVolumeNode* volume = parameters->GetScalarVolumeNode(Node::ScaleRole());
   if (!volume)
-    volume = addOutput(parameters, vtkMRMLSurgicalPathScaleNode::ScaleRole(), "vtkMRMLScalarVolumeNode",
+    volume = addOutput(parameters, Node::ScaleRole(), "vtkMRMLScalarVolumeNode",
                        vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "edge lengths"));
   takeVoxels(volume, this->ScaleResult);
   double range[2];
   volume->GetImageData()->GetScalarRange(range);
-  setScaleColors(parameters->GetScaleNode(), range[0], range[1]);
+  setScaleColors(parameters->GetScalarVolumeNode(Node::ScaleRole()), range[0], range[1]);
 }
 
 /// The file that the module writes has names and colours, but the host reads them from segmentations only.
 void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  if (!parameters->GetOutputLabelMapNode())
+  if (!parameters->GetLabelMapNode(Node::OutputLabelMapRole()))
   {
-    addOutput(parameters, vtkMRMLSurgicalPathScaleNode::OutputLabelMapRole(), "vtkMRMLLabelMapVolumeNode",
+    addOutput(parameters, Node::OutputLabelMapRole(), "vtkMRMLLabelMapVolumeNode",
               vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "null displacement"));
   }
-  vtkMRMLLabelMapVolumeNode* labelMap = parameters->GetOutputLabelMapNode();
+  vtkMRMLLabelMapVolumeNode* labelMap = parameters->GetLabelMapNode(Node::OutputLabelMapRole());
   takeVoxels(labelMap, this->LabelMapResult);
-  TissueTable table = tissueTable(parameters->GetTissueMapNode());
+  TissueTable table = tissueTable(parameters->GetNodeReference(Node::TissueMapRole()));
   try
   {
-    const TissueMap& before = this->Preview->tissueMap(parameters->GetTissueMapNode());
+    const TissueMap& before = this->Preview->tissueMap(parameters->GetNodeReference(Node::TissueMapRole()));
     const std::vector<Label> old = presentLabels(before);
     const std::vector<Label> now = presentLabels(readTissueMap(labelMap));
     for (Label label : now)
@@ -314,7 +315,8 @@ void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNod
 void vtkSlicerSurgicalPathScaleLogic::ShowResult(vtkMRMLSurgicalPathScaleNode* parameters)
 {
   this->HidePreview();
-  if (parameters->GetScaleNode()) showInSliceViews(parameters->GetScaleNode());
+  if (parameters->GetScalarVolumeNode(Node::ScaleRole()))
+    showInSliceViews(parameters->GetScalarVolumeNode(Node::ScaleRole()));
 }
 
 //----------------------------------------------------------------------------

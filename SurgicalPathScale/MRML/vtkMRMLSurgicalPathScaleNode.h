@@ -3,31 +3,25 @@
 /// What the panel of Surgical Path Scale shows. It lives in the scene and is saved with it. Names and defaults are
 /// those of SurgicalPathScaleCLI; lengths and distances in mm, and 0 means what it means to that module.
 
+#include "vtkMRMLSurgicalMesherParameterNode.h"
 #include "vtkSlicerSurgicalPathScaleModuleMRMLExport.h"
 
 #include <vtkCommand.h>
-#include <vtkMRMLNode.h>
 
 #include <string>
 #include <vector>
 
-class vtkMRMLLabelMapVolumeNode;
 class vtkMRMLMarkupsNode;
-class vtkMRMLPlotChartNode;
-class vtkMRMLScalarVolumeNode;
 
-class VTK_SLICER_SURGICALPATHSCALE_MODULE_MRML_EXPORT vtkMRMLSurgicalPathScaleNode : public vtkMRMLNode
+class VTK_SLICER_SURGICALPATHSCALE_MODULE_MRML_EXPORT vtkMRMLSurgicalPathScaleNode
+  : public vtkMRMLSurgicalMesherParameterNode
 {
 public:
   static vtkMRMLSurgicalPathScaleNode* New();
-  vtkTypeMacro(vtkMRMLSurgicalPathScaleNode, vtkMRMLNode);
-  void PrintSelf(ostream& os, vtkIndent indent) override;
+  vtkTypeMacro(vtkMRMLSurgicalPathScaleNode, vtkMRMLSurgicalMesherParameterNode);
 
   vtkMRMLNode* CreateNodeInstance() override;
   const char* GetNodeTagName() override { return "SurgicalPathScale"; }
-  void ReadXMLAttributes(const char** atts) override;
-  void WriteXML(ostream& of, int indent) override;
-  void CopyContent(vtkMRMLNode* node, bool deepCopy = true) override;
   /// Markups tell of their points by events of their own; all of them arrive here as InputModifiedEvent.
   void ProcessMRMLEvents(vtkObject* caller, unsigned long event, void* callData) override;
 
@@ -37,26 +31,20 @@ public:
   };
 
   /// Roles of the nodes referred to.
-  static const char* TissueMapRole();      ///< label map or segmentation
-  static const char* TargetsRole();        ///< markups, of which every point is a target
-  static const char* PathRole();           ///< markups from entry to target
-  static const char* FurtherMarkupsRole(); ///< any number: curves and lines are paths, others targets
-  static const char* ScaleRole();          ///< scalar volume; a new one where there is none
-  static const char* OutputLabelMapRole(); ///< label map with null displacement; a new one where there is none
-  static const char* ProfileChartRole();   ///< plot of length over distance; none: not wanted
+  static const char* TissueMapRole() { return "tissueMap"; } ///< label map or segmentation
+  static const char* TargetsRole() { return "targets"; }     ///< markups, of which every point is a target
+  static const char* PathRole() { return "path"; }           ///< markups from entry to target
+  /// Any number: curves and lines are paths, others targets.
+  static const char* FurtherMarkupsRole() { return "furtherMarkups"; }
+  static const char* ScaleRole() { return "scale"; } ///< scalar volume; a new one where there is none
+  /// Label map with null displacement; a new one where there is none.
+  static const char* OutputLabelMapRole() { return "outputLabelMap"; }
+  static const char* ProfileChartRole() { return "profileChart"; } ///< plot of length over distance; none: not wanted
 
-  vtkMRMLNode* GetTissueMapNode();
   /// All markups of which every point is a target; none that have left the scene.
   std::vector<vtkMRMLMarkupsNode*> GetTargetNodes();
   /// All markups that are a path each.
   std::vector<vtkMRMLMarkupsNode*> GetPathNodes();
-  vtkMRMLScalarVolumeNode* GetScaleNode();
-  vtkMRMLLabelMapVolumeNode* GetOutputLabelMapNode();
-  vtkMRMLPlotChartNode* GetProfileChartNode();
-
-  /// Refers to `node`, which may be null, in a role of one node.
-  void SetNode(const char* role, vtkMRMLNode* node);
-  void SetFurtherMarkups(const std::vector<vtkMRMLNode*>& nodes);
 
   vtkGetMacro(MinimumEdgeLength, double);
   vtkSetMacro(MinimumEdgeLength, double);
@@ -98,6 +86,8 @@ protected:
   ~vtkMRMLSurgicalPathScaleNode() override = default;
   vtkMRMLSurgicalPathScaleNode(const vtkMRMLSurgicalPathScaleNode&) = delete;
   void operator=(const vtkMRMLSurgicalPathScaleNode&) = delete;
+
+  std::vector<Value> GetValues() override;
 
   double MinimumEdgeLength = 1;
   double MaximumEdgeLength = 8;

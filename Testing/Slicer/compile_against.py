@@ -79,16 +79,16 @@ def write_stand_ins(folder, sources):
 
 
 def include_options(build, sources, includes, stand_ins):
-    parts = ["Libs/Foundation", "Libs/TissueMap", "Libs/LabelledComplex", "Libs/SlicerSupport", "Testing", *MODULES]
-    own = [f for part in parts for f in folders_with(HEADER, os.path.join(ROOT, part))]
+    # Last, as a header there has the name of one of the host's.
+    last = os.path.join(ROOT, "Libs", "CommandLine")
+    own = [f for part in ("Libs", "Testing", *MODULES) for f in folders_with(HEADER, os.path.join(ROOT, part))]
+    own.remove(last)
     system = [*folders_with(re.compile(r"^ui_.*\.h$"), build), stand_ins]
     system += [f for root in sources for f in folders_with(HEADER, root)]
     for folder in includes:
         system.append(folder)
         if os.path.isdir(os.path.join(folder, "QtCore")):
             system += [os.path.join(folder, module) for module in os.listdir(folder)]
-    # Last, as a header there has the name of one of the host's.
-    last = os.path.join(ROOT, "Libs", "CommandLine")
     return [f"-I{f}" for f in own] + [f"-isystem{f}" for f in system] + [f"-idirafter{last}"]
 
 

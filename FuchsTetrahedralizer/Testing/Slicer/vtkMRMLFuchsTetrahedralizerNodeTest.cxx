@@ -88,6 +88,29 @@ int testSceneFile()
   return EXIT_SUCCESS;
 }
 
+/// The values that fill() sets and a role of two nodes, as version 0.1 has written them.
+int testSavedScene()
+{
+  vtkNew<vtkMRMLScene> scene;
+  scene->RegisterNodeClass(vtkNew<Node>());
+  scene->SetLoadFromXMLString(1);
+  scene->SetSceneXMLString(
+    R"(<MRML version="Slicer5.0.3" userTags=""><Model id="vtkMRMLModelNode1" name="first"></Model>
+<Model id="vtkMRMLModelNode2" name="second"></Model>
+<FuchsTetrahedralizer id="vtkMRMLFuchsTetrahedralizerNode1" name="FuchsTetrahedralizer" hideFromEditors="true"
+ references="surface:vtkMRMLModelNode1 vtkMRMLModelNode2;" edgeLengthSource="uniform" edgeLength="3.123456789"
+ useAmbient="false" shellTissues="dura mater, &quot;falx&quot; &amp; &lt;tentorium&gt;:outside" shellThickness="0.5"
+ materialsFile="/data/materials of the head.csv" nonlinearDistance="25" nullDisplacementRadius="60"
+ nullDisplacementPathDistance="40" nullDisplacementPathDistanceAtTarget="10" conditioning="true" threads="3"
+ colorBy="minimumDihedralAngle" clipPlane="sagittal" clipFlipped="true"
+ showEdges="false"></FuchsTetrahedralizer></MRML>)");
+  CHECK_INT(scene->Import(), 1);
+  auto* node = Node::SafeDownCast(scene->GetFirstNodeByClass("vtkMRMLFuchsTetrahedralizerNode"));
+  CHECK_NOT_NULL(node);
+  CHECK_INT(node->GetNodes(Node::SurfaceRole()).size(), 2);
+  return checkFilled(node);
+}
+
 int testCopyAndRefusals()
 {
   vtkNew<Node> node, copy;
@@ -98,7 +121,11 @@ int testCopyAndRefusals()
   copy->SetColorBy(-1);
   copy->SetClipPlane(Node::ClipPlane_Last);
   CHECK_EXIT_SUCCESS(checkFilled(copy));
-  CHECK_INT(Node::GetColorByFromString("no such thing"), -1);
+  const char* unknown[] = { "colorBy", "no such thing", "threads", "many", nullptr };
+  TESTING_OUTPUT_ASSERT_ERRORS_BEGIN();
+  copy->ReadXMLAttributes(unknown);
+  TESTING_OUTPUT_ASSERT_ERRORS_END();
+  CHECK_EXIT_SUCCESS(checkFilled(copy));
   return EXIT_SUCCESS;
 }
 
@@ -136,6 +163,7 @@ int vtkMRMLFuchsTetrahedralizerNodeTest(int, char*[])
   vtkNew<Node> node;
   EXERCISE_ALL_BASIC_MRML_METHODS(node.GetPointer());
   CHECK_EXIT_SUCCESS(testSceneFile());
+  CHECK_EXIT_SUCCESS(testSavedScene());
   CHECK_EXIT_SUCCESS(testCopyAndRefusals());
   CHECK_EXIT_SUCCESS(testEvents());
   return EXIT_SUCCESS;

@@ -77,6 +77,29 @@ TEST_F(OutputFilesTest, areRenamedTogether)
   EXPECT_EQ(read(folder / "a.nii.gz"), "1");
 }
 
+TEST_F(OutputFilesTest, oneMayComeWithoutTheOthersOrNotAtAll)
+{
+  {
+    OutputFiles outputs;
+    const fs::path fault = outputs.temporary((folder / "fault").string());
+    outputs.temporary((folder / "result").string());
+    write(fault, "why");
+    outputs.commit((folder / "fault").string());
+    outputs.commit((folder / "neverAskedFor").string());
+    EXPECT_THROW(outputs.commit((folder / "result").string()), EngineError) << "it was not written";
+  }
+  EXPECT_EQ(content(), Names{ "fault" });
+  EXPECT_EQ(read(folder / "fault"), "why");
+  OutputFiles outputs;
+  write(outputs.temporary((folder / "result").string()), "all");
+  outputs.temporary((folder / "fault").string());
+  outputs.discard((folder / "fault").string());
+  outputs.discard((folder / "neverAskedFor").string());
+  outputs.commit();
+  EXPECT_EQ(content(), (Names{ "fault", "result" }));
+  EXPECT_EQ(read(folder / "fault"), "why") << "as it was";
+}
+
 TEST_F(OutputFilesTest, leaveNothingWithoutCommit)
 {
   {

@@ -75,6 +75,19 @@ TEST(Markups, KeepsListsApartAndClosesCurves)
   EXPECT_EQ(lists[1].front(), lists[1].back());
 }
 
+TEST(Markups, ArePathsAndTargets)
+{
+  const TemporaryFolder folder;
+  const std::string one = controlPoint("[1, 2, 3]"), two = one + "," + controlPoint("[4, 5, 6]");
+  const std::string points = folder.write("points.mrk.json", document(markup("Fiducial", "\"LPS\"", two)));
+  const std::string point = folder.write("point.mrk.json", document(markup("Fiducial", "\"LPS\"", one)));
+  const Focus focus = readFocus({ { 7, 8, 9 } }, { points, point }, { { 0, 0, 0 }, { 1, 0, 0 } }, { points });
+  EXPECT_EQ(focus.targets, (Path{ { 7, 8, 9 }, { 1, 2, 3 }, { 4, 5, 6 }, { 1, 2, 3 } }));
+  EXPECT_EQ(focus.paths, (Lists{ { { 0, 0, 0 }, { 1, 0, 0 } }, { { 1, 2, 3 }, { 4, 5, 6 } } }));
+  EXPECT_THROW(readFocus({}, {}, { { 0, 0, 0 } }, {}), UsageError);
+  expectInputError([&] { readFocus({}, {}, {}, { point }); }, point, "two points or more");
+}
+
 TEST(Markups, LeavesOutPointsThatAreNotPlaced)
 {
   const std::string points = controlPoint("[9, 9, 9]", R"(, "positionStatus": "undefined")") + "," +

@@ -113,7 +113,7 @@ int testCancel(Panel& panel)
     CHECK_BOOL(panel.waitForEnd(), true);
     CHECK_INT(panel.run->GetStatus(), vtkSurgicalMesherRun::Cancelled);
     CHECK_STD_STRING(before.leftovers(), "");
-    CHECK_NULL(panel.node()->GetSurfaceNode());
+    CHECK_NULL(panel.node()->GetModelNode(Node::SurfaceRole()));
     CHECK_BOOL(panel.child<QPushButton>("ApplyButton")->isEnabled(), true);
   }
   CHECK_BOOL(temporaryFiles().size() == files.size(), true); // the last run keeps its folder until the next
@@ -138,7 +138,7 @@ int testFailure(Panel& panel)
   CHECK_INT(panel.run->GetStatus(), vtkSurgicalMesherRun::Failed);
   CHECK_BOOL(panel.run->GetErrorText().empty(), false);
   CHECK_STD_STRING(before.leftovers(), "");
-  CHECK_NULL(panel.node()->GetSurfaceNode());
+  CHECK_NULL(panel.node()->GetModelNode(Node::SurfaceRole()));
   panel.host.complaints(); // the host's own, on the module's status
   return EXIT_SUCCESS;
 }
@@ -151,7 +151,7 @@ int testNodesThatLeave(Panel& panel)
   scene->RemoveNode(balls); // the run has a copy
   CHECK_BOOL(panel.waitForEnd(), true);
   CHECK_INT(panel.run->GetStatus(), vtkSurgicalMesherRun::Completed);
-  vtkMRMLModelNode* surface = panel.node()->GetSurfaceNode();
+  vtkMRMLModelNode* surface = panel.node()->GetModelNode(Node::SurfaceRole());
   CHECK_NOT_NULL(surface);
   vtkMRMLNode* ambient = surface->GetNodeReference(Node::AmbientTetrahedraRole());
   const std::string ambientID = ambient->GetID();

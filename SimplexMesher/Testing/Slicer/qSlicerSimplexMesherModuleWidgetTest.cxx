@@ -54,7 +54,7 @@ int testSentencesAndFixes(Panel& panel)
   panel.widget->enter();
   CHECK_BOOL(panel.problem().find("Choose") != std::string::npos, true);
   panel.press("FixButton");
-  CHECK_POINTER(panel.node()->GetTissueMapNode(), balls);
+  CHECK_POINTER(panel.node()->GetNodeReference(Node::TissueMapRole()), balls);
   CHECK_BOOL(panel.problem().find("scale volume") != std::string::npos, true);
   panel.press("FixButton");
   CHECK_BOOL(panel.child<QRadioButton>("EdgeLengthRadioButton")->isChecked(), true);
@@ -144,7 +144,7 @@ std::string saved(vtkMRMLStorableNode* node, const std::string& file)
 int testSameMesh(Panel& panel)
 {
   const std::string folder = newFolder("SimplexMesherWidgetTest");
-  auto* balls = vtkMRMLLabelMapVolumeNode::SafeDownCast(panel.node()->GetTissueMapNode());
+  auto* balls = vtkMRMLLabelMapVolumeNode::SafeDownCast(panel.node()->GetNodeReference(Node::TissueMapRole()));
   const std::string map = saved(balls, folder + "/map.nrrd");
   const std::string names = saved(balls->GetDisplayNode()->GetColorNode(), folder + "/names.ctbl");
   std::ofstream(folder + "/tissues.csv") << "name,maximum,protected\ntumour,2,yes\n";
@@ -161,9 +161,9 @@ int testSameMesh(Panel& panel)
   runCommandLine("SimplexMesherCLI",
                  { "--edgeLength", "3", "--names", names, "--tissues", folder + "/tissues.csv", "--ambient",
                    folder + "/ambient.vtu", "--simplexMesh", folder + "/simplex.vtp", map, folder + "/surface.vtp" });
-  vtkMRMLModelNode* surface = panel.node()->GetSurfaceNode();
+  vtkMRMLModelNode* surface = panel.node()->GetModelNode(Node::SurfaceRole());
   CHECK_STD_STRING(differenceOf(folder + "/surface.vtp", surface), "");
-  CHECK_STD_STRING(differenceOf(folder + "/simplex.vtp", panel.node()->GetSimplexMeshNode()), "");
+  CHECK_STD_STRING(differenceOf(folder + "/simplex.vtp", panel.node()->GetModelNode(Node::SimplexMeshRole())), "");
   auto* ambient = vtkMRMLModelNode::SafeDownCast(surface->GetNodeReference(Node::AmbientTetrahedraRole()));
   CHECK_STD_STRING(differenceOf(folder + "/ambient.vtu", ambient), "");
   writeSurface(readSurface(saved(surface, folder + "/saved.vtp")), folder + "/again.vtp");
@@ -173,7 +173,7 @@ int testSameMesh(Panel& panel)
 
 int testNodesOfRun(Panel& panel)
 {
-  vtkMRMLModelNode* surface = panel.node()->GetSurfaceNode();
+  vtkMRMLModelNode* surface = panel.node()->GetModelNode(Node::SurfaceRole());
   CHECK_STRING(surface->GetName(), "NestedBalls surface");
   CHECK_BOOL(surface->GetDisplayVisibility() != 0, true);
   vtkMRMLModelDisplayNode* display = surface->GetModelDisplayNode();
@@ -184,18 +184,19 @@ int testNodesOfRun(Panel& panel)
   CHECK_NOT_NULL(ambient);
   CHECK_BOOL(ambient->GetHideFromEditors() != 0, true);
   CHECK_BOOL(ambient->GetDisplayVisibility() != 0, false);
-  CHECK_NOT_NULL(panel.node()->GetPreparedLabelMapNode()->GetImageData());
+  CHECK_NOT_NULL(panel.node()->GetLabelMapNode(Node::PreparedLabelMapRole())->GetImageData());
 
-  vtkMRMLTableNode* tissues = panel.node()->GetTissueTableNode();
+  vtkMRMLTableNode* tissues = panel.node()->GetTableNode(Node::TissueTableRole());
   CHECK_INT(tissues->GetNumberOfRows(), 2);
   CHECK_STD_STRING(tissues->GetCellText(0, 1), "tumour");
   const double area = tissues->GetTable()->GetValue(0, 2).ToDouble();
   CHECK_BOOL(area > 0.9 * 4 * 3.1416 * 36 && area < 1.1 * 4 * 3.1416 * 36, true); // a sphere of 6 mm
   CHECK_INT(tissues->GetTable()->GetValue(1, 6).ToInt(), 1);                      // the ball in the shell: a cavity
-  vtkMRMLTableNode* evolution = panel.node()->GetEvolutionTableNode();
+  vtkMRMLTableNode* evolution = panel.node()->GetTableNode(Node::EvolutionTableRole());
   CHECK_BOOL(evolution->GetNumberOfRows() > 3, true);
   CHECK_INT(panel.node()->GetNumberOfNodeReferences(Node::EvolutionChartRole()), 3);
-  CHECK_POINTER(panel.node()->GetEvolutionChartNode()->GetNthPlotSeriesNode(0)->GetTableNode(), evolution);
+  CHECK_POINTER(panel.node()->GetPlotChartNode(Node::EvolutionChartRole())->GetNthPlotSeriesNode(0)->GetTableNode(),
+                evolution);
   CHECK_INT(panel.child<QComboBox>("PlotComboBox")->count(), 3);
   panel.press("ShowPlotButton");
   return EXIT_SUCCESS;
@@ -205,10 +206,10 @@ int testNodesOfRun(Panel& panel)
 int testTissueModels(Panel& panel)
 {
   const LeftoverCheck before(panel.host.scene());
-  vtkMRMLModelNode* surface = panel.node()->GetSurfaceNode();
+  vtkMRMLModelNode* surface = panel.node()->GetModelNode(Node::SurfaceRole());
   panel.child<QCheckBox>("TissueModelsCheckBox")->setChecked(true);
   CHECK_BOOL(panel.apply(), true);
-  CHECK_POINTER(panel.node()->GetSurfaceNode(), surface);
+  CHECK_POINTER(panel.node()->GetModelNode(Node::SurfaceRole()), surface);
   CHECK_STD_STRING(before.leftovers({ "vtkMRMLModelNode", "vtkMRMLModelDisplayNode" }), "");
   CHECK_INT(surface->GetNumberOfNodeReferences("tissueModels"), 2);
   auto* tumour = vtkMRMLModelNode::SafeDownCast(surface->GetNthNodeReference("tissueModels", 0));
@@ -235,9 +236,9 @@ int testTissueModels(Panel& panel)
 int testSegmentation(Panel& panel)
 {
   vtkMRMLScene* scene = panel.host.scene();
-  auto* balls = vtkMRMLLabelMapVolumeNode::SafeDownCast(panel.node()->GetTissueMapNode());
+  auto* balls = vtkMRMLLabelMapVolumeNode::SafeDownCast(panel.node()->GetNodeReference(Node::TissueMapRole()));
   vtkNew<vtkPolyData> reference;
-  reference->DeepCopy(panel.node()->GetSurfaceNode()->GetPolyData());
+  reference->DeepCopy(panel.node()->GetModelNode(Node::SurfaceRole())->GetPolyData());
   vtkMRMLSegmentationNode* segments = addSegmentation(scene, balls);
   vtkMRMLTransformNode* transform = addTransform(scene);
   segments->SetAndObserveTransformNodeID(transform->GetID());
@@ -248,7 +249,7 @@ int testSegmentation(Panel& panel)
   CHECK_BOOL(panel.node()->GetTissueSettings().count("1") == 1 && panel.node()->GetTissueSettings().size() == 2, true);
   CHECK_BOOL(panel.apply(), true);
   CHECK_STD_STRING(panel.run->GetErrorText(), "");
-  vtkPolyData* moved = panel.node()->GetSurfaceNode()->GetPolyData();
+  vtkPolyData* moved = panel.node()->GetModelNode(Node::SurfaceRole())->GetPolyData();
   CHECK_BOOL(moved->GetNumberOfPoints() == reference->GetNumberOfPoints(), true);
   CHECK_BOOL(moved->GetNumberOfCells() == reference->GetNumberOfCells(), true);
   for (vtkIdType i = 0; i < moved->GetNumberOfPoints(); ++i)

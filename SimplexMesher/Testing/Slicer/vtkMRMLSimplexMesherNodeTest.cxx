@@ -10,6 +10,7 @@
 
 #include <vtkNew.h>
 
+using Node = vtkMRMLSimplexMesherNode;
 using surgicalmesher::TissueRole;
 using surgicalmesher::TissueSetting;
 
@@ -119,12 +120,33 @@ int checkSceneRoundTrip()
   auto* restored = vtkMRMLSimplexMesherNode::SafeDownCast(read->GetFirstNodeByClass("vtkMRMLSimplexMesherNode"));
   CHECK_NOT_NULL(restored);
   CHECK_EXIT_SUCCESS(checkFilled(restored));
-  CHECK_STRING(restored->GetScaleNode()->GetName(), "scale");
-  CHECK_STRING(restored->GetSurfaceNode()->GetName(), "surface");
-  CHECK_NULL(restored->GetPreparedLabelMapNode());
+  CHECK_STRING(restored->GetScalarVolumeNode(Node::ScaleRole())->GetName(), "scale");
+  CHECK_STRING(restored->GetModelNode(Node::SurfaceRole())->GetName(), "surface");
+  CHECK_NULL(restored->GetLabelMapNode(Node::PreparedLabelMapRole()));
   restored->SetNode(vtkMRMLSimplexMesherNode::ScaleRole(), nullptr);
-  CHECK_NULL(restored->GetScaleNode());
+  CHECK_NULL(restored->GetScalarVolumeNode(Node::ScaleRole()));
   return EXIT_SUCCESS;
+}
+
+/// The values that fill() sets and a role, as version 0.1 has written them.
+int checkSavedScene()
+{
+  vtkNew<vtkMRMLScene> scene;
+  scene->RegisterNodeClass(vtkNew<vtkMRMLSimplexMesherNode>());
+  scene->SetLoadFromXMLString(1);
+  scene->SetSceneXMLString(
+    R"(<MRML version="Slicer5.0.3" userTags=""><Model id="vtkMRMLModelNode1" name="surface"></Model>
+<SimplexMesher id="vtkMRMLSimplexMesherNode1" name="SimplexMesher" hideFromEditors="true"
+ references="surface:vtkMRMLModelNode1;" useScale="false" edgeLength="3.123456789" minimumIslandVolume="30"
+ minimumCavityVolume="5" featureScale="0.5" maximumDistance="1.25" followThickness="true" gradation="0.4" threads="3"
+ tissueModels="true" keepAmbient="false" report="false"
+ tissues="17|leave||0|0|no|-1|-1;Segment_1%7C50%25%3B7C%2525 &amp; &quot;&lt;ä&gt;&quot;|)"
+    R"(group|vessels%3B 'left' %7C 100 %25|0.5|3.25|yes|0|12;"></SimplexMesher></MRML>)");
+  scene->Import();
+  auto* node = Node::SafeDownCast(scene->GetFirstNodeByClass("vtkMRMLSimplexMesherNode"));
+  CHECK_NOT_NULL(node);
+  CHECK_STRING(node->GetModelNode(Node::SurfaceRole())->GetName(), "surface");
+  return checkFilled(node);
 }
 
 } // namespace
@@ -135,5 +157,6 @@ int vtkMRMLSimplexMesherNodeTest(int, char*[])
   EXERCISE_ALL_BASIC_MRML_METHODS(node.GetPointer());
   CHECK_EXIT_SUCCESS(checkSettings());
   CHECK_EXIT_SUCCESS(checkSceneRoundTrip());
+  CHECK_EXIT_SUCCESS(checkSavedScene());
   return EXIT_SUCCESS;
 }

@@ -22,6 +22,7 @@
 
 using namespace surgicalmesher;
 using namespace surgicalmesher::test;
+using Node = vtkMRMLSimplexMesherNode;
 using Logic = vtkSlicerSimplexMesherLogic;
 
 namespace
@@ -84,15 +85,15 @@ int testSettings(Logic* logic)
   CHECK_BOOL(logic->StartAndWait(node), true);
   CHECK_STD_STRING(logic->GetRun()->GetErrorText(), "");
   CHECK_INT(logic->GetRun()->GetStatus(), vtkSurgicalMesherRun::Completed);
-  CHECK_BOOL(labelsOf(node->GetSurfaceNode()) == (std::set<int>{ 0, 1, 4 }), true);
-  CHECK_STD_STRING(node->GetTissueTableNode()->GetCellText(0, 1).substr(0, 3), "a '");
+  CHECK_BOOL(labelsOf(node->GetModelNode(Node::SurfaceRole())) == (std::set<int>{ 0, 1, 4 }), true);
+  CHECK_STD_STRING(node->GetTableNode(Node::TissueTableRole())->GetCellText(0, 1).substr(0, 3), "a '");
   return EXIT_SUCCESS;
 }
 
 int testProblems(Logic* logic)
 {
   vtkMRMLSimplexMesherNode* node = logic->ParameterNode();
-  const std::vector<TissueRow> rows = listTissues(node->GetTissueMapNode());
+  const std::vector<TissueRow> rows = listTissues(node->GetNodeReference(Node::TissueMapRole()));
   CHECK_BOOL(logic->FindProblem(node, rows).problem == Logic::Problem::None, true);
   TissueSetting wrong;
   wrong.minimumEdgeLength = 3;

@@ -152,7 +152,7 @@ double largestDifference(vtkMRMLVolumeNode* node, const ScaleField& field)
 ScaleField runFromFiles(const Panel& panel, const std::string& folder, const std::vector<std::string>& more)
 {
   Node* node = panel.node();
-  const TissueMap map = readTissueMap(node->GetTissueMapNode());
+  const TissueMap map = readTissueMap(node->GetNodeReference(Node::TissueMapRole()));
   writeTissueMap(map, folder + "/map.nrrd");
   writeMarkups({ markupsPoints(node->GetTargetNodes()[0]) }, folder + "/targets.mrk.json");
   writeMarkups({ markupsPath(node->GetPathNodes()[0]) }, folder + "/path.mrk.json");
@@ -193,14 +193,14 @@ int checkApply(const Panel& panel)
   CHECK_STD_STRING(panel.run->GetErrorText(), "");
   CHECK_INT(panel.run->GetStatus(), Run::Completed);
 
-  vtkMRMLScalarVolumeNode* scale = panel.node()->GetScaleNode();
+  vtkMRMLScalarVolumeNode* scale = panel.node()->GetScalarVolumeNode(Node::ScaleRole());
   CHECK_NOT_NULL(scale);
   const std::string folder = newFolder("SurgicalPathScaleApply");
   const ScaleField expected =
     runFromFiles(panel, folder, { "--nullDisplacementRadius", "6", "--outputLabelMap", folder + "/held.nrrd" });
   CHECK_DOUBLE(largestDifference(scale, expected), 0);
 
-  vtkMRMLLabelMapVolumeNode* held = panel.node()->GetOutputLabelMapNode();
+  vtkMRMLLabelMapVolumeNode* held = panel.node()->GetLabelMapNode(Node::OutputLabelMapRole());
   CHECK_NOT_NULL(held);
   CHECK_BOOL(readTissueMap(held).labels == readTissueMap(folder + "/held.nrrd").labels, true);
   vtkMRMLColorNode* colors = held->GetDisplayNode()->GetColorNode();
@@ -219,9 +219,9 @@ int checkApply(const Panel& panel)
   CHECK_BOOL(panel.waitForEnd(), true);
   CHECK_INT(panel.run->GetStatus(), Run::Completed);
   CHECK_STD_STRING(second.leftovers(), "");
-  CHECK_POINTER(panel.node()->GetScaleNode(), scale);
+  CHECK_POINTER(panel.node()->GetScalarVolumeNode(Node::ScaleRole()), scale);
   CHECK_BOOL(scale->GetImageData()->GetScalarRange()[1] <= 2, true);
-  CHECK_POINTER(panel.node()->GetTissueMapNode(), inputs.labelMap);
+  CHECK_POINTER(panel.node()->GetNodeReference(Node::TissueMapRole()), inputs.labelMap);
   clear(panel);
   CHECK_BOOL(temporaryFiles() == files, true);
   return EXIT_SUCCESS;
@@ -247,7 +247,7 @@ int checkSegmentation(const Panel& panel)
   CHECK_BOOL(panel.waitForEnd(), true);
   CHECK_INT(panel.run->GetStatus(), Run::Completed);
   const ScaleField expected = runFromFiles(panel, newFolder("SurgicalPathScaleSegmentation"), {});
-  CHECK_BOOL(largestDifference(panel.node()->GetScaleNode(), expected) < 1e-5, true);
+  CHECK_BOOL(largestDifference(panel.node()->GetScalarVolumeNode(Node::ScaleRole()), expected) < 1e-5, true);
   clear(panel);
   return EXIT_SUCCESS;
 }
@@ -323,7 +323,7 @@ int checkPlotAndEstimate(const Panel& panel)
   const LeftoverCheck nodes(panel.host.scene());
   auto* box = panel.child<QCheckBox>("ProfileCheckBox");
   box->setChecked(true);
-  vtkMRMLPlotChartNode* chart = panel.node()->GetProfileChartNode();
+  vtkMRMLPlotChartNode* chart = panel.node()->GetPlotChartNode(Node::ProfileChartRole());
   CHECK_NOT_NULL(chart);
   const auto last = [&]
   {
@@ -440,7 +440,7 @@ int checkCancel(const Panel& panel)
     CHECK_BOOL(panel.run->GetStatus() == Run::Cancelled || panel.run->GetStatus() == Run::Completed, true);
     if (panel.run->GetStatus() == Run::Completed) continue; // its results were being read
     CHECK_STD_STRING(nodes.leftovers(), "");
-    CHECK_NULL(panel.node()->GetScaleNode());
+    CHECK_NULL(panel.node()->GetScalarVolumeNode(Node::ScaleRole()));
     CHECK_BOOL(panel.applyButton()->isEnabled(), true);
     CHECK_STD_STRING(panel.sentence(), "Cancelled.");
   }
@@ -484,7 +484,7 @@ int checkDeletions(const Panel& panel)
   CHECK_BOOL(panel.waitForEnd(), true);
   CHECK_INT(panel.run->GetStatus(), Run::Completed);
   CHECK_BOOL(panel.problem().empty(), false);
-  vtkMRMLNode* scale = panel.node()->GetScaleNode();
+  vtkMRMLNode* scale = panel.node()->GetScalarVolumeNode(Node::ScaleRole());
   CHECK_NOT_NULL(scale);
 
   startSlowRun();
@@ -492,7 +492,7 @@ int checkDeletions(const Panel& panel)
   panel.host.scene()->RemoveNode(scale); // where the result was to go
   CHECK_BOOL(panel.waitForEnd(), true);
   CHECK_INT(panel.run->GetStatus(), Run::Completed);
-  CHECK_NOT_NULL(panel.node()->GetScaleNode());
+  CHECK_NOT_NULL(panel.node()->GetScalarVolumeNode(Node::ScaleRole()));
   clear(panel);
 
   // What the run itself cannot do without: its own copies.

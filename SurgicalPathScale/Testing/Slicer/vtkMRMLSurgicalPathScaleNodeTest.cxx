@@ -107,7 +107,7 @@ int checkMarkups()
   auto* line = scene->AddNewNodeByClass("vtkMRMLMarkupsLineNode");
   node->SetNode(Node::TargetsRole(), points);
   node->SetNode(Node::PathRole(), curve);
-  node->SetFurtherMarkups({ line, morePoints });
+  node->SetNodes(Node::FurtherMarkupsRole(), { line, morePoints });
   CHECK_INT(int(node->GetTargetNodes().size()), 2);
   CHECK_POINTER(node->GetTargetNodes()[1], morePoints);
   CHECK_INT(int(node->GetPathNodes().size()), 2);
@@ -122,7 +122,7 @@ int checkMarkups()
   vtkMRMLTransformableNode::SafeDownCast(curve)->SetAndObserveTransformNodeID(transform->GetID());
   CHECK_BOOL(events->GetNumberOfEvents(Node::InputModifiedEvent) > 0, true);
   events->ResetNumberOfEvents();
-  node->SetFurtherMarkups({ line });
+  node->SetNodes(Node::FurtherMarkupsRole(), { line });
   vtkMRMLMarkupsNode::SafeDownCast(morePoints)->AddControlPoint(4, 5, 6);
   CHECK_INT(events->GetNumberOfEvents(Node::InputModifiedEvent), 0); // no input any more
 
@@ -139,8 +139,8 @@ int checkSceneRoundTrip()
   Node* node = addNode(scene);
   fill(node);
   node->SetNode(Node::TargetsRole(), scene->AddNewNodeByClass("vtkMRMLMarkupsFiducialNode", "points"));
-  node->SetFurtherMarkups({ scene->AddNewNodeByClass("vtkMRMLMarkupsLineNode", "line"),
-                            scene->AddNewNodeByClass("vtkMRMLMarkupsFiducialNode", "more points") });
+  node->SetNodes(Node::FurtherMarkupsRole(), { scene->AddNewNodeByClass("vtkMRMLMarkupsLineNode", "line"),
+                                               scene->AddNewNodeByClass("vtkMRMLMarkupsFiducialNode", "more points") });
   node->SetNode(Node::ScaleRole(), scene->AddNewNodeByClass("vtkMRMLScalarVolumeNode", "scale"));
   scene->SetSaveToXMLString(1);
   scene->Commit();
@@ -157,12 +157,33 @@ int checkSceneRoundTrip()
   CHECK_STRING(restored->GetTargetNodes()[0]->GetName(), "points");
   CHECK_STRING(restored->GetTargetNodes()[1]->GetName(), "more points");
   CHECK_INT(int(restored->GetPathNodes().size()), 1);
-  CHECK_STRING(restored->GetScaleNode()->GetName(), "scale");
+  CHECK_STRING(restored->GetScalarVolumeNode(Node::ScaleRole())->GetName(), "scale");
   vtkNew<vtkMRMLCoreTestingUtilities::vtkMRMLNodeCallback> events;
   restored->AddObserver(Node::InputModifiedEvent, events);
   restored->GetTargetNodes()[1]->AddControlPoint(1, 2, 3);
   CHECK_BOOL(events->GetNumberOfEvents(Node::InputModifiedEvent) > 0, true); // inputs are observed again
   return EXIT_SUCCESS;
+}
+
+/// The values that fill() sets and a role, as version 0.1 has written them.
+int checkSavedScene()
+{
+  vtkNew<vtkMRMLScene> scene;
+  registerClasses(scene);
+  scene->SetLoadFromXMLString(1);
+  scene->SetSceneXMLString(
+    R"(<MRML version="Slicer5.0.3" userTags=""><Volume id="vtkMRMLScalarVolumeNode1" name="scale"></Volume>
+<SurgicalPathScale id="vtkMRMLSurgicalPathScaleNode1" name="Surgical Path Scale" hideFromEditors="true"
+ references="scale:vtkMRMLScalarVolumeNode1;" minimumEdgeLength="0.123456789" maximumEdgeLength="12.5" childRadius="0"
+ decayLength="31" spacing="1.25" pathChildRadius="4" pathDecayLength="17" gradation="0.3" combine="targets"
+ tissueLengths="a &quot;quoted&quot; &amp; &lt;odd&gt; name.csv" nullDisplacementRadius="40"
+ nullDisplacementPathDistance="20" nullDisplacementPathDistanceAtTarget="10"
+ nullDisplacementTissues="brain, &quot;white matter&quot;, 17"></SurgicalPathScale></MRML>)");
+  scene->Import();
+  auto* node = Node::SafeDownCast(scene->GetFirstNodeByClass("vtkMRMLSurgicalPathScaleNode"));
+  CHECK_NOT_NULL(node);
+  CHECK_STRING(node->GetScalarVolumeNode(Node::ScaleRole())->GetName(), "scale");
+  return checkFilled(node);
 }
 
 } // namespace
@@ -172,5 +193,6 @@ int vtkMRMLSurgicalPathScaleNodeTest(int, char*[])
   CHECK_EXIT_SUCCESS(checkValues());
   CHECK_EXIT_SUCCESS(checkMarkups());
   CHECK_EXIT_SUCCESS(checkSceneRoundTrip());
+  CHECK_EXIT_SUCCESS(checkSavedScene());
   return EXIT_SUCCESS;
 }
