@@ -58,7 +58,7 @@ TEST_F(MaterialTable, RefusesHeadersAtFault)
 {
   expectRefused("", "no tissue");
   expectRefused("tissue,youngsModulus,poissonsRatio\n", "no tissue");
-  expectRefused("tissue,youngsModulus\n3,1\n", "poissonsratio");
+  expectRefused("tissue,youngsModulus\n3,1\n", "poissonsRatio");
   expectRefused("tissue,youngsModulus,poissonsRatio,colour\n", "colour");
   expectRefused("tissue,youngsModulus,poissonsRatio,tissue\n", "at most once");
 }
