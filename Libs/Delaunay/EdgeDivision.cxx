@@ -32,9 +32,12 @@ public:
   {
     while (!m_Queue.empty())
     {
-      const Edge edge = m_Queue.top().second;
+      const auto [relative, edge] = m_Queue.top();
       m_Queue.pop();
-      if (m_TrianglesAt.count(edge) > 0) halve(edge);
+      if (m_TrianglesAt.count(edge) == 0) continue;
+      const Edge longest = longestOnPathFrom(edge);
+      halve(longest);
+      if (longest != edge) m_Queue.emplace(relative, edge);
     }
     return std::move(m_Surface);
   }
@@ -44,6 +47,24 @@ private:
   {
     const auto& ids = m_Surface.triangles[t];
     return std::minmax(ids[side], ids[(side + 1) % 3]);
+  }
+
+  /// Equal lengths by the edges' ids.
+  std::pair<double, Edge> lengthOf(const Edge& edge) const
+  {
+    return { squaredNorm(m_Surface.points[edge.first] - m_Surface.points[edge.second]), edge };
+  }
+
+  /// From an edge to the longest side of its triangles, and on from there while there is a longer one. Halving anything
+  /// else would not end where the lengths wanted change faster than triangles can.
+  Edge longestOnPathFrom(Edge edge) const
+  {
+    for (auto longest = lengthOf(edge);; edge = longest.second)
+    {
+      for (const std::int32_t t : m_TrianglesAt.at(edge))
+        for (int side = 0; side < 3; ++side) longest = std::max(longest, lengthOf(edgeOf(std::size_t(t), side)));
+      if (longest.second == edge) return edge;
+    }
   }
 
   Vec3 middleOf(const Edge& edge) const { return 0.5 * (m_Surface.points[edge.first] + m_Surface.points[edge.second]); }

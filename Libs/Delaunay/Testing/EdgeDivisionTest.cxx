@@ -69,6 +69,16 @@ TEST(EdgeDivision, LeavesSurfacesOfTheScaleAlone)
   EXPECT_EQ(same.points.size(), ball.points.size());
 }
 
+// Halving what is too long alone, whatever its triangles' other sides, did not end here.
+TEST(EdgeDivision, EndsWhereLengthsJump)
+{
+  const auto jumping = [](const Vec3& p) { return p.x < -5 ? 1. : 3.; };
+  const SurfaceComplex ball = sphere({ 0, 0, 0 }, 10, 2);
+  const SurfaceComplex divided = withDividedEdges(ball, jumping);
+  EXPECT_GT(divided.triangles.size(), ball.triangles.size());
+  EXPECT_LT(divided.triangles.size(), 20 * ball.triangles.size());
+}
+
 TEST(EdgeDivision, FollowsAGradedScale)
 {
   const auto graded = [](const Vec3& p) { return p.x < 0 ? 1. : 4.; };
