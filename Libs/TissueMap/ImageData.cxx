@@ -136,10 +136,24 @@ std::uint64_t inflatedSize(std::istream& stream, std::uint64_t enough)
   return status == Z_STREAM_END ? size : 0;
 }
 
+/// A line of an NRRD header that is no key and value goes whole into a message of the reader's, which has room for so
+/// much.
+void requireLegibleNrrd(const std::string& file)
+{
+  constexpr std::size_t longest = 500;
+  if (!hasExtension(file, ".nrrd") && !hasExtension(file, ".nhdr")) return;
+  std::ifstream stream(file.c_str(), std::ios::binary);
+  for (std::string line; std::getline(stream, line) && !line.empty() && line != "\r";)
+    if (line.size() > longest && line.find(":=") == std::string::npos)
+      throw InputError(file + ": a line of " + std::to_string(line.size()) +
+                       " characters in the header, expected fields of at most " + std::to_string(longest));
+}
+
 } // namespace
 
 void requireCredibleDimensions(const std::string& imageFile)
 {
+  requireLegibleNrrd(imageFile);
   if (!hasExtension(imageFile, ".mha") && !hasExtension(imageFile, ".mhd")) return;
   constexpr long mostDimensions = 10; // of MetaImage
   std::ifstream stream(imageFile.c_str(), std::ios::binary);

@@ -51,7 +51,7 @@ class OwnMapTest(unittest.TestCase):
     def assert_refused(self, status, word, *arguments):
         process = run(*arguments)
         self.assertEqual(process.returncode, status, process.stderr)
-        self.assertEqual(process.stderr.count("example.sh: "), 1, process.stderr)  # the programs warn, too
+        self.assertEqual(process.stderr.count("\n"), 1, process.stderr)
         self.assertIn(word, process.stderr)
 
     def test_path_and_null_displacement(self):
