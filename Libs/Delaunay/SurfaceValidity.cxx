@@ -131,8 +131,8 @@ std::vector<EdgeUse> edgeUses(const SurfaceComplex& surface)
 }
 
 /// Triangles at the edges of a tissue's boundary that are at fault: those where the sides on which it lies don't
-/// alternate as they must around a closed boundary, or, with `crowded`, those of more than two triangles.
-std::vector<std::int32_t> faultyTriangles(const SurfaceComplex& surface, Label tissue, bool crowded)
+/// alternate as they must around a closed boundary, or, with `overused`, those of more than two triangles.
+std::vector<std::int32_t> faultyTriangles(const SurfaceComplex& surface, Label tissue, bool overused)
 {
   std::vector<std::int32_t> result;
   const std::vector<EdgeUse> uses = edgeUses(surface);
@@ -148,7 +148,7 @@ std::vector<std::int32_t> faultyTriangles(const SurfaceComplex& surface, Label t
       balance += uses[end].ascending == (behind == tissue) ? 1 : -1;
       around.push_back(uses[end].triangle);
     }
-    if (crowded ? around.size() > 2 : balance != 0) result.insert(result.end(), around.begin(), around.end());
+    if (overused ? around.size() > 2 : balance != 0) result.insert(result.end(), around.begin(), around.end());
   }
   return result;
 }
@@ -202,7 +202,7 @@ using Neighbours = std::vector<std::array<std::int32_t, 3>>;
 Neighbours closedNeighbours(const SurfaceComplex& surface, const std::string& name)
 {
   Neighbours across(surface.triangles.size(), { -1, -1, -1 });
-  std::vector<std::int32_t> open, crowded;
+  std::vector<std::int32_t> open, overused;
   const std::vector<EdgeUse> uses = edgeUses(surface);
   const auto corner = [&](const EdgeUse& use)
   {
@@ -218,7 +218,7 @@ Neighbours closedNeighbours(const SurfaceComplex& surface, const std::string& na
       across[uses[begin].triangle][corner(uses[begin])] = uses[begin + 1].triangle;
       across[uses[begin + 1].triangle][corner(uses[begin + 1])] = uses[begin].triangle;
     }
-    for (std::size_t i = begin; end - begin > 2 && i < end; ++i) crowded.push_back(uses[i].triangle);
+    for (std::size_t i = begin; end - begin > 2 && i < end; ++i) overused.push_back(uses[i].triangle);
     if (end - begin == 1) open.push_back(uses[begin].triangle);
   }
   if (!open.empty())
@@ -226,10 +226,10 @@ Neighbours closedNeighbours(const SurfaceComplex& surface, const std::string& na
     refuse(surface, name, "the surface is open: " + std::to_string(open.size()) + " edges of a single triangle",
            "closed shells", open, centreOf(surface, open.front()));
   }
-  if (!crowded.empty())
+  if (!overused.empty())
   {
-    refuse(surface, name, std::to_string(crowded.size()) + " triangles at edges of more than two",
-           "closed shells, or BoundaryLabels", crowded, centreOf(surface, crowded.front()));
+    refuse(surface, name, std::to_string(overused.size()) + " triangles at edges of more than two",
+           "closed shells, or BoundaryLabels", overused, centreOf(surface, overused.front()));
   }
   return across;
 }

@@ -13,7 +13,7 @@ struct SmoothingOptions
   double shrink = 0.5;      ///< lambda of G. Taubin (SIGGRAPH 1995)
   double grow = -0.53;      ///< mu
   double box = 0.5;         ///< no vertex leaves its place by more than this share of the voxel along any axis
-  double samples = 0.45;    ///< share of the way that samples points go along with the surface
+  double samples = 0.45;    ///< share of the way that boundary samples go along with the surface
   double minimumAngle = 10; ///< degrees; moves that would leave a worse dihedral angle are shortened
 };
 

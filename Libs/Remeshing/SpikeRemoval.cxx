@@ -20,7 +20,7 @@ std::vector<std::int32_t> tissuesAt(GuardedOperations& operations, std::int32_t 
   return result;
 }
 
-/// Gives all at v to `label`, in whatever order that allows. What leads nowhere is given back, if the samples has not
+/// Gives all at v to `label`, in whatever order that allows. What leads nowhere is given back, unless the samples have
 /// come to lie too well for that.
 bool takeOff(GuardedOperations& operations, std::int32_t v, Label label, double quality)
 {
@@ -80,7 +80,7 @@ std::optional<TwoLabels> twoLabelsAt(GuardedOperations& operations, std::int32_t
   return ofA < ofB ? TwoLabels{ a, b, ofA } : TwoLabels{ b, a, ofB };
 }
 
-/// Moves v towards its samples, if there is any left, as far as quality allows.
+/// Moves v towards its samples, if there are any left, as far as quality allows.
 void pull(GuardedOperations& operations, std::int32_t v, double quality)
 {
   const auto to = operations.nearestSampleOf(v);

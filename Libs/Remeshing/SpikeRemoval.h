@@ -18,7 +18,7 @@ struct SpikeOptions
   /// Degrees; what can't be cut is drawn in as far as such dihedral angles remain, for repairs to raise again. 0: it
   /// stays.
   double pullAngle = 0;
-  /// mm; samples is left no farther off than the tip is, nor than this.
+  /// mm; a sample is left no farther off than the tip is, nor than this.
   double maximumDistance = std::numeric_limits<double>::infinity();
 };
 

@@ -196,14 +196,14 @@ double SimplexMotion::step(SimplexOperators& mesh, const TissueBoundary& boundar
   for (std::size_t p = 0; p < way.size(); ++p)
   {
     const std::int32_t id = ids[p];
-    Vec3 wish = way[p] + 0.5 * hidden[p] + (1 - m_Options.damping) * m_Last[id];
+    Vec3 displacement = way[p] + 0.5 * hidden[p] + (1 - m_Options.damping) * m_Last[id];
     const double limit = shortestEdge(mesh, id) / 3;
-    if (norm(wish) > limit) wish = limit / norm(wish) * wish;
+    if (norm(displacement) > limit) displacement = limit / norm(displacement) * displacement;
     m_Last[id] = {};
-    for (int tries = 0; tries < 4; ++tries, wish = 0.5 * wish)
+    for (int tries = 0; tries < 4; ++tries, displacement = 0.5 * displacement)
     {
-      if (!mesh.move(id, mesh.points()[id] + wish)) continue;
-      m_Last[id] = wish;
+      if (!mesh.move(id, mesh.points()[id] + displacement)) continue;
+      m_Last[id] = displacement;
       break;
     }
     largest = std::max(largest, norm(m_Last[id]));

@@ -47,8 +47,10 @@ inline std::string faultOf(const MeshedMap& result, const TissueMap& map)
   if (result.background.lengths.size() != mesh.points.size()) return "there is not one target length per point";
   const auto neighbours = faceAdjacency(mesh);
   const Vec3 h = map.grid.spacing;
-  constexpr double slack = 2.4, aside = 2; // see Envelope
-  const auto allowed = [&](double tolerance) { return aside * slack * tolerance + std::min({ h.x, h.y, h.z }); };
+  constexpr double widestTolerance = 2.4, separatedFactor = 2; // see Schedule.h and EnvelopeBounds
+  const auto allowed = [&](double tolerance) {
+    return separatedFactor * widestTolerance * tolerance + std::min({ h.x, h.y, h.z });
+  };
   for (const auto& e : result.background.samples)
   {
     const std::int32_t n = neighbours.across[e.tetrahedron][e.face];

@@ -80,7 +80,7 @@ std::string run(unsigned seed)
     const double allowed = std::max(options.maximumDistance, mesh.evolution.front().maximumDistance) * (1 + 1e-5);
     const double farthest = mesh.evolution.back().maximumDistance;
     return fault.empty() && options.maximumDistance > 0 && farthest > allowed
-             ? "samples is " + std::to_string(farthest) + " mm away, asked for " + std::to_string(allowed)
+             ? "a sample is " + std::to_string(farthest) + " mm away, asked for " + std::to_string(allowed)
              : fault;
   }
   catch (const std::exception& error)

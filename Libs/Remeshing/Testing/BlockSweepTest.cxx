@@ -44,7 +44,7 @@ BackgroundMesh randomAmbient(unsigned seed, int labels)
 
 std::array<double, 3> coordinates(const Vec3& p) { return { p.x, p.y, p.z }; }
 
-/// Every tetrahedron by its corners' places, and every samples point with the places of its face's corners.
+/// Every tetrahedron by its corners' places, and every sample with the places of its face's corners.
 auto contents(const BackgroundMesh& ambient)
 {
   using Place = std::array<double, 3>;

@@ -928,7 +928,7 @@ TEST(Split, TakenBackLeavesTheComplexAsItWas)
 
 TEST(Move, KeepsSamplesWithinToleranceAndTheirMeanSquareBelowTheLimit)
 {
-  // The samples lies nearly two thirds of the move away from the lifted faces.
+  // The sample lies nearly two thirds of the move away from the lifted faces.
   const Vec3 lifted{ 0, 0, 0.3 };
   for (const auto& [tolerance, rmsLimit, allowed] : { std::tuple(0.5f, 0.5, true),
                                                       { 0.5f, 0.1, false },
