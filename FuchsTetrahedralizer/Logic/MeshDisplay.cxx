@@ -63,8 +63,8 @@ void fillCategories(vtkMRMLColorTableNode* colors, const std::vector<Tissue>& ca
   TissueTable table;
   for (std::size_t i = 0; i < categories.size(); ++i) table[Label(i)] = categories[i];
   fillColorTable(table, colors);
-  const auto& [name, color, isShell] = categories.front(); // which a tissue table takes for transparent background
-  colors->SetColor(0, name.c_str(), color[0], color[1], color[2], 1);
+  const Tissue& first = categories.front(); // which a tissue table takes for transparent background
+  colors->SetColor(0, first.name.c_str(), first.color[0], first.color[1], first.color[2], 1);
 }
 
 /// From red over yellow to blue, which colour-blind eyes tell apart too: bad to good.
