@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueFidelity.h"
 
+#include "BoundaryDistance.h"
 #include "TissueBoundary.h"
 
 #include <vtkSMPTools.h>
@@ -265,19 +266,6 @@ void measureFromMap(const SurfaceComplex& surface, const TissueMap& map, double 
                                 });
                      }
                    });
-}
-
-/// Squared distance from p to the face between a voxel and the next one along the axis.
-double squaredDistanceToFace(const Vec3& p, const Voxel& voxel, int axis, const Vec3& spacing)
-{
-  double squared = 0;
-  for (int a = 0; a < 3; ++a)
-  {
-    const double off = std::abs(p[a] - (a == axis ? voxel[a] + 0.5 : voxel[a]) * spacing[a]);
-    const double outside = std::max(0.0, off - (a == axis ? 0 : 0.5 * spacing[a]));
-    squared += outside * outside;
-  }
-  return squared;
 }
 
 /// From p to the nearest face around the tissue in the map, at most eight of the smallest voxel sides.

@@ -14,19 +14,6 @@ namespace
 
 using Voxel = std::array<int, 3>;
 
-/// Squared distance from p, mm from the first voxel's centre, to the face between v and the next voxel along the axis.
-double squaredDistanceToFace(const Vec3& p, const Voxel& v, int axis, const Vec3& spacing)
-{
-  double d2 = 0;
-  for (int a = 0; a < 3; ++a)
-  {
-    const double off = std::abs(p[a] - (a == axis ? v[a] + 0.5 : v[a]) * spacing[a]);
-    const double beyond = std::max(0.0, off - (a == axis ? 0 : 0.5 * spacing[a]));
-    d2 += beyond * beyond;
-  }
-  return d2;
-}
-
 /// The voxels at most `reach` from `centre` along every axis and along one that far.
 template <class F>
 void forEachInShell(const Voxel& centre, int reach, F&& f)
@@ -67,6 +54,18 @@ double distanceToFaces(const TissueMap& map, const Vec3& p, const Voxel& centre)
 }
 
 } // namespace
+
+double squaredDistanceToFace(const Vec3& p, const std::array<int, 3>& v, int axis, const Vec3& spacing)
+{
+  double d2 = 0;
+  for (int a = 0; a < 3; ++a)
+  {
+    const double off = std::abs(p[a] - (a == axis ? v[a] + 0.5 : v[a]) * spacing[a]);
+    const double beyond = std::max(0.0, off - (a == axis ? 0 : 0.5 * spacing[a]));
+    d2 += beyond * beyond;
+  }
+  return d2;
+}
 
 std::vector<double> boundaryDistances(const SurfaceComplex& surface, const TissueMap& map)
 {

@@ -9,6 +9,9 @@
 namespace surgicalmesher
 {
 
+/// Squared distance, mm^2, from p (mm, in the grid frame) to the face between voxel v and the next one along the axis.
+double squaredDistanceToFace(const Vec3& p, const std::array<int, 3>& v, int axis, const Vec3& spacing);
+
 /// Signed distance, mm, of each point of `surface` (in the grid frame of `map`) to the nearest face between voxels of
 /// different labels: positive where the map has, at the point, the label in front of the surface, negative otherwise.
 /// Beyond four voxels, the distance of four voxels.
