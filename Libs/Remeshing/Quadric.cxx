@@ -10,13 +10,18 @@ namespace surgicalmesher
 namespace
 {
 
+bool hasPlane(const SheetSample& sample)
+{
+  return sample.normal[0] != 0 || sample.normal[1] != 0 || sample.normal[2] != 0;
+}
+
 /// What the plane through a sample, `way` from the vertex, says of its place: the more, the nearer it is.
 void addPlane(const SheetSample& sample, const Vec3& way, Quadric& quadric)
 {
   constexpr double share = 0.3; // against the face's distance to the sample
   const Vec3 n{ sample.normal[0], sample.normal[1], sample.normal[2] };
   const double perRadius2 = squaredNorm(n), near = 1 - squaredNorm(way) * perRadius2;
-  if (perRadius2 == 0 || near <= 0) return;
+  if (near <= 0) return;
   const double w = share * near * near / perRadius2;
   quadric.g += (w * dot(n, way)) * n;
   double* m = quadric.m;
@@ -67,7 +72,7 @@ Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, co
       const double height = dot(unit, d), w = robust > 0 ? robust / (robust + std::abs(height)) : 1;
       weight += w * b * b;
       quadric.g += (w * b * height) * unit;
-      addPlane(*sample, d, quadric);
+      if (hasPlane(*sample)) addPlane(*sample, d, quadric);
     }
     double* m = quadric.m;
     m[0] += weight * unit.x * unit.x, m[1] += weight * unit.x * unit.y, m[2] += weight * unit.x * unit.z;

@@ -14,25 +14,27 @@ namespace surgicalmesher
 namespace
 {
 
+/// A face without its first point, by which faces are bucketed.
 struct Face
 {
-  std::array<std::int32_t, 3> points; ///< ascending
+  std::uint64_t others; ///< its two larger points, the second in the upper half
   std::int32_t tetrahedron;
   std::int32_t local;
 };
 
-Face faceOf(const std::vector<std::array<std::int32_t, 4>>& tetrahedra, std::size_t t, int f)
+/// The points of the face opposite corner f, ascending.
+std::array<std::int32_t, 3> sortedFace(const std::array<std::int32_t, 4>& t, int f)
 {
-  Face face{ {}, static_cast<std::int32_t>(t), f };
-  for (int c = 0; c < 3; ++c) face.points[c] = tetrahedra[t][kFaceCorners[f][c]];
-  std::sort(face.points.begin(), face.points.end());
-  return face;
+  std::array<std::int32_t, 3> p{ t[kFaceCorners[f][0]], t[kFaceCorners[f][1]], t[kFaceCorners[f][2]] };
+  if (p[0] > p[1]) std::swap(p[0], p[1]);
+  if (p[1] > p[2]) std::swap(p[1], p[2]);
+  if (p[0] > p[1]) std::swap(p[0], p[1]);
+  return p;
 }
 
 bool operator<(const Face& a, const Face& b)
 {
-  if (a.points[1] != b.points[1]) return a.points[1] < b.points[1];
-  if (a.points[2] != b.points[2]) return a.points[2] < b.points[2];
+  if (a.others != b.others) return a.others < b.others;
   return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.local < b.local;
 }
 
@@ -42,7 +44,7 @@ void pairFaces(Face* begin, Face* end, AcrossFaces& across, std::vector<std::int
   std::sort(begin, end);
   for (Face* next; begin != end; begin = next)
   {
-    for (next = begin + 1; next != end && next->points == begin->points;) ++next;
+    for (next = begin + 1; next != end && next->others == begin->others;) ++next;
     if (next - begin == 2)
     {
       across[begin[0].tetrahedron][begin[0].local] = begin[1].tetrahedron;
@@ -70,13 +72,17 @@ std::vector<std::int32_t> matchOpenFaces(const std::vector<std::array<std::int32
   {
     for (std::size_t t = 0; t < across.size(); ++t)
       for (int local = 0; local < 4; ++local)
-        if (across[t][local] < 0) f(faceOf(tetrahedra, t, local));
+        if (across[t][local] < 0) f(std::int32_t(t), local, sortedFace(tetrahedra[t], local));
   };
+  using Points = std::array<std::int32_t, 3>;
   std::vector<std::size_t> end(pointCount + 1, 0);
-  forEachOpen([&](const Face& face) { ++end[face.points[0] + 1]; });
+  forEachOpen([&](std::int32_t, int, const Points& p) { ++end[p[0] + 1]; });
   std::partial_sum(end.begin(), end.end(), end.begin());
   std::vector<Face> faces(end.back());
-  forEachOpen([&](const Face& face) { faces[end[face.points[0]]++] = face; });
+  forEachOpen(
+    [&](std::int32_t t, int local, const Points& p) {
+      faces[end[p[0]]++] = { std::uint64_t(p[1]) << 32 | std::uint32_t(p[2]), t, local };
+    });
   std::vector<std::int32_t> overused;
   std::mutex mutex;
   vtkSMPTools::For(0, vtkIdType(pointCount),
