@@ -2,7 +2,7 @@
 #include "TissueFidelity.h"
 
 #include "BoundaryDistance.h"
-#include "TissueBoundary.h"
+#include "Triangle.h"
 
 #include <vtkSMPTools.h>
 
@@ -98,6 +98,14 @@ public:
     while (cells() > 3e7) m_Size *= 1.5;
     for (int axis = 0; axis < 3; ++axis) m_Cells[axis] = int(std::floor((high[axis] - low[axis]) / m_Size)) + 1;
     fill();
+    for (const auto& [a, b, c] : surface.triangles)
+    {
+      const Vec3 centre = (surface.points[a] + surface.points[b] + surface.points[c]) / 3;
+      const double radius2 =
+        std::max({ squaredNorm(surface.points[a] - centre), squaredNorm(surface.points[b] - centre),
+                   squaredNorm(surface.points[c] - centre) });
+      m_Spheres.push_back({ centre, std::sqrt(radius2) });
+    }
   }
 
   /// Squared distances from p to the nearest triangle of each of two tissues; infinite for one without triangles.
@@ -200,9 +208,12 @@ private:
     const auto bounds = [&](Label tissue) { return tissue != 0 && (labels[0] == tissue || labels[1] == tissue); };
     const bool first = bounds(tissues[0]), second = bounds(tissues[1]);
     if (!first && !second) return;
+    const double worst = std::max(first ? best[0] : 0, second ? best[1] : 0);
+    const auto& [centre, radius] = m_Spheres[t];
+    const double farthest = radius + std::sqrt(worst); // of a centre whose triangle can be nearer
+    if (squaredNorm(p - centre) > farthest * farthest) return;
     const auto& [a, b, c] = m_Surface.triangles[t];
-    const double d =
-      squaredNorm(nearestOnTriangle(p, m_Surface.points[a], m_Surface.points[b], m_Surface.points[c]) - p);
+    const double d = squaredDistanceToTriangle(p, m_Surface.points[a], m_Surface.points[b], m_Surface.points[c]);
     if (first) best[0] = std::min(best[0], d);
     if (second) best[1] = std::min(best[1], d);
   }
@@ -213,6 +224,12 @@ private:
   Voxel m_Cells{ 0, 0, 0 };
   std::vector<std::size_t> m_First; ///< per cell, into m_Triangles
   std::vector<std::int32_t> m_Triangles;
+  struct Sphere
+  {
+    Vec3 centre;
+    double radius;
+  };
+  std::vector<Sphere> m_Spheres; ///< around the triangles: spare most of them the full distance
 };
 
 Vec3 faceCentre(const Grid& grid, const Voxel& voxel, int axis)
