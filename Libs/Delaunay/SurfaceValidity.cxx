@@ -315,7 +315,8 @@ private:
   {
     for (int step = 0; step < 27; ++step)
     {
-      const Cube at{ cube[0] + step % 3 - 1, cube[1] + step / 3 % 3 - 1, cube[2] + step / 9 - 1 };
+      const int i = step % 3 - 1, j = step / 3 % 3 - 1, k = step / 9 - 1;
+      const Cube at{ cube[0] + i, cube[1] + j, cube[2] + k };
       const auto found = at == cube ? m_Ids.end() : m_Ids.find(at);
       if (found != m_Ids.end() && norm(points[found->second] - p) <= m_Tolerance) return found->second;
     }

@@ -269,6 +269,7 @@ void measureFromMap(const SurfaceComplex& surface, const TissueMap& map, double 
                    {
                      for (int k = int(begin); k < int(end); ++k)
                      {
+                       const std::size_t part = k + 1; // k begins at -1
                        forFaces(map, k,
                                 [&](const Voxel& voxel, int axis, const std::array<Label, 2>& labels)
                                 {
@@ -277,8 +278,7 @@ void measureFromMap(const SurfaceComplex& surface, const TissueMap& map, double 
                                   for (int side = 0; side < 2; ++side)
                                   {
                                     if (labels[side] != 0)
-                                      add(sums.of(std::size_t(k + 1), labels[side]), std::sqrt(squared[side]), p,
-                                          bound);
+                                      add(sums.of(part, labels[side]), std::sqrt(squared[side]), p, bound);
                                   }
                                 });
                      }

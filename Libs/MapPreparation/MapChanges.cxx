@@ -172,12 +172,8 @@ private:
   Vec3 placeOf(const Voxels& piece) const
   {
     const std::size_t voxel = piece[piece.size() / 2];
-    const auto& [sizeI, sizeJ, sizeK] = m_Before.grid.size;
-    (void)sizeK;
-    const Vec3& s = m_Before.grid.spacing;
-    const double i = double(voxel % sizeI) - 1, j = double(voxel / sizeI % sizeJ) - 1;
-    const double k = double(voxel / sizeI / sizeJ) - 1; // the margin shifts voxels by one
-    return m_Before.grid.gridToWorld({ i * s.x, j * s.y, k * s.z });
+    const auto [i, j, k] = m_Before.grid.voxelAt(voxel);
+    return m_Before.grid.gridToWorld(m_Before.grid.position(i - 1, j - 1, k - 1)); // the margin shifts voxels by one
   }
 
   const TissueMap& m_Before;
