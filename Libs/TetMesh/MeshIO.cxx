@@ -4,6 +4,7 @@
 #include "Compaction.h"
 #include "Errors.h"
 #include "HeaderClaims.h"
+#include "SeparateProcess.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -184,6 +185,53 @@ bool saysRAS(vtkDataSet* data)
          const_cast<vtkStringArray*>(space)->GetValue(0) == "RAS";
 }
 
+/// How one process tells another what it read.
+enum LegacyAnswer : char
+{
+  LegacyData = 'd',
+  LegacyDataInRAS = 'r',
+  LegacyRefused = '!' ///< the sentence follows
+};
+
+template <class LegacyReader, class Writer>
+std::string legacyAsXML(const std::string& file, const std::string& format)
+{
+  try
+  {
+    vtkNew<LegacyReader> reader;
+    readEverything(reader);
+    vtkNew<Writer> writer;
+    writer->SetInputData(run(reader.Get(), file, format));
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToNone();
+    writer->SetHeaderTypeToUInt64();
+    writer->WriteToOutputStringOn();
+    ErrorCatcher errors;
+    if (!writer->Write() || errors.any()) refuse(file, "not a readable " + format + " file");
+    return char(titleSaysRAS(reader->GetHeader()) ? LegacyDataInRAS : LegacyData) + writer->GetOutputString();
+  }
+  catch (const InputError& error)
+  {
+    return char(LegacyRefused) + std::string(error.what());
+  }
+}
+
+/// VTK's legacy readers take what a damaged file says of its cells at its word, and crash: they run in a process of
+/// their own.
+template <class LegacyReader, class Writer, class Reader>
+auto readLegacy(const std::string& file, const std::string& format, bool& ras)
+{
+  const auto answer = runInSeparateProcess([&] { return legacyAsXML<LegacyReader, Writer>(file, format); });
+  if (!answer || answer->empty()) refuse(file, "not a readable " + format + " file (its reader crashed)");
+  if (answer->front() == LegacyRefused) throw InputError(answer->substr(1));
+  ras = answer->front() == LegacyDataInRAS;
+  vtkNew<Reader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(answer->substr(1));
+  return run(reader.Get(), file, format);
+}
+
 struct PolyDataFromFile
 {
   vtkSmartPointer<vtkPolyData> data;
@@ -201,10 +249,8 @@ PolyDataFromFile readPolyData(const std::string& file)
   }
   else if (extension == ".vtk")
   {
-    vtkNew<vtkPolyDataReader> reader;
-    readEverything(reader);
-    result.data = run(reader.Get(), file, "legacy VTK polygonal data (.vtk)");
-    result.ras = titleSaysRAS(reader->GetHeader());
+    result.data = readLegacy<vtkPolyDataReader, vtkXMLPolyDataWriter, vtkXMLPolyDataReader>(
+      file, "legacy VTK polygonal data (.vtk)", result.ras);
   }
   else if (extension == ".stl")
   {
@@ -484,10 +530,8 @@ vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& file, bool& ras
   }
   else if (extension == ".vtk")
   {
-    vtkNew<vtkUnstructuredGridReader> reader;
-    readEverything(reader);
-    grid = run(reader.Get(), file, "legacy VTK unstructured grid (.vtk)");
-    ras = titleSaysRAS(reader->GetHeader());
+    grid = readLegacy<vtkUnstructuredGridReader, vtkXMLUnstructuredGridWriter, vtkXMLUnstructuredGridReader>(
+      file, "legacy VTK unstructured grid (.vtk)", ras);
   }
   else
   {

@@ -3,7 +3,6 @@
 #include "FaceAdjacency.h"
 #include "MeshChecks.h"
 #include "MeshQuality.h"
-#include "SeparateProcess.h"
 #include "Shapes.h"
 #include "SurfaceValidity.h"
 #include "VoxelMesh.h"
@@ -171,17 +170,6 @@ TEST(Tetrahedralize, InnerElementsAreCanonical)
   }
   EXPECT_GT(inner, 1000u);
   EXPECT_EQ(canonical, inner);
-}
-
-TEST(SeparateProcess, AnswersOrTellsThatThereIsNoAnswer)
-{
-  const std::string large(1 << 20, 'x'); // more than a pipe holds
-  EXPECT_EQ(runInSeparateProcess([&] { return large; }), large);
-  EXPECT_EQ(runInSeparateProcess([]() -> std::string { throw 2; }), std::nullopt);
-#ifndef _WIN32
-  EXPECT_EQ(runInSeparateProcess([]() -> std::string { std::abort(); }), std::nullopt);
-  EXPECT_EQ(runInSeparateProcess([]() -> std::string { std::_Exit(0); }).value_or(""), "") << "left without an answer";
-#endif
 }
 
 /// A cone's base is a fan of thin triangles around a point, its side a fan around another: TetGen finds both hard.

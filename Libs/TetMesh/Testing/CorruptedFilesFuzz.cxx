@@ -81,6 +81,16 @@ std::string stlOf(const SurfaceComplex& surface)
   return text.str() + "endsolid x\n";
 }
 
+std::string legacyOf(const SurfaceComplex& surface)
+{
+  std::ostringstream text;
+  text << "# vtk DataFile Version 4.2\nx\nASCII\nDATASET POLYDATA\nPOINTS " << surface.points.size() << " float\n";
+  for (const Vec3& p : surface.points) text << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  text << "POLYGONS " << surface.triangles.size() << ' ' << 4 * surface.triangles.size() << '\n';
+  for (const auto& [a, b, c] : surface.triangles) text << "3 " << a << ' ' << b << ' ' << c << '\n';
+  return text.str();
+}
+
 /// Whole files of every kind, written by the project where it writes them.
 std::vector<Kind> wholeFiles(const fs::path& folder)
 {
@@ -111,14 +121,17 @@ std::vector<Kind> wholeFiles(const fs::path& folder)
   writeSurface(surface, file("s.vtp"));
   write("s.ply", plyOf(surface.surface));
   write("s.stl", stlOf(surface.surface));
-  for (const char* name : { "s.vtp", "s.ply", "s.stl" })
+  write("s.vtk", legacyOf(surface.surface));
+  for (const char* name : { "s.vtp", "s.ply", "s.stl", "s.vtk" })
     add(name, [](const std::string& damaged) { readSurface(damaged); });
   MeshFile mesh;
   mesh.mesh = test::tetrahedraOf(map, 0);
   mesh.tissues = map.table;
   writeMesh(mesh, file("m.vtu"));
   writeMesh(mesh, file("m.vtk"));
-  for (const char* name : { "m.vtu", "m.vtk" }) add(name, [](const std::string& damaged) { readMesh(damaged); });
+  writeMesh(mesh, file("text.vtk"), FieldTexts::LeftOut);
+  for (const char* name : { "m.vtu", "m.vtk", "text.vtk" })
+    add(name, [](const std::string& damaged) { readMesh(damaged); });
 
   write("p.mrk.json", R"({"markups":[{"type":"Curve","coordinateSystem":"RAS","controlPoints":[)"
                       R"({"id":"1","position":[1,2,3],"positionStatus":"defined"},{"position":[4,5e1,-6.5]}]}]})");

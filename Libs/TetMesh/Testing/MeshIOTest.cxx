@@ -360,6 +360,28 @@ TEST_F(ComplexIO, RefusesMeshesThatAreNotSound)
   expectRefusal([&] { readMesh(path("mixed.vtu")); }, "cell 1 is of VTK type 5");
 }
 
+// VTK's legacy readers crash on these: cells of more points than there are numbers, and fewer types than cells.
+TEST_F(ComplexIO, LegacyFilesWhoseCellsAreDamagedAreRefused)
+{
+  const std::string points = "POINTS 4 float\n0 0 0 1 0 0 0 1 0 0 0 1\n";
+  const std::string grid = "# vtk DataFile Version 4.2\nx\nASCII\nDATASET UNSTRUCTURED_GRID\n" + points;
+  const std::string faces = "# vtk DataFile Version 4.2\nx\nASCII\nDATASET POLYDATA\n" + points;
+  const std::string label = "CELL_DATA 1\nSCALARS TissueLabel int\nLOOKUP_TABLE default\n1\n";
+  const auto write = [&](const std::string& text) { std::ofstream(path("cells.vtk")) << text; };
+  write(grid + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n" + label);
+  EXPECT_EQ(readMesh(path("cells.vtk")).mesh.tetrahedra.size(), 1u);
+  for (const std::string cells :
+       { "CELLS 1 5\n400000000 0 1 2 3\nCELL_TYPES 1\n10\n", "CELLS 1 5\n-4 0 1 2 3\nCELL_TYPES 1\n10\n",
+         "CELLS 1 5\n4 0 1 2 3\n", "CELLS 2 10\n4 0 1 2 3 4 0 1 2 3\nCELL_TYPES 1\n10\n",
+         "CELLS 1 -5\n4 0 1 2 3\nCELL_TYPES 1\n10\n" })
+  {
+    write(grid + cells + label);
+    expectRefusal([&] { readMesh(path("cells.vtk")); }, "cells.vtk: ");
+  }
+  write(faces + "POLYGONS 1 4\n300000000 0 1 2\n");
+  expectRefusal([&] { readSurface(path("cells.vtk")); }, "cells.vtk: ");
+}
+
 TEST_F(ComplexIO, WritersReportWhatTheyCannotWrite)
 {
   expectRefusal([&] { writeSurface(someSurface(), path("missing/a.vtp")); }, "can't be opened");
