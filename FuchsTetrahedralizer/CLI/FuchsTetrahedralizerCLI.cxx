@@ -134,6 +134,7 @@ Start startOf(const CommandLine& line, const SurfaceComplex& surface, const Sizi
   if (ambientName.empty())
   {
     start.mesh = fillWithTetrahedra(surface, edgeLength, surfaceName);
+    start.improvement.featureAngle = line.number("featureAngle");
     return start;
   }
   MeshFile ambient = readMesh(ambientName);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Improvement where it is needed most: on the slivers of a constrained Delaunay tetrahedralization.
 
+#include "EdgeDivision.h"
 #include "FaceAdjacency.h"
 #include "MeshChecks.h"
 #include "MeshQuality.h"
@@ -88,6 +89,33 @@ TEST(MeshImprovement, RaisesTheWorstAngleOfADelaunayMeshAndKeepsItsTissues)
         EXPECT_NEAR(tissue.volume, volumes.at(label).volume, area * tolerance * shape.edgeLength) << "label " << label;
       }
     }
+  }
+}
+
+// B4: its faces bulged, and its edges became round.
+TEST(Trial, B04_ACubeOfTwelveTrianglesStaysACube)
+{
+  SurfaceComplex cube;
+  for (int n = 0; n < 8; ++n) cube.points.push_back({ n & 1 ? 10. : -10., n & 2 ? 10. : -10., n & 4 ? 10. : -10. });
+  cube.triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 },
+                     { 2, 6, 3 }, { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
+  cube.labels.assign(12, { 1, 0 });
+  for (const double length : { 2., 3., 5. })
+  {
+    const auto edgeLength = [&](const Vec3&) { return length; };
+    TetMesh mesh = fillWithTetrahedra(withDividedEdges(cube, edgeLength), edgeLength, "cube");
+    TetrahedraImprovementOptions options;
+    options.featureAngle = 40;
+    improveTetrahedra(mesh, edgeLength, options);
+    EXPECT_GT(worstAngle(mesh), 20) << length;
+    const SurfaceComplex surface = interfaceOf(mesh);
+    EXPECT_NEAR(checkSurface(surface).at(1).volume, 8000, 1e-6) << length;
+    for (const auto& ids : surface.triangles)
+      for (const std::int32_t id : ids)
+      {
+        const Vec3& p = surface.points[id];
+        EXPECT_NEAR(std::max({ std::abs(p.x), std::abs(p.y), std::abs(p.z) }), 10, 1e-9) << length;
+      }
   }
 }
 

@@ -172,7 +172,7 @@ private:
     both.g += ofU.g;
     const double spring = 0.02 * both.trace();
     both.addToDiagonal(spring);
-    const Vec3 p = both.solve(both.g + spring * middle);
+    const Vec3 p = middle + m_Operations.alongFeatures(u, both.solve(both.g + spring * middle) - middle);
     return squaredNorm(p - middle) < squaredNorm(m_Complex.points[v] - middle) ? p : middle;
   }
 

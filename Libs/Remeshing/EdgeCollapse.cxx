@@ -124,7 +124,7 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
   if (!inside)
   {
     if (!keepsTissues(u, v)) return false;
-    if (!gatherCollapsingFaces(u, v, p) || !m_Envelope.samplesStay()) return false;
+    if (!gatherCollapsingFaces(u, v, p) || !m_Envelope.featuresStay() || !m_Envelope.samplesStay()) return false;
     if (!m_Envelope.trianglesReach(minimumQuality) || m_Envelope.spansGap(v, c.points[u])) return false;
     m_Envelope.detach();
   }

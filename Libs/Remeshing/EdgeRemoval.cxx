@@ -138,7 +138,8 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
     for (std::int32_t end : { a, b })
       m_Envelope.addNewFace(c.points[end], c.points[p], c.points[q], { end, p, q }, c.labels[m_Ring[0]],
                             c.labels[m_Ring[second]]);
-    if (!m_Envelope.trianglesReach(minimumQuality) || !m_Envelope.samplesStay()) return false;
+    if (!m_Envelope.trianglesReach(minimumQuality) || !m_Envelope.featuresStay() || !m_Envelope.samplesStay())
+      return false;
     m_Envelope.detach();
   }
   const auto ids = c.replace(m_Ring, fresh, labels);

@@ -36,7 +36,8 @@ struct FacesToSamples
 Envelope::Envelope(TetComplex& complex, const EnvelopeBounds& bounds)
   : m_Complex(complex), m_MeanSquareLimit(bounds.rmsLimit * bounds.rmsLimit),
     m_SquaredToleranceFactor(bounds.toleranceFactor * bounds.toleranceFactor), m_TriangleWeight(bounds.triangleWeight),
-    m_VertexDistance(bounds.vertexDistance), m_SquaredSeparatedFactor(bounds.separatedFactor * bounds.separatedFactor)
+    m_VertexDistance(bounds.vertexDistance), m_SquaredSeparatedFactor(bounds.separatedFactor * bounds.separatedFactor),
+    m_Sides(bounds.featureAngle)
 {
 }
 
@@ -76,6 +77,16 @@ bool Envelope::trianglesReach(double minimumQuality) const
     return !f.changes || m_TriangleWeight * smallestSine2(a, b, c) >= minimumQuality;
   };
   return m_TriangleWeight == 0 || std::all_of(m_NewFaces.begin(), m_NewFaces.end(), isGood);
+}
+
+bool Envelope::featuresStay() { return featuresStay(m_Old); }
+
+bool Envelope::featuresStay(const Sheet& sheet)
+{
+  if (!m_Sides.areWatched()) return true;
+  m_Sides.find(m_Complex, sheet.faces);
+  return std::all_of(m_NewFaces.begin(), m_NewFaces.end(),
+                     [&](const Face& f) { return !f.changes || m_Sides.allow(f.normal, f.labels); });
 }
 
 // --- distances of samples -------------------------------------------------------------------------------------------
@@ -293,6 +304,13 @@ const Sheet& Envelope::sheet(std::int32_t v, const std::vector<std::int32_t>& st
   return m_Sheet;
 }
 
+Vec3 Envelope::alongFeatures(const Vec3& step)
+{
+  if (!m_Sides.areWatched()) return step;
+  m_Sides.find(m_Complex, m_Sheet.faces);
+  return m_Sides.along(step);
+}
+
 /// The faces of the sheet as they would be with its vertex at p.
 void Envelope::addMovedFaces(const Vec3& p)
 {
@@ -308,6 +326,7 @@ bool Envelope::moveSheet(const Vec3& p)
 {
   addMovedFaces(p);
   auto& samples = m_Sheet.samples;
+  if (!featuresStay(m_Sheet)) return false;
   if (!std::all_of(samples.begin(), samples.end(), [&](SheetSample& sample) { return sampleStays(m_Sheet, sample); }) ||
       !meanSquareStays(m_Sheet) || growsSpike(p) || spansGap(m_Sheet, m_SheetVertex, m_Complex.points[m_SheetVertex]))
     return false;
@@ -346,8 +365,9 @@ bool Envelope::hasSampleBeyondTolerance()
 
 Envelope::Lifted::Lifted(Envelope& envelope)
   : m_Envelope(envelope), m_LeastTolerance2(envelope.m_LeastTolerance2), m_MeanSquareLimit(envelope.m_MeanSquareLimit),
-    m_VertexDistance(envelope.m_VertexDistance)
+    m_VertexDistance(envelope.m_VertexDistance), m_Sides(envelope.m_Sides)
 {
+  envelope.m_Sides = FeatureSides(0);
   envelope.m_LeastTolerance2 = envelope.m_MeanSquareLimit = std::numeric_limits<double>::max();
   envelope.m_VertexDistance = 0;
 }
@@ -357,6 +377,7 @@ Envelope::Lifted::~Lifted()
   m_Envelope.m_LeastTolerance2 = m_LeastTolerance2;
   m_Envelope.m_MeanSquareLimit = m_MeanSquareLimit;
   m_Envelope.m_VertexDistance = m_VertexDistance;
+  m_Envelope.m_Sides = m_Sides;
 }
 
 } // namespace surgicalmesher

@@ -9,7 +9,7 @@
 /// Hausdorff distance from the map's boundary to the mesh, for every pair of labels; vertexDistance bounds the other
 /// side.
 
-#include "BoundarySamples.h"
+#include "FeatureSides.h"
 
 namespace surgicalmesher
 {
@@ -32,6 +32,8 @@ struct EnvelopeBounds
   /// Factor, at least 1, on the tolerance to faces of its own pair for a sample whose two labels others have come
   /// between, if it has the boundary of either label within tolerance.
   double separatedFactor = 1;
+  /// degrees; sharp edges, corners and flat faces of the interface stay what they are (FeatureSides). 0: there are none.
+  double featureAngle = 0;
 };
 
 class Envelope
@@ -51,6 +53,8 @@ public:
 
   /// Whether the new triangles reach that quality.
   bool trianglesReach(double minimumQuality) const;
+  /// Whether the new faces leave flat sides flat and sharp edges where they are, if that is asked for.
+  bool featuresStay();
   /// Whether every sample of the old faces has a new face within its tolerance, or no farther than its face is now, and
   /// their mean square is within the limit or does not grow.
   bool samplesStay();
@@ -74,7 +78,9 @@ public:
   const Sheet& sheet(std::int32_t v, const std::vector<std::int32_t>& star);
   const Sheet& sheet() const { return m_Sheet; }
   void forgetSheet() { m_SheetVertex = -1; }
-  /// Whether samplesStay() and vertexDistance allow the vertex of the sheet at p; hands the samples on if so.
+  /// The part of a step of the sheet's vertex that leaves features as they are.
+  Vec3 alongFeatures(const Vec3& step);
+  /// Whether features, samplesStay() and vertexDistance allow the vertex of the sheet at p; hands the samples on if so.
   bool moveSheet(const Vec3& p);
   /// Hands the samples of the sheet to the nearest of its faces as they are with the vertex at p, however far.
   void handToNearest(const Vec3& p);
@@ -95,6 +101,7 @@ public:
   private:
     Envelope& m_Envelope;
     const double m_LeastTolerance2, m_MeanSquareLimit, m_VertexDistance;
+    const FeatureSides m_Sides;
   };
 
 private:
@@ -111,6 +118,7 @@ private:
     bool changes;
   };
 
+  bool featuresStay(const Sheet& sheet);
   double squaredDistanceNow(const Sheet& sheet, const SheetSample& sample);
   bool findNearestFace(const Sheet& sheet, SheetSample& sample) const;
   double squaredDistanceToBoth(const Sheet& sheet, const SheetSample& sample) const;
@@ -129,7 +137,8 @@ private:
   double m_VertexDistance;
   const double m_SquaredSeparatedFactor;
   double m_LeastTolerance2 = 0;
-  Sheet m_Old; ///< the faces that an operation takes away
+  FeatureSides m_Sides; ///< of the faces asked about last
+  Sheet m_Old;          ///< the faces that an operation takes away
   std::vector<Face> m_NewFaces;
   std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of the new faces
   std::int32_t m_SheetVertex = -1;                     ///< whose m_Sheet is; -1: nobody's

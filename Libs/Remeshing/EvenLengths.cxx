@@ -74,7 +74,7 @@ private:
     const Quadric held = heldAt(m_Operations, v, ease);
     const bool isShort = ratio < shortestEven;
     const double lacking = isShort ? shortestEven + margin - ratio : ratio - longestEven + margin;
-    const Vec3 direction = easiest(held, isShort ? edge : -1.0 * edge);
+    const Vec3 direction = easiest(m_Operations, v, held, isShort ? edge : -1.0 * edge);
     const double along = std::abs(dot(direction, edge)) / norm(edge);
     if (along < 0.3) return;
     for (const double times : { 1.0, 1.25 })
@@ -105,7 +105,7 @@ private:
     {
       const double quality = m_Operations.qualityAt(v, p, -1);
       if (quality >= floor) return evenEdges(v, p) > now && m_Operations.moveWithin(v, p);
-      p += (0.03 * m_Complex.lengths[v]) * easiest(held, m_Uphill(m_Operations, v, p, quality));
+      p += (0.03 * m_Complex.lengths[v]) * easiest(m_Operations, v, held, m_Uphill(m_Operations, v, p, quality));
     }
     return false;
   }

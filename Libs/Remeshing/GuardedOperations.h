@@ -67,6 +67,14 @@ public:
     return m_Envelope.holdsSheetOf(v) ? m_Envelope.sheet() : m_Envelope.sheet(v, star(v));
   }
 
+  /// The part of a step of v that leaves flat faces flat and sharp edges where they are, if that is asked for.
+  Vec3 alongFeatures(std::int32_t v, const Vec3& step)
+  {
+    if (!m_Complex.onInterface[v]) return step;
+    sheet(v);
+    return m_Envelope.alongFeatures(step);
+  }
+
   /// To measure star(v) and sheet(v) with v anywhere; kept likewise, and while only v moves.
   StarQuality& measured(std::int32_t v) { return measured(v, m_Star); }
 

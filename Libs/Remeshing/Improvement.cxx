@@ -147,8 +147,8 @@ private:
     {
       const Vec3 p = m_Complex.points[v];
       const bool isRandom = trial % 3 == 2;
-      if (!isRandom && !uphill) uphill = easiest(held, m_Uphill(m_Operations, v, p, best));
-      const Vec3 q = p + step * (isRandom ? easiest(held, m_Directions.next()) : *uphill);
+      if (!isRandom && !uphill) uphill = easiest(m_Operations, v, held, m_Uphill(m_Operations, v, p, best));
+      const Vec3 q = p + step * (isRandom ? easiest(m_Operations, v, held, m_Directions.next()) : *uphill);
       if (m_Operations.qualityAt(v, q, best) > best && m_Operations.moveWithin(v, q))
       {
         best = m_Operations.qualityAt(v);
@@ -293,7 +293,7 @@ private:
       q[a] += h;
       direction[a] = now - lack(v, q);
     }
-    direction = easiest(heldAt(m_Operations, v, m_Options.ease), direction);
+    direction = easiest(m_Operations, v, heldAt(m_Operations, v, m_Options.ease), direction);
     for (double step : { 0.1, 0.03, 0.01, 0.003 })
     {
       const Vec3 q = p + step * size * direction;

@@ -36,7 +36,7 @@ private:
   {
     Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
     quadric.addToDiagonal(0.05 * quadric.trace() / m_Options.fit);
-    const Vec3 step = quadric.solve(quadric.g);
+    const Vec3 step = m_Operations.alongFeatures(v, quadric.solve(quadric.g));
     const double before = m_Operations.qualityAt(v);
     for (double share : { 1.0, 0.5, 0.25 })
       if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : std::min(m_Good, before)))
@@ -70,7 +70,7 @@ private:
       q[a] += h;
       direction[a] = sumOfSines(v, q, -1) - now;
     }
-    direction = easiest(heldAt(m_Operations, v, m_Options.ease), direction);
+    direction = easiest(m_Operations, v, heldAt(m_Operations, v, m_Options.ease), direction);
     for (double step : { 0.12, 0.06, 0.03 })
     {
       const Vec3 q = p + step * size * direction;

@@ -23,7 +23,8 @@ bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuali
     if (beyond != label)
       m_Envelope.addNewFace(c.points[ids[0]], c.points[ids[1]], c.points[ids[2]], ids, beyond, label);
   }
-  if (!m_Envelope.trianglesReach(minimumQuality) || !m_Envelope.samplesStay()) return false;
+  if (!m_Envelope.trianglesReach(minimumQuality) || !m_Envelope.featuresStay() || !m_Envelope.samplesStay())
+    return false;
   if (mostLeft < anyShare && !m_Envelope.comesNearer(mostLeft)) return false;
   if (m_Envelope.laysBare(t)) return false;
   m_Envelope.detach();

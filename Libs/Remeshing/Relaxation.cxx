@@ -30,7 +30,7 @@ public:
 private:
   void relax(std::int32_t v)
   {
-    const Vec3 step = m_Complex.onInterface[v] ? onInterface(v) : towardsMiddle(v);
+    const Vec3 step = m_Operations.alongFeatures(v, m_Complex.onInterface[v] ? onInterface(v) : towardsMiddle(v));
     const double before = m_Operations.qualityAt(v);
     const double floor = std::min(m_Good, before);
     for (double share : { 1.0, 0.5, 0.25 })

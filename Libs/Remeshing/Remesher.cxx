@@ -26,6 +26,7 @@ struct RunPass
 EnvelopeBounds boundsOf(const Stage& stage, const RemesherOptions& options)
 {
   EnvelopeBounds bounds = stage.bounds;
+  bounds.featureAngle = options.featureAngle;
   if (options.tolerancesAreHard) bounds.toleranceFactor = 1;
   else bounds.separatedFactor = options.separatedFactor;
   return bounds;

@@ -14,6 +14,7 @@ struct RemesherOptions
   bool tolerancesAreHard = false;
   /// EnvelopeBounds::separatedFactor of all stages; 1 if tolerances are hard.
   double separatedFactor = 1;
+  double featureAngle = 0; ///< EnvelopeBounds::featureAngle of all stages
 };
 
 class Remesher

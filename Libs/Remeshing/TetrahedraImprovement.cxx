@@ -18,7 +18,9 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
   addInterfaceSamples(background, options.surfaceTolerance);
   const std::vector<ConditionalSweep> all = sweepsForRawMesh(options.targetAngle);
   const std::vector<ConditionalSweep> sweeps = options.isImproved ? sweepsForImprovedMesh(options.targetAngle) : all;
-  Remesher remesher(std::move(background), length, {}, progress, all.size());
+  RemesherOptions remeshing;
+  remeshing.featureAngle = options.featureAngle;
+  Remesher remesher(std::move(background), length, remeshing, progress, all.size());
   remesher.skip(all.size() - sweeps.size()); // what only a raw mesh needs
   for (const auto& [sweep, worthwhileShare] : sweeps)
   {

@@ -16,6 +16,8 @@ struct TetrahedraImprovementOptions
   double surfaceTolerance = 0.017; ///< how far the surface may move from where it was, as a share of the target
                                    ///< length; four times as far where nothing else mends an angle
   double targetAngle = usualAngle; ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
+  double featureAngle = 0; ///< degrees; edges of the surface sharper than that, corners and flat faces stay what they
+                           ///< are. 0: none are watched
   /// The surface stage has improved the mesh to targetAngle: its sizes are right and its surface is where it belongs.
   bool isImproved = false;
 };

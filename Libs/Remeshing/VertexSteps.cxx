@@ -11,9 +11,9 @@ Quadric heldAt(GuardedOperations& operations, std::int32_t v, double ease)
   return held;
 }
 
-Vec3 easiest(const Quadric& held, const Vec3& direction)
+Vec3 easiest(GuardedOperations& operations, std::int32_t v, const Quadric& held, const Vec3& direction)
 {
-  const Vec3 d = held.solve(direction);
+  const Vec3 d = operations.alongFeatures(v, held.solve(direction));
   const double n = norm(d);
   return n > 0 ? d / n : Vec3{};
 }

@@ -11,8 +11,8 @@ namespace surgicalmesher
 /// How the samples resists a step of v: a share `ease` of all its resistance in every direction besides.
 Quadric heldAt(GuardedOperations& operations, std::int32_t v, double ease);
 
-/// Turns `direction` at a vertex on the interface into one that its samples resists less; a unit vector, or zero.
-Vec3 easiest(const Quadric& held, const Vec3& direction);
+/// Turns `direction` at v into one that its samples resists less, along the features there; a unit vector, or zero.
+Vec3 easiest(GuardedOperations& operations, std::int32_t v, const Quadric& held, const Vec3& direction);
 
 /// The way up from the worst tetrahedra at a vertex.
 class Uphill
