@@ -97,19 +97,34 @@ bool onLattice(const Places& place, Place size)
   return (first == 0 || 2 * first == size) && remainder(1) == first && remainder(2) == first;
 }
 
-/// The lattice's mean edge over L(x) is between half of this and this: collapses mend what is too short, but only
-/// splits what is too long. Where L(x) is the same everywhere, the lattice has just that length.
-constexpr double kCoarsest = 1.000001;
+/// The lattice's mean edge over L(x) is between half of this and this: every cube belongs to the nearest octave. Finer
+/// octaves alone would leave edges between L/2 and L, and the collapses that mend these destroy the lattice.
+constexpr double kCoarsest = 1.41421356237309505;
 
-/// An octree of lattice cubes in a box around the surface, every cube as large as L(x) allows.
+/// The cube's edge, within half an octave of the finest L(x), that makes the lattice's mean edge fit L(x) best over
+/// the places `lengths` are from: the mean of log2 L on the circle of an octave. Where L(x) is the same everywhere, the
+/// lattice has just that length.
+double fittingCube(const std::vector<double>& lengths, double finest)
+{
+  double x = 0, y = 0;
+  for (const double length : lengths)
+  {
+    const double angle = 2 * M_PI * std::log2(length / finest);
+    x += std::cos(angle);
+    y += std::sin(angle);
+  }
+  return finest * std::exp2(std::atan2(y, x) / (2 * M_PI)) / kLatticeMeanEdge;
+}
+
+/// An octree of lattice cubes in a box around the surface, `cube` times a power of 2 large, as L(x) allows.
 class LatticeOctree
 {
 public:
-  LatticeOctree(const Vec3& low, const Vec3& high, double finest, double coarsest, const SizingFunction& edgeLength)
+  LatticeOctree(const Vec3& low, const Vec3& high, double cube, double coarsest, const SizingFunction& edgeLength)
     : m_EdgeLength(edgeLength)
   {
     const double extent = std::max({ high.x - low.x, high.y - low.y, high.z - low.z });
-    double block = finest / kLatticeMeanEdge;
+    double block = cube;
     while (2 * block < extent / 4) block *= 2;
     const double margin = std::max(block / 2, 2 * coarsest);
     double root = block;
@@ -214,6 +229,27 @@ double scatter(const Places& place, int axis)
   return double(bits >> 11) / double(std::uint64_t(1) << 52) - 1;
 }
 
+/// L(x) at the points of a grid that lie in tissues; at the surface's own if none does.
+std::vector<double> lengthsInside(const SurfaceComplex& surface, const SurfaceLocator& locator, const Vec3& low,
+                                  const Vec3& high, const SizingFunction& edgeLength)
+{
+  constexpr std::size_t perAxis = 20;
+  std::vector<double> found(perAxis * perAxis * perAxis, 0);
+  const auto measure = [&](vtkIdType i)
+  {
+    const std::array<std::size_t, 3> at{ i % perAxis, i / perAxis % perAxis, i / (perAxis * perAxis) };
+    Vec3 p;
+    for (int axis = 0; axis < 3; ++axis)
+      p[axis] = low[axis] + (double(at[axis]) + 0.5) / double(perAxis) * (high[axis] - low[axis]);
+    if (locator.ask(p).inside) found[i] = checkedLength(edgeLength, p);
+  };
+  parallelFor(found.size(), measure);
+  found.erase(std::remove(found.begin(), found.end(), 0.0), found.end());
+  if (found.empty())
+    for (const Vec3& p : surface.points) found.push_back(checkedLength(edgeLength, p));
+  return found;
+}
+
 /// Outside the tissues the lattice's edges grow by this much per distance from the surface.
 constexpr double kOutsideGrowth = 0.5;
 
@@ -235,9 +271,10 @@ std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunct
     finest = std::min(finest, length);
     coarsest = std::max(coarsest, length);
   }
-  const LatticeOctree octree(low, high, finest, coarsest, edgeLength);
-  const std::vector<Places>& places = octree.places();
   const SurfaceLocator locator(surface);
+  const double cube = fittingCube(lengthsInside(surface, locator, low, high, edgeLength), finest);
+  const LatticeOctree octree(low, high, cube, coarsest, edgeLength);
+  const std::vector<Places>& places = octree.places();
   std::vector<char> keep(places.size());
   std::vector<Vec3> points(places.size());
   const auto decide = [&](vtkIdType i)

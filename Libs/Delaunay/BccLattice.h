@@ -6,7 +6,8 @@
 /// congruent canonical tetrahedra, with x1 = 1/3: four edges of length 1 and two of 2 / sqrt(3), dihedral angles 4 x 60
 /// and 2 x 90 degrees, 24 tetrahedra around every vertex, invariant under subdivision. Its vertices are those of the
 /// body-centred cubic lattice with cubes of edge 2 / sqrt(3), whose Delaunay tetrahedra it is. The density function
-/// rho(x) becomes an octree of such cubes: subdivision by 2 takes the lattice into itself.
+/// rho(x) becomes an octree of such cubes: subdivision by 2 takes the lattice into itself. Each place has the octave
+/// nearest to L(x), and the phase of the octaves follows from L's distribution in the tissues.
 
 #include "SizingFunction.h"
 #include "TetMesh.h"
@@ -19,10 +20,10 @@ constexpr double kLatticeMeanEdge = (8 * 0.86602540378443865 + 6) / 14;
 
 /// Lattice points in a box around the surface, its corners included: in the tissues with the density of L(x), outside
 /// ever sparser with the distance. All are at least `clearance` * L(x) away from the surface: closer ones make flat
-/// elements on it, farther ones long elements. With 0.5, the mean of the tetrahedra's smallest dihedral angles and the
-/// share of edges near their target came out best, or nearly so, on spheres, an ellipsoid and 30 tissues of jhu189.
+/// elements on it, farther ones long elements. Of 0.4, 0.45, 0.5 and 0.6, 0.45 gives the brain of jhu189 as one tissue
+/// the largest share of vertices with 24 tetrahedra at nearly the largest share of edges near their target.
 /// Deterministic, whatever the number of threads. Throws InputError unless L(x) is positive and finite.
 std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunction& edgeLength,
-                                double clearance = 0.5);
+                                double clearance = 0.45);
 
 } // namespace surgicalmesher

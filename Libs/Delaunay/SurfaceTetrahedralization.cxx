@@ -269,7 +269,7 @@ TetMesh tetrahedralize(const SurfaceComplex& surface, const std::vector<Vec3>& l
 
 TetMesh fillWithTetrahedra(const SurfaceComplex& surface, const SizingFunction& edgeLength, const std::string& name)
 {
-  for (const double clearance : { 0.5, 0.6 })
+  for (const double clearance : { 0.45, 0.6 })
   {
     try
     {

@@ -75,6 +75,29 @@ TEST(LatticePoints, FollowTheGradedLength)
   }
 }
 
+TEST(LatticePoints, HaveTheNearestOctave)
+{
+  const SurfaceComplex surface = test::sphere({}, kRadius, 4);
+  for (const double least : { 0.4, 0.5, 0.6 })
+  {
+    const auto length = [=](const Vec3& p) { return least + 0.12 * norm(p); };
+    const std::vector<Vec3> points = inside(latticePoints(surface, length), 8);
+    std::size_t tested = 0, near = 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < points.size(); i += 7)
+    {
+      const double meanEdge = nearestOther(points, i) / std::sqrt(0.75) * kLatticeMeanEdge;
+      const double octaves = std::log2(meanEdge / length(points[i]));
+      ++tested;
+      near += std::abs(octaves) < 0.6;
+      sum += octaves;
+    }
+    ASSERT_GT(tested, 100u);
+    EXPECT_GT(double(near), 0.9 * double(tested)) << least;
+    EXPECT_NEAR(sum / double(tested), 0, 0.3) << "neither too fine nor too coarse on the whole, " << least;
+  }
+}
+
 TEST(LatticePoints, GrowSparseOutside)
 {
   const SurfaceComplex surface = test::sphere({}, kRadius, 3);
