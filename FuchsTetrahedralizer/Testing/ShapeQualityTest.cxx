@@ -95,6 +95,19 @@ TetMesh coreOf(const TetMesh& mesh, double reach)
   return withoutOutside(core);
 }
 
+/// Share of the points inside a tissue that have 24 tetrahedra.
+double shareWithLatticeValence(const TetMesh& mesh)
+{
+  std::vector<int> valence(mesh.points.size(), 0);
+  for (const auto& tetrahedron : mesh.tetrahedra)
+    for (const std::int32_t id : tetrahedron) ++valence[id];
+  std::vector<std::int32_t> onSurface;
+  interfaceOf(mesh, &onSurface);
+  for (const std::int32_t id : onSurface) valence[id] = 0;
+  const auto inner = double(std::count_if(valence.begin(), valence.end(), [](int v) { return v > 0; }));
+  return double(std::count(valence.begin(), valence.end(), 24)) / inner;
+}
+
 /// A cube of edge `size` mm around the origin, its triangles of legs 1 mm.
 SurfaceComplex cube(int size)
 {
@@ -157,6 +170,19 @@ TEST(ShapeQuality, TheLatticeSurvivesAwayFromSurfaces)
   EXPECT_EQ(core.whole.valence.maximum, 24);
   EXPECT_GT(core.whole.dihedral.minimum, 57);
   EXPECT_LT(core.whole.dihedral.maximum, 93);
+}
+
+TEST(ShapeQuality, TheLatticeSurvivesGrading)
+{
+  const auto scale = [](const Vec3& p) { return float(0.9 + 0.12 * std::max(0.0, norm(p) - 2)); };
+  TetMesh mesh = fillWithTetrahedra(cube(20), scale, "cube");
+  improveTetrahedra(mesh, scale);
+  const TetMesh tissue = withoutOutside(mesh);
+  const MeshQuality quality = assessQuality(tissue, {}, scale);
+  EXPECT_GT(shareWithLatticeValence(tissue), 0.4);
+  EXPECT_NEAR(modeOf(quality.dihedral, 50, 75), 60, 2);
+  EXPECT_NEAR(modeOf(quality.dihedral, 80, 100), 90, 2);
+  expectGoodAngles(mesh);
 }
 
 } // namespace surgicalmesher

@@ -26,6 +26,7 @@ public:
     for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
     {
       if (m_Complex.vertexTet[v] < 0 || m_Complex.locked[v]) continue;
+      if (m_Options.sparesWhole && isWhole(m_Operations, v)) continue;
       if (m_Complex.onInterface[v]) moveToSamples(v);
       climb(v);
     }

@@ -9,10 +9,11 @@ namespace surgicalmesher
 
 struct PolishingOptions
 {
-  double goodAngle = 29.5; ///< degrees; as in RelaxationOptions
-  double fit = 1;          ///< weight of the samples against staying
-  double robust = 0;       ///< mm, see quadricOf
-  double ease = 0.02;      ///< how easily a vertex leaves its samples for better angles: 0 not at all, 1 freely
+  double goodAngle = 29.5;  ///< degrees; as in RelaxationOptions
+  double fit = 1;           ///< weight of the samples against staying
+  double robust = 0;        ///< mm, see quadricOf
+  bool sparesWhole = false; ///< leave vertices alone whose tetrahedra are the lattice's: see isWhole
+  double ease = 0.02;       ///< how easily a vertex leaves its samples for better angles: 0 not at all, 1 freely
 };
 
 /// Moves every free vertex once to the least-squares fit of its faces to their samples, and once up the sum of the

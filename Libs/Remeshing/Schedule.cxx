@@ -9,7 +9,6 @@
 #include "MeshQuality.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace surgicalmesher
 {
@@ -276,8 +275,7 @@ constexpr double always = -1;
 struct VolumeRow
 {
   double rmsLimit = 1;
-  double tolerance = 1;     ///< factor
-  double collapseAngle = 0; ///< least that the collapse of a short edge leaves; 0: no collapses
+  double tolerance = 1; ///< factor
   std::size_t relaxations = 0;
   double relaxationAngle = 0; ///< see RelaxationOptions::goodAngle
   std::size_t polishes = 0;
@@ -293,8 +291,6 @@ struct VolumeRow
 ConditionalSweep sweepOf(const VolumeRow& row)
 {
   Stage stage{ { .rmsLimit = row.rmsLimit, .toleranceFactor = row.tolerance }, {} };
-  if (row.collapseAngle > 0)
-    stage.passes.push_back(Coarsen{ std::numeric_limits<double>::max(), { .minimumAngle = row.collapseAngle } });
   stage.passes.insert(stage.passes.end(), row.relaxations, Relax{ { .goodAngle = row.relaxationAngle } });
   stage.passes.insert(stage.passes.end(), row.polishes, Polish{ row.polishing });
   if (row.angle > 0)
@@ -315,49 +311,60 @@ std::vector<ConditionalSweep> sweepsOf(const std::vector<VolumeRow>& rows)
   return sweeps;
 }
 
-/// From the first sweep that collapses nothing on. `rmsFactor`: of those limits that hold the surface where it is;
-/// `relaxationAngle`: what relaxation must not fall below; `few`: the share that is not worth a sweep over all.
-std::vector<VolumeRow> polishingRows(double target, double rmsFactor, double relaxationAngle, double few)
+/// For what is still below the target: ever farther from the surface's samples, in the end with splits. Those cost
+/// regular sizes, and come late.
+std::vector<VolumeRow> repairRows(double t)
 {
-  const double r = relaxationAngle, t = target;
-  const PolishingOptions back{ .goodAngle = 28.4, .fit = 3 };
   // clang-format off
   return {
-    { .rmsLimit = rmsFactor * 0.3, .relaxations = 1, .relaxationAngle = r, .polishes = 4, .angle = t, .trials = 8, .worthwhileShare = always },
-    { .rmsLimit = 0.5, .relaxations = 1, .relaxationAngle = r, .polishes = 4, .angle = t, .trials = 12, .worthwhileShare = few },
-    { .rmsLimit = 0.8, .tolerance = 1.5, .polishes = 5, .angle = t, .trials = 16, .worthwhileShare = few },
     { .tolerance = 2, .angle = t, .trials = 20, .passes = 3, .whole = true },
     { .tolerance = 3, .angle = t, .trials = 20, .passes = 3, .whole = true },
     { .tolerance = 4, .angle = t, .trials = 20, .passes = 3, .whole = true },
     { .tolerance = 4, .angle = t, .trials = 20, .passes = 3, .splitEdge = 0.6, .whole = true },
     { .tolerance = 4, .angle = t, .trials = 30, .passes = 4, .splitEdge = 0.4, .whole = true },
-    { .rmsLimit = rmsFactor * 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always },
   };
   // clang-format on
+}
+
+/// `first`, the repairs, and the way back to the samples as far as angles allow.
+std::vector<ConditionalSweep> withRepairs(std::vector<VolumeRow> first, double target, const VolumeRow& back)
+{
+  const std::vector<VolumeRow> repairs = repairRows(target);
+  first.insert(first.end(), repairs.begin(), repairs.end());
+  first.push_back(back);
+  return sweepsOf(first);
 }
 
 } // namespace
 
-/// The angle that vertices may fall to while they move rises with what has been reached, and the angle aimed at with
-/// it. Splits cost regular sizes, and come late.
-std::vector<ConditionalSweep> sweepsForRawMesh(double target)
+/// No relaxation and no collapses: the lattice has its sizes, and both destroy it. For the same reason polishing spares
+/// its vertices.
+std::vector<ConditionalSweep> sweepsForRawMesh(double t)
 {
+  const PolishingOptions polishing{ .sparesWhole = true };
+  const PolishingOptions back{ .goodAngle = 28.4, .fit = 3, .sparesWhole = true };
   // clang-format off
-  std::vector<VolumeRow> rows{
-    { .rmsLimit = 0.3, .collapseAngle = 15, .relaxations = 3, .relaxationAngle = 15, .polishes = 2, .angle = std::min(20.0, target), .trials = 8, .worthwhileShare = always },
-    { .rmsLimit = 0.3, .collapseAngle = 20, .relaxations = 1, .relaxationAngle = 20, .polishes = 2, .angle = std::min(25.0, target), .trials = 8, .worthwhileShare = always },
-    { .rmsLimit = 0.4, .collapseAngle = 20, .relaxations = 1, .relaxationAngle = 25, .polishes = 3, .angle = target, .trials = 8, .worthwhileShare = always },
-    { .rmsLimit = 0.4, .collapseAngle = 20, .relaxations = 1, .relaxationAngle = 25, .polishes = 4, .angle = target, .trials = 8, .worthwhileShare = always },
-  };
+  return withRepairs({
+    { .rmsLimit = 0.3, .polishes = 2, .polishing = polishing, .angle = t, .trials = 8, .worthwhileShare = always },
+    { .rmsLimit = 0.5, .polishes = 2, .polishing = polishing, .angle = t, .trials = 12, .worthwhileShare = always },
+    { .rmsLimit = 0.8, .tolerance = 1.5, .polishes = 3, .polishing = polishing, .angle = t, .trials = 16, .worthwhileShare = always },
+  }, t, { .rmsLimit = 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always });
   // clang-format on
-  for (const VolumeRow& row : polishingRows(target, 1, 25, 0)) rows.push_back(row);
-  return sweepsOf(rows);
 }
 
-std::vector<ConditionalSweep> sweepsForImprovedMesh(double target)
+std::vector<ConditionalSweep> sweepsForImprovedMesh(double t)
 {
-  constexpr double surfaceHeld = 0.6, few = 1.0 / 400;
-  return sweepsOf(polishingRows(target, surfaceHeld, std::max(25.0, target), few));
+  constexpr double held = 0.6; // of those limits that hold the surface where it is
+  constexpr double few = 1.0 / 400;
+  const double r = std::max(25.0, t);
+  const PolishingOptions back{ .goodAngle = 28.4, .fit = 3 };
+  // clang-format off
+  return withRepairs({
+    { .rmsLimit = held * 0.3, .relaxations = 1, .relaxationAngle = r, .polishes = 4, .angle = t, .trials = 8, .worthwhileShare = always },
+    { .rmsLimit = 0.5, .relaxations = 1, .relaxationAngle = r, .polishes = 4, .angle = t, .trials = 12, .worthwhileShare = few },
+    { .rmsLimit = 0.8, .tolerance = 1.5, .polishes = 5, .angle = t, .trials = 16, .worthwhileShare = few },
+  }, t, { .rmsLimit = held * 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always });
+  // clang-format on
 }
 
 } // namespace surgicalmesher

@@ -16,12 +16,11 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
   background.mesh = mesh;
   for (const Vec3& p : mesh.points) background.lengths.push_back(float(length(p)));
   addInterfaceSamples(background, options.surfaceTolerance);
-  const std::vector<ConditionalSweep> all = sweepsForRawMesh(options.targetAngle);
-  const std::vector<ConditionalSweep> sweeps = options.isImproved ? sweepsForImprovedMesh(options.targetAngle) : all;
+  const std::vector<ConditionalSweep> sweeps =
+    options.isImproved ? sweepsForImprovedMesh(options.targetAngle) : sweepsForRawMesh(options.targetAngle);
   RemesherOptions remeshing;
   remeshing.featureAngle = options.featureAngle;
-  Remesher remesher(std::move(background), length, remeshing, progress, all.size());
-  remesher.skip(all.size() - sweeps.size()); // what only a raw mesh needs
+  Remesher remesher(std::move(background), length, remeshing, progress, sweeps.size());
   for (const auto& [sweep, worthwhileShare] : sweeps)
   {
     const TetMesh& now = remesher.background().mesh;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "VertexSteps.h"
 
+#include "TetQuality.h"
+
 namespace surgicalmesher
 {
 
@@ -16,6 +18,14 @@ Vec3 easiest(GuardedOperations& operations, std::int32_t v, const Quadric& held,
   const Vec3 d = operations.alongFeatures(v, held.solve(direction));
   const double n = norm(d);
   return n > 0 ? d / n : Vec3{};
+}
+
+bool isWhole(GuardedOperations& operations, std::int32_t v)
+{
+  constexpr std::size_t inLattice = 24;
+  static const double good = sine2OfDegrees(45);
+  return !operations.complex().onInterface[v] && operations.star(v).size() == inLattice &&
+         operations.qualityAt(v) >= good;
 }
 
 Vec3 Uphill::operator()(GuardedOperations& operations, std::int32_t v, const Vec3& p, double worst)

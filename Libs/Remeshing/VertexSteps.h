@@ -14,6 +14,10 @@ Quadric heldAt(GuardedOperations& operations, std::int32_t v, double ease);
 /// Turns `direction` at v into one that its samples resists less, along the features there; a unit vector, or zero.
 Vec3 easiest(GuardedOperations& operations, std::int32_t v, const Quadric& held, const Vec3& direction);
 
+/// Whether v lies inside a label among 24 tetrahedra, none of them with a dihedral angle below 45 degrees or above 135:
+/// what Fuchs's lattice, of 60 and 90 degrees, makes of a vertex, or nearly so. To move it can only harm the lattice.
+bool isWhole(GuardedOperations& operations, std::int32_t v);
+
 /// The way up from the worst tetrahedra at a vertex.
 class Uphill
 {
