@@ -12,6 +12,7 @@
 #include "FaceAdjacency.h"
 #include "FuchsTetrahedralizerCLIXML.h"
 #include "InputChecks.h"
+#include "InteriorRefill.h"
 #include "JsonMember.h"
 #include "MaterialTable.h"
 #include "MeshChecks.h"
@@ -139,7 +140,7 @@ Start startOf(const CommandLine& line, const SurfaceComplex& surface, const Sizi
   }
   MeshFile ambient = readMesh(ambientName);
   requireInterfacesAre(surface, surfaceName, ambient.mesh, ambientName);
-  start.mesh = std::move(ambient.mesh);
+  start.mesh = withLatticeInside(ambient.mesh, edgeLength, surfaceName);
   start.improvement.isImproved = true;
   if (ambient.targetAngle > 0) start.improvement.targetAngle = ambient.targetAngle;
   return start;

@@ -21,7 +21,7 @@ namespace surgicalmesher
 bool GuardedOperations::mayCollapse(std::int32_t u, std::int32_t v, bool moves) const
 {
   const auto& c = m_Complex;
-  if (c.locked[u]) return false;
+  if (c.locked[u] || (c.onInterface[u] && m_Envelope.isHeld())) return false;
   // The star of a locked vertex may show only some of its labels.
   return c.onInterface[u] ? c.onInterface[v] && !c.locked[v] : !moves || (!c.onInterface[v] && !c.locked[v]);
 }

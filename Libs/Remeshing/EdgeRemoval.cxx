@@ -111,6 +111,7 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
   // Rotate so that the ring begins at a cut: one polygon inside a label, two on the sheet between two labels.
   const bool onSheet = cuts->count > 0;
   const int first = onSheet ? cuts->at[0] : 0, second = onSheet ? cuts->at[1] - cuts->at[0] : n - 1;
+  if (onSheet && m_Envelope.isHeld()) return false;
   if (onSheet && (second < 2 || n - second < 2)) return false;
   std::rotate(m_Ring.begin(), m_Ring.begin() + first, m_Ring.end());
   std::rotate(m_RingVertices.begin(), m_RingVertices.begin() + first, m_RingVertices.end());

@@ -34,7 +34,7 @@ struct FacesToSamples
 } // namespace
 
 Envelope::Envelope(TetComplex& complex, const EnvelopeBounds& bounds)
-  : m_Complex(complex), m_MeanSquareLimit(bounds.rmsLimit * bounds.rmsLimit),
+  : m_Complex(complex), m_Held(bounds.interfaceHeld), m_MeanSquareLimit(bounds.rmsLimit * bounds.rmsLimit),
     m_SquaredToleranceFactor(bounds.toleranceFactor * bounds.toleranceFactor), m_TriangleWeight(bounds.triangleWeight),
     m_VertexDistance(bounds.vertexDistance), m_SquaredSeparatedFactor(bounds.separatedFactor * bounds.separatedFactor),
     m_Sides(bounds.featureAngle)

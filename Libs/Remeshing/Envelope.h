@@ -34,12 +34,16 @@ struct EnvelopeBounds
   double separatedFactor = 1;
   /// degrees; sharp edges, corners and flat faces of the interface stay what they are (FeatureSides). 0: there are none.
   double featureAngle = 0;
+  /// The interface stays exactly as it is, its vertices, edges and triangles; the other bounds are then not asked.
+  bool interfaceHeld = false;
 };
 
 class Envelope
 {
 public:
   Envelope(TetComplex& complex, const EnvelopeBounds& bounds);
+
+  bool isHeld() const { return m_Held; }
 
   // --- faces that an operation takes away, and faces that take their place
   void clear();
@@ -132,6 +136,7 @@ private:
   void attach(const std::vector<SheetSample>& samples, const std::vector<std::pair<std::int32_t, int>>& holders);
 
   TetComplex& m_Complex;
+  const bool m_Held;
   double m_MeanSquareLimit;
   const double m_SquaredToleranceFactor, m_TriangleWeight;
   double m_VertexDistance;

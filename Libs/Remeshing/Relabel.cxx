@@ -9,7 +9,7 @@ bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuali
   auto& c = m_Complex;
   const TetComplex::Tet x = c.tets[t];
   const Label own = c.labels[t];
-  if (label == own || lenient(label, c.quality(t)) < minimumQuality) return false;
+  if (label == own || m_Envelope.isHeld() || lenient(label, c.quality(t)) < minimumQuality) return false;
   for (int i = 0; i < 4; ++i)
     if (c.neighbours[t][i] < 0 || c.locked[x[i]]) return false;
   const auto starAt = [this](std::int32_t v) -> const std::vector<std::int32_t>& { return star(v); };

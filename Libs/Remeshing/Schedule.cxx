@@ -274,10 +274,9 @@ constexpr double always = -1;
 /// One row of the tables below.
 struct VolumeRow
 {
+  bool held = false; ///< see EnvelopeBounds::interfaceHeld
   double rmsLimit = 1;
   double tolerance = 1; ///< factor
-  std::size_t relaxations = 0;
-  double relaxationAngle = 0; ///< see RelaxationOptions::goodAngle
   std::size_t polishes = 0;
   PolishingOptions polishing = {};
   double angle = 0;     ///< aimed at; 0: no improvement
@@ -290,8 +289,7 @@ struct VolumeRow
 
 ConditionalSweep sweepOf(const VolumeRow& row)
 {
-  Stage stage{ { .rmsLimit = row.rmsLimit, .toleranceFactor = row.tolerance }, {} };
-  stage.passes.insert(stage.passes.end(), row.relaxations, Relax{ { .goodAngle = row.relaxationAngle } });
+  Stage stage{ { .rmsLimit = row.rmsLimit, .toleranceFactor = row.tolerance, .interfaceHeld = row.held }, {} };
   stage.passes.insert(stage.passes.end(), row.polishes, Polish{ row.polishing });
   if (row.angle > 0)
     stage.passes.push_back(Improve{ { .targetAngle = row.angle,
@@ -326,45 +324,39 @@ std::vector<VolumeRow> repairRows(double t)
   // clang-format on
 }
 
-/// `first`, the repairs, and the way back to the samples as far as angles allow.
-std::vector<ConditionalSweep> withRepairs(std::vector<VolumeRow> first, double target, const VolumeRow& back)
-{
-  const std::vector<VolumeRow> repairs = repairRows(target);
-  first.insert(first.end(), repairs.begin(), repairs.end());
-  first.push_back(back);
-  return sweepsOf(first);
-}
-
 } // namespace
 
 /// No relaxation and no collapses: the lattice has its sizes, and both destroy it. For the same reason polishing spares
-/// its vertices.
+/// its vertices. In the end the surface goes back to its samples as far as angles allow.
 std::vector<ConditionalSweep> sweepsForRawMesh(double t)
 {
   const PolishingOptions polishing{ .sparesWhole = true };
   const PolishingOptions back{ .goodAngle = 28.4, .fit = 3, .sparesWhole = true };
+  std::vector<VolumeRow> rows = repairRows(t);
   // clang-format off
-  return withRepairs({
+  rows.insert(rows.begin(), {
     { .rmsLimit = 0.3, .polishes = 2, .polishing = polishing, .angle = t, .trials = 8, .worthwhileShare = always },
     { .rmsLimit = 0.5, .polishes = 2, .polishing = polishing, .angle = t, .trials = 12, .worthwhileShare = always },
     { .rmsLimit = 0.8, .tolerance = 1.5, .polishes = 3, .polishing = polishing, .angle = t, .trials = 16, .worthwhileShare = always },
-  }, t, { .rmsLimit = 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always });
+  });
+  rows.push_back({ .rmsLimit = 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always });
   // clang-format on
+  return sweepsOf(rows);
 }
 
+/// The surface gives way only where no angle comes right without.
 std::vector<ConditionalSweep> sweepsForImprovedMesh(double t)
 {
-  constexpr double held = 0.6; // of those limits that hold the surface where it is
-  constexpr double few = 1.0 / 400;
-  const double r = std::max(25.0, t);
-  const PolishingOptions back{ .goodAngle = 28.4, .fit = 3 };
+  const PolishingOptions polishing{ .sparesWhole = true };
+  std::vector<VolumeRow> rows = repairRows(t);
   // clang-format off
-  return withRepairs({
-    { .rmsLimit = held * 0.3, .relaxations = 1, .relaxationAngle = r, .polishes = 4, .angle = t, .trials = 8, .worthwhileShare = always },
-    { .rmsLimit = 0.5, .relaxations = 1, .relaxationAngle = r, .polishes = 4, .angle = t, .trials = 12, .worthwhileShare = few },
-    { .rmsLimit = 0.8, .tolerance = 1.5, .polishes = 5, .angle = t, .trials = 16, .worthwhileShare = few },
-  }, t, { .rmsLimit = held * 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always });
+  rows.insert(rows.begin(), {
+    { .held = true, .polishes = 2, .polishing = polishing, .angle = t, .trials = 12, .worthwhileShare = always },
+    { .held = true, .polishes = 2, .polishing = polishing, .angle = t, .trials = 16, .worthwhileShare = always },
+    { .rmsLimit = 0.8, .tolerance = 1.5, .angle = t, .trials = 20, .passes = 3, .whole = true },
+  });
   // clang-format on
+  return sweepsOf(rows);
 }
 
 } // namespace surgicalmesher

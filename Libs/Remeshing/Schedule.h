@@ -81,8 +81,8 @@ struct ConditionalSweep
 
 /// For tetrahedra that nobody has improved yet, such as constrained Delaunay's. `targetAngle` in degrees, dihedral.
 std::vector<ConditionalSweep> sweepsForRawMesh(double targetAngle);
-/// For a mesh of the surface stage, improved to `targetAngle`: its surface is where it belongs, and a few tetrahedra
-/// are mended where they are.
+/// For a mesh whose surface the surface stage improved to `targetAngle`, whatever fills it: the surface is held, but
+/// where an angle cannot be mended otherwise.
 std::vector<ConditionalSweep> sweepsForImprovedMesh(double targetAngle);
 
 } // namespace surgicalmesher

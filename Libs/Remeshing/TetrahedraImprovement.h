@@ -18,7 +18,8 @@ struct TetrahedraImprovementOptions
   double targetAngle = usualAngle; ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
   double featureAngle = 0; ///< degrees; edges of the surface sharper than that, corners and flat faces stay what they
                            ///< are. 0: none are watched
-  /// The surface stage has improved the mesh to targetAngle: its sizes are right and its surface is where it belongs.
+  /// The surface stage has improved the surface for targetAngle: it is where it belongs, and is held except where an
+  /// angle cannot be mended otherwise.
   bool isImproved = false;
 };
 

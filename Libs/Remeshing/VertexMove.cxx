@@ -8,6 +8,7 @@ bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
 {
   if (m_Complex.onInterface[v])
   {
+    if (m_Envelope.isHeld()) return false;
     sheet(v);
     if (!m_Envelope.moveSheet(p)) return false;
   }

@@ -13,8 +13,10 @@
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
+#include <tuple>
 
 namespace surgicalmesher
 {
@@ -110,6 +112,44 @@ TEST(Relaxation, KeepsEveryPromiseAndAnglesGoodEnough)
 TEST(Improvement, KeepsEveryPromiseAndRaisesTheWorstAngle)
 {
   expectPromisesKept(1, true, [](GuardedOperations& operations) { improveBlock(operations); });
+}
+
+TEST(Improvement, HeldInterfaceStaysAsItIs)
+{
+  for (unsigned seed = 1; seed <= 6; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const TissueMap map = randomWellComposedMap(random, { 6, 6, 6 }, 1 + int(seed % 2));
+    TetComplex complex = complexOf(shaken(tetrahedraOf(map), random, 0.35), 1.5f, 0.4f);
+    const auto placed = [&]
+    {
+      const SurfaceComplex surface = interfaceOf(meshOf(complex));
+      std::vector<std::array<Vec3, 3>> triangles;
+      for (const auto& [a, b, c] : surface.triangles)
+        triangles.push_back({ surface.points[a], surface.points[b], surface.points[c] });
+      const auto before = [](const Vec3& p, const Vec3& q)
+      { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); };
+      for (auto& t : triangles) std::rotate(t.begin(), std::min_element(t.begin(), t.end(), before), t.end());
+      std::sort(triangles.begin(), triangles.end(),
+                [&](const auto& s, const auto& t)
+                { return std::lexicographical_compare(s.begin(), s.end(), t.begin(), t.end(), before); });
+      return triangles;
+    };
+    const auto start = placed();
+    GuardedOperations operations(complex, scale, { .interfaceHeld = true });
+    ImprovementOptions options;
+    options.targetAngle = 40;
+    options.splitEdge = 0.5;
+    options.together = 10;
+    coarsenBlock(operations, 1e9, {});
+    relaxBlock(operations);
+    polishBlock(operations);
+    improveBlock(operations, options);
+    ASSERT_TRUE(isConsistent(complex));
+    EXPECT_EQ(placed(), start);
+    EXPECT_GT(operations.counts().moves + operations.counts().flips + operations.counts().splits, 0);
+  }
 }
 
 TEST(Improvement, MovingTogetherKeepsEveryPromiseAndGetsFarther)

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "InteriorRefill.h"
+
+#include "Compaction.h"
+#include "Errors.h"
+#include "FaceAdjacency.h"
+#include "SurfaceTetrahedralization.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+/// Share of a tissue's tetrahedra that touch no boundary, from which on it has room.
+constexpr double kInnerShare = 0.1;
+
+std::set<Label> tissuesWithRoom(const TetMesh& mesh)
+{
+  std::vector<std::int32_t> onInterface;
+  interfaceOf(mesh, &onInterface);
+  std::vector<char> isInner(mesh.points.size(), 1);
+  for (const std::int32_t id : onInterface) isInner[id] = 0;
+  struct Count
+  {
+    std::size_t all = 0, inner = 0;
+  };
+  std::map<Label, Count> counts;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    const auto& corners = mesh.tetrahedra[t];
+    Count& count = counts[mesh.labels[t]];
+    ++count.all;
+    count.inner += std::all_of(corners.begin(), corners.end(), [&](std::int32_t id) { return isInner[id] != 0; });
+  }
+  std::set<Label> result;
+  for (const auto& [label, count] : counts)
+    if (label != 0 && double(count.inner) >= kInnerShare * double(count.all)) result.insert(label);
+  return result;
+}
+
+std::optional<TetMesh> filled(const SurfaceComplex& surface, const SizingFunction& edgeLength, const std::string& name)
+{
+  try
+  {
+    return fillWithTetrahedra(surface, edgeLength, name);
+  }
+  catch (const EngineError&)
+  {
+    return {};
+  }
+}
+
+} // namespace
+
+TetMesh withLatticeInside(const TetMesh& ambient, const SizingFunction& edgeLength, const std::string& name)
+{
+  const std::set<Label> roomy = tissuesWithRoom(ambient);
+  if (roomy.empty()) return ambient;
+  TetMesh masked = ambient;
+  for (Label& label : masked.labels) label = roomy.count(label) > 0 ? label : Label(0);
+  std::vector<std::int32_t> ambientId; // of the surface's points, then of the new ones
+  const SurfaceComplex surface = interfaceOf(masked, &ambientId);
+  const std::optional<TetMesh> inside = filled(surface, edgeLength, name);
+  if (!inside) return ambient;
+  TetMesh result;
+  result.points = ambient.points;
+  for (std::size_t i = surface.points.size(); i < inside->points.size(); ++i)
+  {
+    ambientId.push_back(std::int32_t(result.points.size()));
+    result.points.push_back(inside->points[i]);
+  }
+  const auto add = [&](std::array<std::int32_t, 4> tetrahedron, Label label)
+  {
+    result.tetrahedra.push_back(tetrahedron);
+    result.labels.push_back(label);
+  };
+  for (std::size_t t = 0; t < ambient.tetrahedra.size(); ++t)
+    if (masked.labels[t] == 0) add(ambient.tetrahedra[t], ambient.labels[t]);
+  for (std::size_t t = 0; t < inside->tetrahedra.size(); ++t)
+  {
+    if (inside->labels[t] == 0) continue;
+    std::array<std::int32_t, 4> tetrahedron = inside->tetrahedra[t];
+    for (std::int32_t& id : tetrahedron) id = ambientId[id];
+    add(tetrahedron, inside->labels[t]);
+  }
+  result.points = valuesAt(result.points, compactPoints(result.tetrahedra, result.points.size()));
+  return result;
+}
+
+} // namespace surgicalmesher
