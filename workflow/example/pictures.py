@@ -316,12 +316,12 @@ def share_within(histogram, low, high):
 def histogram_notes(whole, histograms):
     """For each histogram: what it shows, and where that differs from the ideal."""
     angles, ratio, valence = whole["dihedral"], whole["edgeOverTarget"], whole["valence"]
-    near = share_within(histograms["dihedral"], 45, 105)
+    at60, at90 = (share_within(histograms["dihedral"], mode - 2, mode + 2) for mode in (60, 90))
     short, long_ = (share_within(histograms["edgeOverTarget"], *bounds) for bounds in ((0, 0.7), (1.4, np.inf)))
     usual = share_within(histograms["valence"], 18, 30)
     return {
         "dihedral": (f"{angles['minimum']:.1f} to {angles['maximum']:.1f} degrees",
-                     f"ideal: 4 of 6 at 60, 2 at 90; here one hump, {near:.0f} % in 45..105"),
+                     f"ideal: 4 of 6 at 60, 2 at 90; here {at60:.0f} % in 58..62, {at90:.0f} % in 88..92"),
         "edgeOverTarget": (f"{100 * whole['edgesNearTarget']:.1f} % within 0.7 to 1.4",
                            f"ideal: 1; here the median is {ratio['median']:.2f}, {short:.0f} % shorter, "
                            f"{long_:.0f} % longer"),
