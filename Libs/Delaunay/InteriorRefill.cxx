@@ -19,7 +19,18 @@ namespace
 /// Share of a tissue's tetrahedra that touch no boundary, from which on it has room.
 constexpr double kInnerShare = 0.1;
 
-std::set<Label> tissuesWithRoom(const TetMesh& mesh)
+/// Tetrahedra that the lattice would have in its volume, over those it has: less means that the tissue's own shape
+/// needs tetrahedra smaller than L, and the lattice's would not fit it.
+constexpr double kLeastDensity = 0.5;
+
+/// How many tetrahedra of the lattice with mean edge `length` fill the volume: 12 to a cube.
+double latticeTetrahedra(double volume, double length)
+{
+  const double cube = length / kLatticeMeanEdge;
+  return 12 * volume / (cube * cube * cube);
+}
+
+std::set<Label> tissuesWithRoom(const TetMesh& mesh, const SizingFunction& edgeLength)
 {
   std::vector<std::int32_t> onInterface;
   interfaceOf(mesh, &onInterface);
@@ -28,18 +39,24 @@ std::set<Label> tissuesWithRoom(const TetMesh& mesh)
   struct Count
   {
     std::size_t all = 0, inner = 0;
+    double inLattice = 0;
   };
   std::map<Label, Count> counts;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
   {
     const auto& corners = mesh.tetrahedra[t];
+    if (mesh.labels[t] == 0) continue;
     Count& count = counts[mesh.labels[t]];
     ++count.all;
+    const auto at = [&](int corner) { return mesh.points[corners[corner]]; };
+    const Vec3 middle = 0.25 * (at(0) + at(1) + at(2) + at(3));
+    count.inLattice += latticeTetrahedra(orient(at(0), at(1), at(2), at(3)) / 6, edgeLength(middle));
     count.inner += std::all_of(corners.begin(), corners.end(), [&](std::int32_t id) { return isInner[id] != 0; });
   }
   std::set<Label> result;
   for (const auto& [label, count] : counts)
-    if (label != 0 && double(count.inner) >= kInnerShare * double(count.all)) result.insert(label);
+    if (double(count.inner) >= kInnerShare * double(count.all) && count.inLattice >= kLeastDensity * double(count.all))
+      result.insert(label);
   return result;
 }
 
@@ -59,7 +76,7 @@ std::optional<TetMesh> filled(const SurfaceComplex& surface, const SizingFunctio
 
 TetMesh withLatticeInside(const TetMesh& ambient, const SizingFunction& edgeLength, const std::string& name)
 {
-  const std::set<Label> roomy = tissuesWithRoom(ambient);
+  const std::set<Label> roomy = tissuesWithRoom(ambient, edgeLength);
   if (roomy.empty()) return ambient;
   TetMesh masked = ambient;
   for (Label& label : masked.labels) label = roomy.count(label) > 0 ? label : Label(0);

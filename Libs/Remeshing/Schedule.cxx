@@ -356,6 +356,7 @@ std::vector<ConditionalSweep> sweepsForImprovedMesh(double t)
     { .rmsLimit = 0.8, .tolerance = 1.5, .angle = t, .trials = 20, .passes = 3, .whole = true },
   });
   // clang-format on
+  rows.push_back({ .tolerance = 4, .angle = t, .trials = 40, .passes = 6, .splitEdge = 0.2, .whole = true });
   return sweepsOf(rows);
 }
 

@@ -59,14 +59,14 @@ std::size_t countOf(const TetMesh& mesh, Label label)
   return std::size_t(std::count(mesh.labels.begin(), mesh.labels.end(), label));
 }
 
-double twoPointFive(const Vec3&) { return 2.5; }
+double somewhatMoreThanAVoxel(const Vec3&) { return 1.3; }
 
 } // namespace
 
 TEST(LatticeInside, KeepsEveryTriangleBetweenLabelsAndEveryTissue)
 {
   const TetMesh before = deepAndThin();
-  const TetMesh after = withLatticeInside(before, twoPointFive, "shape");
+  const TetMesh after = withLatticeInside(before, somewhatMoreThanAVoxel, "shape");
   requireSound(after, "refill");
   EXPECT_EQ(placedInterface(after), placedInterface(before));
   EXPECT_EQ(meshTopology(after), meshTopology(before));
@@ -75,19 +75,22 @@ TEST(LatticeInside, KeepsEveryTriangleBetweenLabelsAndEveryTissue)
 TEST(LatticeInside, LaysAnewOnlyWhatHasRoom)
 {
   const TetMesh before = deepAndThin();
-  const TetMesh after = withLatticeInside(before, twoPointFive, "shape");
+  const TetMesh after = withLatticeInside(before, somewhatMoreThanAVoxel, "shape");
   EXPECT_LT(countOf(after, 1), countOf(before, 1)) << "L is longer than a voxel";
   EXPECT_EQ(countOf(after, 2), countOf(before, 2)) << "one layer has none";
   EXPECT_EQ(countOf(after, 0), countOf(before, 0)) << "the space outside is no tissue";
+  const TetMesh coarse = withLatticeInside(
+    before, [](const Vec3&) { return 2.5; }, "shape");
+  EXPECT_EQ(coarse.tetrahedra, before.tetrahedra) << "edges of a voxel ask for more than L does";
 }
 
 TEST(LatticeInside, DoesNotDependOnThreads)
 {
   const TetMesh before = deepAndThin();
   vtkSMPTools::Initialize(1);
-  const TetMesh one = withLatticeInside(before, twoPointFive, "shape");
+  const TetMesh one = withLatticeInside(before, somewhatMoreThanAVoxel, "shape");
   vtkSMPTools::Initialize(3);
-  const TetMesh three = withLatticeInside(before, twoPointFive, "shape");
+  const TetMesh three = withLatticeInside(before, somewhatMoreThanAVoxel, "shape");
   vtkSMPTools::Initialize(0);
   EXPECT_EQ(one.tetrahedra, three.tetrahedra);
   ASSERT_EQ(one.points.size(), three.points.size());
