@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TemplateFit.h"
 
-#include "Errors.h"
 #include "FitEnergy.h"
 #include "Parallel.h"
 #include "ThinPlateSpline.h"
+#include "Validity.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace surgicalmesher
 {
@@ -149,41 +148,6 @@ std::vector<Attachment> attached(const ElementMesh& mesh, const Outline& outline
   return attachments;
 }
 
-/// Elements with a corner that is not positive, and the worst of all.
-struct Validity
-{
-  std::size_t invalid = 0;
-  std::size_t worst = 0;
-  double minimum = 2;
-};
-
-Validity validityOf(const std::vector<Element>& elements, const Points& points)
-{
-  Validity validity;
-  const std::vector<ElementQuality> quality = elementQuality({ points, elements });
-  for (std::size_t e = 0; e < quality.size(); ++e)
-  {
-    if (!(quality[e].minimum > 0)) ++validity.invalid;
-    if (quality[e].minimum >= validity.minimum) continue;
-    validity.minimum = quality[e].minimum;
-    validity.worst = e;
-  }
-  return validity;
-}
-
-[[noreturn]] void refuseInvalid(const ElementMesh& mesh, const Points& points, const Validity& validity, int rounds)
-{
-  const Element& worst = mesh.elements[validity.worst];
-  Vector3d middle = Vector3d::Zero();
-  for (int i = 0; i < nodeCount(worst.shape); ++i) middle += points.col(worst.nodes[i]) / nodeCount(worst.shape);
-  std::ostringstream text;
-  text.precision(4);
-  text << "fit: " << validity.invalid << " elements are still invalid after " << rounds
-       << " rounds of repair, the worst (scaled Jacobian " << validity.minimum << ") at (" << middle.x() << ", "
-       << middle.y() << ", " << middle.z() << ") mm; do the landmarks match?";
-  throw EngineError(text.str());
-}
-
 class Fit
 {
 public:
@@ -291,7 +255,7 @@ FitResult fitTemplate(const ElementMesh& mesh, const LandmarkPairs& landmarks, T
     fit.round(weights);
     validity = fit.validity();
   }
-  if (validity.invalid > 0) refuseInvalid(mesh, fit.points(), validity, repairRounds);
+  if (validity.invalid > 0) refuseInvalid({ fit.points(), mesh.elements }, validity, repairRounds, "do the landmarks match?");
   report(progress, 1, "fitted");
   return fit.result(repairRounds);
 }
