@@ -30,7 +30,7 @@ public:
   const std::vector<std::vector<Eigen::Vector3d>>& holes() const { return m_Holes; }
 
 private:
-  Chart m_Chart; ///< with the fans
+  Chart m_Chart;      ///< with the fans
   std::size_t m_Real; ///< number of triangles before them
   std::vector<std::vector<Eigen::Vector3d>> m_Holes;
   vtkSmartPointer<vtkStaticCellLocator> m_Locator;

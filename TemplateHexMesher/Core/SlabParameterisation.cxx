@@ -184,8 +184,9 @@ SlabParameterisation parameterise(const Envelope& envelope, double edgeLength, c
   SlabParameterisation result;
   result.envelope = withSides(divided, envelope.surface, envelope.sides, name);
   std::vector<std::int32_t> ids;
-  const Tetrahedra mesh = insideOf(
-    fillWithTetrahedra(complex, [edgeLength](const Vec3&) { return edgeLength; }, name), complex.points.size(), ids);
+  const Tetrahedra mesh = insideOf(fillWithTetrahedra(
+                                     complex, [edgeLength](const Vec3&) { return edgeLength; }, name),
+                                   complex.points.size(), ids);
   const auto on = [&](Side side) { return pointsOn(side, result.envelope, ids, std::size_t(mesh.points.cols())); };
 
   report(progress, 0.4, "harmonic field from bottom to top");

@@ -255,7 +255,8 @@ FitResult fitTemplate(const ElementMesh& mesh, const LandmarkPairs& landmarks, T
     fit.round(weights);
     validity = fit.validity();
   }
-  if (validity.invalid > 0) refuseInvalid({ fit.points(), mesh.elements }, validity, repairRounds, "do the landmarks match?");
+  if (validity.invalid > 0)
+    refuseInvalid({ fit.points(), mesh.elements }, validity, repairRounds, "do the landmarks match?");
   report(progress, 1, "fitted");
   return fit.result(repairRounds);
 }

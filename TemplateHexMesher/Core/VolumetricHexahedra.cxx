@@ -121,7 +121,8 @@ void addNodes(const ChartMap& outer, const ChartMap& inner, const Plane<char>& k
   {
     const std::vector<double> depths = layerDepths((ends[c][1] - ends[c][0]).norm(), options);
     for (int l = 0; l <= layers; ++l)
-      result.mesh.points.col(Eigen::Index(c) * (layers + 1) + l) = (1 - depths[l]) * ends[c][0] + depths[l] * ends[c][1];
+      result.mesh.points.col(Eigen::Index(c) * (layers + 1) + l) =
+        (1 - depths[l]) * ends[c][0] + depths[l] * ends[c][1];
   }
 }
 

@@ -10,9 +10,9 @@ namespace surgicalmesher
 struct HexOptions
 {
   std::array<int, 3> divisions{ 78, 8, 78 }; ///< from right to left, through the tissue, from bottom to top
-  int layers = 3;       ///< kinds of tissue from outside to inside: skin, muscle, mucosa
-  double outermost = 2; ///< mm, of the outermost and the innermost layer of elements
-  int repairRounds = 12; ///< at most, while an element is invalid
+  int layers = 3;                            ///< kinds of tissue from outside to inside: skin, muscle, mucosa
+  double outermost = 2;                      ///< mm, of the outermost and the innermost layer of elements
+  int repairRounds = 12;                     ///< at most, while an element is invalid
 };
 
 /// Depths of the layers' borders as fractions of the tissue's thickness (mm), from 0 at the outer to 1 at the inner

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// VolumetricHexCLI: a closed surface and its sides in; layers of hexahedra, and how good they are, out.
+
+#include "CommandLine.h"
+#include "ElementMeshIO.h"
+#include "ElementQuality.h"
+#include "Errors.h"
+#include "JsonMember.h"
+#include "SurfaceDistance.h"
+#include "VolumetricHexCLIXML.h"
+#include "VolumetricHexahedra.h"
+
+#include <rapidjson/ostreamwrapper.h>
+#include <rapidjson/prettywriter.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkSMPTools.h>
+#include <vtkSignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include <fstream>
+#include <sstream>
+
+using namespace surgicalmesher;
+
+namespace
+{
+
+using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
+
+HexOptions readOptions(const CommandLine& line)
+{
+  HexOptions options;
+  const std::vector<double> divisions = line.numbers("divisions");
+  if (divisions.size() != 3)
+    throw UsageError("--divisions: " + std::to_string(divisions.size()) + " numbers found, expected three");
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    if (!(divisions[axis] >= 1 && divisions[axis] <= 1000))
+      throw UsageError("--divisions: a number out of range, expected 1 to 1000");
+    options.divisions[axis] = int(divisions[axis]);
+  }
+  options.layers = line.integer("layers");
+  options.outermost = line.number("outermost");
+  if (options.divisions[1] < options.layers)
+    throw UsageError("--divisions: " + std::to_string(options.divisions[1]) +
+                     " through the tissue, expected at least " + std::to_string(options.layers) + ", the --layers");
+  return options;
+}
+
+/// Triangles of a file with the side of each.
+struct Painted
+{
+  TriangleSurface surface;
+  std::vector<Side> sides;
+};
+
+Painted readPainted(const std::string& file)
+{
+  const ElementMeshFile content = readElementMesh(file);
+  vtkDataArray* array = content.data->GetCellData()->GetArray("Side");
+  if (!array || array->GetNumberOfComponents() != 1)
+    throw InputError(file + ": no cell array Side, expected one with 1 outer, 2 inner, 3 right, 4 left, 5 bottom, "
+                            "6 top, 0 walls of holes");
+  Painted painted;
+  painted.surface.points = content.mesh.points;
+  for (std::size_t e = 0; e < content.mesh.elements.size(); ++e)
+  {
+    const Element& element = content.mesh.elements[e];
+    if (isVolume(element)) continue;
+    const double side = array->GetComponent(vtkIdType(e), 0);
+    if (!(side >= 0 && side < kSides && side == int(side)))
+      throw InputError(file + ": Side of cell " + std::to_string(e) + " is none of 0 to 6");
+    for (const Triangle& t : trianglesOf(outerFaces({ element }), content.mesh.points))
+    {
+      painted.surface.triangles.push_back(t);
+      painted.sides.push_back(Side(int(side)));
+    }
+  }
+  if (painted.sides.empty()) throw InputError(file + ": no triangle, expected a surface");
+  return painted;
+}
+
+ElementMeshFile contentOf(const LayeredMesh& mesh)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  grid->Allocate(vtkIdType(mesh.mesh.elements.size()));
+  vtkNew<vtkIntArray> layer;
+  layer->SetName("Layer");
+  for (std::size_t e = 0; e < mesh.cells.size(); ++e)
+  {
+    vtkIdType ids[8];
+    std::copy_n(mesh.mesh.elements[e].nodes.begin(), 8, ids);
+    grid->InsertNextCell(VTK_HEXAHEDRON, 8, ids);
+    layer->InsertNextValue(mesh.cells[e][1]);
+  }
+  grid->GetCellData()->AddArray(layer);
+  constexpr Side ends[3][2] = { { Side::Right, Side::Left },
+                                { Side::Outer, Side::Inner },
+                                { Side::Bottom, Side::Top } };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+  {
+    for (int end = 0; end < 2; ++end)
+    {
+      vtkNew<vtkSignedCharArray> set;
+      set->SetName(nameOf(ends[axis][end]));
+      for (const auto& node : mesh.nodes) set->InsertNextValue(node[axis] == end * mesh.divisions[axis] ? 1 : 0);
+      grid->GetPointData()->AddArray(set);
+    }
+  }
+  return { mesh.mesh, grid.GetPointer() };
+}
+
+/// Outer surface of the mesh against that of the envelope.
+struct Distances
+{
+  DistanceSummary toEnvelope, fromEnvelope;
+};
+
+Distances skinDistances(const LayeredMesh& mesh, const SlabParameterisation& slab)
+{
+  std::vector<Face> faces;
+  for (const Face& face : outerFaces(mesh.mesh.elements))
+  {
+    bool outside = true;
+    for (int i = 0; i < face.size; ++i) outside = outside && mesh.nodes[std::size_t(face.nodes[i])][1] == 0;
+    if (outside) faces.push_back(face);
+  }
+  const TriangleSurface skin = compacted(mesh.mesh.points, trianglesOf(faces, mesh.mesh.points));
+  return { distanceBetween(skin, TargetSurface(slab.outer.surface)),
+           distanceBetween(slab.outer.surface, TargetSurface(skin)) };
+}
+
+void writeDistance(JsonWriter& json, const char* key, const DistanceSummary& distance)
+{
+  json.Key(key);
+  json.StartObject();
+  writeMember(json, "mean", distance.mean);
+  writeMember(json, "percentile95", distance.percentile95);
+  writeMember(json, "maximum", distance.maximum);
+  json.EndObject();
+}
+
+void writeReport(const std::string& file, const CommandLine& line, const QualitySummary& quality,
+                 const Distances& distances)
+{
+  std::ofstream stream(file.c_str(), std::ios::binary);
+  rapidjson::OStreamWrapper wrapper(stream);
+  JsonWriter json(wrapper);
+  json.SetMaxDecimalPlaces(6);
+  json.StartObject();
+  writeMember(json, "module", "VolumetricHex");
+  writeMember(json, "envelope", line.text("envelope"));
+  writeMember(json, "elements", quality.elements);
+  writeMember(json, "invalid", quality.invalid);
+  writeMember(json, "minimumScaledJacobian", quality.minimum);
+  writeMember(json, "meanScaledJacobian", quality.mean);
+  writeMember(json, "meanShapeSkew", quality.meanShapeSkew);
+  writeDistance(json, "meshToSkin", distances.toEnvelope);
+  writeDistance(json, "skinToMesh", distances.fromEnvelope);
+  json.EndObject();
+  stream << '\n' << std::flush;
+  if (!stream) throw InputError(file + ": the report cannot be written whole");
+}
+
+void tell(CommandLine& line, const QualitySummary& quality, const Distances& distances)
+{
+  std::ostringstream text;
+  text.precision(3);
+  text << quality.elements << " hexahedra, " << quality.invalid << " invalid, scaled Jacobian at least "
+       << quality.minimum << ", on average " << quality.mean << ", skew " << quality.meanShapeSkew << "; mesh to skin "
+       << distances.toEnvelope.mean << " mm on average, skin to mesh " << distances.fromEnvelope.mean << " mm";
+  line.message(text.str());
+}
+
+void run(CommandLine& line)
+{
+  vtkSMPTools::Initialize(line.integer("threads"));
+  const Progress progress = line.progress();
+  report(progress, 0, "reading");
+  const HexOptions options = readOptions(line);
+  const std::string envelopeFile = line.text("envelope"), sidesFile = line.text("sides");
+  const Painted painted = readPainted(sidesFile);
+  const Envelope envelope = withSides(readSurfaceOf(envelopeFile), painted.surface, painted.sides, sidesFile);
+  const SlabParameterisation slab =
+    parameterise(envelope, line.number("edgeLength"), envelopeFile, subProgress(progress, 0.05, 0.5));
+  const LayeredMesh mesh = layeredHexahedra(slab, options, subProgress(progress, 0.5, 0.9));
+  report(progress, 0.9, "measuring");
+  const QualitySummary quality = summaryOf(mesh.mesh, elementQuality(mesh.mesh), ElementShape::Hexahedron);
+  const Distances distances = skinDistances(mesh, slab);
+  report(progress, 0.95, "writing");
+  writeElementMesh(contentOf(mesh), mesh.mesh.points, envelopeFile, line.outputFile("mesh"));
+  tell(line, quality, distances);
+  const std::string reportFile = line.outputFile("report");
+  if (!reportFile.empty()) writeReport(reportFile, line, quality, distances);
+  report(progress, 1, "done");
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return runModule(argc, argv, moduleXML, run); }
