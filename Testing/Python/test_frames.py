@@ -8,14 +8,17 @@ import shutil
 import subprocess
 import sys
 import unittest
+from types import SimpleNamespace
 
 import nibabel
 import numpy as np
+from vtk.util.numpy_support import vtk_to_numpy
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
 from maps import LPS_FROM_RAS, cut_out, write_nrrd  # noqa: E402
-from meshfiles import read_mesh  # noqa: E402
+from measures import signed_volumes  # noqa: E402
+from meshfiles import read_dataset, read_mesh  # noqa: E402
 
 BIN, OUTDIR = sys.argv[1:3]
 BOX = np.s_[64:90, 92:116, 32:56]
@@ -77,6 +80,17 @@ def mesh_of(labels_file, targets_file):
     return read_mesh(mesh)
 
 
+def surface_of(name):
+    surface = read_dataset(name + ".vtp")
+    return SimpleNamespace(points=vtk_to_numpy(surface.GetPoints().GetData()).astype(float),
+                           triangles=vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3))
+
+
+def volumes_of(mesh):
+    volumes = signed_volumes(mesh)
+    return {tissue: volumes[mesh.tissue == tissue].sum() for tissue in np.unique(mesh.tissue)}
+
+
 class FramesTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -111,13 +125,24 @@ class FramesTest(unittest.TestCase):
         write_nifti("nifti.nii.gz", *turned(self.labels, self.affine, (1, 2, 0), (2,)))
         self.assert_same(mesh_of("nifti.nii.gz", "target.mrk.json"))
 
-    def test_a_rotated_map_gives_the_rotated_mesh(self):
+    def test_a_rotated_map_gives_the_rotated_surface(self):
+        # The lattice inside tissues keeps the axes of space, so that inside the tetrahedra are others.
         there = rotation()
         write_markups("rotated.mrk.json", (there @ [*TARGET, 1])[:3], "LPS")
         write_nrrd("rotated.nrrd", self.labels, there @ self.affine)
-        self.assert_same(mesh_of("rotated.nrrd", "rotated.mrk.json"), np.linalg.inv(there))
         write_nrrd("both.nrrd", *turned(self.labels, there @ self.affine, (2, 1, 0), (0, 1)))
-        self.assert_same(mesh_of("both.nrrd", "rotated.mrk.json"), np.linalg.inv(there))
+        reference = surface_of("reference")
+        for name in ("rotated", "both"):
+            with self.subTest(name):
+                mesh = mesh_of(name + ".nrrd", "rotated.mrk.json")
+                surface = surface_of(name)
+                back = np.linalg.inv(there)
+                np.testing.assert_array_equal(surface.triangles, reference.triangles)
+                np.testing.assert_allclose(surface.points @ back[:3, :3].T + back[:3, 3], reference.points, rtol=0,
+                                           atol=ROUNDING)
+                self.assertEqual(volumes_of(mesh).keys(), volumes_of(self.reference).keys())
+                for tissue, volume in volumes_of(self.reference).items():
+                    self.assertAlmostEqual(volumes_of(mesh)[tissue], volume, delta=0.02 * volume)
 
     def test_targets_may_come_in_any_form(self):
         for name, system in (("ras.mrk.json", "RAS"), ("lps.fcsv", "LPS"), ("ras.fcsv", "RAS"), ("number.fcsv", "0")):
