@@ -172,8 +172,7 @@ ConstitutiveRule readConstitutiveRule(const CommandLine& line)
 /// Without --shell, the tissues that the surface stage was asked to mesh as shells.
 std::vector<ShellChoice> readShells(const CommandLine& line, const TissueTable& names, const std::set<Label>& present)
 {
-  const std::vector<ShellChoice> choices =
-    shellChoices(line.texts("shell"), names, present, line.number("shellThickness"));
+  std::vector<ShellChoice> choices = shellChoices(line.texts("shell"), names, present, line.number("shellThickness"));
   if (choices.empty() && line.given("shells"))
     throw UsageError("--shells is given, but no --shell, and no tissue of the surface has the role of a shell");
   return choices;

@@ -156,7 +156,7 @@ std::string OutputFiles::temporary(const std::string& finalPath)
 
   requireWritablePlace(path, finalPath);
   if (m_CleanedFolders.insert(path.parent_path().string()).second) removeLeftovers(path.parent_path());
-  const std::string temporary = (path.parent_path() / temporaryName(path.filename().string())).string();
+  std::string temporary = (path.parent_path() / temporaryName(path.filename().string())).string();
   removeOnSignal(temporary);
   if (!std::ofstream(temporary, std::ios::binary))
   {

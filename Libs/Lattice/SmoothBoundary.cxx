@@ -255,7 +255,8 @@ void keepLabels(Point& point)
 Point fitted(const Point& point, const PointRows& rows, double sigma)
 {
   const double squaredReach = reach * reach * sigma * sigma;
-  const auto [u, v] = frameOf(point.normal);
+  const std::pair<Vec3, Vec3> frame = frameOf(point.normal);
+  const Vec3 &u = frame.first, &v = frame.second;
   HeightFit fit;
   rows.forEachNear(point.lower, int(std::ceil(reach * sigma)),
                    [&](const Point& other)

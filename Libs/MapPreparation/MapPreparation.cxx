@@ -214,8 +214,8 @@ std::vector<bool> findIslands(const TissueMap& map, const Regions& regions, cons
 }
 
 /// Leaves out the regions that hold a fixed voxel.
-void spareFixed(std::vector<bool>& chosen, const Regions& regions, const Grid& grid,
-                const std::vector<bool>& fixedVoxels)
+void excludeFixed(std::vector<bool>& chosen, const Regions& regions, const Grid& grid,
+                  const std::vector<bool>& fixedVoxels)
 {
   const std::size_t size = grid.size[0];
   for (std::size_t row = 0; row + 1 < regions.rowBegins.size(); ++row)
@@ -531,7 +531,7 @@ void prepareAgain(TissueMap& map, const TissueMap& prepared, const PreparationOp
     resolver.run();
     const Regions regions = connectedRegions(work);
     std::vector<bool> isIsland = findIslands(work, regions, options);
-    spareFixed(isIsland, regions, work.grid, resolver.fixedVoxels());
+    excludeFixed(isIsland, regions, work.grid, resolver.fixedVoxels());
     const std::vector<Label> before = work.labels;
     const RemovedVoxels cutOff = removeRegions(work, regions, isIsland, limits.closedLabels);
     if (work.labels == before) break;

@@ -27,7 +27,7 @@ std::vector<std::size_t> voxelsOf(const TissueMap& map, const Regions& regions, 
   return voxels;
 }
 
-/// Settles open voxels layer by layer.
+/// Assigns open voxels layer by layer.
 class Peeling
 {
 public:
@@ -41,18 +41,18 @@ public:
     m_FaceAreas[12] = m_FaceAreas[14] = s.y * s.z;
   }
 
-  /// Gives every open voxel beside settled ones to one of their labels; returns the others.
-  std::vector<std::size_t> settleLayer(const std::vector<std::size_t>& open)
+  /// Gives every open voxel beside one that is not to the label there; returns those that have none.
+  std::vector<std::size_t> assignLayer(const std::vector<std::size_t>& open)
   {
     std::vector<std::size_t> rest;
-    std::vector<std::pair<std::size_t, Label>> settled;
+    std::vector<std::pair<std::size_t, Label>> assigned;
     for (const std::size_t v : open)
     {
       Label label = 0;
-      if (adopter(v, label)) settled.emplace_back(v, label);
+      if (bestNeighbour(v, label)) assigned.emplace_back(v, label);
       else rest.push_back(v);
     }
-    for (const auto& [v, label] : settled)
+    for (const auto& [v, label] : assigned)
     {
       m_Map.labels[v] = label;
       m_IsOpen[v] = false;
@@ -62,7 +62,7 @@ public:
 
 private:
   /// The label with most face contact to voxel `v`, of equals that with most of the 26 neighbours, then the lowest.
-  bool adopter(std::size_t v, Label& result) const
+  bool bestNeighbour(std::size_t v, Label& result) const
   {
     std::pair<double, int> best{ 0, 0 };
     for (const int face : sixNeighbours)
@@ -125,7 +125,7 @@ RemovedVoxels removeRegions(TissueMap& map, const Regions& regions, const std::v
   for (std::size_t before = 0; open.size() != before;)
   {
     before = open.size();
-    open = peeling.settleLayer(open);
+    open = peeling.assignLayer(open);
   }
   return removed;
 }

@@ -359,7 +359,7 @@ private:
 
 } // namespace
 
-std::size_t fairBlock(const TetMesh& mesh)
+std::size_t defaultBlockSize(const TetMesh& mesh)
 {
   constexpr std::size_t usual = 65000, small = 16000;
   const auto outside = std::count(mesh.labels.begin(), mesh.labels.end(), 0);

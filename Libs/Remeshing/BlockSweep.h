@@ -18,8 +18,8 @@ constexpr double backgroundCost = 0.35;
 
 /// Size of blocks that have not too much border, are a few megabytes, and enough for two processors at least: small
 /// meshes on large maps take long, too.
-std::size_t fairBlock(const TetMesh& mesh);
-constexpr std::size_t oneBlock = std::numeric_limits<std::size_t>::max();
+std::size_t defaultBlockSize(const TetMesh& mesh);
+constexpr std::size_t wholeMesh = std::numeric_limits<std::size_t>::max();
 
 /// Cuts the mesh into blocks worth at most `tetrahedraPerBlock` tetrahedra (a k-d tree over their centroids), runs
 /// `work` on each as a TetComplex whose border is locked, and puts the results together in the order of the blocks.

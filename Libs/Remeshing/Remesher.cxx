@@ -66,7 +66,8 @@ void Remesher::run(const Sweep& sweep)
   };
   const auto progress = [&](double fraction, const std::string&)
   { report(m_Progress, (double(m_Round) + fraction) / double(m_Sweeps), sweep.name); };
-  sweepBlocks(m_Background, int(m_Round), sweep.whole ? oneBlock : fairBlock(m_Background.mesh), work, progress);
+  sweepBlocks(m_Background, int(m_Round), sweep.whole ? wholeMesh : defaultBlockSize(m_Background.mesh), work,
+              progress);
   ++m_Round;
 }
 

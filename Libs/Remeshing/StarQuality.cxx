@@ -40,7 +40,7 @@ void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::v
     const int* order = others[complex.indexOf(t, v)];
     for (int k = 0; k < 3; ++k)
     {
-      const std::int32_t id = x[order[k]];
+      const std::int32_t id = x[order[k]]; // NOLINT(clang-analyzer-core.CallAndMessage): v is a vertex of t
       const Vec3& p = complex.points[id];
       group.corners[k][0][lane] = p.x;
       group.corners[k][1][lane] = p.y;

@@ -97,7 +97,7 @@ bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::ve
   {
     const Tet& x = tets[t];
     Vec3 q[2];
-    std::int32_t ids[2];
+    std::int32_t ids[2] = {};
     int n = 0;
     for (std::int32_t v : x)
       if (v != a && v != b) ids[n] = v, q[n++] = points[v];

@@ -15,21 +15,21 @@ constexpr double kRounding = 1e-9; ///< of lengths, relative
 bool segmentsMeet(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& n)
 {
   const auto side = [&](const Vec3& from, const Vec3& to, const Vec3& x) { return dot(cross(to - from, x - from), n); };
-  const double slack = kRounding * squaredNorm(n);
+  const double tolerance = kRounding * squaredNorm(n);
   const double p1 = side(a, b, p), q1 = side(a, b, q), a1 = side(p, q, a), b1 = side(p, q, b);
-  if (std::min(p1, q1) > slack || std::max(p1, q1) < -slack) return false;
-  if (std::min(a1, b1) > slack || std::max(a1, b1) < -slack) return false;
-  if (std::abs(p1) > slack || std::abs(q1) > slack) return true;
+  if (std::min(p1, q1) > tolerance || std::max(p1, q1) < -tolerance) return false;
+  if (std::min(a1, b1) > tolerance || std::max(a1, b1) < -tolerance) return false;
+  if (std::abs(p1) > tolerance || std::abs(q1) > tolerance) return true;
   const Vec3 along = b - a; // all on one line
-  const double from = dot(p - a, along), to = dot(q - a, along), reach = kRounding * squaredNorm(along);
-  return std::max(from, to) >= -reach && std::min(from, to) <= squaredNorm(along) + reach;
+  const double from = dot(p - a, along), to = dot(q - a, along), rounding = kRounding * squaredNorm(along);
+  return std::max(from, to) >= -rounding && std::min(from, to) <= squaredNorm(along) + rounding;
 }
 
 bool inside(const Vec3& x, const std::array<Vec3, 3>& t, const Vec3& n)
 {
-  const double slack = -kRounding * squaredNorm(n);
+  const double tolerance = -kRounding * squaredNorm(n);
   for (int k = 0; k < 3; ++k)
-    if (dot(cross(t[(k + 1) % 3] - t[k], x - t[k]), n) < slack) return false;
+    if (dot(cross(t[(k + 1) % 3] - t[k], x - t[k]), n) < tolerance) return false;
   return true;
 }
 
@@ -37,9 +37,9 @@ bool segmentMeetsTriangle(const Vec3& p, const Vec3& q, const std::array<Vec3, 3
 {
   const Vec3 n = cross(t[1] - t[0], t[2] - t[0]);
   const double sp = dot(p - t[0], n), sq = dot(q - t[0], n);
-  const double slack = kRounding * norm(n) * (norm(q - p) + std::sqrt(norm(n)));
-  if (std::min(sp, sq) > slack || std::max(sp, sq) < -slack) return false;
-  if (std::abs(sp) > slack || std::abs(sq) > slack) return inside(p + sp / (sp - sq) * (q - p), t, n);
+  const double tolerance = kRounding * norm(n) * (norm(q - p) + std::sqrt(norm(n)));
+  if (std::min(sp, sq) > tolerance || std::max(sp, sq) < -tolerance) return false;
+  if (std::abs(sp) > tolerance || std::abs(sq) > tolerance) return inside(p + sp / (sp - sq) * (q - p), t, n);
   if (inside(p, t, n) || inside(q, t, n)) return true;
   for (int k = 0; k < 3; ++k)
     if (segmentsMeet(p, q, t[k], t[(k + 1) % 3], n)) return true;

@@ -78,10 +78,8 @@ private:
 
   Vec3 worldOf(std::size_t voxel) const
   {
-    const std::size_t sizeI = m_Map.size[0], sizeJ = m_Map.size[1];
-    const Vec3& s = m_Map.spacing;
-    return m_Map.gridToWorld(
-      { double(voxel % sizeI) * s.x, double(voxel / sizeI % sizeJ) * s.y, double(voxel / sizeI / sizeJ) * s.z });
+    const auto [i, j, k] = m_Map.voxelAt(voxel);
+    return m_Map.gridToWorld(m_Map.position(i, j, k));
   }
 
   Grid m_Scale, m_Map;
@@ -128,13 +126,11 @@ void completeShells(TissueSettings& settings, const TissueMap& map, const ScaleF
   }
   if (open.empty()) return;
   std::map<Label, double> least;
-  const Vec3& s = map.grid.spacing;
   visitVoxels(map, open,
               [&](std::size_t v, const TissueSetting&)
               {
-                const std::size_t sizeI = map.grid.size[0], sizeJ = map.grid.size[1];
-                const double length = scale(map.grid.gridToWorld(
-                  { double(v % sizeI) * s.x, double(v / sizeI % sizeJ) * s.y, double(v / sizeI / sizeJ) * s.z }));
+                const auto [i, j, k] = map.grid.voxelAt(v);
+                const double length = scale(map.grid.gridToWorld(map.grid.position(i, j, k)));
                 const auto [entry, isNew] = least.emplace(map.labels[v], length);
                 if (!isNew) entry->second = std::min(entry->second, length);
               });

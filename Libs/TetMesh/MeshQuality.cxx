@@ -330,7 +330,7 @@ Distribution distributionOf(std::vector<double> values)
   auto begin = values.begin();
   const auto percentile = [&](double share)
   {
-    const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1) + 0.5);
+    const auto at = values.begin() + std::llround(share * double(values.size() - 1));
     std::nth_element(begin, at, values.end());
     begin = at;
     return *at;

@@ -16,12 +16,13 @@ std::vector<Vec3> centresOf(const TissueMap& map, const Regions& regions)
   std::vector<Vec3> sums(regions.list.size());
   for (std::size_t row = 0; row + 1 < regions.rowBegins.size(); ++row)
   {
+    const std::size_t j = row % size[1], k = row / size[1];
     for (std::size_t r = regions.rowBegins[row]; r < regions.rowBegins[row + 1]; ++r)
     {
       const double begin = regions.runs[r].begin;
       const double end = r + 1 < regions.rowBegins[row + 1] ? regions.runs[r + 1].begin : size[0];
       sums[regions.runs[r].region] +=
-        (end - begin) * Vec3{ (begin + end - 1) / 2 * s.x, double(row % size[1]) * s.y, double(row / size[1]) * s.z };
+        (end - begin) * Vec3{ (begin + end - 1) / 2 * s.x, double(j) * s.y, double(k) * s.z };
     }
   }
   for (std::size_t r = 0; r < sums.size(); ++r)

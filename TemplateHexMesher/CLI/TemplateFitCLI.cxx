@@ -62,7 +62,7 @@ LandmarkPairs readPairs(const CommandLine& line, const Units& units)
   if (files.size() != 2)
     throw UsageError("--landmarks: " + std::to_string(files.size()) +
                      " files found, expected the template's and the patient's");
-  const LandmarkPairs pairs =
+  LandmarkPairs pairs =
     pairedByName(readLandmarks(files[0], units.ofTemplate), readLandmarks(files[1], units.ofTarget));
   requireUsable(pairs, files[0], files[1]);
   return pairs;

@@ -201,7 +201,7 @@ std::set<Voxel> simpleChain(const Grid& grid, const std::vector<Vec3>& points)
   while (true)
   {
     const std::vector<Voxel> chain = shortestChain(all, along.front(), along.back());
-    const std::set<Voxel> tube(chain.begin(), chain.end());
+    std::set<Voxel> tube(chain.begin(), chain.end());
     const std::size_t before = all.size();
     for (const Voxel& voxel : pinchedBlocks(tube))
     {

@@ -281,18 +281,18 @@ TEST(BlockSweep, AThrowPropagatesAndLeavesTheMeshAsItWas)
 
 TEST(BlockSweep, FairBlocksOfASmallMeshAreSmaller)
 {
-  const auto fairBlockOf = [](std::size_t tissue, std::size_t background)
+  const auto defaultSizeOf = [](std::size_t tissue, std::size_t background)
   {
     TetMesh mesh;
     mesh.labels.assign(tissue, 7);
     mesh.labels.resize(tissue + background, 0);
-    return fairBlock(mesh);
+    return defaultBlockSize(mesh);
   };
-  const std::size_t large = fairBlockOf(1000000, 0), small = fairBlockOf(40000, 0);
+  const std::size_t large = defaultSizeOf(1000000, 0), small = defaultSizeOf(40000, 0);
   EXPECT_LT(2 * small, 40000u);
   EXPECT_LT(2 * small, large);
-  EXPECT_EQ(fairBlockOf(40000, 50000), small) << "background is worth little";
-  EXPECT_EQ(fairBlockOf(40000, 100000), large);
+  EXPECT_EQ(defaultSizeOf(40000, 50000), small) << "background is worth little";
+  EXPECT_EQ(defaultSizeOf(40000, 100000), large);
 }
 
 TEST(BlockSweep, ProgressRisesWithinItsRange)
