@@ -63,12 +63,31 @@ Combination readCombination(const CommandLine& line)
   return combine == "path" ? Combination::Paths : Combination::Smaller;
 }
 
+/// The range by areas, where they are given; lengths as they are by default then count as not given.
+void readAreas(const CommandLine& line, SurgicalScaleOptions& options)
+{
+  const double minimum = line.number("minimumArea"), maximum = line.number("maximumArea");
+  if (minimum == 0 && maximum == 0) return;
+  if (minimum == 0 || maximum == 0)
+    throw UsageError("one of --minimumArea and --maximumArea is given, expected both or none");
+  const LengthRange defaults;
+  if (options.range.minimum != defaults.minimum || options.range.maximum != defaults.maximum)
+    throw UsageError("areas and edge lengths are given, expected --minimumArea and --maximumArea or "
+                     "--minimumEdgeLength and --maximumEdgeLength");
+  if (minimum > maximum)
+    throw UsageError("the minimum area, " + rounded(minimum, 6) + " mm^2, is above the maximum, " +
+                     rounded(maximum, 6) + " mm^2");
+  options.range = { edgeLengthOfArea(minimum), edgeLengthOfArea(maximum) };
+  options.rising = RisingQuantity::Area;
+}
+
 /// Everything but the tissues' own lengths, which need the map's names.
 SurgicalScaleOptions readOptions(const CommandLine& line)
 {
   const auto orElse = [](double value, double fallback) { return value > 0 ? value : fallback; };
   SurgicalScaleOptions options;
   options.range = { line.number("minimumEdgeLength"), line.number("maximumEdgeLength") };
+  readAreas(line, options);
   options.targetFalloff = { line.number("childRadius"), line.number("decayLength") };
   options.pathFalloff.childRadius = orElse(line.number("pathChildRadius"), options.targetFalloff.childRadius);
   options.pathFalloff.decayLength = orElse(line.number("pathDecayLength"), options.targetFalloff.decayLength);
@@ -143,6 +162,7 @@ void writeParameters(JsonWriter& json, const SurgicalScaleOptions& options, cons
   json.StartObject();
   writeMember(json, "minimumEdgeLength", options.range.minimum);
   writeMember(json, "maximumEdgeLength", options.range.maximum);
+  writeMember(json, "rising", std::string(options.rising == RisingQuantity::Area ? "area" : "length"));
   writeMember(json, "childRadius", options.targetFalloff.childRadius);
   writeMember(json, "decayLength", options.targetFalloff.decayLength);
   writeMember(json, "pathChildRadius", options.pathFalloff.childRadius);

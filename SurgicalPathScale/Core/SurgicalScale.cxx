@@ -86,8 +86,8 @@ public:
 private:
   double within(const LengthRange& range) const
   {
-    return std::min(edgeLength(m_ToTarget, range, m_Options.targetFalloff),
-                    edgeLength(m_ToPath, range, m_Options.pathFalloff));
+    return std::min(edgeLength(m_ToTarget, range, m_Options.targetFalloff, m_Options.rising),
+                    edgeLength(m_ToPath, range, m_Options.pathFalloff, m_Options.rising));
   }
 
   const SurgicalScaleOptions& m_Options;
@@ -132,10 +132,15 @@ std::vector<Vec3> toGridFrame(const Grid& grid, std::vector<Vec3> points)
 
 } // namespace
 
-double edgeLength(double distance, const LengthRange& range, const Falloff& falloff)
+double edgeLengthOfArea(double area) { return std::sqrt(2 * area / std::sqrt(3)); }
+
+double edgeLength(double distance, const LengthRange& range, const Falloff& falloff, RisingQuantity rising)
 {
   const double beyond = std::max(0.0, distance - falloff.childRadius);
-  return range.minimum - (range.maximum - range.minimum) * std::expm1(-beyond / falloff.decayLength);
+  const auto between = [&](double low, double high)
+  { return low - (high - low) * std::expm1(-beyond / falloff.decayLength); };
+  if (rising == RisingQuantity::Length) return between(range.minimum, range.maximum);
+  return std::sqrt(between(range.minimum * range.minimum, range.maximum * range.maximum));
 }
 
 void checkScaleOptions(const SurgicalScaleOptions& options, const Grid& map, const std::vector<Vec3>& targets,

@@ -7,9 +7,9 @@
 ///     L(d) = Lmin                                               d <= dmin
 ///     L(d) = Lmin + (Lmax - Lmin) (1 - exp(-(d - dmin) / dscale))   d >  dmin
 ///
-/// (Audette et al., Computer Aided Surgery 12(1), 2007, eq. 1 with the distance to a point or to a linearised path; the
-/// same function on face areas: Audette et al. 2005, eq. 2, where As = sqrt(3)/2 L^2 by eq. 3). Here L is the edge of
-/// triangles and tetrahedra. Lengths and distances in mm.
+/// (Audette et al., Computer Aided Surgery 12(1), 2007, eq. 1 with the distance to a point or to a linearised path). The
+/// same function may rule the areas As of simplex faces instead (Audette et al. 2005, eq. 2), with L = sqrt(2 As /
+/// sqrt(3)) by their eq. 3. Here L is the edge of triangles and tetrahedra. Lengths and distances in mm.
 
 #include "Distance.h"
 #include "Gradation.h"
@@ -37,8 +37,19 @@ struct Falloff
   double decayLength = 25; ///< dscale > 0
 };
 
+/// What rises exponentially between its values for Lmin and Lmax.
+enum class RisingQuantity
+{
+  Length,
+  Area ///< As, which goes with the square of L: longer edges at the same distance
+};
+
+/// L of an area As of simplex faces, in mm: sqrt(2 As / sqrt(3)).
+double edgeLengthOfArea(double area);
+
 /// The formula above, for any d >= 0; Lmax at infinity.
-double edgeLength(double distance, const LengthRange& range, const Falloff& falloff);
+double edgeLength(double distance, const LengthRange& range, const Falloff& falloff,
+                  RisingQuantity rising = RisingQuantity::Length);
 
 /// A tissue's own lengths: factor * L(d) with its own range.
 struct TissueLength
@@ -60,6 +71,7 @@ struct SurgicalScaleOptions
   LengthRange range;
   Falloff targetFalloff;
   Falloff pathFalloff;
+  RisingQuantity rising = RisingQuantity::Length; ///< of all ranges
   Combination combination = Combination::Smaller;
   std::map<Label, TissueLength> tissues; ///< exceptions to `range`
   double gradation = 0;                  ///< limit on |grad L|, mm per mm; 0 sets none. See limitGradation

@@ -56,6 +56,22 @@ TEST_F(SurgicalPathScaleCLI, TakesTargetsInEveryFormAlike)
   for (const char* other : { "b.nrrd", "c.nrrd", "d.nrrd" }) EXPECT_EQ(readBytes(folder.file(other)), a) << other;
 }
 
+TEST_F(SurgicalPathScaleCLI, TakesAreasInPlaceOfLengths)
+{
+  // As = sqrt(3)/2 L^2: 1 and 2 mm; all of the map is within the child radius, or beyond all decay.
+  expectDone("--targetPoint 10,0,40 --minimumEdgeLength 1 --maximumEdgeLength 2 --childRadius 100 map.nrrd a.nrrd");
+  expectDone("--targetPoint 10,0,40 --minimumArea 0.8660254037844386 --maximumArea 3.4641016151377544 "
+             "--childRadius 100 --report r.json map.nrrd b.nrrd");
+  EXPECT_NE(readBytes(folder.file("r.json")).find("\"rising\": \"area\""), std::string::npos);
+  const ScaleField a = readScale(folder.file("a.nrrd")), b = readScale(folder.file("b.nrrd"));
+  ASSERT_EQ(a.lengths.size(), b.lengths.size());
+  for (std::size_t n = 0; n < a.lengths.size(); ++n) EXPECT_NEAR(a.lengths[n], b.lengths[n], 1e-6);
+  const std::string end = " --targetPoint 10,0,40 map.nrrd scale.nrrd";
+  expectRefused("--minimumArea 1" + end, 2, "expected both or none");
+  expectRefused("--minimumArea 2 --maximumArea 1" + end, 2, "above the maximum");
+  expectRefused("--minimumArea 1 --maximumArea 2 --maximumEdgeLength 4" + end, 2, "areas and edge lengths");
+}
+
 TEST_F(SurgicalPathScaleCLI, WritesTheNullDisplacementMap)
 {
   folder.write("names.ctbl", "1 bone 200 200 180 255\n7 skin 255 200 150 255\n9 absent 1 2 3 255\n");

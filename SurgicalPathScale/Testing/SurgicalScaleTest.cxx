@@ -41,6 +41,8 @@ void forEachVoxel(const Grid& grid, Visit visit)
   }
 }
 
+double simplexFaceArea(double length) { return std::sqrt(3) / 2 * length * length; }
+
 void expectUsageError(const SurgicalScaleOptions& options, const std::string& expected)
 {
   const TissueMap map = boxMap({ 4, 4, 4 }, { 1, 1, 1 });
@@ -117,6 +119,22 @@ TEST(EdgeLength, RisesContinuouslyFromMinimumToMaximum)
   EXPECT_EQ(edgeLength(0, range, falloff), 1);
   EXPECT_EQ(edgeLength(10, range, falloff), 1);
   EXPECT_EQ(edgeLength(HUGE_VAL, range, falloff), 8);
+}
+
+TEST(EdgeLength, RisesByAreaAsThePaperHasIt)
+{
+  const LengthRange range{ edgeLengthOfArea(2), edgeLengthOfArea(60) };
+  const Falloff falloff{ 10, 25 };
+  for (const double d : { 0., 9.9, 10., 12.5, 40., 200. })
+  {
+    const double area = d <= 10 ? 2 : 2 + 58 * (1 - std::exp(-(d - 10) / 25));
+    EXPECT_NEAR(edgeLength(d, range, falloff, RisingQuantity::Area), std::sqrt(2 * area / std::sqrt(3)), 1e-12);
+    EXPECT_GE(edgeLength(d, range, falloff, RisingQuantity::Area), edgeLength(d, range, falloff) - 1e-12);
+  }
+  // Where the formula has not begun to rise, and where it has risen, areas and lengths ask for the same.
+  for (const double d : { 0., 10., HUGE_VAL })
+    EXPECT_NEAR(edgeLength(d, range, falloff, RisingQuantity::Area), edgeLength(d, range, falloff), 1e-12);
+  for (const double length : { 0.3, 1., 8. }) EXPECT_NEAR(edgeLengthOfArea(simplexFaceArea(length)), length, 1e-12);
 }
 
 TEST(SurgicalScale, IsTheFormulaAtEveryVoxelCentre)
