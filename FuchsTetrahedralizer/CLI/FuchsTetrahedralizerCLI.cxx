@@ -162,6 +162,7 @@ ConstitutiveRule readConstitutiveRule(const CommandLine& line)
   ConstitutiveRule rule{ readFocus(line.points("targetPoint"), line.texts("targets"), line.points("pathPoint"),
                                    line.texts("path")) };
   rule.nonlinearDistance = line.number("nonlinearDistance");
+  rule.nonlinearDistanceAtTarget = line.number("nonlinearDistanceAtTarget");
   rule.nullTargetRadius = line.number("nullDisplacementRadius");
   rule.nullPathDistance = line.number("nullDisplacementPathDistance");
   rule.nullPathDistanceAtTarget = line.number("nullDisplacementPathDistanceAtTarget");

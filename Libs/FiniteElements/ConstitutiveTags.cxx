@@ -12,27 +12,33 @@ namespace
 
 constexpr std::int32_t kLinear = 0, kNonlinear = 1, kNullDisplacement = 2;
 
+/// `atTarget` 0 is `atEntry`.
+bool isInTube(const Vec3& x, const std::vector<Path>& paths, double atEntry, double atTarget)
+{
+  return std::any_of(paths.begin(), paths.end(),
+                     [&](const Path& path)
+                     { return distanceToTube(x, path, atEntry, atTarget > 0 ? atTarget : atEntry) <= 0; });
+}
+
 bool isNear(const Vec3& x, const ConstitutiveRule& rule)
 {
-  return std::min(distanceToPoints(x, rule.targets), distanceToPaths(x, rule.paths)) <= rule.nonlinearDistance;
+  return distanceToPoints(x, rule.targets) <= rule.nonlinearDistance ||
+         isInTube(x, rule.paths, rule.nonlinearDistance, rule.nonlinearDistanceAtTarget);
 }
 
 bool isHeldStill(const Vec3& x, const ConstitutiveRule& rule)
 {
   if (rule.nullTargetRadius == 0 && rule.nullPathDistance == 0) return false;
   if (rule.nullTargetRadius > 0 && distanceToPoints(x, rule.targets) <= rule.nullTargetRadius) return false;
-  if (rule.nullPathDistance == 0) return true;
-  const double atTarget = rule.nullPathDistanceAtTarget > 0 ? rule.nullPathDistanceAtTarget : rule.nullPathDistance;
-  return std::all_of(rule.paths.begin(), rule.paths.end(),
-                     [&](const Path& path) { return distanceToTube(x, path, rule.nullPathDistance, atTarget) > 0; });
+  return rule.nullPathDistance == 0 || !isInTube(x, rule.paths, rule.nullPathDistance, rule.nullPathDistanceAtTarget);
 }
 
 } // namespace
 
 void checkConstitutiveRule(const ConstitutiveRule& rule)
 {
-  for (const double distance :
-       { rule.nonlinearDistance, rule.nullTargetRadius, rule.nullPathDistance, rule.nullPathDistanceAtTarget })
+  for (const double distance : { rule.nonlinearDistance, rule.nonlinearDistanceAtTarget, rule.nullTargetRadius,
+                                 rule.nullPathDistance, rule.nullPathDistanceAtTarget })
   {
     if (!(std::isfinite(distance) && distance >= 0))
     {
@@ -48,6 +54,8 @@ void checkConstitutiveRule(const ConstitutiveRule& rule)
     throw UsageError("a null-displacement path distance is given, but no path");
   if (rule.nullPathDistanceAtTarget > 0 && rule.nullPathDistance == 0)
     throw UsageError("a null-displacement path distance at the target is given, but none at the entry");
+  if (rule.nonlinearDistanceAtTarget > 0 && (rule.nonlinearDistance == 0 || rule.paths.empty()))
+    throw UsageError("a nonlinear distance at the target is given, but no path or none at its entry");
   if (hasPlace && !hasDistance)
     throw UsageError("a target or path is given, but neither a nonlinear nor a null-displacement distance");
 }

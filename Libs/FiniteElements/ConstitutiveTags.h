@@ -14,6 +14,9 @@ namespace surgicalmesher
 struct ConstitutiveRule : Focus
 {
   double nonlinearDistance = 0; ///< mm from a target or path; 0: classes stay as they are
+  /// mm; the distance from paths goes linearly with arc length from nonlinearDistance at the entry to this at the target
+  /// end; 0: it is the same all along.
+  double nonlinearDistanceAtTarget = 0;
   // Null displacement, with the meaning that NullDisplacementOptions gives to the same names.
   double nullTargetRadius = 0;
   double nullPathDistance = 0;

@@ -66,6 +66,28 @@ TEST(ConstitutiveTags, PathsCountLikeTargets)
   EXPECT_EQ(seen, (std::set<std::int32_t>{ 0, 1, 2 }));
 }
 
+TEST(ConstitutiveTags, TheNonlinearDistanceTapersAlongPaths)
+{
+  ConstitutiveRule rule;
+  rule.paths = { { { 0, 2, 2 }, { 6, 2, 2 }, { 11, 2, 2 } } };
+  rule.targets = { { 11, 5, 5 } };
+  rule.nonlinearDistance = 1;
+  rule.nonlinearDistanceAtTarget = 3;
+  std::set<std::int32_t> seen;
+  for (const auto& [x, tag] : tagged(rule))
+  {
+    bool isNear = norm(x - rule.targets[0]) <= 1; // the taper is the path's alone
+    for (int n = 0; n <= 11000 && !isNear; ++n)
+    {
+      const double u = n / 11000.0;
+      isNear = norm(x - Vec3{ 11 * u, 2, 2 }) <= 1 + 2 * u;
+    }
+    EXPECT_EQ(tag, isNear ? 1 : 0) << x.x << " " << x.y << " " << x.z;
+    seen.insert(tag);
+  }
+  EXPECT_EQ(seen, (std::set<std::int32_t>{ 0, 1 }));
+}
+
 TEST(ConstitutiveTags, WithoutDistancesNothingChanges)
 {
   for (const std::int32_t before : { 0, 1, 2 })
@@ -95,6 +117,11 @@ TEST(ConstitutiveTags, RefusesRulesWithoutMeaning)
   refused([](ConstitutiveRule& r) { r.paths = { { {}, { 1, 0, 0 } } }, r.nullTargetRadius = 5; });
   refused([](ConstitutiveRule& r) { r.targets = { {} }, r.nullPathDistance = 5; });
   refused([](ConstitutiveRule& r) { r.targets = { {} }, r.nonlinearDistance = 5, r.nullPathDistanceAtTarget = 5; });
+  refused([](ConstitutiveRule& r) { r.targets = { {} }, r.nonlinearDistance = 5, r.nonlinearDistanceAtTarget = 5; });
+  refused(
+    [](ConstitutiveRule& r) {
+      r.paths = { { {}, { 1, 0, 0 } } }, r.nullPathDistance = 5, r.nonlinearDistanceAtTarget = 5;
+    });
   for (const double bad : { -1.0, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN() })
   {
     refused([=](ConstitutiveRule& r) { r.targets = { {} }, r.nonlinearDistance = bad; });
