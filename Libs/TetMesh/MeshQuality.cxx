@@ -66,6 +66,24 @@ std::vector<std::int32_t> valences(const TetMesh& mesh)
   return result;
 }
 
+/// Of each tissue at each point on its boundary.
+std::vector<double> boundaryValences(const TetMesh& mesh, const std::vector<std::int32_t>& inner)
+{
+  std::vector<std::pair<std::int32_t, Label>> uses;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    for (const std::int32_t id : mesh.tetrahedra[t])
+      if (inner[id] < 0) uses.emplace_back(id, mesh.labels[t]);
+  std::sort(uses.begin(), uses.end());
+  std::vector<double> result;
+  for (auto begin = uses.begin(); begin != uses.end();)
+  {
+    const auto end = std::upper_bound(begin, uses.end(), *begin);
+    result.push_back(double(end - begin));
+    begin = end;
+  }
+  return result;
+}
+
 /// The edges of a mesh, ascending by their ends.
 struct Edges
 {
@@ -382,6 +400,7 @@ MeshQuality assessQuality(const TetMesh& mesh, const std::vector<std::int32_t>& 
       result.dihedral = histogramOf(samples.dihedral, 0, 180, 90);
       result.edgeOverTarget = histogramOf(samples.edgeOverTarget, 0, 2.5, 100);
       result.valence = histogramOf(samples.valence, 0, 60, 60);
+      result.boundaryValence = histogramOf(boundaryValences(mesh, context.inner), 0, 60, 60);
     });
   const auto add = [&](QualityGroup& group, const std::vector<std::int32_t>& tetrahedra)
   { tasks.push_back([&] { group = groupOf(tetrahedra, samplesOf(context, tetrahedra)); }); };
@@ -418,6 +437,7 @@ std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues)
   write(writer, "dihedral", quality.dihedral);
   write(writer, "edgeOverTarget", quality.edgeOverTarget);
   write(writer, "valence", quality.valence);
+  write(writer, "boundaryValence", quality.boundaryValence);
   writer.EndObject();
   writer.EndObject();
   return buffer.GetString();

@@ -65,7 +65,8 @@ struct MeshQuality
   // The paper's three histograms (Audette et al. 2007, figure 10), over the whole mesh.
   Histogram dihedral; ///< degrees
   Histogram edgeOverTarget;
-  Histogram valence; ///< tetrahedra per inner point, one bin each
+  Histogram valence;         ///< tetrahedra per inner point, one bin each
+  Histogram boundaryValence; ///< tetrahedra of one tissue per point on its boundary: points count once for each tissue
 };
 
 /// How many tetrahedra of tissues (label not 0) have a dihedral angle below `degrees` or above 180 minus it.

@@ -123,6 +123,23 @@ TEST(AssessQuality, HistogramsCountEverything)
   EXPECT_EQ(total(quality.dihedral), 6 * mesh.tetrahedra.size());
   EXPECT_EQ(total(quality.edgeOverTarget), quality.whole.edgeOverTarget.count) << "values beyond the range are kept";
   EXPECT_EQ(quality.valence.counts[24], 8u) << "the inner points of 3 x 3 x 3 voxels";
+  EXPECT_EQ(total(quality.boundaryValence), 64u - 8u);
+}
+
+TEST(AssessQuality, BoundaryPointsCountOnceForEachTissue)
+{
+  const TetMesh mesh =
+    withoutOutside(test::tetrahedraOf(test::paintedMap({ 4, 3, 3 }, [](int i, int, int) { return 1 + i / 2; })));
+  const MeshQuality quality = assessQuality(mesh, {}, {});
+  std::size_t points = 0, uses = 0;
+  for (std::size_t n = 0; n < quality.boundaryValence.counts.size(); ++n)
+  {
+    points += quality.boundaryValence.counts[n];
+    uses += n * quality.boundaryValence.counts[n];
+  }
+  EXPECT_EQ(points, 2 * (3 * 4 * 4 - 1 * 2 * 2)) << "of two boxes of 2 x 3 x 3 voxels";
+  EXPECT_EQ(uses + 24 * quality.valence.counts[24], 4 * mesh.tetrahedra.size());
+  EXPECT_GT(quality.boundaryValence.counts[12], 0u) << "a flat boundary of Kuhn's partition halves its 24";
 }
 
 TEST(AssessQuality, JSONNamesGroupsAndTissues)
