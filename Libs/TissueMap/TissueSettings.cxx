@@ -5,6 +5,7 @@
 #include "TextFile.h"
 #include "TextTable.h"
 #include "TissueMapIO.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 
@@ -136,6 +137,37 @@ std::vector<TissueGroup> groupsOf(const TissueSettings& settings)
   return groups;
 }
 
+/// Which members of one group touch is what `groupOf`, by label, says of every two voxels with a common face.
+void findPieces(const TissueMap& map, std::vector<TissueGroup>& groups)
+{
+  std::vector<std::size_t> groupOf(labelCount, groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Label member : groups[g].members) groupOf[member] = g;
+  UnionFind pieces(labelCount);
+  const auto& [ni, nj, nk] = map.grid.size;
+  const auto touch = [&](Label a, std::size_t other)
+  {
+    const Label b = map.labels[other];
+    if (a != b && groupOf[a] == groupOf[b]) pieces.unite(a, b);
+  };
+  for (int k = 0; k < nk; ++k)
+    for (int j = 0; j < nj; ++j)
+      for (int i = 0; i < ni; ++i)
+      {
+        const Label a = map.labels[map.grid.index(i, j, k)];
+        if (groupOf[a] == groups.size()) continue;
+        if (i + 1 < ni) touch(a, map.grid.index(i + 1, j, k));
+        if (j + 1 < nj) touch(a, map.grid.index(i, j + 1, k));
+        if (k + 1 < nk) touch(a, map.grid.index(i, j, k + 1));
+      }
+  for (TissueGroup& group : groups)
+  {
+    std::map<std::uint32_t, std::vector<Label>> byRoot; // roots are the smallest members
+    for (const Label member : group.members) byRoot[pieces.find(member)].push_back(member);
+    for (auto& [root, members] : byRoot) group.pieces.push_back(std::move(members));
+  }
+}
+
 void joinGroup(const TissueGroup& group, TissueMap& map, TissueSettings& settings)
 {
   TissueSetting together = settings.at(group.label);
@@ -186,6 +218,7 @@ TissueSelection selectTissues(TissueMap& map, TissueSettings& settings)
   TissueSelection selection;
   selection.tableOfInput = map.table;
   selection.groups = groupsOf(settings);
+  if (!selection.groups.empty()) findPieces(map, selection.groups);
   std::vector<Label> becomes(std::size_t(1) << 16);
   for (std::size_t label = 0; label < becomes.size(); ++label) becomes[label] = Label(label);
   for (const TissueGroup& group : selection.groups)

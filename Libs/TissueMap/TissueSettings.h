@@ -45,6 +45,9 @@ struct TissueGroup
   Label label = 0; ///< the smallest of its members
   std::string name;
   std::vector<Label> members; ///< ascending
+  /// The members by contiguity: those of one piece are joined by common voxel faces, from tissue to tissue. Pieces by
+  /// their smallest member.
+  std::vector<std::vector<Label>> pieces;
 };
 
 /// What became of the tissues of a map.

@@ -62,6 +62,7 @@ void writeSelection(JsonWriter& json, const SurfaceReport& report)
                  writeMember(json, "label", group.label);
                  writeMember(json, "name", group.name);
                  writeObjects(json, "members", group.members, [&](Label member) { writeTissue(json, member, given); });
+                 writeMember(json, "pieces", group.pieces.size());
                });
   writeObjects(json, "leftOut", report.selection.voxelsLeft,
                [&](const auto& left)

@@ -73,6 +73,7 @@ TissueMap readMap(CommandLine& line, SurfaceReport& results)
   const std::string file = line.text("tissues");
   if (!file.empty()) results.settings = readTissueSettings(file, map);
   results.selection = selectTissues(map, results.settings);
+  for (const std::string& warning : warningsOfGroups(results.selection)) line.warning(warning);
   return map;
 }
 

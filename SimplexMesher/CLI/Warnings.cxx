@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Warnings.h"
 
+#include "Structures.h"
+
 #include <algorithm>
 #include <locale>
 #include <sstream>
@@ -43,6 +45,14 @@ double shortestLength(const TissueMap& map, const ScaleField& scale)
   return shortest;
 }
 
+std::string listed(const std::vector<Label>& piece, const TissueTable& names)
+{
+  constexpr std::size_t most = 5;
+  std::string list;
+  for (std::size_t n = 0; n < std::min(most, piece.size()); ++n) list += (n > 0 ? ", " : "") + nameOf(piece[n], names);
+  return piece.size() > most ? list + " and " + std::to_string(piece.size() - most) + " more" : list;
+}
+
 } // namespace
 
 double shortestLatticeLength(const Grid& grid)
@@ -57,6 +67,21 @@ std::string warningOfShortLengths(const TissueMap& map, const ScaleField& scale,
   return "edges of " + rounded(asked) + " mm are asked for, but the voxels of " + labelMap +
          " give none shorter than " + rounded(given) +
          " mm, a quarter of their side; resample the map for shorter ones";
+}
+
+std::vector<std::string> warningsOfGroups(const TissueSelection& selection)
+{
+  std::vector<std::string> warnings;
+  for (const TissueGroup& group : selection.groups)
+  {
+    if (group.pieces.size() < 2) continue;
+    std::string warning = "the tissues of group " + group.name + " are not contiguous, but " +
+                          std::to_string(group.pieces.size()) + " pieces:";
+    for (std::size_t n = 0; n < group.pieces.size(); ++n)
+      warning += (n > 0 ? "; " : " ") + listed(group.pieces[n], selection.tableOfInput);
+    warnings.push_back(warning);
+  }
+  return warnings;
 }
 
 std::vector<std::string> warningsOfDistance(const std::map<Label, TissueFidelity>& fidelity, double bound,

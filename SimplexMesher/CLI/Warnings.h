@@ -5,6 +5,7 @@
 #include "ScaleField.h"
 #include "TissueFidelity.h"
 #include "TissueMap.h"
+#include "TissueSettings.h"
 
 #include <string>
 #include <vector>
@@ -17,6 +18,9 @@ double shortestLatticeLength(const Grid& grid);
 
 /// That tissue asks for shorter edges than the lattice gives; empty if it does not. `labelMap` names the map.
 std::string warningOfShortLengths(const TissueMap& map, const ScaleField& scale, const std::string& labelMap);
+
+/// Groups whose members are not contiguous, with their pieces.
+std::vector<std::string> warningsOfGroups(const TissueSelection& selection);
 
 /// Where the surface is farther from the map than `bound` (mm), from either side; empty if it is nowhere. `world` is
 /// the frame of the files, the fidelity's places are in the map's own.

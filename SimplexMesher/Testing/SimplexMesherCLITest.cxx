@@ -270,9 +270,29 @@ TEST_F(SimplexMesherCLI, JoinsLeavesOutAndHollowsTissues)
   const rapidjson::Value& selection = report["selection"];
   EXPECT_STREQ(selection["groups"][0]["name"].GetString(), "a & b");
   EXPECT_EQ(selection["groups"][0]["members"].Size(), 2u);
+  EXPECT_EQ(selection["groups"][0]["pieces"].GetInt(), 1);
   EXPECT_STREQ(selection["leftOut"][0]["name"].GetString(), "c");
   EXPECT_EQ(selection["leftOut"][0]["voxels"].GetDouble(), volumeOf(layers, 6));
   EXPECT_EQ(selection["shells"][0]["edgeLength"].GetDouble(), 1.5);
+}
+
+TEST_F(SimplexMesherCLI, WarnsOfGroupsInPieces)
+{
+  write("bars.nrrd", paintedMap({ 12, 6, 6 },
+                                [](int i, int j, int k)
+                                {
+                                  if (std::min({ i, j, k }) < 1 || std::max(j, k) >= 5 || i >= 11) return 0;
+                                  return 1 + (i - 1) / 2;
+                                }));
+  folder.write("tissues.csv", "label,role\n1,group vessels\n3,group vessels\n4,group vessels\n");
+  const Outcome result = run("--edgeLength 2 --tissues tissues.csv --report r.json bars.nrrd s.vtp");
+  EXPECT_EQ(result.status, 0);
+  const std::string warning =
+    "the tissues of group vessels are not contiguous, but 2 pieces: tissue 1; tissue 3, tissue 4";
+  EXPECT_EQ(result.err, "SimplexMesherCLI: warning: " + warning + "\n");
+  const rapidjson::Document report = parsed("r.json");
+  EXPECT_EQ(report["selection"]["groups"][0]["pieces"].GetInt(), 2);
+  EXPECT_EQ(report["warnings"][0].GetString(), warning);
 }
 
 TEST_F(SimplexMesherCLI, ShortensLengthsWhereTissueIsThin)
