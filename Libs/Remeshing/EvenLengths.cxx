@@ -87,7 +87,7 @@ private:
   /// Where the samples would like v, were it at p, without a change of its distance to u.
   Vec3 onSheet(std::int32_t v, std::int32_t u, const Vec3& p)
   {
-    Quadric quadric = quadricWith(m_Complex, v, p, m_Operations.sheet(v), m_Options.robust);
+    Quadric quadric = quadricWith(m_Complex, v, p, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
     quadric.addToDiagonal(0.05 * quadric.trace());
     const Vec3 edge = p - m_Complex.points[u], free = quadric.solve(quadric.g);
     const Vec3 step = free - (dot(free, edge) / squaredNorm(edge)) * edge;
@@ -113,7 +113,7 @@ private:
   /// Moves v to the fit of its faces to their samples, where that costs no even length.
   void fitToSamples(std::int32_t v)
   {
-    Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
+    Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
     quadric.addToDiagonal(0.005 * quadric.trace());
     const Vec3 p = m_Complex.points[v], step = quadric.solve(quadric.g);
     const double floor = floorAt(v), now = evenEdges(v, p);

@@ -22,9 +22,10 @@ OperationCounts& OperationCounts::operator+=(const OperationCounts& more)
   return *this;
 }
 
-GuardedOperations::GuardedOperations(TetComplex& complex, SizingFunction length, const EnvelopeBounds& bounds)
+GuardedOperations::GuardedOperations(TetComplex& complex, SizingFunction length, const EnvelopeBounds& bounds,
+                                     double rigidity)
   : m_Complex(complex), m_Length(std::move(length)), m_Envelope(complex, bounds), m_Topology(complex),
-    m_TriangleWeight(bounds.triangleWeight)
+    m_TriangleWeight(bounds.triangleWeight), m_Rigidity(rigidity)
 {
 }
 

@@ -35,7 +35,8 @@ struct OperationCounts
 class GuardedOperations
 {
 public:
-  GuardedOperations(TetComplex& complex, SizingFunction length, const EnvelopeBounds& bounds = {});
+  /// `rigidity`: see quadricOf.
+  GuardedOperations(TetComplex& complex, SizingFunction length, const EnvelopeBounds& bounds = {}, double rigidity = 0);
 
   // --- what is measured, and where
   /// Of t, and of its triangles between labels.
@@ -147,6 +148,7 @@ public:
   TetComplex& complex() { return m_Complex; }
   Envelope& envelope() { return m_Envelope; }
   const OperationCounts& counts() const { return m_Counts; }
+  double rigidity() const { return m_Rigidity; }
   /// Takes two relabellings that undid each other out of the counts.
   void uncountRelabels() { m_Counts.relabels -= 2; }
 
@@ -174,7 +176,7 @@ private:
   SizingFunction m_Length;
   Envelope m_Envelope;
   CollapseTopology m_Topology;
-  const double m_TriangleWeight;
+  const double m_TriangleWeight, m_Rigidity;
   OperationCounts m_Counts;
   Star m_Star, m_StarOfV;               ///< of the vertex worked on, and of the one it may go into
   std::int32_t m_NeighboursVertex = -1; ///< whose m_Neighbours are; -1: nobody's

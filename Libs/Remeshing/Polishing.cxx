@@ -35,7 +35,7 @@ public:
 private:
   void moveToSamples(std::int32_t v)
   {
-    Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
+    Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
     quadric.addToDiagonal(0.05 * quadric.trace() / m_Options.fit);
     const Vec3 step = m_Operations.alongFeatures(v, quadric.solve(quadric.g));
     const double before = m_Operations.qualityAt(v);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Quadric.h"
 
+#include "Bending.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,12 +48,19 @@ Vec3 Quadric::solve(const Vec3& b) const
   return (b.x * c0 + b.y * c1 + b.z * c2) / det;
 }
 
-Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust)
+void Quadric::add(const Quadric& other, double weight)
 {
-  return quadricWith(complex, v, complex.points[v], sheet, robust);
+  for (int i = 0; i < 6; ++i) m[i] += weight * other.m[i];
+  g += weight * other.g;
 }
 
-Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust)
+Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust, double rigidity)
+{
+  return quadricWith(complex, v, complex.points[v], sheet, robust, rigidity);
+}
+
+Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust,
+                    double rigidity)
 {
   Quadric quadric;
   auto sample = sheet.samples.begin();
@@ -77,6 +86,11 @@ Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, co
     double* m = quadric.m;
     m[0] += weight * unit.x * unit.x, m[1] += weight * unit.x * unit.y, m[2] += weight * unit.x * unit.z;
     m[3] += weight * unit.y * unit.y, m[4] += weight * unit.y * unit.z, m[5] += weight * unit.z * unit.z;
+  }
+  if (rigidity > 0)
+  {
+    const Quadric bending = bendingOf(complex, v, p, sheet);
+    if (bending.trace() > 0) quadric.add(bending, rigidity * quadric.trace() / bending.trace());
   }
   return quadric;
 }

@@ -17,6 +17,7 @@ struct Quadric
 
   double trace() const { return m[0] + m[3] + m[5]; }
   void addToDiagonal(double value) { m[0] += value, m[3] += value, m[5] += value; }
+  void add(const Quadric& other, double weight);
   Vec3 times(const Vec3& x) const;
   Vec3 solve(const Vec3& right) const; ///< zero if m is singular
 };
@@ -24,10 +25,13 @@ struct Quadric
 /// Least squares for the step (mm) of v that brings the faces of its `sheet` nearest to their samples: m step = g. With
 /// `robust` (mm) > 0, a sample at distance d weighs 1 / (1 + d / robust), one round of iteratively reweighted least
 /// squares for the mean distance, and so for the volume between surface and map, instead of its square. The planes of
-/// samples with a normal, so near to v that the boundary is plane between them, want v itself on them.
-Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust = 0);
+/// samples with a normal, so near to v that the boundary is plane between them, want v itself on them. With
+/// `rigidity` > 0, the bending of the interface at v (Bending.h) counts that many times as much as its samples.
+Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust = 0,
+                  double rigidity = 0);
 
 /// The same, were v at p.
-Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust);
+Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust,
+                    double rigidity = 0);
 
 } // namespace surgicalmesher

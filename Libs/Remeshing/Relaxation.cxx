@@ -60,7 +60,7 @@ private:
   /// interface.
   Vec3 onInterface(std::int32_t v)
   {
-    Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust);
+    Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
     if (!(quadric.trace() > 0)) return {};
     const double spring = 0.05 * quadric.trace() / m_Options.fit;
     quadric.addToDiagonal(spring);

@@ -38,7 +38,7 @@ OperationCounts runStages(TetComplex& block, const SizingFunction& length, const
   OperationCounts counts;
   for (const Stage& stage : sweep.stages)
   {
-    GuardedOperations operations(block, length, boundsOf(stage, options));
+    GuardedOperations operations(block, length, boundsOf(stage, options), options.rigidity);
     for (const Pass& pass : stage.passes) std::visit(RunPass{ operations }, pass);
     counts += operations.counts();
   }

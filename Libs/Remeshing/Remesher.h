@@ -15,6 +15,7 @@ struct RemesherOptions
   /// EnvelopeBounds::separatedFactor of all stages; 1 if tolerances are hard.
   double separatedFactor = 1;
   double featureAngle = 0; ///< EnvelopeBounds::featureAngle of all stages
+  double rigidity = 0;     ///< of the interface against bending, see quadricOf
 };
 
 class Remesher

@@ -247,6 +247,7 @@ void run(CommandLine& line)
   TissueMesherOptions options;
   options.maximumDistance = line.number("maximumDistance");
   options.smoothing = line.number("smoothing");
+  options.rigidity = line.number("rigidity");
   options.features = readFeatures(line, results.settings);
   prepare(line, map, asked, options.features, subProgress(progress, 0.02, 0.06), results);
   const ScaleField scale = lengthsFor(line, map, asked, results);

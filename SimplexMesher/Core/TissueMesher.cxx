@@ -31,14 +31,25 @@ BackgroundMesh startingMesh(const TissueMap& map, const ScaleField& scale, const
   return std::move(lattice.background);
 }
 
+bool isBounded(const TissueMesherOptions& options) { return options.maximumDistance > 0; }
+
+RemesherOptions remesherOptions(const TissueMesherOptions& options)
+{
+  RemesherOptions result;
+  result.tolerancesAreHard = isBounded(options);
+  result.separatedFactor = 2;
+  result.rigidity = options.rigidity;
+  return result;
+}
+
 /// A remesher that keeps a record of what it does, and tissues' volumes where it is asked to.
 class TissueRemesher
 {
 public:
-  TissueRemesher(BackgroundMesh start, const TissueMap& map, const SizingFunction& length, bool tolerancesAreHard,
-                 const Progress& progress, std::size_t sweeps)
-    : m_Remesher(std::move(start), length, { tolerancesAreHard, separatedFactor }, progress, sweeps), m_Balance(map),
-      m_Balances(!tolerancesAreHard)
+  TissueRemesher(BackgroundMesh start, const TissueMap& map, const SizingFunction& length,
+                 const TissueMesherOptions& options, const Progress& progress, std::size_t sweeps)
+    : m_Remesher(std::move(start), length, remesherOptions(options), progress, sweeps), m_Balance(map),
+      m_Balances(!isBounded(options))
   {
     m_Evolution.push_back(evolutionStep(m_Remesher.background(), "lattice", {}));
   }
@@ -69,8 +80,6 @@ public:
   }
 
 private:
-  static constexpr double separatedFactor = 2;
-
   Remesher m_Remesher;
   VolumeBalance m_Balance;
   const bool m_Balances;
@@ -99,11 +108,10 @@ MeshedMap meshTissues(const TissueMap& map, const ScaleField& wanted, const Tiss
   const std::map<Label, double> thickness = meanThickness(map);
   const ScaleField scale = followFlatTissues(wanted, map, thickness);
   const SizingFunction length = [&](const Vec3& p) { return double(float(scale(map.grid.gridToWorld(p)))); };
-  const bool isBounded = options.maximumDistance > 0;
   const MeshSizes sizes{ map.grid.smallestSpacing(), *std::max_element(scale.lengths.begin(), scale.lengths.end()),
-                         isBounded ? options.maximumDistance : std::numeric_limits<double>::infinity() };
+                         isBounded(options) ? options.maximumDistance : std::numeric_limits<double>::infinity() };
   TissueRemesher remesher(startingMesh(map, scale, thickness, length, options, subProgress(progress, 0, 0.06)), map,
-                          length, isBounded, subProgress(progress, 0.1, 1), surfaceSweepCount(sizes));
+                          length, options, subProgress(progress, 0.1, 1), surfaceSweepCount(sizes));
 
   const MeshTargets targets = coarsen(remesher, sizes);
   remesher.run(firstImprovement(targets, sizes));

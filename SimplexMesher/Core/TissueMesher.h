@@ -19,6 +19,8 @@ struct TissueMesherOptions
   double maximumDistance = 0;
   /// Scale, in voxels, of the smooth boundary that the surface is driven to (SmoothBoundary.h); 0: the voxels' steps.
   double smoothing = 0;
+  /// Resistance of the surface to bending, in that of its samples: 0 none, 0.3 some, 1 as much (Bending.h).
+  double rigidity = 0;
   FeatureOptions features; ///< what the map was simplified by; thin tissues are then held less closely
 };
 

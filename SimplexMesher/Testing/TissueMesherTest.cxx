@@ -224,6 +224,21 @@ TEST(SurfaceMesher, HasNoStepsWhereLIsAVoxel)
   }
 }
 
+TEST(SurfaceMesher, ResistsBendingAtTheTopologyOfTheMap)
+{
+  for (const Shape& shape : shapes())
+  {
+    TissueMesherOptions options;
+    options.smoothing = 0.7;
+    const double soft = meanDeflection(interfaceOf(meshTissues(shape.map, uniformScale(2), options).background.mesh));
+    options.rigidity = 0.5;
+    const MeshedMap rigid = meshTissues(shape.map, uniformScale(2), options);
+    EXPECT_EQ(faultOf(rigid, shape.map), "") << shape.name;
+    // A slab or a voxel is all edges.
+    if (shape.name == "noise") EXPECT_LT(meanDeflection(interfaceOf(rigid.background.mesh)), soft);
+  }
+}
+
 TEST(SurfaceMesher, KeepsTheDistanceAskedFor)
 {
   const TissueMap map = shapes()[2].map;

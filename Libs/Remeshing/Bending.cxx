@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Bending.h"
+
+#include <cmath>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// Of the angle between x and y.
+double cotangent(const Vec3& x, const Vec3& y) { return dot(x, y) / norm(cross(x, y)); }
+
+/// The corner of the triangle that goes on from `face` beyond its edge ab; -1 if there is none.
+std::int32_t cornerBeyond(const TetComplex& complex, const SheetFace& face, std::int32_t a, std::int32_t b)
+{
+  std::int32_t t = face.tet;
+  int across = face.face;
+  const Label other = complex.labels[complex.neighbours[t][across]];
+  if (other == 0) // turn on the side of the background: there the outer surface goes on
+  {
+    const std::int32_t n = complex.neighbours[t][across];
+    for (int i = 0; i < 4; ++i)
+      if (complex.neighbours[n][i] == t && !complex.contains(t, complex.tets[n][i])) across = i;
+    t = n;
+  }
+  const bool isOuter = complex.labels[t] == 0;
+  std::int32_t apex = complex.tets[t][across];
+  for (;;)
+  {
+    int next = 0; // the other face at ab
+    while (complex.tets[t][next] == a || complex.tets[t][next] == b || complex.tets[t][next] == apex) ++next;
+    const std::int32_t n = complex.neighbours[t][next];
+    if (n < 0) return -1;
+    if (complex.labels[n] != complex.labels[t])
+      return isOuter || labelPair(complex.labels[n], complex.labels[t]) == face.labels ? apex : -1;
+    const std::int32_t shared = apex;
+    apex = -1;
+    for (std::int32_t x : complex.tets[n])
+      if (x != a && x != b && x != shared) apex = x;
+    t = n;
+  }
+}
+
+/// The energy of edge ab with the opposite corners c and d: |s_a a + s_b b - s_c c - s_d d|^2 / area.
+struct Hinge
+{
+  Vec3 bent;
+  double atA, atB, atC; ///< s
+  double area;          ///< of both triangles, twice
+
+  Hinge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+  {
+    const Vec3 edge = b - a;
+    const double ca = cotangent(edge, c - a), cb = cotangent(-1.0 * edge, c - b);
+    const double da = cotangent(edge, d - a), db = cotangent(-1.0 * edge, d - b);
+    atA = cb + db;
+    atB = ca + da;
+    atC = -(ca + cb);
+    bent = atA * a + atB * b + atC * c - (da + db) * d;
+    area = norm(cross(edge, c - a)) + norm(cross(edge, d - a));
+  }
+
+  /// Of its part in the sum, with the angle that it is bent by now.
+  double weight(const Vec3& edge) const
+  {
+    constexpr double sharp = 0.7; // radians
+    return 1 / (area * (1 + squaredNorm(bent) / (squaredNorm(edge) * sharp * sharp)));
+  }
+};
+
+} // namespace
+
+Quadric bendingOf(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet)
+{
+  Quadric quadric;
+  const auto at = [&](std::int32_t x) { return x == v ? p : complex.points[x]; };
+  for (const SheetFace& f : sheet.faces)
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t a = f.vertices[k], b = f.vertices[(k + 1) % 3], c = f.vertices[(k + 2) % 3];
+      const std::int32_t d = cornerBeyond(complex, f, a, b);
+      if (d < 0) continue;
+      const Hinge hinge(at(a), at(b), at(c), at(d));
+      const double share = v == a ? hinge.atA : v == b ? hinge.atB : hinge.atC;
+      const double times = v == c ? 1 : 0.5; // edges at v come twice
+      const double weight = times * hinge.weight(at(b) - at(a));
+      quadric.addToDiagonal(weight * share * share);
+      quadric.g += (-weight * share) * hinge.bent;
+    }
+  return quadric;
+}
+
+} // namespace surgicalmesher
