@@ -20,8 +20,7 @@ constexpr double kLatticeMeanEdge = (8 * 0.86602540378443865 + 6) / 14;
 
 /// Lattice points in a box around the surface, its corners included: in the tissues with the density of L(x), outside
 /// ever sparser with the distance. All are at least `clearance` * L(x) away from the surface: closer ones make flat
-/// elements on it, farther ones long elements. Of 0.4, 0.45, 0.5 and 0.6, 0.45 gives the brain of jhu189 as one tissue
-/// the largest share of vertices with 24 tetrahedra at nearly the largest share of edges near their target.
+/// elements on it, farther ones long elements.
 /// Deterministic, whatever the number of threads. Throws InputError unless L(x) is positive and finite.
 std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunction& edgeLength,
                                 double clearance = 0.45);

@@ -2,16 +2,17 @@
 #pragma once
 /// The bending of the interface around a vertex, as a quadric of where the vertex is: at every edge of its faces the
 /// quadratic bending energy of the two triangles there (M. Bergou, M. Wardetzky, D. Harmon, D. Zorin, E. Grinspun, "A
-/// quadratic bending model for inextensible surfaces", SGP 2006, equation 4). Two triangles belong together if they part
-/// the same two labels, or if both bound the background. An edge counts by 1 / (1 + (angle / 40 degrees)^2), so that
-/// creases of the map keep their place.
+/// quadratic bending model for inextensible surfaces", SGP 2006, equation 4). Two triangles belong together if they
+/// part the same two labels, or if both bound the background. An edge counts by 1 / (1 + (angle / 40 degrees)^2), so
+/// that creases of the map keep their place.
 
 #include "Quadric.h"
 
 namespace surgicalmesher
 {
 
-/// Bending at the faces of `sheet`, were v at p. Edges on a block's border whose other triangle is outside count nothing.
+/// Bending at the faces of `sheet`, were v at p. Edges on a block's border whose other triangle is outside count
+/// nothing.
 Quadric bendingOf(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet);
 
 } // namespace surgicalmesher

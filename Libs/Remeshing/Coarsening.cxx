@@ -172,7 +172,8 @@ private:
     both.g += ofU.g;
     const double spring = 0.02 * both.trace();
     both.addToDiagonal(spring);
-    const Vec3 p = middle + m_Operations.alongFeatures(u, both.solve(both.g + spring * middle) - middle);
+    Vec3 p = both.solve(both.g + spring * middle);
+    if (m_Operations.watchesFeatures()) p = middle + m_Operations.alongFeatures(u, p - middle);
     return squaredNorm(p - middle) < squaredNorm(m_Complex.points[v] - middle) ? p : middle;
   }
 

@@ -306,7 +306,7 @@ const Sheet& Envelope::sheet(std::int32_t v, const std::vector<std::int32_t>& st
 
 Vec3 Envelope::alongFeatures(const Vec3& step)
 {
-  if (!m_Sides.areWatched()) return step;
+  if (!watchesFeatures()) return step;
   m_Sides.find(m_Complex, m_Sheet.faces);
   return m_Sides.along(step);
 }

@@ -82,6 +82,7 @@ public:
   const Sheet& sheet(std::int32_t v, const std::vector<std::int32_t>& star);
   const Sheet& sheet() const { return m_Sheet; }
   void forgetSheet() { m_SheetVertex = -1; }
+  bool watchesFeatures() const { return m_Sides.areWatched(); }
   /// The part of a step of the sheet's vertex that leaves features as they are.
   Vec3 alongFeatures(const Vec3& step);
   /// Whether features, samplesStay() and vertexDistance allow the vertex of the sheet at p; hands the samples on if so.

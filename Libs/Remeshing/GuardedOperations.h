@@ -68,10 +68,12 @@ public:
     return m_Envelope.holdsSheetOf(v) ? m_Envelope.sheet() : m_Envelope.sheet(v, star(v));
   }
 
+  bool watchesFeatures() const { return m_Envelope.watchesFeatures(); }
+
   /// The part of a step of v that leaves flat faces flat and sharp edges where they are, if that is asked for.
   Vec3 alongFeatures(std::int32_t v, const Vec3& step)
   {
-    if (!m_Complex.onInterface[v]) return step;
+    if (!m_Envelope.watchesFeatures() || !m_Complex.onInterface[v]) return step;
     sheet(v);
     return m_Envelope.alongFeatures(step);
   }

@@ -235,7 +235,10 @@ TEST(SurfaceMesher, ResistsBendingAtTheTopologyOfTheMap)
     const MeshedMap rigid = meshTissues(shape.map, uniformScale(2), options);
     EXPECT_EQ(faultOf(rigid, shape.map), "") << shape.name;
     // A slab or a voxel is all edges.
-    if (shape.name == "noise") EXPECT_LT(meanDeflection(interfaceOf(rigid.background.mesh)), soft);
+    if (shape.name == "noise")
+    {
+      EXPECT_LT(meanDeflection(interfaceOf(rigid.background.mesh)), soft);
+    }
   }
 }
 
