@@ -125,7 +125,15 @@ public:
     const int rings = std::max({ m_Cells[0], m_Cells[1], m_Cells[2] }) + 1;
     for (int ring = 0; ring <= rings; ++ring)
     {
-      visitRing(centre, ring, [&](std::int32_t t) { improve(best, p, tissues, t); });
+      visitRing(
+        centre, ring,
+        [&](int i, int j, int k)
+        {
+          if (squaredDistanceToCell(p, { i, j, k }) > std::max(tissues[0] ? best[0] : 0, tissues[1] ? best[1] : 0))
+            return;
+          for (std::size_t n = m_First[cell(i, j, k)]; n < m_First[cell(i, j, k) + 1]; ++n)
+            improve(best, p, tissues, m_Triangles[n]);
+        });
       const double seen = margin + m_Size * ring;
       const bool isDone = (tissues[0] == 0 || best[0] <= seen * seen) && (tissues[1] == 0 || best[1] <= seen * seen);
       if (isDone) break;
@@ -179,6 +187,20 @@ private:
       forCells(t, [&](std::size_t c) { m_Triangles[next[c]++] = std::int32_t(t); });
   }
 
+  /// A bound from below that rounding spares.
+  double squaredDistanceToCell(const Vec3& p, const Voxel& at) const
+  {
+    const double rounding = 1e-9 * m_Size;
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double low = m_Origin[axis] + at[axis] * m_Size;
+      const double beyond = std::max({ low - p[axis], p[axis] - (low + m_Size), rounding }) - rounding;
+      sum += beyond * beyond;
+    }
+    return sum;
+  }
+
   template <class Visit>
   void visitRing(const Voxel& centre, int ring, const Visit& visit) const
   {
@@ -196,7 +218,7 @@ private:
             i = std::max(i, centre[0] + ring - 1);
             continue;
           }
-          for (std::size_t n = m_First[cell(i, j, k)]; n < m_First[cell(i, j, k) + 1]; ++n) visit(m_Triangles[n]);
+          visit(i, j, k);
         }
       }
     }

@@ -29,7 +29,7 @@ void Sheet::addSamples(const TetComplex& complex, std::size_t k)
   {
     const BoundarySample& sample = complex.samples[e];
     const double tolerance = sample.tolerance;
-    samples.push_back({ sample.position, tolerance * tolerance, e, std::int32_t(k), -1, 0, sample.normal });
+    samples.push_back({ sample.position, tolerance * tolerance, e, std::int32_t(k), -1, 0 });
   }
 }
 

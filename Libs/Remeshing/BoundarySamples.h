@@ -27,12 +27,11 @@ struct SheetFace
 struct SheetSample
 {
   Vec3 position;
-  double tolerance2;           ///< mm^2
-  std::int32_t id;             ///< in TetComplex::samples
-  std::int32_t from;           ///< number of its face in the sheet
-  std::int32_t to;             ///< number of the new face that an operation hands it to; -1: none
-  double distance2;            ///< mm^2, to that face
-  std::array<float, 3> normal; ///< as in BackgroundMesh
+  double tolerance2; ///< mm^2
+  std::int32_t id;   ///< in TetComplex::samples
+  std::int32_t from; ///< number of its face in the sheet
+  std::int32_t to;   ///< number of the new face that an operation hands it to; -1: none
+  double distance2;  ///< mm^2, to that face
 };
 
 /// Some interface faces and their samples: those at a vertex, or those that an operation changes.

@@ -12,18 +12,13 @@ namespace surgicalmesher
 namespace
 {
 
-bool hasPlane(const SheetSample& sample)
-{
-  return sample.normal[0] != 0 || sample.normal[1] != 0 || sample.normal[2] != 0;
-}
-
-/// What the plane through a sample, `way` from the vertex, says of its place: the more, the nearer it is.
-void addPlane(const SheetSample& sample, const Vec3& way, Quadric& quadric)
+/// What the plane through a sample with this normal, `way` from the vertex, says of its place: the more, the nearer it is.
+void addPlane(const std::array<float, 3>& normal, const Vec3& way, Quadric& quadric)
 {
   constexpr double share = 0.3; // against the face's distance to the sample
-  const Vec3 n{ sample.normal[0], sample.normal[1], sample.normal[2] };
+  const Vec3 n{ normal[0], normal[1], normal[2] };
   const double perRadius2 = squaredNorm(n), near = 1 - squaredNorm(way) * perRadius2;
-  if (near <= 0) return;
+  if (perRadius2 == 0 || near <= 0) return;
   const double w = share * near * near / perRadius2;
   quadric.g += (w * dot(n, way)) * n;
   double* m = quadric.m;
@@ -63,6 +58,7 @@ Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, co
                     double rigidity)
 {
   Quadric quadric;
+  const bool hasNormals = !complex.sampleNormals.empty();
   auto sample = sheet.samples.begin();
   for (std::size_t k = 0; k < sheet.faces.size(); ++k)
   {
@@ -81,7 +77,7 @@ Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, co
       const double height = dot(unit, d), w = robust > 0 ? robust / (robust + std::abs(height)) : 1;
       weight += w * b * b;
       quadric.g += (w * b * height) * unit;
-      if (hasPlane(*sample)) addPlane(*sample, d, quadric);
+      if (hasNormals) addPlane(complex.sampleNormal(sample->id), d, quadric);
     }
     double* m = quadric.m;
     m[0] += weight * unit.x * unit.x, m[1] += weight * unit.x * unit.y, m[2] += weight * unit.x * unit.z;

@@ -30,8 +30,7 @@ struct BoundarySample
   Vec3 position;
   float tolerance = 0; ///< mm to the nearest face of its label pair
   std::int32_t next = -1;
-  std::array<float, 3> normal{ 0, 0, 0 }; ///< as in BackgroundMesh
-  double distance2 = -1;                  ///< mm^2, to its face; -1 until somebody has asked
+  double distance2 = -1; ///< mm^2, to its face; -1 until somebody has asked
 };
 
 class TetComplex
@@ -56,6 +55,8 @@ public:
   std::vector<std::array<std::int32_t, 4>> sampleHeads; ///< per face, held by the side of the larger label (on a
                                                         ///< block's border, by the block that has that side)
   std::vector<BoundarySample> samples;
+  std::vector<std::array<float, 3>> sampleNormals; ///< as in BackgroundMesh; empty if no sample has one, apart because
+                                                   ///< samples without are read more often than anything else
 
   // --- queries
   bool alive(std::int32_t t) const { return tets[t][0] >= 0; }
@@ -95,6 +96,10 @@ public:
   /// Adds a point to face i of tetrahedron t, whose sides must differ in label, or which is on the block's border.
   void addSample(std::int32_t t, int i, const Vec3& position, float tolerance,
                  const std::array<float, 3>& normal = { 0, 0, 0 });
+  std::array<float, 3> sampleNormal(std::int32_t sample) const
+  {
+    return sampleNormals.empty() ? std::array<float, 3>{ 0, 0, 0 } : sampleNormals[sample];
+  }
   /// (tetrahedron, face) that holds the samples of the interface face (t, i).
   std::pair<std::int32_t, int> holder(std::int32_t t, int i) const;
 
