@@ -66,7 +66,8 @@ Vector3d closestOn(const HoleBorders& borders, const Vector3d& point)
   {
     for (std::size_t i = 0; i < loop.size(); ++i)
     {
-      const Vector3d a = loop[i], along = loop[(i + 1) % loop.size()] - a;
+      const Vector3d& a = loop[i];
+      const Vector3d along = loop[(i + 1) % loop.size()] - a;
       const double length = along.squaredNorm();
       const double at = length > 0 ? std::clamp((point - a).dot(along) / length, 0.0, 1.0) : 0;
       const Vector3d candidate = a + at * along;

@@ -40,8 +40,8 @@ Plane<double> holeShares(const ChartMap& outer, const ChartMap& inner, int colum
                 int inHole = 0;
                 for (int s = 0; s < kSamples * kSamples; ++s)
                 {
-                  const Vector2d at((i + (s % kSamples + 0.5) / kSamples) / columns,
-                                    (k + (s / kSamples + 0.5) / kSamples) / rows);
+                  const int right = s % kSamples, up = s / kSamples;
+                  const Vector2d at((i + (right + 0.5) / kSamples) / columns, (k + (up + 0.5) / kSamples) / rows);
                   inHole += int(outer.at(at).inHole) + int(inner.at(at).inHole);
                 }
                 shares.values[cell] = inHole / (2. * kSamples * kSamples);
