@@ -85,7 +85,7 @@ int ownerOfTemporary(const std::string& candidate)
   if (at == std::string::npos || at < 2 || candidate[0] != '.') return 0;
   const std::string name = candidate.substr(1, at - 1);
   const std::string extension = candidate.substr(mark + std::strlen(partialMark));
-  const bool isCut = candidate.size() == longestName;
+  const bool isCut = candidate.size() + 3 >= longestName; // up to three bytes short, where a character would be halved
   if (!isCut && extension != fullExtension(name)) return 0;
   const std::size_t number = at + host.size();
   return parseInteger(candidate.substr(number, mark - number)).value_or(0);
