@@ -3,100 +3,77 @@
 // out.
 
 #include "AmbientMatch.h"
-#include "AvailableMemory.h"
 #include "CommandLine.h"
-#include "ConstitutiveTags.h"
-#include "EdgeDivision.h"
 #include "Errors.h"
 #include "Export.h"
-#include "FaceAdjacency.h"
 #include "FuchsTetrahedralizerCLIXML.h"
-#include "InputChecks.h"
-#include "InteriorRefill.h"
-#include "JsonMember.h"
 #include "MaterialTable.h"
-#include "MeshChecks.h"
-#include "MeshIO.h"
-#include "MeshQuality.h"
-#include "PrintableText.h"
+#include "Report.h"
 #include "ShellChoices.h"
-#include "StiffnessConditioning.h"
 #include "SubMeshExport.h"
-#include "SubMeshes.h"
 #include "SurfaceEdgeLength.h"
-#include "SurfaceTetrahedralization.h"
-#include "SurfaceValidity.h"
-#include "TetrahedraImprovement.h"
+#include "SurfacePreparation.h"
+#include "SurfaceRefused.h"
+#include "Tetrahedralizer.h"
 #include "TissueMapIO.h"
-#include "TissueSurfaces.h"
 #include "VtkExport.h"
+#include "Warnings.h"
 
-#include <rapidjson/document.h>
-#include <rapidjson/prettywriter.h>
-#include <rapidjson/stringbuffer.h>
 #include <vtkSMPTools.h>
 
 #include <filesystem>
-#include <optional>
 #include <set>
-#include <sstream>
 
 using namespace surgicalmesher;
 
 namespace
 {
 
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
-
-/// L(x), mm. A scale volume also gives the frame to improve the mesh in: its own, in which copies of all inputs that
-/// lie elsewhere in the world have the same numbers.
-struct Lengths
-{
-  SizingFunction inWorld;
-  SizingFunction inFrame; ///< the same as inWorld without a frame
-  std::optional<Grid> frame;
-};
-
-Lengths readLengths(const CommandLine& line, const SurfaceFile& content)
+TargetLengths readLengths(const CommandLine& line, const SurfaceFile& content)
 {
   const std::string scaleFile = line.text("scale");
   const double uniform = line.number("edgeLength");
   if (!scaleFile.empty() && uniform > 0)
     throw UsageError("--scale and --edgeLength are both given, expected one of them");
-  const auto anywhere = [](const SizingFunction& edgeLength) { return Lengths{ edgeLength, edgeLength, {} }; };
-  if (uniform > 0) return anywhere([uniform](const Vec3&) { return uniform; });
+  if (uniform > 0) return lengthsOf([uniform](const Vec3&) { return uniform; });
   if (!scaleFile.empty())
   {
     const ScaleField scale = readScale(scaleFile);
     requireCover(scale, content.surface.points, scaleFile);
-    return { scale, inFrameOf(scale.grid, scale), scale.grid };
+    return lengthsOf(scale);
   }
   if (content.targetEdgeLength.empty())
   {
     throw UsageError("neither --scale nor --edgeLength is given, and " + line.text("surface") +
                      " has no point array TargetEdgeLength, expected one of them");
   }
-  return anywhere(edgeLengthFromPoints(content.surface.points, content.targetEdgeLength));
+  return lengthsOf(edgeLengthFromPoints(content.surface.points, content.targetEdgeLength));
 }
 
-/// Makes the surface ready for the start that was chosen; it has labels then.
-void prepareSurface(CommandLine& line, const SizingFunction& edgeLength, SurfaceFile& content)
+/// The surface and, if there are, its background tetrahedra.
+TetrahedralizerInput readInput(CommandLine& line, SurfaceFile&& content, const SizingFunction& edgeLength)
 {
-  SurfaceComplex& surface = content.surface;
-  const std::string name = line.text("surface");
-  const bool labelled = !surface.labels.empty();
-  if (!line.text("ambient").empty())
+  TetrahedralizerInput input;
+  input.name = line.text("surface");
+  input.tissues = std::move(content.tissues);
+  const std::string ambient = line.text("ambient");
+  if (ambient.empty())
   {
-    if (labelled) return;
-    throw InputError(name + ": no BoundaryLabels, expected them in a surface with ambient tetrahedra");
+    FillableSurface prepared = fillableSurface(content.surface, edgeLength, input.name);
+    input.surface = std::move(prepared.surface);
+    if (prepared.soleLabel)
+    {
+      line.message(input.name + " is the surface of tissue " + std::to_string(*prepared.soleLabel) +
+                   " alone: its neighbours become outside");
+    }
+    return input;
   }
-  if (!labelled) requireMillimetres(surface, edgeLength, name);
-  surface = labelled ? withoutDuplicatePoints(surface) : closedShellsToTissues(surface, name);
-  if (const std::optional<Label> sole = leaveNeighboursOut(surface))
-    line.message(name + " is the surface of tissue " + std::to_string(*sole) + " alone: its neighbours become outside");
-  if (labelled) requireFillable(surface, name);
-  requireMemoryFor(estimateTetrahedra(surface, edgeLength), availableMemory(), name);
-  surface = withDividedEdges(surface, edgeLength);
+  if (content.surface.labels.empty())
+    throw InputError(input.name + ": no BoundaryLabels, expected them in a surface with ambient tetrahedra");
+  input.surface = std::move(content.surface);
+  input.background = readMesh(ambient);
+  requireInterfacesAre(input.surface, input.name, input.background->mesh, ambient);
+  return input;
 }
 
 /// A refusal's triangles go to the file that is named for them, or else beside the mesh that was to be.
@@ -119,42 +96,6 @@ void prepareSurface(CommandLine& line, const SizingFunction& edgeLength, Surface
   }
   if (!named.empty()) throw InputError(refusal.what());
   throw InputError(std::string(refusal.what()) + "; these triangles are in " + besideMesh);
-}
-
-/// Tetrahedra to begin with, and what the surface stage has improved them to.
-struct Start
-{
-  TetMesh mesh;
-  TetrahedraImprovementOptions improvement;
-};
-
-Start startOf(const CommandLine& line, const SurfaceComplex& surface, const SizingFunction& edgeLength)
-{
-  const std::string surfaceName = line.text("surface"), ambientName = line.text("ambient");
-  Start start;
-  if (ambientName.empty())
-  {
-    start.mesh = fillWithTetrahedra(surface, edgeLength, surfaceName);
-    start.improvement.featureAngle = line.number("featureAngle");
-    return start;
-  }
-  MeshFile ambient = readMesh(ambientName);
-  requireInterfacesAre(surface, surfaceName, ambient.mesh, ambientName);
-  start.mesh = withLatticeInside(ambient.mesh, edgeLength, surfaceName);
-  start.improvement.isImproved = true;
-  if (ambient.targetAngle > 0) start.improvement.targetAngle = ambient.targetAngle;
-  return start;
-}
-
-TetMesh improved(Start start, const Lengths& lengths, const Progress& progress)
-{
-  TetMesh& ambient = start.mesh;
-  const std::optional<Grid>& frame = lengths.frame;
-  for (Vec3& p : ambient.points) p = frame ? inFrameOf(*frame, p) : p;
-  improveTetrahedra(
-    ambient, [&](const Vec3& p) { return double(float(lengths.inFrame(p))); }, start.improvement, progress);
-  for (Vec3& p : ambient.points) p = frame ? frame->gridToWorld(p) : p;
-  return std::move(ambient);
 }
 
 ConstitutiveRule readConstitutiveRule(const CommandLine& line)
@@ -197,7 +138,7 @@ void requireUsableOptions(CommandLine& line)
     throw UsageError("--shell is given, but neither --shells nor --export");
 }
 
-FiniteElementOptions readFiniteElementOptions(CommandLine& line, const SurfaceFile& content)
+FiniteElementOptions readFiniteElementOptions(CommandLine& line, const TetrahedralizerInput& content)
 {
   std::set<Label> present;
   for (const auto& sides : content.surface.labels) present.insert(sides.begin(), sides.end());
@@ -225,22 +166,6 @@ void writeExports(CommandLine& line, const MeshFile& content, const FiniteElemen
   }
 }
 
-MeshFile assemble(const TetMesh& ambient, const SizingFunction& edgeLength, const TissueTable& tissues,
-                  const ConstitutiveRule& rule, SubMeshes& division)
-{
-  MeshFile result;
-  result.mesh = withoutOutside(ambient);
-  result.tissues = tissues;
-  division = divideIntoSubMeshes(result.mesh, edgeLength);
-  result.subMesh = division.ofTetrahedron;
-  result.constitutive = constitutiveModels(result.mesh, result.subMesh, tissues);
-  tagByDistance(result.mesh, rule, result.constitutive);
-  result.subMeshInterface.assign(result.mesh.points.size(), 0);
-  for (const std::int32_t id : division.interfacePoints) result.subMeshInterface[id] = 1;
-  for (const Vec3& p : result.mesh.points) result.targetEdgeLength.push_back(edgeLength(p));
-  return result;
-}
-
 void writeChildAndParent(CommandLine& line, const MeshFile& whole)
 {
   const std::string parentFile = line.outputFile("parentMesh"), childFile = line.outputFile("childMesh");
@@ -253,75 +178,6 @@ void writeChildAndParent(CommandLine& line, const MeshFile& whole)
                                             "expected lengths with a finer region for --childMesh");
   }
   writeMesh(children, childFile);
-}
-
-void writeSubMeshes(JsonWriter& json, const SubMeshes& division)
-{
-  json.Key("subMeshes");
-  json.StartObject();
-  writeMember(json, "children", division.children);
-  writeMember(json, "pieces", division.pieces);
-  writeMember(json, "interfacePoints", division.interfacePoints);
-  json.EndObject();
-}
-
-void writeTopology(JsonWriter& json, const TetMesh& mesh)
-{
-  writeObjects(json, "topology", meshTopology(mesh),
-               [&](const auto& tissue)
-               {
-                 const auto& [label, betti] = tissue;
-                 writeMember(json, "label", label);
-                 writeMember(json, "components", betti.components);
-                 writeMember(json, "tunnels", betti.tunnels);
-                 writeMember(json, "cavities", betti.cavities);
-               });
-}
-
-rapidjson::Value stiffnessJSON(const StiffnessConditioning& conditioning, rapidjson::Document::AllocatorType& allocator)
-{
-  rapidjson::Value stiffness(rapidjson::kObjectType);
-  stiffness.AddMember("unknowns", rapidjson::Value(std::uint64_t(conditioning.unknowns)), allocator);
-  stiffness.AddMember("converged", rapidjson::Value(conditioning.converged), allocator);
-  stiffness.AddMember("conditionNumber", rapidjson::Value(conditioning.condition), allocator);
-  stiffness.AddMember("iterations", rapidjson::Value(conditioning.iterations), allocator);
-  return stiffness;
-}
-
-std::string reportOf(const MeshFile& content, const SubMeshes& division, const MeshQuality& quality, bool fromAmbient,
-                     bool withConditioning, const std::vector<std::string>& warnings)
-{
-  rapidjson::StringBuffer buffer;
-  JsonWriter json(buffer);
-  json.StartObject();
-  writeMember(json, "start", fromAmbient ? "ambient tetrahedra" : "constrained Delaunay");
-  writeSubMeshes(json, division);
-  writeTopology(json, content.mesh);
-  json.Key("quality");
-  rapidjson::Document members;
-  members.Parse(qualityJSON(quality, content.tissues).c_str());
-  if (withConditioning)
-  {
-    auto& allocator = members.GetAllocator();
-    members.AddMember("stiffness", stiffnessJSON(stiffnessConditioning(content.mesh), allocator), allocator);
-  }
-  members.Accept(json);
-  json.Key("warnings");
-  json.StartArray();
-  for (const std::string& warning : warnings) json.String(printable(warning).c_str());
-  json.EndArray();
-  json.EndObject();
-  return std::string(buffer.GetString()) + "\n";
-}
-
-std::string summaryOf(const QualityGroup& whole)
-{
-  std::ostringstream text;
-  text.precision(4);
-  text << whole.tetrahedra << " tetrahedra, " << whole.points << " points, dihedral angles " << whole.dihedral.minimum
-       << " to " << whole.dihedral.maximum << " degrees, " << 100 * whole.edgesNearTarget
-       << " % of edges within 0.7 to 1.4 of their target";
-  return text.str();
 }
 
 void returnFigures(CommandLine& line, const QualityGroup& whole)
@@ -337,34 +193,28 @@ void mesh(CommandLine& line)
   const Progress progress = line.progress();
   report(progress, 0, "reading");
   requireUsableOptions(line);
-  const ConstitutiveRule rule = readConstitutiveRule(line);
+  TetrahedralizerOptions options;
+  options.constitutive = readConstitutiveRule(line);
+  options.featureAngle = line.number("featureAngle");
   SurfaceFile content = readSurface(line.text("surface"));
-  const Lengths lengths = readLengths(line, content);
-  const SizingFunction& edgeLength = lengths.inWorld;
-  report(progress, 0.1, "tetrahedra");
-  prepareSurface(line, edgeLength, content);
-  for (const std::string& warning : warningsOfPlaces(rule, content.surface)) line.warning(warning);
-  const FiniteElementOptions options = readFiniteElementOptions(line, content);
-  const TetMesh ambient =
-    improved(startOf(line, content.surface, edgeLength), lengths, subProgress(progress, 0.3, 0.8));
-  report(progress, 0.8, "sub-meshes");
-  SubMeshes division;
-  const MeshFile result = assemble(ambient, edgeLength, content.tissues, rule, division);
-  const std::string stillness = warningOfStillness(result.constitutive);
+  const TargetLengths lengths = readLengths(line, content);
+  TetrahedralizerInput input = readInput(line, std::move(content), lengths.inWorld);
+  for (const std::string& warning : warningsOfPlaces(options.constitutive, input.surface)) line.warning(warning);
+  const FiniteElementOptions model = readFiniteElementOptions(line, input);
+
+  const bool fromBackground = input.background.has_value();
+  const FiniteElementMesh result =
+    tetrahedralizeTissues(std::move(input), lengths, options, subProgress(progress, 0.1, 0.95));
+
+  const std::string stillness = warningOfStillness(result.content.constitutive);
   if (!stillness.empty()) line.warning(stillness);
-  report(progress, 0.9, "checks");
-  requireSound(result.mesh, "final check");
-  writeMesh(result, line.outputFile("mesh"));
-  writeChildAndParent(line, result);
-  writeExports(line, result, options);
-  const MeshQuality quality = assessQuality(result.mesh, result.subMesh, edgeLength);
+  writeMesh(result.content, line.outputFile("mesh"));
+  writeChildAndParent(line, result.content);
+  writeExports(line, result.content, model);
+  const MeshQuality quality = assessQuality(result.content.mesh, result.content.subMesh, lengths.inWorld);
   const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty())
-  {
-    const bool fromAmbient = !line.text("ambient").empty();
-    writeBytes(reportOf(result, division, quality, fromAmbient, line.flag("conditioning"), line.warnings()),
-               reportFile);
-  }
+    writeBytes(reportJson({ result, quality, fromBackground, line.flag("conditioning"), line.warnings() }), reportFile);
   line.message(summaryOf(quality.whole));
   returnFigures(line, quality.whole);
   report(progress, 1, "done");

@@ -1,22 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A point as messages name it.
+/// Numbers and points as messages name them.
 
 #include "Vec3.h"
 
+#include <locale>
 #include <sstream>
 #include <string>
 
 namespace surgicalmesher
 {
 
-/// "(1.5, -2, 30) mm", six digits.
-inline std::string place(const Vec3& point)
+/// To that many significant digits, with a point whatever the locale.
+inline std::string rounded(double value, int digits = 3)
 {
   std::ostringstream text;
-  text.precision(6);
-  text << "(" << point.x << ", " << point.y << ", " << point.z << ") mm";
+  text.imbue(std::locale::classic());
+  text.precision(digits);
+  text << value;
   return text.str();
+}
+
+/// "(1.5, -2, 30) mm".
+inline std::string place(const Vec3& point, int digits = 6)
+{
+  return "(" + rounded(point.x, digits) + ", " + rounded(point.y, digits) + ", " + rounded(point.z, digits) + ") mm";
 }
 
 } // namespace surgicalmesher

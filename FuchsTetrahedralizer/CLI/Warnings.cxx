@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Warnings.h"
+
+#include "Place.h"
+#include "SurfacePreparation.h"
+
+#include <algorithm>
+
+namespace surgicalmesher
+{
+
+std::vector<std::string> warningsOfPlaces(const ConstitutiveRule& rule, const SurfaceComplex& surface)
+{
+  const vtkBoundingBox box = boxAround(surface);
+  const auto isOutside = [&](const Vec3& p) { return !box.ContainsPoint(p.x, p.y, p.z); };
+  std::vector<std::string> warnings;
+  for (const Vec3& target : rule.targets)
+  {
+    if (isOutside(target)) warnings.push_back("target " + place(target, 3) + " LPS lies outside the surface");
+  }
+  for (const Path& path : rule.paths)
+  {
+    if (std::all_of(path.begin(), path.end(), isOutside))
+      warnings.push_back("the path from " + place(path.front(), 3) + " LPS lies outside the surface");
+  }
+  return warnings;
+}
+
+std::string warningOfStillness(const std::vector<std::int32_t>& constitutive)
+{
+  constexpr std::int32_t nullDisplacement = 2;
+  const bool isStill = !constitutive.empty() && std::all_of(constitutive.begin(), constitutive.end(),
+                                                            [](std::int32_t tag) { return tag == nullDisplacement; });
+  return isStill ? "every tetrahedron is null displacement, so that nothing will move; are targets and paths in LPS mm?"
+                 : std::string();
+}
+
+std::string warningOfMaterials(const FiniteElementOptions& options, const std::set<Label>& present,
+                               const TissueTable& names, const std::string& file)
+{
+  std::string missing;
+  int count = 0;
+  for (const Label label : present)
+  {
+    if (options.materials.count(label) > 0) continue;
+    const auto found = names.find(label);
+    const bool isNamed = found != names.end() && !found->second.name.empty();
+    missing += (missing.empty() ? "" : ", ") + (isNamed ? found->second.name : "tissue " + std::to_string(label));
+    ++count;
+  }
+  if (count == 0) return {};
+  return file + ": no row for " + std::to_string(count) + " of " + std::to_string(present.size()) +
+         " tissues, which get the default of soft tissue, 3 kPa: " + missing;
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What a run of the volume stage warns of: sentences for the user.
+
+#include "ConstitutiveTags.h"
+#include "FiniteElementModel.h"
+#include "TetMesh.h"
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+/// Targets and paths of which every point lies outside the box around the surface.
+std::vector<std::string> warningsOfPlaces(const ConstitutiveRule& rule, const SurfaceComplex& surface);
+
+/// That all tetrahedra of a mesh are null displacement; empty if they are not.
+std::string warningOfStillness(const std::vector<std::int32_t>& constitutive);
+
+/// The tissues without a material of their own; empty if there is none.
+std::string warningOfMaterials(const FiniteElementOptions& options, const std::set<Label>& present,
+                               const TissueTable& names, const std::string& file);
+
+} // namespace surgicalmesher
