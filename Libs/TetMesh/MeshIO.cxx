@@ -451,30 +451,6 @@ void addStrings(vtkFieldData* data, const char* name, const std::vector<std::str
   data->AddArray(array);
 }
 
-void addFieldData(vtkFieldData* data, const std::set<Label>& present, const TissueTable& tissues)
-{
-  addStrings(data, kSpace, { "LPS" });
-  std::vector<int> ids;
-  std::vector<std::string> names, roles;
-  std::vector<double> colors;
-  for (const Label label : present)
-  {
-    if (label == 0) continue;
-    const auto found = tissues.find(label);
-    const Tissue tissue = found == tissues.end() ? Tissue() : found->second;
-    ids.push_back(label);
-    names.push_back(tissue.name.empty() ? "tissue " + std::to_string(label) : tissue.name);
-    colors.insert(colors.end(), tissue.color.begin(), tissue.color.end());
-    roles.push_back(tissue.isShell ? kShell : tissue.isNullDisplacement ? kNullDisplacement : "mesh");
-  }
-  if (ids.empty()) return;
-  addArray<vtkIntArray>(data, kTissueIds, ids);
-  addStrings(data, kTissueNames, names);
-  addArray<vtkDoubleArray>(data, kTissueColors, colors, 3);
-  const bool hasRoles = std::any_of(roles.begin(), roles.end(), [](const std::string& role) { return role != "mesh"; });
-  if (hasRoles) addStrings(data, kTissueRoles, roles);
-}
-
 /// 0 where there is none that means something.
 double targetAngleOf(vtkFieldData* data)
 {
@@ -650,7 +626,7 @@ void writeSurface(const SurfaceFile& content, const std::string& file)
   addArray<vtkIntArray>(data->GetCellData(), kBoundaryLabels, labels, 2);
   addArray<vtkDoubleArray>(data->GetPointData(), kTargetEdgeLength, content.targetEdgeLength);
   addArray<vtkDoubleArray>(data->GetPointData(), kBoundaryDistance, content.boundaryDistance);
-  addFieldData(data->GetFieldData(), present, content.tissues);
+  addTissues(data->GetFieldData(), present, content.tissues);
   vtkNew<vtkXMLPolyDataWriter> writer;
   writeXML(writer.Get(), data, file);
 }
@@ -669,7 +645,7 @@ void writePolygons(const PolygonFile& content, const std::string& file)
   data->SetPolys(cells);
   addArray<vtkIntArray>(data->GetCellData(), kTissueLabel,
                         std::vector<int>(content.labels.begin(), content.labels.end()));
-  addFieldData(data->GetFieldData(), std::set<Label>(content.labels.begin(), content.labels.end()), content.tissues);
+  addTissues(data->GetFieldData(), std::set<Label>(content.labels.begin(), content.labels.end()), content.tissues);
   vtkNew<vtkXMLPolyDataWriter> writer;
   writeXML(writer.Get(), data, file);
 }
@@ -709,6 +685,30 @@ MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name
   return result;
 }
 
+void addTissues(vtkFieldData* data, const std::set<Label>& present, const TissueTable& tissues)
+{
+  addStrings(data, kSpace, { "LPS" });
+  std::vector<int> ids;
+  std::vector<std::string> names, roles;
+  std::vector<double> colors;
+  for (const Label label : present)
+  {
+    if (label == 0) continue;
+    const auto found = tissues.find(label);
+    const Tissue tissue = found == tissues.end() ? Tissue() : found->second;
+    ids.push_back(label);
+    names.push_back(tissue.name.empty() ? "tissue " + std::to_string(label) : tissue.name);
+    colors.insert(colors.end(), tissue.color.begin(), tissue.color.end());
+    roles.push_back(tissue.isShell ? kShell : tissue.isNullDisplacement ? kNullDisplacement : "mesh");
+  }
+  if (ids.empty()) return;
+  addArray<vtkIntArray>(data, kTissueIds, ids);
+  addStrings(data, kTissueNames, names);
+  addArray<vtkDoubleArray>(data, kTissueColors, colors, 3);
+  const bool hasRoles = std::any_of(roles.begin(), roles.end(), [](const std::string& role) { return role != "mesh"; });
+  if (hasRoles) addStrings(data, kTissueRoles, roles);
+}
+
 TissueTable tissuesOf(vtkFieldData* data)
 {
   TissueTable table;
@@ -746,7 +746,7 @@ void writeMesh(const MeshFile& content, const std::string& file, FieldTexts text
   addArray<vtkIntArray>(grid->GetPointData(), kVolumePointId, content.volumePointId);
   addArray<vtkIntArray>(grid->GetPointData(), kInterfaceId, content.interfaceId);
   const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
-  addFieldData(grid->GetFieldData(), present, content.tissues);
+  addTissues(grid->GetFieldData(), present, content.tissues);
   if (content.targetAngle > 0)
     addArray<vtkDoubleArray>(grid->GetFieldData(), kTargetAngle, std::vector<double>{ content.targetAngle });
   if (texts == FieldTexts::LeftOut) removeStrings(grid->GetFieldData());

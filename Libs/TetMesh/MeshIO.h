@@ -10,6 +10,7 @@
 
 #include "TetMesh.h"
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -78,6 +79,9 @@ MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name
 /// Names, colours and roles in field data; tables that are incomplete or of other kinds are left out, as nothing
 /// depends on them.
 TissueTable tissuesOf(vtkFieldData* data);
+
+/// SPACE = LPS, and names, colours and roles of the tissues that occur, into field data.
+void addTissues(vtkFieldData* data, const std::set<Label>& present, const TissueTable& tissues);
 
 /// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them. Legacy files
 /// without them are text, to eleven digits, and have no field data at all: Gmsh 4.8 refuses it before the points, and

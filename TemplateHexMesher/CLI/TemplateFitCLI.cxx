@@ -6,18 +6,14 @@
 #include "ElementMeshIO.h"
 #include "ElementQuality.h"
 #include "Errors.h"
-#include "JsonMember.h"
-#include "SurfaceDistance.h"
+#include "ReportMembers.h"
 #include "TemplateFit.h"
 #include "TemplateFitCLIXML.h"
 #include "TissueMapIO.h"
 
-#include <rapidjson/ostreamwrapper.h>
-#include <rapidjson/prettywriter.h>
 #include <vtkSMPTools.h>
 
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 
@@ -25,8 +21,6 @@ using namespace surgicalmesher;
 
 namespace
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
 
 /// Millimetres in one unit of the files.
 struct Units
@@ -137,27 +131,9 @@ void writeQuality(JsonWriter& json, const char* key, const ElementMesh& mesh)
     if (summary.elements == 0) continue;
     json.Key(nameOf(shape));
     json.StartObject();
-    writeMember(json, "elements", summary.elements);
-    writeMember(json, "invalid", summary.invalid);
-    writeMember(json, "minimumScaledJacobian", summary.minimum);
-    writeMember(json, "meanScaledJacobian", summary.mean);
-    writeMember(json, "meanShapeSkew", summary.meanShapeSkew);
-    json.Key("histogramOfMinimum");
-    json.StartArray();
-    for (const std::size_t count : summary.histogram) json.Uint64(count);
-    json.EndArray();
+    writeQuality(json, summary);
     json.EndObject();
   }
-  json.EndObject();
-}
-
-void writeDistance(JsonWriter& json, const char* key, const DistanceSummary& distance)
-{
-  json.Key(key);
-  json.StartObject();
-  writeMember(json, "mean", distance.mean);
-  writeMember(json, "percentile95", distance.percentile95);
-  writeMember(json, "maximum", distance.maximum);
   json.EndObject();
 }
 
@@ -207,36 +183,32 @@ struct Report
 /// Lengths in mm, whatever the files' units.
 void writeReport(const std::string& file, const CommandLine& line, const Report& report)
 {
-  std::ofstream stream(file.c_str(), std::ios::binary);
-  rapidjson::OStreamWrapper wrapper(stream);
-  JsonWriter json(wrapper);
-  json.SetMaxDecimalPlaces(6);
-  json.StartObject();
-  writeMember(json, "module", "TemplateFit");
-  writeMember(json, "template", line.text("template"));
-  writeMember(json, "target", line.text("target"));
-  writeMember(json, "templateUnit", line.text("templateUnit"));
-  writeMember(json, "targetUnit", line.text("targetUnit"));
-  writeMember(json, "frame", "LPS");
-  writeMember(json, "lengths", "mm");
-  writeMember(json, "alpha", line.number("alpha"));
-  writeMember(json, "iterations", line.integer("iterations"));
-  writeMember(json, "repairRounds", report.fit.repairRounds);
-  json.Key("quality");
-  json.StartObject();
-  writeQuality(json, "template", report.mesh);
-  writeQuality(json, "spline", { report.fit.spline, report.mesh.elements });
-  writeQuality(json, "fitted", { report.fit.points, report.mesh.elements });
-  json.EndObject();
-  json.Key("distances");
-  json.StartObject();
-  writeDistances(json, "spline", report.ofSpline);
-  writeDistances(json, "fitted", report.ofFit);
-  json.EndObject();
-  writeLandmarks(json, report.pairs, report.fit.landmarks);
-  json.EndObject();
-  stream << '\n' << std::flush;
-  if (!stream) throw InputError(file + ": the report cannot be written whole");
+  writeReportFile(file,
+                  [&](JsonWriter& json)
+                  {
+                    writeMember(json, "module", "TemplateFit");
+                    writeMember(json, "template", line.text("template"));
+                    writeMember(json, "target", line.text("target"));
+                    writeMember(json, "templateUnit", line.text("templateUnit"));
+                    writeMember(json, "targetUnit", line.text("targetUnit"));
+                    writeMember(json, "frame", "LPS");
+                    writeMember(json, "lengths", "mm");
+                    writeMember(json, "alpha", line.number("alpha"));
+                    writeMember(json, "iterations", line.integer("iterations"));
+                    writeMember(json, "repairRounds", report.fit.repairRounds);
+                    json.Key("quality");
+                    json.StartObject();
+                    writeQuality(json, "template", report.mesh);
+                    writeQuality(json, "spline", { report.fit.spline, report.mesh.elements });
+                    writeQuality(json, "fitted", { report.fit.points, report.mesh.elements });
+                    json.EndObject();
+                    json.Key("distances");
+                    json.StartObject();
+                    writeDistances(json, "spline", report.ofSpline);
+                    writeDistances(json, "fitted", report.ofFit);
+                    json.EndObject();
+                    writeLandmarks(json, report.pairs, report.fit.landmarks);
+                  });
 }
 
 void tell(CommandLine& line, const Report& report)

@@ -5,13 +5,12 @@
 #include "ElementMeshIO.h"
 #include "ElementQuality.h"
 #include "Errors.h"
-#include "JsonMember.h"
-#include "SurfaceDistance.h"
+#include "MeshIO.h"
+#include "PartOverlap.h"
+#include "ReportMembers.h"
 #include "VolumetricHexCLIXML.h"
 #include "VolumetricHexahedra.h"
 
-#include <rapidjson/ostreamwrapper.h>
-#include <rapidjson/prettywriter.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkDataArray.h>
@@ -22,15 +21,14 @@
 #include <vtkSignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <fstream>
+#include <filesystem>
+#include <set>
 #include <sstream>
 
 using namespace surgicalmesher;
 
 namespace
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
 
 HexOptions readOptions(const CommandLine& line)
 {
@@ -85,6 +83,52 @@ Painted readPainted(const std::string& file)
   return painted;
 }
 
+constexpr Label kFiller = 1; ///< the n-th part has the label n + 1
+
+std::vector<Part> readParts(const CommandLine& line)
+{
+  std::vector<Part> parts;
+  std::set<std::string> names{ "filler" };
+  for (const std::string& file : line.texts("parts"))
+  {
+    const std::string name = std::filesystem::path(file).stem().string();
+    if (!names.insert(name).second)
+      throw UsageError("--parts: two parts would be named " + name + ", expected files of different names");
+    parts.push_back({ name, file, readSurfaceOf(file) });
+  }
+  return parts;
+}
+
+std::vector<double> readCutOffs(const CommandLine& line)
+{
+  const std::size_t parts = line.texts("parts").size();
+  std::vector<double> cutOffs = line.numbers("cutOff");
+  for (const double cutOff : cutOffs)
+  {
+    if (!(cutOff >= 0 && cutOff < 1)) throw UsageError("--cutOff: a number out of range, expected at least 0, below 1");
+  }
+  if (cutOffs.size() == 1) cutOffs.resize(parts, cutOffs[0]);
+  if (cutOffs.size() == parts) return cutOffs;
+  throw UsageError("--cutOff: " + std::to_string(cutOffs.size()) + " numbers found, expected one, or one for each of " +
+                   std::to_string(parts) + " --parts");
+}
+
+void addParts(const std::vector<Part>& parts, const std::vector<std::int32_t>& part, vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("TissueLabel");
+  TissueTable tissues{ { kFiller, { "filler" } } };
+  std::set<Label> present;
+  for (std::size_t p = 0; p < parts.size(); ++p) tissues[Label(kFiller + p + 1)].name = parts[p].name;
+  for (const std::int32_t p : part)
+  {
+    labels->InsertNextValue(kFiller + p);
+    present.insert(Label(kFiller + p));
+  }
+  grid->GetCellData()->AddArray(labels);
+  addTissues(grid->GetFieldData(), present, tissues);
+}
+
 ElementMeshFile contentOf(const LayeredMesh& mesh)
 {
   vtkNew<vtkUnstructuredGrid> grid;
@@ -135,36 +179,24 @@ Distances skinDistances(const LayeredMesh& mesh, const SlabParameterisation& sla
            distanceBetween(slab.outer.surface, TargetSurface(skin)) };
 }
 
-void writeDistance(JsonWriter& json, const char* key, const DistanceSummary& distance)
+void writeParts(JsonWriter& json, const std::vector<Part>& parts, const Classification& classes)
 {
-  json.Key(key);
-  json.StartObject();
-  writeMember(json, "mean", distance.mean);
-  writeMember(json, "percentile95", distance.percentile95);
-  writeMember(json, "maximum", distance.maximum);
-  json.EndObject();
-}
-
-void writeReport(const std::string& file, const CommandLine& line, const QualitySummary& quality,
-                 const Distances& distances)
-{
-  std::ofstream stream(file.c_str(), std::ios::binary);
-  rapidjson::OStreamWrapper wrapper(stream);
-  JsonWriter json(wrapper);
-  json.SetMaxDecimalPlaces(6);
-  json.StartObject();
-  writeMember(json, "module", "VolumetricHex");
-  writeMember(json, "envelope", line.text("envelope"));
-  writeMember(json, "elements", quality.elements);
-  writeMember(json, "invalid", quality.invalid);
-  writeMember(json, "minimumScaledJacobian", quality.minimum);
-  writeMember(json, "meanScaledJacobian", quality.mean);
-  writeMember(json, "meanShapeSkew", quality.meanShapeSkew);
-  writeDistance(json, "meshToSkin", distances.toEnvelope);
-  writeDistance(json, "skinToMesh", distances.fromEnvelope);
-  json.EndObject();
-  stream << '\n' << std::flush;
-  if (!stream) throw InputError(file + ": the report cannot be written whole");
+  json.Key("parts");
+  json.StartArray();
+  for (std::size_t p = 0; p < parts.size(); ++p)
+  {
+    const PartMatch& match = classes.matches[p];
+    json.StartObject();
+    writeMember(json, "name", parts[p].name);
+    writeMember(json, "elements", match.elements);
+    writeMember(json, "cutOff", match.cutOff);
+    writeMember(json, "partVolume", match.partVolume);
+    writeMember(json, "elementVolume", match.elementVolume);
+    writeMember(json, "recall", match.recall);
+    writeMember(json, "precision", match.precision);
+    json.EndObject();
+  }
+  json.EndArray();
 }
 
 void tell(CommandLine& line, const QualitySummary& quality, const Distances& distances)
@@ -177,6 +209,15 @@ void tell(CommandLine& line, const QualitySummary& quality, const Distances& dis
   line.message(text.str());
 }
 
+void warnOfEmptyParts(CommandLine& line, const std::vector<Part>& parts, const Classification& classes)
+{
+  for (std::size_t p = 0; p < parts.size(); ++p)
+  {
+    if (classes.matches[p].elements == 0)
+      line.warning(parts[p].file + ": no element is this part's; smaller elements, or a lower --cutOff, may have some");
+  }
+}
+
 void run(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
@@ -184,19 +225,38 @@ void run(CommandLine& line)
   report(progress, 0, "reading");
   const HexOptions options = readOptions(line);
   const std::string envelopeFile = line.text("envelope"), sidesFile = line.text("sides");
+  const std::vector<double> cutOffs = readCutOffs(line);
+  const std::vector<Part> parts = readParts(line);
   const Painted painted = readPainted(sidesFile);
   const Envelope envelope = withSides(readSurfaceOf(envelopeFile), painted.surface, painted.sides, sidesFile);
   const SlabParameterisation slab =
     parameterise(envelope, line.number("edgeLength"), envelopeFile, subProgress(progress, 0.05, 0.5));
-  const LayeredMesh mesh = layeredHexahedra(slab, options, subProgress(progress, 0.5, 0.9));
+  const LayeredMesh mesh = layeredHexahedra(slab, options, subProgress(progress, 0.5, 0.85));
+  report(progress, 0.85, "classifying");
+  const Classification classes = classified(mesh.mesh, parts, cutOffs);
   report(progress, 0.9, "measuring");
   const QualitySummary quality = summaryOf(mesh.mesh, elementQuality(mesh.mesh), ElementShape::Hexahedron);
   const Distances distances = skinDistances(mesh, slab);
   report(progress, 0.95, "writing");
-  writeElementMesh(contentOf(mesh), mesh.mesh.points, envelopeFile, line.outputFile("mesh"));
+  const ElementMeshFile content = contentOf(mesh);
+  addParts(parts, classes.part, vtkUnstructuredGrid::SafeDownCast(content.data));
+  writeElementMesh(content, mesh.mesh.points, envelopeFile, line.outputFile("mesh"));
   tell(line, quality, distances);
+  warnOfEmptyParts(line, parts, classes);
   const std::string reportFile = line.outputFile("report");
-  if (!reportFile.empty()) writeReport(reportFile, line, quality, distances);
+  if (!reportFile.empty())
+  {
+    writeReportFile(reportFile,
+                    [&](JsonWriter& json)
+                    {
+                      writeMember(json, "module", "VolumetricHex");
+                      writeMember(json, "envelope", envelopeFile);
+                      writeQuality(json, quality);
+                      writeDistance(json, "meshToSkin", distances.toEnvelope);
+                      writeDistance(json, "skinToMesh", distances.fromEnvelope);
+                      writeParts(json, parts, classes);
+                    });
+  }
   report(progress, 1, "done");
 }
 
