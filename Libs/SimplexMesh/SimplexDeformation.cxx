@@ -96,29 +96,6 @@ int cutFaces(SimplexOperators& mesh, const AdaptationOptions& options)
   return int(std::count_if(needs.begin(), needs.end(), [&](const Need& need) { return mesh.cut(need.face); }));
 }
 
-/// T7 where it leaves better triangles, or faces with more nearly six vertices and triangles hardly worse.
-int swapEdges(SimplexOperators& mesh)
-{
-  const auto excess = [&](std::int32_t face, int change)
-  {
-    const double n = double(mesh.mostVertices(face)) + change - 6;
-    return n * n;
-  };
-  int count = 0;
-  for (std::int32_t a = 0; a < std::int32_t(mesh.points().size()); ++a)
-    for (std::int32_t b : mesh.faceNeighbours(a))
-    {
-      const auto [c, d] = mesh.endsOf(a, b);
-      if (b < a || c < 0) continue;
-      const double before = mesh.edgeQuality(a, b);
-      const double gain = excess(a, 0) + excess(b, 0) + excess(c, 0) + excess(d, 0) - excess(a, -1) - excess(b, -1) -
-                          excess(c, 1) - excess(d, 1);
-      const double after = mesh.qualityAfterSwap(a, b);
-      if (after > 1.1 * before || (gain > 0 && after > 0.85 * before && after > 0.5)) count += mesh.swap(a, b);
-    }
-  return count;
-}
-
 void measure(const SimplexOperators& mesh, SimplexStep& step)
 {
   step.vertices = mesh.surface().triangles.size();
@@ -130,21 +107,6 @@ void measure(const SimplexOperators& mesh, SimplexStep& step)
     step.meanDistance += distance / double(step.faces);
     step.maximumDistance = std::max(step.maximumDistance, distance);
   }
-}
-
-/// At each dual point, the mean of what its vertices have.
-std::vector<Vec3> meansAround(const SurfaceComplex& dual, const std::vector<Vec3>& perVertex)
-{
-  std::vector<Vec3> sum(dual.points.size());
-  std::vector<double> count(dual.points.size(), 0);
-  for (std::size_t t = 0; t < perVertex.size(); ++t)
-    for (std::int32_t p : dual.triangles[t])
-    {
-      sum[p] += perVertex[t];
-      ++count[p];
-    }
-  for (std::size_t p = 0; p < sum.size(); ++p) sum[p] = sum[p] / std::max(1., count[p]);
-  return sum;
 }
 
 /// Dual points can be rough and their triangles' centroids smooth, such as where points go up, down and nowhere in
@@ -182,24 +144,56 @@ double shortestEdge(const SimplexOperators& mesh, std::int32_t a)
 
 } // namespace
 
+int swapEdges(SimplexOperators& mesh)
+{
+  const auto excess = [&](std::int32_t face, int change)
+  {
+    const double n = double(mesh.mostVertices(face)) + change - 6;
+    return n * n;
+  };
+  int count = 0;
+  for (std::int32_t a = 0; a < std::int32_t(mesh.points().size()); ++a)
+    for (std::int32_t b : mesh.faceNeighbours(a))
+    {
+      const auto [c, d] = mesh.endsOf(a, b);
+      if (b < a || c < 0) continue;
+      const double before = mesh.edgeQuality(a, b);
+      const double gain = excess(a, 0) + excess(b, 0) + excess(c, 0) + excess(d, 0) - excess(a, -1) - excess(b, -1) -
+                          excess(c, 1) - excess(d, 1);
+      const double after = mesh.qualityAfterSwap(a, b);
+      if (after > 1.1 * before || (gain > 0 && after > 0.85 * before && after > 0.5)) count += mesh.swap(a, b);
+    }
+  return count;
+}
+
 double SimplexMotion::step(SimplexOperators& mesh, const TissueBoundary& boundary)
+{
+  return step(mesh,
+              [&](const SurfaceComplex& dual)
+              {
+                std::vector<Vec3> force = imageForces(dual, boundary);
+                for (Vec3& f : force) f = m_Options.image * f;
+                return meansAround(dual, force);
+              });
+}
+
+double SimplexMotion::step(SimplexOperators& mesh, const OuterForces& outerForces)
 {
   std::vector<std::int32_t> ids;
   const SurfaceComplex dual = mesh.surface(&ids);
-  const std::vector<Vec3> inner = internalForces(simplexMeshOf(dual), m_Options.internalForce);
-  const std::vector<Vec3> outer = imageForces(dual, boundary);
-  std::vector<Vec3> force(dual.triangles.size());
-  for (std::size_t t = 0; t < force.size(); ++t) force[t] = m_Options.internal * inner[t] + m_Options.image * outer[t];
-  const std::vector<Vec3> way = meansAround(dual, force), hidden = hiddenRoughness(dual);
+  std::vector<Vec3> inner = internalForces(simplexMeshOf(dual), m_Options.internalForce);
+  for (Vec3& f : inner) f = m_Options.internal * f;
+  const std::vector<Vec3> way = meansAround(dual, inner), outer = outerForces(dual), hidden = hiddenRoughness(dual);
   m_Last.resize(mesh.points().size());
   double largest = 0;
   for (std::size_t p = 0; p < way.size(); ++p)
   {
     const std::int32_t id = ids[p];
-    Vec3 displacement = way[p] + 0.5 * hidden[p] + (1 - m_Options.damping) * m_Last[id];
+    Vec3 displacement = way[p] + outer[p] + 0.5 * hidden[p] + (1 - m_Options.damping) * m_Last[id];
     const double limit = shortestEdge(mesh, id) / 3;
     if (norm(displacement) > limit) displacement = limit / norm(displacement) * displacement;
     m_Last[id] = {};
+    if (norm(displacement) < m_Options.least) continue;
     for (int tries = 0; tries < 4; ++tries, displacement = 0.5 * displacement)
     {
       if (!mesh.move(id, mesh.points()[id] + displacement)) continue;

@@ -16,6 +16,7 @@ struct MotionOptions
   double internal = 0.3;
   double image = 0.5;
   InternalForceOptions internalForce;
+  double least = 0; ///< mm; shorter ways are not gone: a mesh at rest costs little
 };
 
 struct AdaptationOptions
@@ -53,10 +54,19 @@ public:
   /// three times, and the point then rests. Returns the largest way, mm.
   double step(SimplexOperators& mesh, const TissueBoundary& boundary);
 
+  /// Ways of dual points by forces from outside, mm.
+  using OuterForces = std::function<std::vector<Vec3>(const SurfaceComplex& dual)>;
+  /// The same with other forces than the image's.
+  double step(SimplexOperators& mesh, const OuterForces& outer);
+
 private:
   MotionOptions m_Options;
   std::vector<Vec3> m_Last; ///< way of each dual point in the step before
 };
+
+/// T7 where it leaves better triangles, or faces with more nearly six vertices and triangles hardly worse. Returns the
+/// number of operations.
+int swapEdges(SimplexOperators& mesh);
 
 /// Moves until no point moves by more than `tolerance` mm in a step, or for `mostSteps`. Returns the largest way of
 /// each step.

@@ -86,7 +86,112 @@ Vec3 referencePosition(const SimplexMesh& mesh, std::size_t v, int side, const B
   return simplexPosition(neighbours, metric, angle);
 }
 
+/// Diffusion along the edges of a surface by so much that a point's value ends up over a width, whatever the edges.
+class Diffusion
+{
+public:
+  Diffusion(const SurfaceComplex& surface, const std::vector<double>& widths) : m_First(surface.points.size() + 1, 0)
+  {
+    std::vector<std::array<std::int32_t, 2>> pairs;
+    for (const auto& [a, b, c] : surface.triangles)
+      for (const std::array<std::int32_t, 2>& pair : { std::array{ a, b }, std::array{ b, c }, std::array{ c, a } })
+        pairs.push_back(pair); // the other way comes with the other triangle
+    std::sort(pairs.begin(), pairs.end());
+    for (const auto& [a, b] : pairs)
+    {
+      ++m_First[a + 1];
+      m_Neighbours.push_back(b);
+    }
+    for (std::size_t p = 1; p < m_First.size(); ++p) m_First[p] += m_First[p - 1];
+    setRates(surface, widths);
+  }
+
+  template <class T>
+  std::vector<T> applied(std::vector<T> x) const
+  {
+    std::vector<T> next = x;
+    for (int sweep = 0; sweep < m_Sweeps; ++sweep)
+    {
+      parallelFor(x.size(),
+                  [&](std::size_t p)
+                  {
+                    T sum{};
+                    for (std::size_t n = m_First[p]; n < m_First[p + 1]; ++n) sum += x[m_Neighbours[n]];
+                    const double count = double(std::max<std::size_t>(1, m_First[p + 1] - m_First[p]));
+                    next[p] = x[p] + m_Rates[p] * (sum / count - x[p]);
+                  });
+      x.swap(next);
+    }
+    return x;
+  }
+
+private:
+  /// The mean of neighbours at distance L is L^2/4 of the Laplacian; diffusion for a time t spreads to sqrt(2 t).
+  void setRates(const SurfaceComplex& surface, const std::vector<double>& widths)
+  {
+    constexpr double fastest = 0.7;
+    constexpr int mostSweeps = 200;
+    m_Rates.assign(surface.points.size(), 0);
+    double largest = 0;
+    for (std::size_t p = 0; p < m_Rates.size(); ++p)
+    {
+      double squared = 0;
+      for (std::size_t n = m_First[p]; n < m_First[p + 1]; ++n)
+        squared += squaredNorm(surface.points[m_Neighbours[n]] - surface.points[p]);
+      if (squared > 0) m_Rates[p] = 2 * widths[p] * widths[p] * double(m_First[p + 1] - m_First[p]) / squared;
+      largest = std::max(largest, m_Rates[p]);
+    }
+    m_Sweeps = std::clamp(int(std::ceil(largest / fastest)), 1, mostSweeps);
+    for (double& rate : m_Rates) rate = std::min(fastest, rate / m_Sweeps);
+  }
+
+  std::vector<std::size_t> m_First;
+  std::vector<std::int32_t> m_Neighbours;
+  std::vector<double> m_Rates;
+  int m_Sweeps = 1;
+};
+
 } // namespace
+
+std::vector<Vec3> meansAround(const SurfaceComplex& dual, const std::vector<Vec3>& perVertex)
+{
+  std::vector<Vec3> sum(dual.points.size());
+  std::vector<double> count(dual.points.size(), 0);
+  for (std::size_t t = 0; t < perVertex.size(); ++t)
+    for (std::int32_t p : dual.triangles[t])
+    {
+      sum[p] += perVertex[t];
+      ++count[p];
+    }
+  for (std::size_t p = 0; p < sum.size(); ++p) sum[p] = sum[p] / std::max(1., count[p]);
+  return sum;
+}
+
+std::vector<Vec3> pointNormals(const SurfaceComplex& surface)
+{
+  std::vector<Vec3> normals(surface.points.size());
+  for (const auto& [a, b, c] : surface.triangles)
+  {
+    const Vec3 n = cross(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a]);
+    for (const std::int32_t p : { a, b, c }) normals[p] += n;
+  }
+  for (Vec3& n : normals) n = n / std::max(1e-300, norm(n));
+  return normals;
+}
+
+std::vector<Vec3> bendingForces(const SurfaceComplex& dual, Continuity continuity, const std::vector<double>& widths)
+{
+  std::vector<Vec3> forces(dual.points.size());
+  if (continuity == Continuity::C0) return forces;
+  const Diffusion diffusion(dual, widths);
+  const std::vector<Vec3> normals = pointNormals(dual), mean = diffusion.applied(dual.points);
+  std::vector<double> bend(dual.points.size());
+  for (std::size_t p = 0; p < bend.size(); ++p) bend[p] = dot(normals[p], dual.points[p] - mean[p]);
+  const std::vector<double> common =
+    continuity == Continuity::C2 ? diffusion.applied(bend) : std::vector<double>(bend.size(), 0);
+  for (std::size_t p = 0; p < bend.size(); ++p) forces[p] = (common[p] - bend[p]) * normals[p];
+  return forces;
+}
 
 std::vector<std::array<double, 2>> meanCurvatures(const SimplexMesh& mesh)
 {

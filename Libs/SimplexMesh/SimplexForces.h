@@ -30,6 +30,18 @@ struct InternalForceOptions
 /// it has neighbours on neither.
 std::vector<Vec3> internalForces(const SimplexMesh& mesh, const InternalForceOptions& options = {});
 
+/// What resists bending over a width (mm, by point) of many edges, at each dual point and along its normal. With S the
+/// mean over a neighbourhood of that width, the same whatever the length of its edges, and h = normal . (x - S x), the
+/// mean curvature at that width: C1 is the way that makes h vanish, C2 the one that gives it the mean of the
+/// neighbourhood's, and C0 is none. `dual` is closed surfaces of two labels each.
+std::vector<Vec3> bendingForces(const SurfaceComplex& dual, Continuity continuity, const std::vector<double>& widths);
+
+/// At each dual point, the mean of what its vertices have.
+std::vector<Vec3> meansAround(const SurfaceComplex& dual, const std::vector<Vec3>& perVertex);
+
+/// Unit normals at the points, out of the tissue behind, weighted by area; zero where there are no triangles.
+std::vector<Vec3> pointNormals(const SurfaceComplex& surface);
+
 /// Mean curvature sin(phi) / r at each vertex, 1/mm, on the surface of the tissue on each side: positive where that
 /// tissue is convex. 0 without neighbours.
 std::vector<std::array<double, 2>> meanCurvatures(const SimplexMesh& mesh);

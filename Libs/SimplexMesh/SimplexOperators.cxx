@@ -527,6 +527,17 @@ Vec3 SimplexOperators::onBoundary(const Vec3& p, const std::array<Label, 2>& lab
   return nearest ? nearest->position : p;
 }
 
+double SimplexOperators::area(std::int32_t a) const
+{
+  double sum = 0;
+  for (std::int32_t t : m_At[a])
+  {
+    const auto& [p, q, r] = cornersOf(m_Triangles[t]).corners;
+    sum += norm(cross(q - p, r - p)) / 6;
+  }
+  return sum;
+}
+
 Vec3 SimplexOperators::vertex(std::int32_t v) const
 {
   const auto& [a, b, c] = m_Triangles[v].corners;

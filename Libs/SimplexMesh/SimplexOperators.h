@@ -60,7 +60,8 @@ public:
   bool alive(std::int32_t face) const { return !m_At[face].empty(); }
   std::size_t faceCount() const;
   std::vector<std::int32_t> faceNeighbours(std::int32_t a) const; ///< ascending
-  Vec3 vertex(std::int32_t v) const;                              ///< simplex vertex
+  double area(std::int32_t a) const;              ///< of face a, mm^2: a third of the dual triangles' there
+  Vec3 vertex(std::int32_t v) const;              ///< simplex vertex
   std::size_t mostVertices(std::int32_t a) const; ///< largest number of vertices of face a on the surface of one tissue
   /// Of the shortest simplex edge between faces a and b to its target; infinite if there is none.
   double edgeRatio(std::int32_t a, std::int32_t b) const;

@@ -11,6 +11,7 @@
 #include "MeshChecks.h"
 #include "MeshIO.h"
 #include "Report.h"
+#include "ScaleOption.h"
 #include "SimplexMesh.h"
 #include "SimplexMesherCLIXML.h"
 #include "TissueFidelity.h"
@@ -29,19 +30,6 @@ using namespace surgicalmesher;
 
 namespace
 {
-
-ScaleField readScaleFor(const CommandLine& line, const Grid& grid)
-{
-  const std::string file = line.text("scale");
-  const double uniform = line.number("edgeLength");
-  if (!file.empty() && uniform > 0) throw UsageError("--scale and --edgeLength are both given, expected one of them");
-  if (file.empty() && !(uniform > 0))
-    throw UsageError("neither --scale nor --edgeLength is given, expected one of them");
-  if (uniform > 0) return uniformScale(uniform);
-  ScaleField scale = readScale(file);
-  requireCover(scale, grid, file);
-  return scale;
-}
 
 /// Every tissue of the mesh has the Betti numbers it has in the map.
 void requireTopology(const TetMesh& mesh, const std::map<Label, Betti>& wanted)
@@ -242,7 +230,7 @@ void run(CommandLine& line)
   requireUsableOptions(line);
   SurfaceReport results;
   TissueMap map = readMap(line, results);
-  const ScaleField asked = readScaleFor(line, map.grid);
+  const ScaleField asked = readScaleOption(line.text("scale"), line.number("edgeLength"), map.grid);
   completeShells(results.settings, map, asked);
   TissueMesherOptions options;
   options.maximumDistance = line.number("maximumDistance");

@@ -9,7 +9,10 @@ import xml.etree.ElementTree as xml
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MODULES = ("SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer")
 # Programs without a panel of their own: their folder, whose name their page has, too.
-PROGRAMS = {"TemplateFit": "TemplateHexMesher", "TissueMapper": "TissueMapper", "TubePath": "TissueMapper",
+PROGRAMS = {"BalloonSurface": "SimplexMesher",
+            "TemplateFit": "TemplateHexMesher",
+            "TissueMapper": "TissueMapper",
+            "TubePath": "TissueMapper",
             "VolumetricHex": "TemplateHexMesher"}
 PAGES = (["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{module}.md" for module in MODULES]
          + ["Docs/TemplateHexMesher.md", "Docs/TissueMapper.md", "Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/Multirate.md", "Docs/Fitness.md",
