@@ -4,8 +4,8 @@
 #include "AvailableMemory.h"
 #include "EdgeDivision.h"
 #include "Errors.h"
-#include "Place.h"
 #include "SurfaceValidity.h"
+#include "Text.h"
 #include "TissueSurfaces.h"
 
 #include <vtkBoundingBox.h>
@@ -32,8 +32,8 @@ void requireMillimetres(const SurfaceComplex& surface, const SizingFunction& edg
   box.GetCenter(&centre.x);
   const double diagonal = box.GetDiagonalLength(), length = edgeLength(centre);
   if (diagonal >= length) return;
-  throw InputError(name + ": the whole surface is " + rounded(diagonal) + " mm across, shorter than one edge of " +
-                   rounded(length) + " mm; expected millimetres" +
+  throw InputError(name + ": the whole surface is " + text::rounded(diagonal) +
+                   " mm across, shorter than one edge of " + text::rounded(length) + " mm; expected millimetres" +
                    (diagonal < 2 ? ", found what look like metres" : ""));
 }
 
@@ -75,9 +75,9 @@ void requireMemoryFor(double tetrahedra, const std::string& name)
   const std::optional<std::uint64_t> available = availableMemory();
   const double needed = tetrahedra * bytesPerTetrahedron;
   if (!available || needed <= double(*available)) return;
-  throw InputError(name + ": at these edge lengths it takes about " + rounded(tetrahedra / 1e6) +
-                   " million tetrahedra and " + rounded(needed / 1e9) + " GB of memory, found " +
-                   rounded(double(*available) / 1e9) + " GB available, expected longer edges");
+  throw InputError(name + ": at these edge lengths it takes about " + text::rounded(tetrahedra / 1e6) +
+                   " million tetrahedra and " + text::rounded(needed / 1e9) + " GB of memory, found " +
+                   text::rounded(double(*available) / 1e9) + " GB available, expected longer edges");
 }
 
 } // namespace

@@ -132,7 +132,7 @@ private:
     for (const std::string& name : known)
     {
       if (name.empty()) continue;
-      const std::size_t changes = changesBetween(lowerCase(wanted), lowerCase(name));
+      const std::size_t changes = changesBetween(text::lowerCase(wanted), text::lowerCase(name));
       if (changes > fewest || (changes == fewest && !nearest.empty())) continue;
       nearest = name;
       fewest = changes;
@@ -199,7 +199,7 @@ private:
     std::vector<std::string>& values = m_Result.values[parameter.name];
     if (!values.empty() && !parameter.multiple) throw UsageError(parameter.spelling() + ": given twice, once expected");
     const bool isList = parameter.multiple && parameter.isFile() && !std::filesystem::exists(value);
-    for (const std::string& part : isList ? splitQuoted(value) : std::vector<std::string>{ value })
+    for (const std::string& part : isList ? text::splitFields(value) : std::vector<std::string>{ value })
     {
       checkValue(parameter, part);
       values.push_back(part);

@@ -47,6 +47,14 @@ void silenceVTK()
   vtkOutputWindow::SetInstance(window);
 }
 
+/// Of a text that has been found to be one.
+double numberIn(const std::string& text)
+{
+  double number = 0;
+  text::parseNumber(text, number);
+  return number;
+}
+
 [[noreturn]] void misuse(const std::string& what) { throw std::logic_error("command line: " + what); }
 
 } // namespace
@@ -216,7 +224,8 @@ void CommandLine::Private::echo() const
 {
   for (const Parameter* parameter : description.parameters())
   {
-    if (!parameter->isReturnValue()) std::cout << parameter->name << ": " << joined(values(*parameter), ", ") << "\n";
+    if (!parameter->isReturnValue())
+      std::cout << parameter->name << ": " << text::joined(values(*parameter), ", ") << "\n";
   }
   std::cout << std::flush;
 }
@@ -253,13 +262,13 @@ bool CommandLine::flag(const std::string& name) const
 int CommandLine::integer(const std::string& name) const
 {
   const auto isInteger = [](const Parameter& p) { return p.isInteger() && !p.multiple; };
-  return parseInteger(d->value(d->parameter(name, isInteger, "single integer"))).value();
+  return int(numberIn(d->value(d->parameter(name, isInteger, "single integer"))));
 }
 
 double CommandLine::number(const std::string& name) const
 {
   const auto isNumber = [](const Parameter& p) { return p.isNumber() && !p.multiple; };
-  return parseNumber(d->value(d->parameter(name, isNumber, "single number"))).value();
+  return numberIn(d->value(d->parameter(name, isNumber, "single number")));
 }
 
 std::string CommandLine::text(const std::string& name) const
@@ -280,9 +289,9 @@ std::vector<double> CommandLine::numbers(const std::string& name) const
 {
   const auto isList = [](const Parameter& p) { return p.isVector() && p.type != "string-vector" && !p.multiple; };
   std::vector<double> result;
-  for (const std::string& item : split(d->value(d->parameter(name, isList, "vector of numbers")), ','))
+  for (const std::string& item : text::split(d->value(d->parameter(name, isList, "vector of numbers")), ','))
   {
-    result.push_back(parseNumber(item).value());
+    result.push_back(numberIn(item));
   }
   return result;
 }
@@ -293,8 +302,8 @@ std::vector<Vec3> CommandLine::points(const std::string& name) const
   std::vector<Vec3> result;
   for (const std::string& point : d->values(d->parameter(name, isPoint, "point")))
   {
-    const std::vector<std::string> xyz = split(point, ',');
-    result.push_back({ parseNumber(xyz[0]).value(), parseNumber(xyz[1]).value(), parseNumber(xyz[2]).value() });
+    const std::vector<std::string> xyz = text::split(point, ',');
+    result.push_back({ numberIn(xyz[0]), numberIn(xyz[1]), numberIn(xyz[2]) });
   }
   return result;
 }
@@ -342,7 +351,7 @@ void CommandLine::returnValue(const std::string& name, const std::string& value)
 {
   d->parameter(
     name, [](const Parameter& p) { return p.isReturnValue(); }, "simple output");
-  d->returnValues[name] = oneLine(value);
+  d->returnValues[name] = text::oneLine(value);
 }
 
 Progress CommandLine::progress()
@@ -396,7 +405,7 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
   const auto failed = [&](int status, const std::string& message)
   {
     const std::string text = line ? line->d->outputs.withFinalNames(message) : message;
-    std::cerr << executable << ": " << oneLine(printable(text)) << "\n" << std::flush;
+    std::cerr << executable << ": " << text::oneLine(printable(text)) << "\n" << std::flush;
     return status;
   };
   const auto run = [&]

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The answer to --help, made from nothing but the description.
 #include "ModuleDescription.h"
-#include "Text.h"
 
 #include <sstream>
 

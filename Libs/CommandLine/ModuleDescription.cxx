@@ -9,6 +9,7 @@
 #include <vtkXMLUtilities.h>
 
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -28,7 +29,7 @@ bool isOneOf(const std::string& word, std::initializer_list<const char*> words)
 std::string childText(vtkXMLDataElement* element, const char* name)
 {
   vtkXMLDataElement* child = element->FindNestedElementWithName(name);
-  return child && child->GetCharacterData() ? trimmed(child->GetCharacterData()) : std::string();
+  return child && child->GetCharacterData() ? text::trimmed(child->GetCharacterData()) : std::string();
 }
 
 std::string attribute(vtkXMLDataElement* element, const char* name)
@@ -47,8 +48,8 @@ std::optional<double> limit(vtkXMLDataElement* constraints, const char* name)
 {
   const std::string text = constraints ? childText(constraints, name) : std::string();
   if (text.empty()) return {};
-  const std::optional<double> value = parseNumber(text);
-  if (!value) refuse(std::string(name) + " '" + text + "' is not a number");
+  double value = 0;
+  if (!text::parseNumber(text, value)) refuse(std::string(name) + " '" + text + "' is not a number");
   return value;
 }
 
@@ -66,18 +67,23 @@ Parameter readParameter(vtkXMLDataElement* element)
   parameter.multiple = attribute(element, "multiple") == "true";
   parameter.defaultValue = childText(element, "default");
   const std::string index = childText(element, "index");
-  if (!index.empty()) parameter.index = parseInteger(index).value_or(-1);
+  if (long number = -1; !index.empty())
+  {
+    text::parseInteger(index, 0, std::numeric_limits<int>::max(), number);
+    parameter.index = int(number);
+  }
   vtkXMLDataElement* constraints = element->FindNestedElementWithName("constraints");
   parameter.minimum = limit(constraints, "minimum");
   parameter.maximum = limit(constraints, "maximum");
-  for (const std::string& extension : split(attribute(element, "fileExtensions"), ','))
+  for (const std::string& extension : text::split(attribute(element, "fileExtensions"), ','))
   {
-    parameter.extensions.push_back(lowerCase(trimmed(extension)));
+    parameter.extensions.push_back(text::lowerCase(text::trimmed(extension)));
   }
   for (int i = 0; i < element->GetNumberOfNestedElements(); ++i)
   {
     vtkXMLDataElement* child = element->GetNestedElement(i);
-    if (std::string(child->GetName()) == "element") parameter.choices.push_back(trimmed(child->GetCharacterData()));
+    if (std::string(child->GetName()) == "element")
+      parameter.choices.push_back(text::trimmed(child->GetCharacterData()));
   }
   return parameter;
 }

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -88,7 +89,9 @@ int ownerOfTemporary(const std::string& candidate)
   const bool isCut = candidate.size() + 3 >= longestName; // up to three bytes short, where a character would be halved
   if (!isCut && extension != fullExtension(name)) return 0;
   const std::size_t number = at + host.size();
-  return parseInteger(candidate.substr(number, mark - number)).value_or(0);
+  long owner = 0;
+  text::parseInteger(candidate.substr(number, mark - number), 1, std::numeric_limits<int>::max(), owner);
+  return int(owner);
 }
 
 void removeLeftovers(const fs::path& folder)
@@ -136,7 +139,8 @@ std::string fullExtension(const std::string& fileName)
   const fs::path name = fs::path(fileName).filename();
   const std::string last = name.extension().string();
   const std::string before = name.stem().extension().string();
-  const bool compound = lowerCase(last) == ".gz" || lowerCase(before) == ".seg" || lowerCase(before) == ".mrk";
+  const bool compound =
+    text::lowerCase(last) == ".gz" || text::lowerCase(before) == ".seg" || text::lowerCase(before) == ".mrk";
   return compound ? before + last : last;
 }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 namespace surgicalmesher
 {
@@ -17,10 +18,10 @@ std::string range(const Parameter& parameter)
 {
   if (parameter.minimum && parameter.maximum)
   {
-    return " from " + formatNumber(*parameter.minimum) + " to " + formatNumber(*parameter.maximum);
+    return " from " + text::rounded(*parameter.minimum, 10) + " to " + text::rounded(*parameter.maximum, 10);
   }
-  if (parameter.minimum) return " of at least " + formatNumber(*parameter.minimum);
-  return parameter.maximum ? " of at most " + formatNumber(*parameter.maximum) : std::string();
+  if (parameter.minimum) return " of at least " + text::rounded(*parameter.minimum, 10);
+  return parameter.maximum ? " of at most " + text::rounded(*parameter.maximum, 10) : std::string();
 }
 
 bool inRange(const Parameter& parameter, double value)
@@ -28,22 +29,25 @@ bool inRange(const Parameter& parameter, double value)
   return (!parameter.minimum || value >= *parameter.minimum) && (!parameter.maximum || value <= *parameter.maximum);
 }
 
+/// Digits alone: tables have 3.0 for 3, command lines do not.
 bool isInteger(const Parameter& parameter, const std::string& text)
 {
-  const std::optional<int> value = parseInteger(text);
-  return value && inRange(parameter, *value);
+  using Limits = std::numeric_limits<int>;
+  long value = 0;
+  return text.find_first_of(".eE") == std::string::npos &&
+         text::parseInteger(text, Limits::min(), Limits::max(), value) && inRange(parameter, double(value));
 }
 
 bool isNumber(const Parameter& parameter, const std::string& text)
 {
-  const std::optional<double> value = parseNumber(text);
-  return value && inRange(parameter, *value);
+  double value = 0;
+  return text::parseNumber(text, value) && inRange(parameter, value);
 }
 
 bool isNumberList(const Parameter& parameter, const std::string& text,
                   bool (*isItem)(const Parameter&, const std::string&))
 {
-  const std::vector<std::string> items = split(text, ',');
+  const std::vector<std::string> items = text::split(text, ',');
   return !items.empty() &&
          std::all_of(items.begin(), items.end(), [&](const std::string& item) { return isItem(parameter, item); });
 }
@@ -51,12 +55,12 @@ bool isNumberList(const Parameter& parameter, const std::string& text,
 bool isPoint(const Parameter& parameter, const std::string& text)
 {
   const std::size_t coordinates = parameter.type == "region" ? 6 : 3;
-  return split(text, ',').size() == coordinates && isNumberList(parameter, text, isNumber);
+  return text::split(text, ',').size() == coordinates && isNumberList(parameter, text, isNumber);
 }
 
 bool hasExtension(const Parameter& parameter, const std::string& file)
 {
-  const std::string name = lowerCase(std::filesystem::path(file).filename().string());
+  const std::string name = text::lowerCase(std::filesystem::path(file).filename().string());
   return std::any_of(parameter.extensions.begin(), parameter.extensions.end(),
                      [&](const std::string& extension) {
                        return name.size() > extension.size() &&
@@ -86,7 +90,7 @@ bool accepts(const Parameter& parameter, const std::string& value)
 
 std::string expectation(const Parameter& parameter)
 {
-  if (parameter.isEnumeration()) return "one of " + joined(parameter.choices, ", ");
+  if (parameter.isEnumeration()) return "one of " + text::joined(parameter.choices, ", ");
   if (parameter.isInteger()) return "an integer" + range(parameter);
   if (parameter.isNumber()) return "a number" + range(parameter);
   if (parameter.type == "integer-vector") return "integers" + range(parameter) + ", separated by commas";
@@ -96,7 +100,7 @@ std::string expectation(const Parameter& parameter)
   if (parameter.type == "region") return "x,y,z and three radii, separated by commas";
   if (parameter.type == "directory") return "a folder";
   if (!parameter.isFile()) return "a text";
-  return parameter.extensions.empty() ? "a file" : "a file (" + joined(parameter.extensions, ", ") + ")";
+  return parameter.extensions.empty() ? "a file" : "a file (" + text::joined(parameter.extensions, ", ") + ")";
 }
 
 void checkValue(const Parameter& parameter, const std::string& value)

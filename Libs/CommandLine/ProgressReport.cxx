@@ -86,14 +86,14 @@ void ProgressReport::write(double fraction)
   {
   case ProgressFormat::Bar: drawBar(fraction); break;
   case ProgressFormat::Xml:
-    m_Stream << "<filter-progress>" << formatNumber(fraction) << "</filter-progress>\n" << std::flush;
+    m_Stream << "<filter-progress>" << text::rounded(fraction, 10) << "</filter-progress>\n" << std::flush;
     break;
   case ProgressFormat::Plain:
     m_Stream << percent(fraction) << "  " << m_Stage << (rest.empty() ? "" : ", about " + rest + " left") << "\n"
              << std::flush;
     break;
   case ProgressFormat::Json:
-    m_Stream << "{\"progress\": " << formatNumber(fraction) << ", \"stage\": " << quoted(m_Stage)
+    m_Stream << "{\"progress\": " << text::rounded(fraction, 10) << ", \"stage\": " << quoted(m_Stage)
              << (rest.empty() ? "" : ", \"left\": " + quoted(rest)) << "}\n"
              << std::flush;
     break;
@@ -106,14 +106,14 @@ void ProgressReport::message(const std::string& line)
   const std::lock_guard<std::mutex> lock(m_Mutex);
   if (m_Quiet) return;
   wipeBar();
-  const std::string text = oneLine(printable(line));
+  const std::string text = text::oneLine(printable(line));
   m_Stream << (m_Format == ProgressFormat::Json ? "{\"message\": " + quoted(text) + "}" : text) << "\n" << std::flush;
 }
 
 void ProgressReport::warning(const std::string& line)
 {
   const std::lock_guard<std::mutex> lock(m_Mutex);
-  const std::string text = oneLine(printable(line));
+  const std::string text = text::oneLine(printable(line));
   wipeBar();
   m_Stream << std::flush;
   if (m_Format == ProgressFormat::Json) m_Stream << "{\"warning\": " << quoted(text) << "}\n" << std::flush;
@@ -138,7 +138,7 @@ void ProgressReport::finish()
 void ProgressReport::beginStage(const std::string& stage)
 {
   if (m_InStage) endStage();
-  m_Stage = oneLine(printable(stage));
+  m_Stage = text::oneLine(printable(stage));
   m_InStage = true;
   m_StageStart = Clock::now();
   if (m_Format != ProgressFormat::Xml) return;
@@ -153,7 +153,7 @@ void ProgressReport::endStage()
   if (m_Format != ProgressFormat::Xml) return;
   const double seconds = std::chrono::duration<double>(Clock::now() - m_StageStart).count();
   m_Stream << "<filter-end>\n<filter-name>" << escaped(m_Title) << "</filter-name>\n<filter-time>"
-           << formatNumber(seconds) << "</filter-time>\n</filter-end>\n"
+           << text::rounded(seconds, 10) << "</filter-time>\n</filter-end>\n"
            << std::flush;
 }
 

@@ -6,14 +6,13 @@
 #include "FebioExport.h"
 #include "GmshExport.h"
 #include "MeditExport.h"
+#include "Text.h"
 #include "TissueSurfaceExport.h"
 #include "VtkExport.h"
 #ifdef SURGICALMESHER_HDF5
 #include "XdmfExport.h"
 #endif
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 namespace surgicalmesher
@@ -40,9 +39,7 @@ const std::vector<ExportFormat>& exportFormats()
 
 const ExportFormat& exportFormatOf(const std::string& file)
 {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = text::extensionOf(file);
   std::string known;
   for (const ExportFormat& format : exportFormats())
   {

@@ -2,12 +2,11 @@
 #include "HeaderClaims.h"
 
 #include "Errors.h"
+#include "Text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <locale>
@@ -26,15 +25,6 @@ struct Claim
   double count = 0;
   double bytesEach = 1; ///< at least
 };
-
-std::string textOf(double count)
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(15);
-  text << count;
-  return text.str();
-}
 
 /// The digits at `at`, blanks before them skipped; -1 if there is none.
 double numberAt(const std::string& text, std::size_t at)
@@ -118,7 +108,7 @@ public:
   {
     for (const Element& element : m_Elements)
       for (double n = 0; n < element.count; ++n)
-        if (!readElement(element)) return element.name + " " + textOf(n);
+        if (!readElement(element)) return element.name + " " + text::rounded(n, 15);
     return {};
   }
 
@@ -203,9 +193,7 @@ std::vector<Claim> stlClaims(const std::string& text)
 
 void requireCredibleHeader(const std::string& file)
 {
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = text::extensionOf(file);
   std::ifstream stream(file, std::ios::binary);
   const std::string text{ std::istreambuf_iterator<char>(stream), {} };
   std::vector<Claim> claims;
@@ -216,7 +204,7 @@ void requireCredibleHeader(const std::string& file)
   for (const Claim& claim : claims)
   {
     if (claim.count * claim.bytesEach <= double(text.size()) + 1000) continue;
-    throw InputError(file + ": the header claims " + textOf(claim.count) + " (" + claim.what +
+    throw InputError(file + ": the header claims " + text::rounded(claim.count, 15) + " (" + claim.what +
                      "), expected no more than fit into the file's " + std::to_string(text.size()) + " bytes");
   }
   if (extension != ".ply") return;

@@ -5,6 +5,7 @@
 #include "Errors.h"
 #include "HeaderClaims.h"
 #include "SeparateProcess.h"
+#include "Text.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -34,7 +35,6 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -124,14 +124,6 @@ private:
   vtkSmartPointer<vtkOutputWindow> m_Previous;
   vtkLogger::Verbosity m_Verbosity;
 };
-
-std::string extensionOf(const std::string& file)
-{
-  std::string extension = std::filesystem::path(file).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what) { throw InputError(file + ": " + what); }
 
@@ -241,7 +233,7 @@ struct PolyDataFromFile
 PolyDataFromFile readPolyData(const std::string& file)
 {
   PolyDataFromFile result;
-  const std::string extension = extensionOf(file);
+  const std::string extension = text::extensionOf(file);
   if (extension == ".vtp")
   {
     vtkNew<vtkXMLPolyDataReader> reader;
@@ -497,7 +489,7 @@ void writeLegacy(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts 
 
 vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& file, bool& ras)
 {
-  const std::string extension = extensionOf(file);
+  const std::string extension = text::extensionOf(file);
   vtkSmartPointer<vtkUnstructuredGrid> grid;
   if (extension == ".vtu")
   {
@@ -612,7 +604,7 @@ SurfaceFile readSurface(const std::string& file)
 
 void writeSurface(const SurfaceFile& content, const std::string& file)
 {
-  if (extensionOf(file) != ".vtp") refuse(file, "surfaces are written as .vtp");
+  if (text::extensionOf(file) != ".vtp") refuse(file, "surfaces are written as .vtp");
   vtkNew<vtkPolyData> data;
   data->SetPoints(vtkPointsOf(content.surface.points));
   data->SetPolys(vtkCellsOf(content.surface.triangles));
@@ -633,7 +625,7 @@ void writeSurface(const SurfaceFile& content, const std::string& file)
 
 void writePolygons(const PolygonFile& content, const std::string& file)
 {
-  if (extensionOf(file) != ".vtp") refuse(file, "polygons are written as .vtp");
+  if (text::extensionOf(file) != ".vtp") refuse(file, "polygons are written as .vtp");
   vtkNew<vtkCellArray> cells;
   for (const auto& polygon : content.polygons)
   {
@@ -750,7 +742,7 @@ void writeMesh(const MeshFile& content, const std::string& file, FieldTexts text
   if (content.targetAngle > 0)
     addArray<vtkDoubleArray>(grid->GetFieldData(), kTargetAngle, std::vector<double>{ content.targetAngle });
   if (texts == FieldTexts::LeftOut) removeStrings(grid->GetFieldData());
-  const std::string extension = extensionOf(file);
+  const std::string extension = text::extensionOf(file);
   if (extension == ".vtk")
   {
     if (texts == FieldTexts::LeftOut) grid->GetFieldData()->Initialize();

@@ -109,7 +109,7 @@ protected:
     entries.emplace_back();
     for (; attributes[0] && attributes[1]; attributes += 2)
     {
-      if (std::string(attributes[0]) == "index") entries.back().index = attributes[1];
+      if (std::string(attributes[0]) == "index") entries.back().index = text::trimmed(attributes[1]);
     }
   }
   void EndElement(const char*) override { m_Element.clear(); }

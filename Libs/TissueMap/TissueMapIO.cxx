@@ -21,7 +21,6 @@
 #include <limits>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <type_traits>
 
 namespace surgicalmesher
@@ -66,15 +65,6 @@ private:
   std::streambuf* m_Out;
 };
 
-std::string asText(double value)
-{
-  std::ostringstream stream;
-  stream.imbue(std::locale::classic());
-  stream.precision(10);
-  stream << value;
-  return stream.str();
-}
-
 const std::string* find(const MetaData& metaData, const std::string& key)
 {
   const auto found = metaData.find(key);
@@ -112,7 +102,7 @@ std::string niftiAdvice(const std::string& file)
   if (placement->isInMetres) return "coordinates in metres, expected mm or microns";
   if (placement->sformCode == 0 || placement->skew < 1e-5) return {};
   return "the voxel axes of its sform are not perpendicular to each other (by " +
-         asText(std::ceil(placement->skew * 1000 - 0.5) / 1000) +
+         text::rounded(std::ceil(placement->skew * 1000 - 0.5) / 1000, 10) +
          " degrees), as an affine registration leaves them; expected a grid without shear: resample the map, or give "
          "the header a qform, "
          "which counts where the sform has shear";
@@ -223,8 +213,8 @@ Grid fileGrid(const itk::ImageIOBase& io, const MetaData& niftiHeader, const std
     if (!std::isfinite(grid.origin[axis])) throw InputError(file + ": the origin is not finite");
     if (!(std::isfinite(grid.spacing[axis]) && grid.spacing[axis] > 0))
     {
-      throw InputError(file + ": voxel spacing " + asText(grid.spacing[axis]) + " along axis " + std::to_string(axis) +
-                       ", expected more than 0 mm");
+      throw InputError(file + ": voxel spacing " + text::rounded(grid.spacing[axis], 10) + " along axis " +
+                       std::to_string(axis) + ", expected more than 0 mm");
     }
     grid.axes[axis] = columns[axis] / grid.spacing[axis];
   }
@@ -353,7 +343,8 @@ Label toLabel(T value, const std::string& file)
   const bool isNear = std::is_floating_point_v<T> && std::abs(given - nearest) <= 1e-4;
   const double number = isNear ? nearest : given;
   if (number >= 0 && number <= 65535 && number == double(Label(number))) return Label(number);
-  throw InputError(file + ": a voxel of value " + asText(given) + ", expected labels: integers from 0 to 65535");
+  throw InputError(file + ": a voxel of value " + text::rounded(given, 10) +
+                   ", expected labels: integers from 0 to 65535");
 }
 
 /// One segment of a .seg.nrrd: the voxels of value `value` in layer `layer`.
@@ -510,7 +501,8 @@ MetaData segmentMetaData(const TissueTable& table)
     metaData[prefix + "_LabelValue"] = std::to_string(entry.first);
     metaData[prefix + "_Layer"] = "0";
     metaData[prefix + "_Name"] = entry.second.name.empty() ? std::to_string(entry.first) : entry.second.name;
-    metaData[prefix + "_Color"] = asText(color[0]) + " " + asText(color[1]) + " " + asText(color[2]);
+    metaData[prefix + "_Color"] =
+      text::rounded(color[0], 10) + " " + text::rounded(color[1], 10) + " " + text::rounded(color[2], 10);
     if (entry.second.isNullDisplacement) metaData[prefix + "_Tags"] = nullDisplacementTag;
   }
   return metaData;
@@ -560,7 +552,7 @@ ScaleField readScale(const std::string& file)
                                 {
                                   const float length = float(*voxel);
                                   if (std::isfinite(length) && length > 0) return length;
-                                  throw InputError(file + ": an edge length of " + asText(double(*voxel)) +
+                                  throw InputError(file + ": an edge length of " + text::rounded(double(*voxel), 10) +
                                                    ", expected more than 0 mm everywhere");
                                 });
   return scale;
@@ -585,7 +577,7 @@ ScalarImage readImage(const std::string& file)
                                {
                                  const float value = float(*voxel);
                                  if (std::isfinite(value)) return value;
-                                 throw InputError(file + ": a voxel of value " + asText(double(*voxel)) +
+                                 throw InputError(file + ": a voxel of value " + text::rounded(double(*voxel), 10) +
                                                   ", expected finite numbers");
                                });
   return image;
@@ -613,8 +605,8 @@ void requireCover(const ScaleField& scale, const Grid& grid, const std::string& 
       const double index = q[axis] / scale.grid.spacing[axis];
       if (index >= -0.5 - tolerance && index <= scale.grid.size[axis] - 0.5 + tolerance) continue;
       throw InputError(scaleFile + ": the scale volume leaves out part of the label map, whose corner (" +
-                       asText(world.x) + ", " + asText(world.y) + ", " + asText(world.z) +
-                       ") mm LPS lies outside, expected it to cover the whole map");
+                       text::rounded(world.x, 10) + ", " + text::rounded(world.y, 10) + ", " +
+                       text::rounded(world.z, 10) + ") mm LPS lies outside, expected it to cover the whole map");
     }
   }
 }

@@ -95,7 +95,7 @@ TissueTable readTissueTable(const std::string& file, std::vector<std::string>* w
                           " is listed for the second time, this row counts");
     table[Label(label)] = tissue;
   };
-  const std::string extension = text::lowerCase(std::filesystem::path(file).extension().string());
+  const std::string extension = text::extensionOf(file);
   if (extension == ".csv" || extension == ".tsv") readNamedColumns(file, take);
   else if (extension == ".xml") readFslAtlas(file, take);
   else readWords(file, take);
@@ -128,7 +128,7 @@ void completeTissueTable(TissueMap& map, const std::string& file, std::vector<st
 bool findTissue(const std::string& text, const TissueTable& names, Label& label)
 {
   long number = 0;
-  if (text::parseInteger(text, 0, 65535, number))
+  if (text::parseInteger(text::trimmed(text), 0, 65535, number))
   {
     label = Label(number);
     return true;

@@ -1,26 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Warnings.h"
 
+#include "Place.h"
 #include "Structures.h"
 
 #include <algorithm>
-#include <locale>
-#include <sstream>
 
 namespace surgicalmesher
 {
 
 namespace
 {
-
-std::string rounded(double value)
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(3);
-  text << value;
-  return text.str();
-}
 
 /// From a voxel in every few: lengths vary slowly.
 double shortestLength(const TissueMap& map, const ScaleField& scale)
@@ -64,8 +54,8 @@ std::string warningOfShortLengths(const TissueMap& map, const ScaleField& scale,
 {
   const double asked = shortestLength(map, scale), given = shortestLatticeLength(map.grid);
   if (!(asked < 0.95 * given)) return {};
-  return "edges of " + rounded(asked) + " mm are asked for, but the voxels of " + labelMap +
-         " give none shorter than " + rounded(given) +
+  return "edges of " + text::rounded(asked) + " mm are asked for, but the voxels of " + labelMap +
+         " give none shorter than " + text::rounded(given) +
          " mm, a quarter of their side; resample the map for shorter ones";
 }
 
@@ -92,10 +82,9 @@ std::vector<std::string> warningsOfDistance(const std::map<Label, TissueFidelity
   {
     const Distances all = allDistances(fidelity, side);
     if (all.beyond == 0) return;
-    const Vec3 p = world.gridToWorld(all.farthest);
-    warnings.push_back("the maximum distance of " + rounded(bound) + " mm does not hold: " + what + " up to " +
-                       rounded(all.maximum) + " mm away, farthest at (" + rounded(p.x) + ", " + rounded(p.y) + ", " +
-                       rounded(p.z) + ") mm LPS, and " + std::to_string(all.beyond) + " of " +
+    warnings.push_back("the maximum distance of " + text::rounded(bound) + " mm does not hold: " + what + " up to " +
+                       text::rounded(all.maximum) + " mm away, farthest at " +
+                       place(world.gridToWorld(all.farthest), 3) + " LPS, and " + std::to_string(all.beyond) + " of " +
                        std::to_string(all.samples) + " places are beyond it");
   };
   check(&TissueFidelity::mapToMesh, "from boundaries of the map the surface is");

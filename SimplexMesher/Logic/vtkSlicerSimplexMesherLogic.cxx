@@ -4,6 +4,7 @@
 #include "Errors.h"
 #include "HostDifferences.h"
 #include "ReportTables.h"
+#include "Text.h"
 #include "TissueColors.h"
 #include "TissueModels.h"
 #include "vtkMRMLSimplexMesherNode.h"
@@ -29,8 +30,6 @@
 
 #include <algorithm>
 #include <array>
-#include <locale>
-#include <sstream>
 
 using namespace surgicalmesher;
 
@@ -144,14 +143,7 @@ std::string roleText(const TissueSetting& setting)
 }
 
 /// Empty for a value that is left open.
-std::string numberText(double value, bool isOpen)
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(17);
-  if (!isOpen) text << value;
-  return text.str();
-}
+std::string numberText(double value, bool isOpen) { return isOpen ? std::string() : text::rounded(value, 17); }
 
 /// What --tissues reads: a row for every tissue of the map that isn't to be meshed as it is; null if there is none.
 /// SimplexMesherCLI refuses tissues without voxels.

@@ -7,6 +7,7 @@
 #include "JsonMember.h"
 #include "MeshSizeEstimate.h"
 #include "NullDisplacement.h"
+#include "Place.h"
 #include "PrintableText.h"
 #include "SurgicalPathScaleCLIXML.h"
 #include "SurgicalScale.h"
@@ -22,7 +23,6 @@
 #include <cmath>
 #include <fstream>
 #include <set>
-#include <sstream>
 
 using namespace surgicalmesher;
 
@@ -40,14 +40,6 @@ struct Results
   NullDisplacement nullDisplacement;
   MeshSizeEstimate estimate;
 };
-
-std::string rounded(double value, int digits)
-{
-  std::ostringstream stream;
-  stream.precision(digits);
-  stream << value;
-  return stream.str();
-}
 
 /// To three significant digits, without an exponent.
 std::string roundedCount(double count)
@@ -75,8 +67,8 @@ void readAreas(const CommandLine& line, SurgicalScaleOptions& options)
     throw UsageError("areas and edge lengths are given, expected --minimumArea and --maximumArea or "
                      "--minimumEdgeLength and --maximumEdgeLength");
   if (minimum > maximum)
-    throw UsageError("the minimum area, " + rounded(minimum, 6) + " mm^2, is above the maximum, " +
-                     rounded(maximum, 6) + " mm^2");
+    throw UsageError("the minimum area, " + text::rounded(minimum, 6) + " mm^2, is above the maximum, " +
+                     text::rounded(maximum, 6) + " mm^2");
   options.range = { edgeLengthOfArea(minimum), edgeLengthOfArea(maximum) };
   options.rising = RisingQuantity::Area;
 }
@@ -142,8 +134,7 @@ void warnOfOddities(CommandLine& line, const TissueMap& map, const Focus& focus,
     for (const Vec3& p : points)
     {
       if (isInside(map.grid, p)) continue;
-      line.warning(std::string(what) + " (" + rounded(p.x, 6) + ", " + rounded(p.y, 6) + ", " + rounded(p.z, 6) +
-                   ") mm LPS lies outside the label map");
+      line.warning(what + (" " + place(p)) + " LPS lies outside the label map");
     }
   };
   warnIfOutside("target", focus.targets);
@@ -310,7 +301,8 @@ void run(CommandLine& line)
   report(progress, 0.8, "estimating the size of the mesh");
   results.estimate = estimateMeshSize(map, scale);
 
-  line.message("edge lengths: " + rounded(results.shortest, 4) + " to " + rounded(results.longest, 4) + " mm");
+  line.message("edge lengths: " + text::rounded(results.shortest, 4) + " to " + text::rounded(results.longest, 4) +
+               " mm");
   returnEstimate(line, results.estimate);
   const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty()) writeReport(reportFile, line, focus, options, results, map.grid, scale.grid);

@@ -45,10 +45,7 @@ namespace
   throw InputError(file + ": " + message);
 }
 
-std::string extensionOf(const std::string& file)
-{
-  return text::lowerCase(std::filesystem::path(file).extension().string());
-}
+std::string extensionOf(const std::string& file) { return text::extensionOf(file); }
 
 /// VTK reports errors by events, and prints them unless they are observed.
 template <class Reader>

@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <fstream>
 #include <numeric>
-#include <sstream>
 
 using namespace surgicalmesher;
 
@@ -35,14 +34,6 @@ struct Results
   double weakest = 1; ///< least flux along the path over the mean
   std::vector<std::string> warnings;
 };
-
-std::string rounded(double value, int digits)
-{
-  std::ostringstream stream;
-  stream.precision(digits);
-  stream << value;
-  return stream.str();
-}
 
 std::vector<Vec3> readPlaces(const CommandLine& line)
 {
@@ -187,8 +178,8 @@ void requireMemory(double needed, const std::string& imageFile)
 {
   const std::optional<std::uint64_t> available = availableMemory();
   if (!available || needed <= double(*available)) return;
-  throw InputError(imageFile + ": the box of the points takes about " + rounded(needed / 1e9, 3) +
-                   " GB of memory, found " + rounded(double(*available) / 1e9, 3) +
+  throw InputError(imageFile + ": the box of the points takes about " + text::rounded(needed / 1e9, 3) +
+                   " GB of memory, found " + text::rounded(double(*available) / 1e9, 3) +
                    " GB available, expected more, or a smaller --margin");
 }
 
@@ -214,10 +205,10 @@ void run(CommandLine& line)
   writeLabelMap(line, tube, image.grid, results);
   for (const std::string& warning : results.warnings) line.message("warning: " + warning);
   const double length = polylineLength(tube.points);
-  line.message(std::string(tube.isBright ? "bright" : "dark") + " tube of " + rounded(length, 4) + " mm, radius " +
-               rounded(*std::min_element(tube.radii.begin(), tube.radii.end()), 3) + " to " +
-               rounded(*std::max_element(tube.radii.begin(), tube.radii.end()), 3) + " mm");
-  line.returnValue("length", rounded(length, 8));
+  line.message(std::string(tube.isBright ? "bright" : "dark") + " tube of " + text::rounded(length, 4) +
+               " mm, radius " + text::rounded(*std::min_element(tube.radii.begin(), tube.radii.end()), 3) + " to " +
+               text::rounded(*std::max_element(tube.radii.begin(), tube.radii.end()), 3) + " mm");
+  line.returnValue("length", text::rounded(length, 8));
   const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty()) writeReport(reportFile, line, tube, results);
   report(progress, 1, "done");

@@ -4,6 +4,7 @@
 
 #include "Errors.h"
 #include "ExportText.h"
+#include "Text.h"
 
 #include <vtkCellArray.h>
 #include <vtkErrorCode.h>
@@ -13,7 +14,6 @@
 #include <vtkSTLWriter.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 namespace surgicalmesher
@@ -83,9 +83,7 @@ void writePLY(const SurfaceComplex& surface, const std::string& file)
 void writeTissueSurfaces(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
   const std::filesystem::path path(file);
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+  const std::string extension = text::extensionOf(file);
   const std::map<std::int32_t, Triangles> surfaces = surfacesOf(model);
   const auto write = [&](std::int32_t label, const std::string& finalPath)
   {
