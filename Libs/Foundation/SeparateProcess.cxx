@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #ifdef __linux__
@@ -42,6 +43,16 @@ std::string receiveAll(int descriptor)
   }
 }
 
+/// A crash here is foreseen, and leaves no core file.
+void setLimits(int mostSeconds)
+{
+  const rlimit noCore{ 0, 0 };
+  setrlimit(RLIMIT_CORE, &noCore);
+  if (mostSeconds == 0) return;
+  const rlimit seconds{ rlim_t(mostSeconds), rlim_t(mostSeconds) };
+  setrlimit(RLIMIT_CPU, &seconds);
+}
+
 /// Ends without flushing or destroying anything: all of that is the parent's.
 [[noreturn]] void runAsChild(int descriptor, const std::function<std::string()>& work)
 {
@@ -60,7 +71,7 @@ std::string receiveAll(int descriptor)
 
 } // namespace
 
-std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work)
+std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work, int mostSeconds)
 {
   int ends[2];
   if (pipe(ends) != 0) return {};
@@ -71,6 +82,7 @@ std::optional<std::string> runInSeparateProcess(const std::function<std::string(
     prctl(PR_SET_PDEATHSIG, SIGKILL); // a cancelled run takes its child along
 #endif
     close(ends[0]);
+    setLimits(mostSeconds);
     runAsChild(ends[1], work);
   }
   close(ends[1]);
@@ -91,7 +103,7 @@ std::optional<std::string> runInSeparateProcess(const std::function<std::string(
 namespace surgicalmesher
 {
 
-std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work)
+std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work, int)
 {
   try
   {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// For engines that end the process when they fail: failed assertions, exit() and crashes then end another one.
+/// For code that ends the process when it fails, or never ends: failed assertions, exit() and crashes then end another
+/// one.
 
 #include <functional>
 #include <optional>
@@ -10,8 +11,9 @@ namespace surgicalmesher
 {
 
 /// What `work` returns, or nothing if its process did not come to that: it crashed, aborted, exited, or `work` threw.
+/// So it is if it takes more than `mostSeconds` of processor time (0: no limit).
 /// `work` sees this process's memory as it is now; what it changes there, and what it prints, is lost.
 /// Where processes can't be forked (Windows) it runs in this one, unprotected.
-std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work);
+std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work, int mostSeconds = 0);
 
 } // namespace surgicalmesher

@@ -3,35 +3,26 @@
 
 #include "Compaction.h"
 #include "Errors.h"
-#include "HeaderClaims.h"
-#include "SeparateProcess.h"
 #include "Text.h"
+#include "VTKErrors.h"
+#include "VTKFiles.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOutputWindow.h>
-#include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataReader.h>
-#include <vtkSTLReader.h>
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkTriangleFilter.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnsignedShortArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
-#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
@@ -67,240 +58,13 @@ constexpr const char* kTissueRoles = "TissueRoles";
 constexpr const char* kShell = "shell"; // a role, as the next
 constexpr const char* kNullDisplacement = "null displacement";
 
-/// Keeps the first error VTK reports while it lives: readers tell of damaged content in no other way.
-class ErrorWindow : public vtkOutputWindow
-{
-public:
-  static ErrorWindow* New();
-  vtkTypeMacro(ErrorWindow, vtkOutputWindow);
-
-  void DisplayErrorText(const char* text) override
-  {
-    if (m_First.empty()) m_First = text;
-  }
-  void DisplayText(const char*) override {}
-  void DisplayWarningText(const char*) override {}
-  void DisplayGenericWarningText(const char*) override {}
-  void DisplayDebugText(const char*) override {}
-
-  const std::string& first() const { return m_First; }
-
-private:
-  std::string m_First;
-};
-vtkStandardNewMacro(ErrorWindow);
-
-class ErrorCatcher
-{
-public:
-  ErrorCatcher() : m_Previous(vtkOutputWindow::GetInstance()), m_Verbosity(vtkLogger::GetCurrentVerbosityCutoff())
-  {
-    vtkOutputWindow::SetInstance(m_Window);
-    vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-  }
-  ~ErrorCatcher()
-  {
-    vtkLogger::SetStderrVerbosity(m_Verbosity);
-    vtkOutputWindow::SetInstance(m_Previous);
-  }
-  ErrorCatcher(const ErrorCatcher&) = delete;
-  ErrorCatcher& operator=(const ErrorCatcher&) = delete;
-
-  bool any() const { return !m_Window->first().empty(); }
-
-  /// The message in one line, without VTK's own file name, line number and object address.
-  std::string message() const
-  {
-    std::string text = m_Window->first();
-    const std::size_t start = text.rfind("): ");
-    if (start != std::string::npos) text = text.substr(start + 3);
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text;
-  }
-
-private:
-  vtkNew<ErrorWindow> m_Window;
-  vtkSmartPointer<vtkOutputWindow> m_Previous;
-  vtkLogger::Verbosity m_Verbosity;
-};
-
 [[noreturn]] void refuse(const std::string& file, const std::string& what) { throw InputError(file + ": " + what); }
-
-void requireReadable(const std::string& file)
-{
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) refuse(file, "no such file");
-  if (std::filesystem::is_directory(file, error)) refuse(file, "is a folder, expected a file");
-  if (!std::ifstream(file).good()) refuse(file, "can't be opened for reading");
-}
 
 // ---- reading: VTK objects out of files ------------------------------------------------------------------------------
 
-/// Runs the reader; `saysRAS` is told where its format keeps a title.
-template <class Reader>
-vtkSmartPointer<typename std::remove_pointer<decltype(Reader::New()->GetOutput())>::type>
-run(Reader* reader, const std::string& file, const std::string& format)
+vtkSmartPointer<vtkPolyData> trianglesOf(vtkPointSet* data, const std::string& file)
 {
-  ErrorCatcher errors;
-  reader->SetFileName(file.c_str());
-  try
-  {
-    reader->Update();
-  }
-  catch (const std::bad_alloc&)
-  {
-    refuse(file, "not enough memory for what its " + format + " header promises");
-  }
-  catch (const std::exception& error) // of the containers that a damaged header sizes
-  {
-    refuse(file, "not a readable " + format + " file (" + error.what() + ")");
-  }
-  if (errors.any()) refuse(file, "not a readable " + format + " file (" + errors.message() + ")");
-  if (reader->GetErrorCode() != 0) refuse(file, "not a readable " + format + " file");
-  return reader->GetOutput();
-}
-
-void readEverything(vtkDataReader* reader)
-{
-  reader->ReadAllScalarsOn();
-  reader->ReadAllVectorsOn();
-  reader->ReadAllFieldsOn();
-}
-
-bool titleSaysRAS(const char* title) { return title && std::strstr(title, "SPACE=RAS"); }
-
-bool saysRAS(vtkDataSet* data)
-{
-  const auto* space = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray(kSpace));
-  return space && const_cast<vtkStringArray*>(space)->GetNumberOfValues() > 0 &&
-         const_cast<vtkStringArray*>(space)->GetValue(0) == "RAS";
-}
-
-/// How one process tells another what it read.
-enum LegacyAnswer : char
-{
-  LegacyData = 'd',
-  LegacyDataInRAS = 'r',
-  LegacyRefused = '!' ///< the sentence follows
-};
-
-template <class LegacyReader, class Writer>
-std::string legacyAsXML(const std::string& file, const std::string& format)
-{
-  try
-  {
-    vtkNew<LegacyReader> reader;
-    readEverything(reader);
-    vtkNew<Writer> writer;
-    writer->SetInputData(run(reader.Get(), file, format));
-    writer->SetDataModeToAppended();
-    writer->EncodeAppendedDataOff();
-    writer->SetCompressorTypeToNone();
-    writer->SetHeaderTypeToUInt64();
-    writer->WriteToOutputStringOn();
-    ErrorCatcher errors;
-    if (!writer->Write() || errors.any()) refuse(file, "not a readable " + format + " file");
-    return char(titleSaysRAS(reader->GetHeader()) ? LegacyDataInRAS : LegacyData) + writer->GetOutputString();
-  }
-  catch (const InputError& error)
-  {
-    return char(LegacyRefused) + std::string(error.what());
-  }
-}
-
-/// VTK's legacy readers take what a damaged file says of its cells at its word, and crash: they run in a process of
-/// their own.
-template <class LegacyReader, class Writer, class Reader>
-auto readLegacy(const std::string& file, const std::string& format, bool& ras)
-{
-  const auto answer = runInSeparateProcess([&] { return legacyAsXML<LegacyReader, Writer>(file, format); });
-  if (!answer || answer->empty()) refuse(file, "not a readable " + format + " file (its reader crashed)");
-  if (answer->front() == LegacyRefused) throw InputError(answer->substr(1));
-  ras = answer->front() == LegacyDataInRAS;
-  vtkNew<Reader> reader;
-  reader->ReadFromInputStringOn();
-  reader->SetInputString(answer->substr(1));
-  return run(reader.Get(), file, format);
-}
-
-struct PolyDataFromFile
-{
-  vtkSmartPointer<vtkPolyData> data;
-  bool ras = false;
-};
-
-PolyDataFromFile readPolyData(const std::string& file)
-{
-  PolyDataFromFile result;
-  const std::string extension = text::extensionOf(file);
-  if (extension == ".vtp")
-  {
-    vtkNew<vtkXMLPolyDataReader> reader;
-    result.data = run(reader.Get(), file, "VTK XML polygonal data (.vtp)");
-  }
-  else if (extension == ".vtk")
-  {
-    result.data = readLegacy<vtkPolyDataReader, vtkXMLPolyDataWriter, vtkXMLPolyDataReader>(
-      file, "legacy VTK polygonal data (.vtk)", result.ras);
-  }
-  else if (extension == ".stl")
-  {
-    vtkNew<vtkSTLReader> reader;
-    result.data = run(reader.Get(), file, "STL");
-    result.ras = titleSaysRAS(reader->GetHeader());
-    if (vtkUnsignedCharArray* header = reader->GetBinaryHeader())
-    {
-      const std::string title(reinterpret_cast<const char*>(header->GetPointer(0)), header->GetNumberOfValues());
-      result.ras = result.ras || titleSaysRAS(title.c_str());
-    }
-  }
-  else if (extension == ".ply")
-  {
-    vtkNew<vtkPLYReader> reader;
-    result.data = run(reader.Get(), file, "PLY");
-    for (vtkIdType i = 0; i < reader->GetComments()->GetNumberOfValues(); ++i)
-    {
-      result.ras = result.ras || titleSaysRAS(reader->GetComments()->GetValue(i).c_str());
-    }
-  }
-  else
-  {
-    refuse(file, "unknown kind of surface file '" + extension + "', expected .vtp, .vtk, .stl or .ply");
-  }
-  result.ras = result.ras || saysRAS(result.data);
-  return result;
-}
-
-/// Offsets that don't ascend, or ids beyond the points, would lead VTK's filters outside their memory.
-void requireValidCells(vtkCellArray* cells, vtkIdType pointCount, const std::string& file)
-{
-  vtkDataArray* offsets = cells->GetOffsetsArray();
-  vtkDataArray* ids = cells->GetConnectivityArray();
-  const auto value = [](vtkDataArray* array, vtkIdType i) { return static_cast<vtkIdType>(array->GetComponent(i, 0)); };
-  for (vtkIdType i = 0; i < offsets->GetNumberOfTuples(); ++i)
-  {
-    const vtkIdType lowest = i == 0 ? 0 : value(offsets, i - 1);
-    if (value(offsets, i) < lowest || value(offsets, i) > ids->GetNumberOfTuples())
-    {
-      refuse(file, "cell offsets are damaged at cell " + std::to_string(i));
-    }
-  }
-  for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
-  {
-    if (value(ids, i) < 0 || value(ids, i) >= pointCount)
-    {
-      refuse(file, "a cell refers to point " + std::to_string(value(ids, i)) + ", but there are " +
-                     std::to_string(pointCount) + " points");
-    }
-  }
-}
-
-vtkSmartPointer<vtkPolyData> trianglesOf(vtkPolyData* data, const std::string& file)
-{
-  vtkCellArray* polygons = data->GetPolys();
-  requireValidCells(polygons, data->GetNumberOfPoints(), file);
-  requireValidCells(data->GetStrips(), data->GetNumberOfPoints(), file);
+  if (!vtkPolyData::SafeDownCast(data)) refuse(file, "holds an unstructured grid, expected polygonal data");
   vtkNew<vtkTriangleFilter> filter;
   filter->SetInputData(data);
   filter->PassLinesOff();
@@ -487,32 +251,9 @@ void writeLegacy(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts 
   writeBytes(writer->GetOutputStdString(), file);
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> readGrid(const std::string& file, bool& ras)
-{
-  const std::string extension = text::extensionOf(file);
-  vtkSmartPointer<vtkUnstructuredGrid> grid;
-  if (extension == ".vtu")
-  {
-    vtkNew<vtkXMLUnstructuredGridReader> reader;
-    grid = run(reader.Get(), file, "VTK XML unstructured grid (.vtu)");
-  }
-  else if (extension == ".vtk")
-  {
-    grid = readLegacy<vtkUnstructuredGridReader, vtkXMLUnstructuredGridWriter, vtkXMLUnstructuredGridReader>(
-      file, "legacy VTK unstructured grid (.vtk)", ras);
-  }
-  else
-  {
-    refuse(file, "unknown kind of mesh file '" + extension + "', expected .vtu or .vtk");
-  }
-  ras = ras || saysRAS(grid);
-  return grid;
-}
-
 std::vector<std::array<std::int32_t, 4>> tetrahedraOf(vtkUnstructuredGrid* grid, const std::string& file)
 {
   if (grid->GetNumberOfCells() == 0) refuse(file, "no cells, expected tetrahedra");
-  requireValidCells(grid->GetCells(), grid->GetNumberOfPoints(), file);
   std::vector<std::array<std::int32_t, 4>> tetrahedra(grid->GetNumberOfCells());
   for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
   {
@@ -552,9 +293,7 @@ void requirePositive(const TetMesh& mesh, const std::string& file)
 
 SurfaceFile readSurface(const std::string& file)
 {
-  requireReadable(file);
-  requireCredibleHeader(file);
-  const PolyDataFromFile source = readPolyData(file);
+  const VTKFile source = readVTKFile(file, { ".vtp", ".vtk", ".stl", ".ply" });
   const vtkSmartPointer<vtkPolyData> data = trianglesOf(source.data, file);
   requireIdRange(data->GetNumberOfPoints(), "points", file);
   requireIdRange(data->GetNumberOfCells(), "triangles", file);
@@ -644,11 +383,10 @@ void writePolygons(const PolygonFile& content, const std::string& file)
 
 MeshFile readMesh(const std::string& file)
 {
-  requireReadable(file);
-  requireCredibleHeader(file);
-  bool ras = false;
-  const vtkSmartPointer<vtkUnstructuredGrid> grid = readGrid(file, ras);
-  return meshOfGrid(grid, ras, file);
+  const VTKFile source = readVTKFile(file, { ".vtu", ".vtk" });
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(source.data);
+  if (!grid) refuse(file, "holds polygonal data, expected an unstructured grid");
+  return meshOfGrid(grid, source.ras, file);
 }
 
 MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name)
@@ -659,6 +397,7 @@ MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name
   requireIdRange(cellCount, "cells", name);
 
   MeshFile result;
+  requireValidCells(grid, name);
   result.mesh.tetrahedra = tetrahedraOf(grid, name);
   result.mesh.points = pointsOf(grid, ras, name);
   vtkCellData* cellData = grid->GetCellData();

@@ -4,6 +4,7 @@
 #include "CanonicalGrid.h"
 #include "Errors.h"
 #include "ImageData.h"
+#include "SeparateProcess.h"
 #include "TextFile.h"
 
 #include <itkGiplImageIO.h>
@@ -132,6 +133,30 @@ itk::ImageIOBase::Pointer openImage(const std::string& file)
   throw InputError(file + ": not an image that can be read, expected " + formatNames);
 }
 
+/// ITK's readers take what a damaged header says at its word, and crash: a process of its own reads it first.
+void requireHarmlessHeader(const std::string& file)
+{
+  constexpr int mostSeconds = 10;
+  const auto answer = runInSeparateProcess(
+    [&]
+    {
+      try
+      {
+        openImage(file);
+        return std::string();
+      }
+      catch (const InputError& error)
+      {
+        return std::string(error.what());
+      }
+    },
+    mostSeconds);
+  if (!answer)
+    throw InputError(file + ": the image header is damaged: its reader crashed or did not end within " +
+                     std::to_string(mostSeconds) + " s");
+  if (!answer->empty()) throw InputError(*answer);
+}
+
 /// Throws unless the image is a volume of at most 2^31 voxels with at least one in each direction.
 std::array<int, 3> volumeSize(const itk::ImageIOBase& io, const std::string& file)
 {
@@ -249,6 +274,7 @@ std::uint64_t bytesOnDisk(const MetaData& niftiHeader, std::size_t voxelCount, s
 
 Volume readVolume(const std::string& file)
 {
+  requireHarmlessHeader(file);
   const itk::ImageIOBase::Pointer io = openImage(file);
   Volume volume;
   volume.file = file;

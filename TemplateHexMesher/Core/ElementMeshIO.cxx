@@ -5,33 +5,25 @@
 #include "SolverMeshText.h"
 #include "TargetSurface.h"
 #include "TextFile.h"
+#include "VTKFiles.h"
 
 #include <vtkAbstractArray.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
-#include <vtkPLYReader.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataReader.h>
-#include <vtkSTLReader.h>
 #include <vtkSignedCharArray.h>
 #include <vtkStringArray.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkUnstructuredGridReader.h>
-#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -47,84 +39,8 @@ namespace
 
 std::string extensionOf(const std::string& file) { return text::extensionOf(file); }
 
-/// VTK reports errors by events, and prints them unless they are observed.
-template <class Reader>
-auto outputOf(Reader* reader, const std::string& file, const char* format)
-{
-  bool failed = false;
-  vtkNew<vtkCallbackCommand> onError;
-  onError->SetClientData(&failed);
-  onError->SetCallback([](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
-  reader->AddObserver("ErrorEvent", onError);
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  if (failed || reader->GetErrorCode() != 0) refuse(file, std::string("not a readable ") + format + " file");
-  return vtkSmartPointer<typename std::remove_pointer<decltype(reader->GetOutput())>::type>(reader->GetOutput());
-}
-
-bool titleSaysRAS(const char* title) { return title && std::strstr(title, "SPACE=RAS"); }
-
-bool fieldSaysRAS(vtkDataSet* data)
-{
-  auto* space = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("SPACE"));
-  return space && space->GetNumberOfValues() > 0 && space->GetValue(0) == "RAS";
-}
-
-struct Read
-{
-  vtkSmartPointer<vtkPointSet> data;
-  bool ras = false;
-};
-
-template <class Reader>
-void readEverything(Reader* reader)
-{
-  reader->ReadAllScalarsOn();
-  reader->ReadAllVectorsOn();
-  reader->ReadAllTensorsOn();
-  reader->ReadAllFieldsOn();
-}
-
-Read readLegacy(const std::string& file)
-{
-  vtkNew<vtkUnstructuredGridReader> grid;
-  grid->SetFileName(file.c_str());
-  const bool isGrid = grid->IsFileUnstructuredGrid() != 0;
-  readEverything(grid.GetPointer());
-  vtkNew<vtkPolyDataReader> surface;
-  readEverything(surface.GetPointer());
-  Read read;
-  if (isGrid) read.data = outputOf(grid.GetPointer(), file, "legacy VTK");
-  else read.data = outputOf(surface.GetPointer(), file, "legacy VTK");
-  read.ras = titleSaysRAS(isGrid ? grid->GetHeader() : surface->GetHeader());
-  return read;
-}
-
-Read readStl(const std::string& file)
-{
-  vtkNew<vtkSTLReader> reader;
-  Read read{ outputOf(reader.GetPointer(), file, "STL"), titleSaysRAS(reader->GetHeader()) };
-  if (vtkUnsignedCharArray* header = reader->GetBinaryHeader())
-  {
-    const std::string title(reinterpret_cast<const char*>(header->GetPointer(0)),
-                            std::size_t(header->GetNumberOfValues()));
-    read.ras = read.ras || titleSaysRAS(title.c_str());
-  }
-  return read;
-}
-
-Read readPly(const std::string& file)
-{
-  vtkNew<vtkPLYReader> reader;
-  Read read{ outputOf(reader.GetPointer(), file, "PLY"), false };
-  vtkStringArray* comments = reader->GetComments();
-  for (vtkIdType i = 0; i < comments->GetNumberOfValues(); ++i)
-    read.ras = read.ras || titleSaysRAS(comments->GetValue(i).c_str());
-  return read;
-}
-
 /// VTK's own reader parts the points of a file that has texture coordinates, and numbers them anew.
-Read readObj(const std::string& file)
+VTKFile readObj(const std::string& file)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -206,7 +122,7 @@ vtkSmartPointer<vtkPoints> vtkPointsOf(const Points& points)
   return result;
 }
 
-Read gridOf(const SolverMesh& content)
+VTKFile gridOf(const SolverMesh& content)
 {
   vtkNew<vtkUnstructuredGrid> grid;
   grid->SetPoints(vtkPointsOf(content.mesh.points));
@@ -236,26 +152,16 @@ SolverMesh readAnsys(const std::string& file)
   return readAnsysMesh(nodes.string(), elements.string());
 }
 
-Read readAny(const std::string& file)
+VTKFile readAny(const std::string& file)
 {
   const std::string extension = extensionOf(file);
-  text::requireReadableFile(file);
-  if (extension == ".vtu")
-  {
-    vtkNew<vtkXMLUnstructuredGridReader> reader;
-    return { outputOf(reader.GetPointer(), file, "VTK unstructured grid (.vtu)"), false };
-  }
-  if (extension == ".vtp")
-  {
-    vtkNew<vtkXMLPolyDataReader> reader;
-    return { outputOf(reader.GetPointer(), file, "VTK polygonal data (.vtp)"), false };
-  }
-  if (extension == ".vtk") return readLegacy(file);
-  if (extension == ".stl") return readStl(file);
-  if (extension == ".ply") return readPly(file);
-  if (extension == ".obj") return readObj(file);
   if (extension == ".inp") return gridOf(readAbaqusMesh(file));
   if (extension == ".node" || extension == ".elem") return gridOf(readAnsys(file));
+  if (extension == ".obj") return readObj(file);
+  const std::vector<std::string> kindsOfVTK{ ".vtu", ".vtp", ".vtk", ".stl", ".ply" };
+  if (std::find(kindsOfVTK.begin(), kindsOfVTK.end(), extension) != kindsOfVTK.end())
+    return readVTKFile(file, kindsOfVTK);
+  text::requireReadableFile(file);
   refuse(file,
          "unknown kind of file '" + extension + "', expected .vtu, .vtp, .vtk, .stl, .ply, .obj, .inp, .node or .elem");
 }
@@ -395,9 +301,9 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOf(vtkPointSet* data)
 
 ElementMeshFile readElementMesh(const std::string& file)
 {
-  const Read read = readAny(file);
+  const VTKFile read = readAny(file);
   if (!read.data || read.data->GetNumberOfPoints() == 0) refuse(file, "no point, expected a surface or a mesh");
-  if (read.ras || fieldSaysRAS(read.data)) turnToLps(read.data);
+  if (read.ras) turnToLps(read.data);
   setSpace(read.data);
   ElementMeshFile content{ { pointsOf(read.data, file), elementsOf(read.data, file) }, read.data };
   renumberWedges(content.mesh);

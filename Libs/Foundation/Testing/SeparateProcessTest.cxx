@@ -17,6 +17,14 @@ TEST(SeparateProcess, AnswersOrTellsThatThereIsNoAnswer)
   EXPECT_EQ(runInSeparateProcess([]() -> std::string { throw 2; }), std::nullopt);
 #ifndef _WIN32
   EXPECT_EQ(runInSeparateProcess([]() -> std::string { std::abort(); }), std::nullopt);
+  const auto endless = []() -> std::string
+  {
+    for (volatile unsigned n = 0;; n = n + 1)
+    {
+    }
+  };
+  EXPECT_EQ(runInSeparateProcess(endless, 1), std::nullopt);
+  EXPECT_EQ(runInSeparateProcess([&] { return large; }, 1), large);
   EXPECT_EQ(runInSeparateProcess([]() -> std::string { std::_Exit(0); }).value_or(""), "") << "left without an answer";
 #endif
 }

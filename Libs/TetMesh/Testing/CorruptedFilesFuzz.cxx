@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Damages files of every kind that is read, and reads them: each is either read or refused with a sentence that begins
 // with its name. usage: CorruptedFilesFuzz [FILES [FIRST_SEED]]
-// File n depends on its seed, FIRST_SEED + n, alone. Exit status 1 if one is neither; a crash or twenty seconds on one
-// file end the program. Build with SurgicalMesher_SANITIZE for what only the sanitizers see.
+// File n depends on its seed, FIRST_SEED + n, alone, and is read in a process of its own: one that crashes, or takes
+// twenty seconds of processor time, is counted, and the others go on. A single file is read in this process, for a
+// debugger. Exit status 1 if one file is neither read nor refused, or leaves a file behind. Build with
+// SurgicalMesher_SANITIZE for what only the sanitizers see.
 
 #include "Errors.h"
 #include "MeshIO.h"
+#include "SeparateProcess.h"
 #include "Shapes.h"
 #include "TissueMapIO.h"
 #include "TissueSettings.h"
@@ -23,10 +26,6 @@
 #include <iterator>
 #include <random>
 #include <sstream>
-
-#ifndef _WIN32
-#include <unistd.h>
-#endif
 
 using namespace surgicalmesher;
 namespace fs = std::filesystem;
@@ -175,16 +174,9 @@ std::string damaged(std::string bytes, std::mt19937& random)
   return bytes;
 }
 
-/// What is wrong with how the file of this seed is taken, or nothing.
-std::string run(unsigned seed, const std::vector<Kind>& kinds, const fs::path& folder)
+/// What is wrong with how the file is taken, or nothing.
+std::string faultOf(const Kind& kind, const std::string& file)
 {
-  std::mt19937 random(seed);
-  const Kind& kind = kinds[random() % kinds.size()];
-  const std::string file = (folder / ("damaged-" + kind.name)).string();
-  std::ofstream(file, std::ios::binary) << damaged(kind.bytes, random);
-#ifndef _WIN32
-  alarm(20);
-#endif
   try
   {
     kind.read(file);
@@ -193,12 +185,31 @@ std::string run(unsigned seed, const std::vector<Kind>& kinds, const fs::path& f
   catch (const InputError& error)
   {
     return std::string(error.what()).compare(0, file.size(), file) == 0 ? ""
-                                                                        : kind.name + " refused by: " + error.what();
+                                                                        : std::string("refused by: ") + error.what();
   }
   catch (const std::exception& error)
   {
-    return kind.name + " ends in: " + error.what();
+    return std::string("ends in: ") + error.what();
   }
+}
+
+/// What is wrong with how the file of this seed is taken, or nothing.
+std::string run(unsigned seed, const std::vector<Kind>& kinds, const fs::path& folder, bool inThisProcess)
+{
+  std::mt19937 random(seed);
+  const Kind& kind = kinds[random() % kinds.size()];
+  const std::string file = (folder / ("damaged-" + kind.name)).string();
+  std::ofstream(file, std::ios::binary) << damaged(kind.bytes, random);
+  const std::string fault = inThisProcess ? faultOf(kind, file)
+                                          : runInSeparateProcess([&] { return faultOf(kind, file); }, 20)
+                                              .value_or("crashed, or took more than 20 s of processor time");
+  fs::remove(file);
+  return fault.empty() ? "" : kind.name + " " + fault;
+}
+
+std::size_t fileCount(const fs::path& folder)
+{
+  return std::size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
 
 } // namespace
@@ -212,15 +223,17 @@ int main(int argc, char** argv)
   const fs::path folder = fs::temp_directory_path() / ("CorruptedFilesFuzz-" + std::to_string(std::random_device()()));
   fs::create_directories(folder);
   const std::vector<Kind> kinds = wholeFiles(folder);
+  const std::size_t wholeCount = fileCount(folder);
   int faults = 0;
   for (unsigned seed = first; seed < first + unsigned(files); ++seed)
   {
-    const std::string fault = run(seed, kinds, folder);
+    const std::string fault = run(seed, kinds, folder, files == 1);
     if (fault.empty()) continue;
     ++faults;
     std::cerr << "seed " << seed << ": " << fault << std::endl;
   }
+  const std::size_t leftovers = fileCount(folder) - wholeCount;
   fs::remove_all(folder);
-  std::cout << files << " files, " << faults << " taken wrongly" << std::endl;
-  return faults == 0 ? 0 : 1;
+  std::cout << files << " files, " << faults << " taken wrongly, " << leftovers << " leftovers" << std::endl;
+  return faults == 0 && leftovers == 0 ? 0 : 1;
 }

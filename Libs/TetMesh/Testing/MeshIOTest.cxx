@@ -240,7 +240,7 @@ TEST_F(ComplexIO, RefusesFilesThatAreNone)
   std::ofstream(path("text.vtk")) << "hello";
   std::ofstream(path("text.vtu")) << "<VTKFile type=\"PolyData\"></VTKFile>";
   expectRefusal([&] { readSurface(path("missing.vtp")); }, "no such file");
-  expectRefusal([&] { readSurface(path("folder.vtp")); }, "folder");
+  expectRefusal([&] { readSurface(path("folder.vtp")); }, "directory");
   expectRefusal([&] { readSurface(path("surface.obj")); }, "no such file");
   for (const char* name : { "text.vtp", "empty.stl", "text.ply", "text.vtk" })
   {
@@ -380,6 +380,33 @@ TEST_F(ComplexIO, LegacyFilesWhoseCellsAreDamagedAreRefused)
   }
   write(faces + "POLYGONS 1 4\n300000000 0 1 2\n");
   expectRefusal([&] { readSurface(path("cells.vtk")); }, "cells.vtk: ");
+}
+
+// VTK's PLY reader ends its process where an element is not whole, and its XML readers leave their memory.
+TEST_F(ComplexIO, SurfacesCutAnywhereAreRefusedOrReadByAProcessThatGoesOn)
+{
+  const SurfaceComplex surface = test::sphere({}, 8, 1);
+  for (const std::string kind : { "ascii", "binary" })
+  {
+    vtkNew<vtkPLYWriter> writer;
+    writer->SetInputData(polyDataOf(surface));
+    writer->SetFileName(path("whole.ply").c_str());
+    if (kind == "ascii") writer->SetFileTypeToASCII();
+    else writer->SetFileTypeToBinary();
+    writer->Write();
+    const std::string bytes = bytesOf(path("whole.ply"));
+    for (const double share : { 0.05, 0.3, 0.6, 0.9 })
+    {
+      writeBytes(bytes.substr(0, std::size_t(share * double(bytes.size()))), path("cut.ply"));
+      expectRefusal([&] { readSurface(path("cut.ply")); }, "cut.ply: ");
+    }
+  }
+  const std::string points = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
+  writeBytes(
+    "ply\nformat ascii 1.0\n" + points +
+      "element face 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n900000000 0 1 2\n",
+    path("list.ply"));
+  expectRefusal([&] { readSurface(path("list.ply")); }, "list.ply: ");
 }
 
 TEST_F(ComplexIO, WritersReportWhatTheyCannotWrite)

@@ -626,6 +626,22 @@ TEST(Trial, B14_MetaImagesWithoutDimensionsAreRefused)
       std::string("NDims is \"") + number + "\", expected 3");
 }
 
+// B14, found by CorruptedFilesFuzz: ITK's readers end their process at such headers.
+TEST(Trial, B14_HeadersThatCrashTheirReaderAreRefused)
+{
+  for (const char character : { '<', '{', '0' })
+  {
+    expectFileRefused("map.mha",
+                      "ObjectType = Image\nNDims = 3\nDimSize = 2 2 2\n" + std::string(3000, character) +
+                        " = 1\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n12345678",
+                      "header");
+  }
+  Nifti nifti;
+  nifti.sformCode = 1;
+  nifti.srow = { std::nanf(""), 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
+  expectFileRefused("map.nii", nifti.content(24), "header");
+}
+
 TEST(Images, ComeBackAsTheyWereAndHaveNoHoles)
 {
   const TemporaryFolder folder;

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "VTKFiles.h"
+
+#include "Errors.h"
+#include "HeaderClaims.h"
+#include "SeparateProcess.h"
+#include "Text.h"
+#include "TextFile.h"
+#include "VTKErrors.h"
+
+#include <vtkCellArray.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPLYReader.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataReader.h>
+#include <vtkSTLReader.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkXMLDataObjectWriter.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLWriter.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <new>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+[[noreturn]] void refuse(const std::string& file, const std::string& what) { throw InputError(file + ": " + what); }
+
+std::string listed(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    text += (i == 0 ? "" : i + 1 < words.size() ? ", " : " or ") + words[i];
+  return text;
+}
+
+// ---- in the process of their own ------------------------------------------------------------------------------------
+
+template <class Reader>
+vtkPointSet* outputOf(Reader* reader, const std::string& file, const std::string& format)
+{
+  ErrorCatcher errors;
+  try
+  {
+    reader->Update();
+  }
+  catch (const std::bad_alloc&)
+  {
+    refuse(file, "not enough memory for what its " + format + " header promises");
+  }
+  catch (const std::exception& error) // of the containers that a damaged header sizes
+  {
+    refuse(file, "not a readable " + format + " file (" + error.what() + ")");
+  }
+  if (errors.any()) refuse(file, "not a readable " + format + " file (" + errors.message() + ")");
+  if (reader->GetErrorCode() != 0) refuse(file, "not a readable " + format + " file");
+  return reader->GetOutput();
+}
+
+bool titleSaysRAS(const char* title) { return title && std::strstr(title, "SPACE=RAS"); }
+
+bool fieldSaysRAS(vtkDataSet* data)
+{
+  auto* space = vtkStringArray::SafeDownCast(data->GetFieldData()->GetAbstractArray("SPACE"));
+  return space && space->GetNumberOfValues() > 0 && space->GetValue(0) == "RAS";
+}
+
+template <class Reader>
+VTKFile readXML(const std::string& file, const std::string& format)
+{
+  vtkNew<Reader> reader;
+  reader->SetFileName(file.c_str());
+  return { outputOf(reader.Get(), file, format), false };
+}
+
+template <class Reader>
+VTKFile readLegacy(const std::string& file)
+{
+  vtkNew<Reader> reader;
+  reader->SetFileName(file.c_str());
+  reader->ReadAllScalarsOn();
+  reader->ReadAllVectorsOn();
+  reader->ReadAllTensorsOn();
+  reader->ReadAllFieldsOn();
+  VTKFile result{ outputOf(reader.Get(), file, "legacy VTK (.vtk)"), false };
+  result.ras = titleSaysRAS(reader->GetHeader());
+  return result;
+}
+
+bool isLegacyGrid(const std::string& file)
+{
+  ErrorCatcher quiet;
+  vtkNew<vtkUnstructuredGridReader> reader;
+  reader->SetFileName(file.c_str());
+  return reader->IsFileUnstructuredGrid() != 0;
+}
+
+VTKFile readSTL(const std::string& file)
+{
+  vtkNew<vtkSTLReader> reader;
+  reader->SetFileName(file.c_str());
+  VTKFile result{ outputOf(reader.Get(), file, "STL"), false };
+  result.ras = titleSaysRAS(reader->GetHeader());
+  if (vtkUnsignedCharArray* header = reader->GetBinaryHeader())
+  {
+    const std::string title(reinterpret_cast<const char*>(header->GetPointer(0)), header->GetNumberOfValues());
+    result.ras = result.ras || titleSaysRAS(title.c_str());
+  }
+  return result;
+}
+
+VTKFile readPLY(const std::string& file)
+{
+  vtkNew<vtkPLYReader> reader;
+  reader->SetFileName(file.c_str());
+  VTKFile result{ outputOf(reader.Get(), file, "PLY"), false };
+  for (vtkIdType i = 0; i < reader->GetComments()->GetNumberOfValues(); ++i)
+    result.ras = result.ras || titleSaysRAS(reader->GetComments()->GetValue(i).c_str());
+  return result;
+}
+
+VTKFile readByExtension(const std::string& file)
+{
+  const std::string extension = text::extensionOf(file);
+  if (extension == ".vtp") return readXML<vtkXMLPolyDataReader>(file, "VTK XML polygonal data (.vtp)");
+  if (extension == ".vtu") return readXML<vtkXMLUnstructuredGridReader>(file, "VTK XML unstructured grid (.vtu)");
+  if (extension == ".stl") return readSTL(file);
+  if (extension == ".ply") return readPLY(file);
+  return isLegacyGrid(file) ? readLegacy<vtkUnstructuredGridReader>(file) : readLegacy<vtkPolyDataReader>(file);
+}
+
+template <class Array>
+void requireValidIds(Array* offsets, Array* ids, vtkIdType pointCount, const std::string& file)
+{
+  for (vtkIdType i = 0; i < offsets->GetNumberOfValues(); ++i)
+  {
+    const auto lowest = i == 0 ? 0 : offsets->GetValue(i - 1);
+    if (offsets->GetValue(i) < lowest || offsets->GetValue(i) > ids->GetNumberOfValues())
+      refuse(file, "cell offsets are damaged at cell " + std::to_string(i));
+  }
+  for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i)
+  {
+    if (ids->GetValue(i) >= 0 && ids->GetValue(i) < pointCount) continue;
+    refuse(file, "a cell refers to point " + std::to_string(ids->GetValue(i)) + ", but there are " +
+                   std::to_string(pointCount) + " points");
+  }
+}
+
+void requireValidIds(vtkCellArray* cells, vtkIdType pointCount, const std::string& file)
+{
+  if (cells->IsStorage64Bit())
+    requireValidIds(cells->GetOffsetsArray64(), cells->GetConnectivityArray64(), pointCount, file);
+  else requireValidIds(cells->GetOffsetsArray32(), cells->GetConnectivityArray32(), pointCount, file);
+}
+
+// ---- from one process to the other ----------------------------------------------------------------------------------
+
+/// First letter of what one process tells the other.
+enum Answer : char
+{
+  Surface = 's',
+  Grid = 'g',
+  Refused = '!' ///< the sentence follows
+};
+
+std::string asXML(vtkDataObject* data, const std::string& file)
+{
+  const auto writer = vtkSmartPointer<vtkXMLWriter>::Take(vtkXMLDataObjectWriter::NewWriter(data->GetDataObjectType()));
+  writer->SetInputDataObject(data);
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone();
+  writer->SetHeaderTypeToUInt64();
+  writer->WriteToOutputStringOn();
+  ErrorCatcher errors;
+  if (!writer->Write() || errors.any()) refuse(file, "its data contradict one another");
+  return writer->GetOutputString();
+}
+
+std::string answerFor(const std::string& file)
+{
+  try
+  {
+    requireCredibleHeader(file);
+    const VTKFile read = readByExtension(file);
+    requireValidCells(read.data, file);
+    const bool ras = read.ras || fieldSaysRAS(read.data);
+    return std::string{ vtkPolyData::SafeDownCast(read.data) ? Surface : Grid, ras ? 'r' : 'l' } +
+           asXML(read.data, file);
+  }
+  catch (const InputError& error)
+  {
+    return char(Refused) + std::string(error.what());
+  }
+}
+
+template <class Reader>
+vtkSmartPointer<vtkPointSet> fromXML(const std::string& text, const std::string& file)
+{
+  vtkNew<Reader> reader;
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(text);
+  return outputOf(reader.Get(), file, "VTK");
+}
+
+int mostSecondsFor(const std::string& file)
+{
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+  return 10 + (error ? 0 : int(std::min<std::uintmax_t>(bytes >> 21, 1u << 20)));
+}
+
+} // namespace
+
+void requireValidCells(vtkPointSet* data, const std::string& name)
+{
+  const vtkIdType count = data->GetNumberOfPoints();
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    requireValidIds(grid->GetCells(), count, name);
+    return;
+  }
+  auto* surface = vtkPolyData::SafeDownCast(data);
+  for (vtkCellArray* cells : { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    requireValidIds(cells, count, name);
+}
+
+VTKFile readVTKFile(const std::string& file, const std::vector<std::string>& extensions)
+{
+  text::requireReadableFile(file);
+  const std::string extension = text::extensionOf(file);
+  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
+    refuse(file, "unknown kind of file '" + extension + "', expected " + listed(extensions));
+  const int mostSeconds = mostSecondsFor(file);
+  const auto answer = runInSeparateProcess([&] { return answerFor(file); }, mostSeconds);
+  if (!answer || answer->size() < 2)
+    refuse(file, "damaged: its reader crashed or did not end within " + std::to_string(mostSeconds) + " s");
+  if (answer->front() == Refused) throw InputError(answer->substr(1));
+  const std::string xml = answer->substr(2);
+  return { answer->front() == Grid ? fromXML<vtkXMLUnstructuredGridReader>(xml, file)
+                                   : fromXML<vtkXMLPolyDataReader>(xml, file),
+           (*answer)[1] == 'r' };
+}
+
+} // namespace surgicalmesher
