@@ -107,8 +107,10 @@ class Cluster:
 
 class SlurmTest(unittest.TestCase):
     def test_two_meshes_and_one_reported_failure(self):
+        root = os.path.abspath("a source folder")
+        shutil.copytree(os.path.join(cohorts.ROOT, "workflow"), os.path.join(root, "workflow"))
         cohorts.write_cohort(3, damaged=1)
-        process = cohorts.run_snakemake("slurm", BIN, CLUSTER.environment)
+        process = cohorts.run_snakemake("slurm", BIN, CLUSTER.environment, root)
         self.assertEqual(process.returncode, 0, process.stdout)
         cohorts.assert_one_refused(self, "p1")
         jobs = CLUSTER.output_of("scontrol", "--oneliner", "show", "jobs")
@@ -116,7 +118,7 @@ class SlurmTest(unittest.TestCase):
             for patient in ("p0", "p1", "p2"):
                 self.assertRegex(jobs, rf"JobName={stage}-patient={patient} .*JobState=COMPLETED")
         before = cohorts.all_files()
-        process = cohorts.run_snakemake("slurm", BIN, CLUSTER.environment)
+        process = cohorts.run_snakemake("slurm", BIN, CLUSTER.environment, root)
         self.assertIn("Nothing to be done", process.stdout)
         self.assertEqual(cohorts.all_files(), before)
 
