@@ -354,6 +354,11 @@ void qSlicerSurgicalPathScaleModuleWidget::updatePreview()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
   d->PreviewTimer.stop();
+  if (d->logic()->GetRun()->IsStarting()) // the preview's nodes would come and go
+  {
+    d->PreviewTimer.start();
+    return;
+  }
   if (d->Parameters && this->isEntered() && d->PreviewCheckBox->isChecked()) d->logic()->ShowPreview(d->Parameters);
   else d->logic()->HidePreview();
 }

@@ -47,9 +47,8 @@ void requireCover(const ScaleField& scale, const Grid& grid, const std::string& 
 TissueTable readTissueTable(const std::string& file, std::vector<std::string>* warnings = nullptr);
 
 /// Adds the names and colours of a table file (none if `file` is empty) to the map's own, and forgets those of tissues
-/// that the map doesn't have. Null-displacement tissue keeps its name: an atlas may have another tissue of its label.
-/// Where the map itself says of no tissue that it is null displacement, the one that a table calls "null displacement"
-/// is: colour tables of the host carry nothing but names. All names are legible afterwards (TextFile.h).
+/// that the map doesn't have. Null-displacement tissue keeps its name: an atlas may have another tissue of its label;
+/// and no name makes a tissue null displacement. All names are legible afterwards (TextFile.h).
 void completeTissueTable(TissueMap& map, const std::string& file, std::vector<std::string>* warnings = nullptr);
 
 /// Whether the format of `file`, by its extension, keeps what writeTissueMap says of the tissues.

@@ -106,13 +106,9 @@ TissueTable readTissueTable(const std::string& file, std::vector<std::string>* w
 void completeTissueTable(TissueMap& map, const std::string& file, std::vector<std::string>* warnings)
 {
   const TissueTable given = file.empty() ? TissueTable() : readTissueTable(file, warnings);
-  const bool mapSays =
-    std::any_of(map.table.begin(), map.table.end(), [](const auto& entry) { return entry.second.isNullDisplacement; });
   for (const auto& [label, tissue] : given)
   {
-    if (map.table[label].isNullDisplacement) continue;
-    map.table[label] = tissue;
-    map.table[label].isNullDisplacement = !mapSays && comparable(tissue.name) == "null displacement";
+    if (!map.table[label].isNullDisplacement) map.table[label] = tissue;
   }
   TissueTable present;
   for (const Label label : presentLabels(map))

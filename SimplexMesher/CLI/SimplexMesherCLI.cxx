@@ -14,6 +14,7 @@
 #include "ScaleOption.h"
 #include "SimplexMesh.h"
 #include "SimplexMesherCLIXML.h"
+#include "TextFile.h"
 #include "TissueFidelity.h"
 #include "TissueMapIO.h"
 #include "TissueScale.h"
@@ -22,6 +23,7 @@
 
 #include <vtkSMPTools.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <sstream>
@@ -49,6 +51,23 @@ TetMesh toWorld(TetMesh mesh, const Grid& grid)
   return mesh;
 }
 
+/// Marks the labels that are to be held still, before groups are joined.
+void markNullDisplacement(CommandLine& line, TissueMap& map)
+{
+  const std::string labels = line.text("nullDisplacementLabels");
+  if (text::trimmed(labels).empty()) return;
+  const std::vector<Label> present = presentLabels(map);
+  for (const std::string& word : text::splitFields(labels))
+  {
+    long label = 0;
+    if (!text::parseInteger(text::trimmed(word), 1, 65535, label))
+      throw UsageError("--nullDisplacementLabels: \"" + word + "\", expected labels from 1 to 65535");
+    if (std::binary_search(present.begin(), present.end(), Label(label)))
+      map.table[Label(label)].isNullDisplacement = true;
+    else line.warning("--nullDisplacementLabels: no voxel of label " + std::to_string(label) + " in the label map");
+  }
+}
+
 /// The map and what is asked of its tissues; groups are joined, and tissues left out are gone.
 TissueMap readMap(CommandLine& line, SurfaceReport& results)
 {
@@ -58,6 +77,7 @@ TissueMap readMap(CommandLine& line, SurfaceReport& results)
   const std::string intensities = likenessToIntensities(map);
   if (!intensities.empty()) warnings.push_back(line.text("labelMap") + ": " + intensities);
   for (const std::string& warning : warnings) line.warning(warning);
+  markNullDisplacement(line, map);
   const std::string file = line.text("tissues");
   if (!file.empty()) results.settings = readTissueSettings(file, map);
   results.selection = selectTissues(map, results.settings);

@@ -58,6 +58,14 @@ double numberOf(const rapidjson::Value& item, const char* name)
   return found != item.MemberEnd() && found->value.IsNumber() ? found->value.GetDouble() : 0;
 }
 
+/// The object of that name, or an empty one.
+const rapidjson::Value& memberOf(const rapidjson::Value& item, const char* name)
+{
+  static const rapidjson::Value nothing(rapidjson::kObjectType);
+  const auto found = item.FindMember(name);
+  return found != item.MemberEnd() && found->value.IsObject() ? found->value : nothing;
+}
+
 struct Report
 {
   std::array<double, 3> topology{}; ///< components, tunnels, cavities
@@ -65,6 +73,8 @@ struct Report
   double thinShare = 0;             ///< of the area
   double smallestThickness = 0;     ///< mm
   double area = 0;                  ///< mm^2
+  std::array<double, 2> volumes{};  ///< mm^3: map, mesh
+  std::array<double, 2> farthest{}; ///< mm: map to mesh, mesh to map
   int triangles = 0;
 };
 
@@ -108,6 +118,14 @@ std::map<Label, Report> reportByTissue(const rapidjson::Value& report, vtkPolyDa
     if (tissue == tissues.end()) continue;
     tissue->second.thinShare = numberOf(item, "share");
     tissue->second.smallestThickness = numberOf(item, "smallestThickness");
+  }
+  for (const auto& item : itemsOf(report, { "fidelity" }).GetArray())
+  {
+    const auto tissue = tissues.find(Label(numberOf(item, "label")));
+    if (tissue == tissues.end()) continue;
+    tissue->second.volumes = { numberOf(item, "mapVolume"), numberOf(item, "meshVolume") };
+    tissue->second.farthest = { numberOf(memberOf(item, "mapToMesh"), "maximum"),
+                                numberOf(memberOf(item, "meshToMap"), "maximum") };
   }
   addSurface(surface, tissues);
   return tissues;
@@ -233,6 +251,12 @@ void fillTissueTable(const std::string& reportFile, vtkMRMLModelNode* surface, v
   measure(table, vtkMRMLTr("SimplexMesher", "Thinner than L (%)"), [](const Report& r) { return 100 * r.thinShare; });
   measure(table, vtkMRMLTr("SimplexMesher", "Smallest thickness (mm)"),
           [](const Report& r) { return r.smallestThickness; });
+  measure(table, vtkMRMLTr("SimplexMesher", "Volume in the map (mm³)"), [](const Report& r) { return r.volumes[0]; });
+  measure(table, vtkMRMLTr("SimplexMesher", "Volume of the mesh (mm³)"), [](const Report& r) { return r.volumes[1]; });
+  measure(table, vtkMRMLTr("SimplexMesher", "Farthest, map to mesh (mm)"),
+          [](const Report& r) { return r.farthest[0]; });
+  measure(table, vtkMRMLTr("SimplexMesher", "Farthest, mesh to map (mm)"),
+          [](const Report& r) { return r.farthest[1]; });
 }
 
 void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* node)

@@ -14,7 +14,8 @@ namespace surgicalmesher
 
 /// One row per tissue of `surface`: label, name, area (mm^2), triangles, components, tunnels and cavities of the
 /// prepared map, islands removed, voxels lost and gained while contacts were resolved, share of the surface thinner
-/// than the edge length (%) and its smallest thickness (mm; 0 where nothing is thinner). `reportFile` is the JSON file
+/// than the edge length (%), its smallest thickness (mm; 0 where nothing is thinner), volume in the prepared map and of
+/// the mesh (mm^3), and the largest distances from map to mesh and from mesh to map (mm). `reportFile` is the JSON file
 /// of SimplexMesherCLI; throws InputError if it isn't one.
 void fillTissueTable(const std::string& reportFile, vtkMRMLModelNode* surface, vtkMRMLTableNode* table);
 

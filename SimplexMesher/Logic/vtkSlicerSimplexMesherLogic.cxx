@@ -326,6 +326,7 @@ bool vtkSlicerSimplexMesherLogic::Prepare(vtkMRMLSimplexMesherNode* parameters)
   };
   setInput("labelMap", map.labelMap);
   setInput("names", map.colors);
+  this->Run->SetParameter("nullDisplacementLabels", nullDisplacementLabels(tissueTable(tissueMap)));
   setInput("tissues", settingsTable(parameters, tissues, map.labelMap->GetImageData()));
   if (parameters->GetUseScale()) setInput("scale", copyForRun(parameters->GetScalarVolumeNode(Node::ScaleRole())));
   else this->Run->SetParameter("edgeLength", parameters->GetEdgeLength());

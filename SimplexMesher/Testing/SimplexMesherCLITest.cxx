@@ -530,6 +530,22 @@ TEST_F(SimplexMesherCLI, LeavesNothingWhenKilled)
     "--edgeLength 1 --preparedLabelMap p.nrrd --ambient a.vtu --report r.json large.nrrd s.vtp", "coarsening");
 }
 
+// B1, issue item 2: no name makes a tissue null displacement; a label does, where the format of the map keeps no mark.
+TEST_F(SimplexMesherCLI, Trial_B01_WhatIsHeldStillIsSaidByItsLabelNotByItsName)
+{
+  folder.write("names.ctbl", "1 null_displacement 1 2 3 255\n7 skin 4 5 6 255\n");
+  expectDone("--edgeLength 2 --names names.ctbl map.nrrd s.vtp");
+  for (const auto& [label, tissue] : readSurface(folder.file("s.vtp")).tissues)
+    EXPECT_FALSE(tissue.isNullDisplacement) << label;
+  expectDone("--edgeLength 2 --names names.ctbl --nullDisplacementLabels 7 map.nrrd t.vtp");
+  for (const auto& [label, tissue] : readSurface(folder.file("t.vtp")).tissues)
+    EXPECT_EQ(tissue.isNullDisplacement, label == 7) << label;
+  const Outcome absent = run("--edgeLength 2 --nullDisplacementLabels 9 map.nrrd u.vtp");
+  EXPECT_EQ(absent.status, 0);
+  EXPECT_NE(absent.err.find("warning: --nullDisplacementLabels: no voxel of label 9"), std::string::npos) << absent.err;
+  expectRefused("--edgeLength 2 --nullDisplacementLabels bone map.nrrd v.vtp", 2, "expected labels from 1 to 65535");
+}
+
 TEST_F(SimplexMesherCLI, Trial_B02_TissueSurfacesReplaceNothing)
 {
   expectRefused("--edgeLength 2 --tissueSurfaces x.vtm map.nrrd x-1.vtp", 2, "which is an output of surface");

@@ -82,17 +82,27 @@ void addHidden(vtkMRMLScene* scene, vtkMRMLNode* node)
   scene->AddNode(node);
 }
 
-/// A volume node with its display node, both hidden.
+/// A volume node with its display node, both hidden. It has its voxels before anything in the scene can ask for them.
 template <typename Volume, typename Display>
-vtkSmartPointer<Volume> addHiddenVolume(vtkMRMLScene* scene, const char* name)
+vtkSmartPointer<Volume> addHiddenVolume(vtkMRMLScene* scene, const char* name, const Grid& grid, vtkImageData* image)
 {
-  vtkNew<Display> display;
-  addHidden(scene, display);
   auto volume = vtkSmartPointer<Volume>::New();
   volume->SetName(name);
+  setGrid(volume, grid);
+  volume->SetAndObserveImageData(image);
   addHidden(scene, volume);
+  vtkNew<Display> display;
+  addHidden(scene, display);
   volume->SetAndObserveDisplayNodeID(display->GetID());
   return volume;
+}
+
+void setVoxels(vtkMRMLVolumeNode* volume, const Grid& grid, vtkImageData* image)
+{
+  const int wasModifying = volume->StartModify();
+  setGrid(volume, grid);
+  volume->SetAndObserveImageData(image);
+  volume->EndModify(wasModifying);
 }
 
 void removeVolume(vtkMRMLVolumeNode* node)
@@ -214,13 +224,11 @@ void ScalePreview::show(vtkMRMLSurgicalPathScaleNode* parameters)
 void ScalePreview::showScale(vtkMRMLScene* scene, const ScaleField& scale)
 {
   if (m_Scale && m_Scale->GetScene() != scene) this->hide();
-  if (!m_Scale)
-    m_Scale =
-      addHiddenVolume<vtkMRMLScalarVolumeNode, vtkMRMLScalarVolumeDisplayNode>(scene, "Preview of edge lengths");
-  const int wasModifying = m_Scale->StartModify();
-  setGrid(m_Scale, scale.grid);
-  m_Scale->SetAndObserveImageData(makeImage<vtkFloatArray>(scale.grid, scale.lengths));
-  m_Scale->EndModify(wasModifying);
+  const vtkSmartPointer<vtkImageData> image = makeImage<vtkFloatArray>(scale.grid, scale.lengths);
+  if (m_Scale) setVoxels(m_Scale, scale.grid, image);
+  else
+    m_Scale = addHiddenVolume<vtkMRMLScalarVolumeNode, vtkMRMLScalarVolumeDisplayNode>(scene, "Preview of edge lengths",
+                                                                                       scale.grid, image);
   const auto extremes = std::minmax_element(scale.lengths.begin(), scale.lengths.end());
   setScaleColors(m_Scale, *extremes.first, *extremes.second);
 }
@@ -235,22 +243,21 @@ void ScalePreview::showNullDisplacement(vtkMRMLSurgicalPathScaleNode* parameters
   std::transform(thin.labels.begin(), thin.labels.end(), isHeld.begin(),
                  [&](Label label) { return static_cast<unsigned char>(held.voxelCount > 0 && label == held.label); });
 
-  vtkMRMLScene* scene = parameters->GetScene();
-  if (!m_NullDisplacement)
+  const vtkSmartPointer<vtkImageData> image = makeImage<vtkUnsignedCharArray>(thin.grid, isHeld);
+  if (m_NullDisplacement)
   {
-    m_NullDisplacement = addHiddenVolume<vtkMRMLLabelMapVolumeNode, vtkMRMLLabelMapVolumeDisplayNode>(
-      scene, "Preview of null displacement");
-    vtkNew<vtkMRMLColorTableNode> colors;
-    colors->SetName("Preview of null displacement");
-    colors->SetTypeToUser();
-    fillColorTable({ { Label(1), Tissue{ "null displacement", { 0.45, 0.55, 0.75 } } } }, colors);
-    addHidden(scene, colors);
-    m_NullDisplacement->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
+    setVoxels(m_NullDisplacement, thin.grid, image);
+    return;
   }
-  const int wasModifying = m_NullDisplacement->StartModify();
-  setGrid(m_NullDisplacement, thin.grid);
-  m_NullDisplacement->SetAndObserveImageData(makeImage<vtkUnsignedCharArray>(thin.grid, isHeld));
-  m_NullDisplacement->EndModify(wasModifying);
+  vtkMRMLScene* scene = parameters->GetScene();
+  m_NullDisplacement = addHiddenVolume<vtkMRMLLabelMapVolumeNode, vtkMRMLLabelMapVolumeDisplayNode>(
+    scene, "Preview of null displacement", thin.grid, image);
+  vtkNew<vtkMRMLColorTableNode> colors;
+  colors->SetName("Preview of null displacement");
+  colors->SetTypeToUser();
+  fillColorTable({ { Label(1), Tissue{ "null displacement", { 0.45, 0.55, 0.75 } } } }, colors);
+  addHidden(scene, colors);
+  m_NullDisplacement->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
 }
 
 /// The views are remembered when the first overlay comes, and views that come later when it is their turn.

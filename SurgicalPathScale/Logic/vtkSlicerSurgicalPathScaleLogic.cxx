@@ -18,10 +18,12 @@
 #include <vtkMRMLScene.h>
 
 #include <vtkCallbackCommand.h>
+#include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
 #include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
+#include <vtkPointData.h>
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
@@ -49,17 +51,6 @@ vtkMRMLColorTableNode* colorTableOf(vtkMRMLLabelMapVolumeNode* volume)
   return colors;
 }
 
-vtkMRMLVolumeNode* addOutput(vtkMRMLSurgicalPathScaleNode* parameters, const char* role, const char* className,
-                             const std::string& what)
-{
-  vtkMRMLScene* scene = parameters->GetScene();
-  vtkMRMLNode* map = parameters->GetNodeReference(Node::TissueMapRole());
-  const std::string name = (map ? map->GetName() + std::string(" ") : std::string()) + what;
-  vtkMRMLNode* node = scene->AddNewNodeByClass(className, scene->GenerateUniqueName(name));
-  parameters->SetNode(role, node);
-  return vtkMRMLVolumeNode::SafeDownCast(node);
-}
-
 /// Voxels and where they lie, in the world.
 void takeVoxels(vtkMRMLVolumeNode* to, vtkMRMLVolumeNode* from)
 {
@@ -69,8 +60,33 @@ void takeVoxels(vtkMRMLVolumeNode* to, vtkMRMLVolumeNode* from)
   to->SetAndObserveTransformNodeID(nullptr);
   to->SetIJKToRASMatrix(matrix);
   to->SetAndObserveImageData(from->GetImageData());
-  to->CreateDefaultDisplayNodes();
   to->EndModify(wasModifying);
+}
+
+/// A node for the user, which has its voxels before it enters the scene, where others look at it.
+vtkMRMLVolumeNode* addOutput(vtkMRMLSurgicalPathScaleNode* parameters, const char* role, vtkMRMLVolumeNode* result,
+                             const std::string& what)
+{
+  vtkMRMLScene* scene = parameters->GetScene();
+  vtkMRMLNode* map = parameters->GetNodeReference(Node::TissueMapRole());
+  const std::string name = (map ? map->GetName() + std::string(" ") : std::string()) + what;
+  const auto node = vtkSmartPointer<vtkMRMLVolumeNode>::Take(
+    vtkMRMLVolumeNode::SafeDownCast(scene->CreateNodeByClass(result->GetClassName())));
+  node->SetName(scene->GenerateUniqueName(name).c_str());
+  takeVoxels(node, result);
+  scene->AddNode(node);
+  parameters->SetNode(role, node);
+  return node;
+}
+
+/// What a hidden node holds until the host reads the module's output into it: without any, its display complains.
+vtkSmartPointer<vtkImageData> oneVoxel()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(1, 1, 1);
+  image->AllocateScalars(VTK_SHORT, 1);
+  image->GetPointData()->GetScalars()->Fill(0);
+  return image;
 }
 
 double countOf(const std::string& text) { return text.empty() ? -1 : std::strtod(text.c_str(), nullptr); }
@@ -242,12 +258,15 @@ void vtkSlicerSurgicalPathScaleLogic::PrepareFocus(vtkMRMLSurgicalPathScaleNode*
 
 void vtkSlicerSurgicalPathScaleLogic::PrepareOutputs(vtkMRMLSurgicalPathScaleNode* parameters)
 {
+  this->NotRead = oneVoxel();
   this->ScaleResult = vtkSmartPointer<vtkMRMLScalarVolumeNode>::New();
+  this->ScaleResult->SetAndObserveImageData(this->NotRead);
   this->Run->AddTemporaryNode(this->ScaleResult);
   this->Run->SetParameterNode("scale", this->ScaleResult);
   this->LabelMapResult = nullptr;
   if (!parameters->WantsNullDisplacement()) return;
   this->LabelMapResult = vtkSmartPointer<vtkMRMLLabelMapVolumeNode>::New();
+  this->LabelMapResult->SetAndObserveImageData(this->NotRead);
   this->Run->AddTemporaryNode(this->LabelMapResult);
   this->Run->SetParameterNode("outputLabelMap", this->LabelMapResult);
   this->Run->SetParameter("nullDisplacementRadius", parameters->GetNullDisplacementRadius());
@@ -262,20 +281,24 @@ void vtkSlicerSurgicalPathScaleLogic::FinishRun()
   vtkMRMLSurgicalPathScaleNode* parameters = this->Parameters;
   if (parameters && parameters->GetScene() && this->Run->GetStatus() == vtkSurgicalMesherRun::Completed)
   {
-    if (this->ScaleResult->GetImageData()) this->FinishScale(parameters);
-    if (this->LabelMapResult && this->LabelMapResult->GetImageData()) this->FinishLabelMap(parameters);
+    const auto isRead = [this](vtkMRMLVolumeNode* node)
+    { return node && node->GetImageData() && node->GetImageData() != this->NotRead; };
+    if (isRead(this->ScaleResult)) this->FinishScale(parameters);
+    if (isRead(this->LabelMapResult)) this->FinishLabelMap(parameters);
   }
   this->ScaleResult = nullptr;
   this->LabelMapResult = nullptr;
+  this->NotRead = nullptr;
 }
 
 void vtkSlicerSurgicalPathScaleLogic::FinishScale(vtkMRMLSurgicalPathScaleNode* parameters)
 {
   vtkMRMLVolumeNode* volume = parameters->GetScalarVolumeNode(Node::ScaleRole());
-  if (!volume)
-    volume = addOutput(parameters, Node::ScaleRole(), "vtkMRMLScalarVolumeNode",
+  if (volume) takeVoxels(volume, this->ScaleResult);
+  else
+    volume = addOutput(parameters, Node::ScaleRole(), this->ScaleResult,
                        vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "edge lengths"));
-  takeVoxels(volume, this->ScaleResult);
+  volume->CreateDefaultDisplayNodes();
   double range[2];
   volume->GetImageData()->GetScalarRange(range);
   setScaleColors(parameters->GetScalarVolumeNode(Node::ScaleRole()), range[0], range[1]);
@@ -284,13 +307,12 @@ void vtkSlicerSurgicalPathScaleLogic::FinishScale(vtkMRMLSurgicalPathScaleNode* 
 /// The file that the module writes has names and colours, but the host reads them from segmentations only.
 void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  if (!parameters->GetLabelMapNode(Node::OutputLabelMapRole()))
-  {
-    addOutput(parameters, Node::OutputLabelMapRole(), "vtkMRMLLabelMapVolumeNode",
+  if (parameters->GetLabelMapNode(Node::OutputLabelMapRole()))
+    takeVoxels(parameters->GetLabelMapNode(Node::OutputLabelMapRole()), this->LabelMapResult);
+  else
+    addOutput(parameters, Node::OutputLabelMapRole(), this->LabelMapResult,
               vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "null displacement"));
-  }
   vtkMRMLLabelMapVolumeNode* labelMap = parameters->GetLabelMapNode(Node::OutputLabelMapRole());
-  takeVoxels(labelMap, this->LabelMapResult);
   TissueTable table = tissueTable(parameters->GetNodeReference(Node::TissueMapRole()));
   try
   {
@@ -299,14 +321,16 @@ void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNod
     const std::vector<Label> now = presentLabels(readTissueMap(labelMap));
     for (Label label : now)
     {
-      if (!std::binary_search(old.begin(), old.end(), label))
-        table[label] = Tissue{ "null displacement", { 0.45, 0.55, 0.75 } };
+      if (std::binary_search(old.begin(), old.end(), label)) continue;
+      table[label] = Tissue{ "null displacement", { 0.45, 0.55, 0.75 } };
+      table[label].isNullDisplacement = true;
     }
   }
   catch (const Error&)
   {
     // The input has gone or changed meanwhile: the names that are known will do.
   }
+  keepNullDisplacement(labelMap, table);
   vtkMRMLColorTableNode* colors = colorTableOf(labelMap);
   fillColorTable(table, colors);
   labelMap->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());

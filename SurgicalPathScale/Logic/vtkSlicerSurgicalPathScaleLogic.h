@@ -16,6 +16,7 @@
 #include <string>
 
 class vtkCallbackCommand;
+class vtkImageData;
 class vtkMRMLLabelMapVolumeNode;
 class vtkMRMLScalarVolumeNode;
 class vtkMRMLSurgicalPathScaleNode;
@@ -126,5 +127,6 @@ private:
   // hidden ones.
   vtkSmartPointer<vtkMRMLScalarVolumeNode> ScaleResult;
   vtkSmartPointer<vtkMRMLLabelMapVolumeNode> LabelMapResult; ///< null if it isn't wanted
+  vtkSmartPointer<vtkImageData> NotRead;                     ///< of both, until the host has read into them
   std::unique_ptr<surgicalmesher::ScalePreview> Preview;
 };

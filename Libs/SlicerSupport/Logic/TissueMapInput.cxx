@@ -28,6 +28,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <sstream>
 
 namespace surgicalmesher
 {
@@ -36,6 +38,8 @@ namespace
 {
 
 constexpr int largestLabel = 65535;
+constexpr const char* heldLabels = "SurgicalMesher.NullDisplacementLabels"; // attribute of a label map
+constexpr const char* roleTag = "SurgicalMesher.Role";                      // of a segment
 
 //--- Segmentations ----------------------------------------------------------
 
@@ -282,6 +286,13 @@ TissueTable colorTableOf(vtkMRMLLabelMapVolumeNode* volume)
     std::copy_n(rgba, 3, tissue.color.begin());
     table[Label(label)] = tissue;
   }
+  const char* held = volume->GetAttribute(heldLabels);
+  std::istringstream labels(held ? held : "");
+  for (std::string word; std::getline(labels, word, ',');)
+  {
+    const long label = std::strtol(word.c_str(), nullptr, 10);
+    if (label > 0 && label <= largestLabel) table[Label(label)].isNullDisplacement = true;
+  }
   return table;
 }
 
@@ -422,9 +433,25 @@ TissueTable tissueTable(vtkMRMLNode* input)
     Tissue tissue;
     tissue.name = segment->GetName() ? segment->GetName() : "";
     std::copy_n(segment->GetColor(), 3, tissue.color.begin());
+    std::string role;
+    tissue.isNullDisplacement = segment->GetTag(roleTag, role) && role == "null displacement";
     table[Label(n + 1)] = tissue;
   }
   return table;
+}
+
+void keepNullDisplacement(vtkMRMLLabelMapVolumeNode* labelMap, const TissueTable& table)
+{
+  const std::string labels = nullDisplacementLabels(table);
+  labelMap->SetAttribute(heldLabels, labels.empty() ? nullptr : labels.c_str());
+}
+
+std::string nullDisplacementLabels(const TissueTable& table)
+{
+  std::string labels;
+  for (const auto& [label, tissue] : table)
+    if (tissue.isNullDisplacement) labels += (labels.empty() ? "" : ",") + std::to_string(label);
+  return labels;
 }
 
 TissueMap readTissueMap(vtkMRMLNode* input)

@@ -9,6 +9,8 @@
 #include <vtkSmartPointer.h>
 #include <vtkType.h>
 
+#include <string>
+
 class vtkMRMLColorTableNode;
 class vtkMRMLLabelMapVolumeNode;
 class vtkMRMLNode;
@@ -54,8 +56,17 @@ struct TissueMapNodes
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT TissueMapNodes makeTissueMapNodes(vtkMRMLNode* input);
 
 /// Names and colours by label as makeTissueMapNodes would give them, without exporting anything: for a segmentation all
-/// segments, for a label map the entries of its colour table.
+/// segments, for a label map the entries of its colour table. What is null displacement, a segment's tag says, or what
+/// keepNullDisplacement() has noted.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT TissueTable tissueTable(vtkMRMLNode* input);
+
+/// Notes on `labelMap`, to be saved with the scene, which of its labels are null displacement: colour tables carry
+/// nothing but names.
+VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void keepNullDisplacement(vtkMRMLLabelMapVolumeNode* labelMap,
+                                                                  const TissueTable& table);
+
+/// The labels that are null displacement, as SimplexMesherCLI takes them: "3,7".
+VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT std::string nullDisplacementLabels(const TissueTable& table);
 
 /// The map itself for work inside the host's process, in LPS, with its axes in the order in which readTissueMap brings
 /// those of a file. Throws InputError with a sentence if checkTissueMap or the voxels have a problem.

@@ -381,6 +381,14 @@ void vtkSurgicalMesherRun::Cancel()
 
 vtkSurgicalMesherRun::Status vtkSurgicalMesherRun::GetStatus() const { return this->Private->CurrentStatus; }
 
+bool vtkSurgicalMesherRun::IsStarting() const
+{
+  const Internal& d = *this->Private;
+  if (!this->IsBusy() || d.Fence->Ended) return false;
+  const int status = d.NodeStatus();
+  return status == vtkMRMLCommandLineModuleNode::Scheduled || status == vtkMRMLCommandLineModuleNode::Cancelling;
+}
+
 std::string vtkSurgicalMesherRun::GetErrorText() const { return this->Private->ErrorText; }
 
 void vtkSurgicalMesherRun::SetErrorText(const std::string& text) { this->Private->ErrorText = text; }

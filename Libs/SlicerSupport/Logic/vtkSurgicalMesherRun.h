@@ -84,6 +84,9 @@ public:
 
   Status GetStatus() const;
   bool IsBusy() const { return this->GetStatus() == Running; }
+  /// Busy, and the process has not begun: the host's thread looks for the nodes in the scene and writes them to files.
+  /// Its look-ups are not guarded: the scene should neither gain nor lose a node meanwhile.
+  bool IsStarting() const;
   /// Why the run failed: the module's own line on stderr, with the names of nodes for the host's files; empty
   /// otherwise.
   std::string GetErrorText() const;

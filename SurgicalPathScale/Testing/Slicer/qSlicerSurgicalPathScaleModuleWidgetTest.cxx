@@ -88,7 +88,9 @@ struct Panel
   }
   bool waitForProcess() const
   {
-    return host.waitUntil([this] { return !run->IsBusy() || run->GetElapsedSeconds() > 0.6; });
+    return host.waitUntil(
+      [this]
+      { return !run->IsBusy() || run->GetCommandLineNode()->GetStatus() == vtkMRMLCommandLineModuleNode::Running; });
   }
 };
 
@@ -206,6 +208,7 @@ int checkApply(const Panel& panel)
   vtkMRMLColorNode* colors = held->GetDisplayNode()->GetColorNode();
   CHECK_STRING(colors->GetColorName(1), "tumour");
   CHECK_STRING(colors->GetColorName(3), "null displacement");
+  CHECK_BOOL(readTissueMap(held).table.at(3).isNullDisplacement, true);
   CHECK_BOOL(panel.sentence().find("triangles") != std::string::npos, true);
   CHECK_STD_STRING(
     nodes.leftovers({ "vtkMRMLScalarVolumeNode", "vtkMRMLScalarVolumeDisplayNode", "vtkMRMLLabelMapVolumeNode",
