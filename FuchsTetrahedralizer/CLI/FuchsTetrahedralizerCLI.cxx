@@ -212,10 +212,12 @@ void mesh(CommandLine& line)
   writeChildAndParent(line, result.content);
   writeExports(line, result.content, model);
   const MeshQuality quality = assessQuality(result.content.mesh, result.content.subMesh, lengths.inWorld);
+  const std::map<Label, ExplicitStep> steps = explicitSteps(result.content, model.materials);
+  MeshReport figures{ result, quality, steps, {}, fromBackground, line.warnings() };
+  if (line.flag("conditioning")) figures.conditioning = stiffnessConditioning(result.content.mesh);
   const std::string reportFile = line.outputFile("report");
-  if (!reportFile.empty())
-    writeBytes(reportJson({ result, quality, fromBackground, line.flag("conditioning"), line.warnings() }), reportFile);
-  line.message(summaryOf(quality.whole));
+  if (!reportFile.empty()) writeBytes(reportJson(figures), reportFile);
+  line.message(summaryOf(figures));
   returnFigures(line, quality.whole);
   report(progress, 1, "done");
 }

@@ -4,7 +4,7 @@
 #include "JsonMember.h"
 #include "MeshChecks.h"
 #include "PrintableText.h"
-#include "StiffnessConditioning.h"
+#include "SolverReport.h"
 
 #include <rapidjson/document.h>
 #include <rapidjson/prettywriter.h>
@@ -43,14 +43,12 @@ void writeTopology(JsonWriter& json, const TetMesh& mesh)
                });
 }
 
-rapidjson::Value stiffnessJSON(const StiffnessConditioning& conditioning, rapidjson::Document::AllocatorType& allocator)
+/// The JSON object `text` as a member.
+void addMember(rapidjson::Document& object, const char* key, const std::string& text)
 {
-  rapidjson::Value stiffness(rapidjson::kObjectType);
-  stiffness.AddMember("unknowns", rapidjson::Value(std::uint64_t(conditioning.unknowns)), allocator);
-  stiffness.AddMember("converged", rapidjson::Value(conditioning.converged), allocator);
-  stiffness.AddMember("conditionNumber", rapidjson::Value(conditioning.condition), allocator);
-  stiffness.AddMember("iterations", rapidjson::Value(conditioning.iterations), allocator);
-  return stiffness;
+  rapidjson::Document member(&object.GetAllocator());
+  member.Parse(text.c_str());
+  object.AddMember(rapidjson::StringRef(key), member, object.GetAllocator());
 }
 
 } // namespace
@@ -67,11 +65,8 @@ std::string reportJson(const MeshReport& report)
   json.Key("quality");
   rapidjson::Document members;
   members.Parse(qualityJSON(report.quality, content.tissues).c_str());
-  if (report.withConditioning)
-  {
-    auto& allocator = members.GetAllocator();
-    members.AddMember("stiffness", stiffnessJSON(stiffnessConditioning(content.mesh), allocator), allocator);
-  }
+  addMember(members, "explicit", explicitJSON(content, report.steps));
+  if (report.conditioning) addMember(members, "stiffness", stiffnessJSON(*report.conditioning, content.tissues));
   members.Accept(json);
   json.Key("warnings");
   json.StartArray();
@@ -81,13 +76,16 @@ std::string reportJson(const MeshReport& report)
   return std::string(buffer.GetString()) + "\n";
 }
 
-std::string summaryOf(const QualityGroup& whole)
+std::string summaryOf(const MeshReport& report)
 {
+  const QualityGroup& whole = report.quality.whole;
   std::ostringstream text;
   text.precision(4);
   text << whole.tetrahedra << " tetrahedra, " << whole.points << " points, dihedral angles " << whole.dihedral.minimum
        << " to " << whole.dihedral.maximum << " degrees, " << 100 * whole.edgesNearTarget
-       << " % of edges within 0.7 to 1.4 of their target";
+       << " % of edges within 0.7 to 1.4 of their target, least height " << whole.height.minimum
+       << " mm, explicit step " << smallestStep(report.steps) << " s";
+  if (report.conditioning) text << "; " << summaryOf(*report.conditioning);
   return text.str();
 }
 

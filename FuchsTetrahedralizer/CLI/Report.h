@@ -2,9 +2,13 @@
 #pragma once
 /// What a run of the volume stage made: JSON, and a line for the terminal.
 
+#include "ExplicitStep.h"
 #include "MeshQuality.h"
+#include "StiffnessConditioning.h"
 #include "Tetrahedralizer.h"
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,14 +19,15 @@ struct MeshReport
 {
   const FiniteElementMesh& mesh;
   const MeshQuality& quality;
-  bool fromBackground;   ///< tetrahedra, not from the surface alone
-  bool withConditioning; ///< of the stiffness matrix (stiffnessConditioning), which takes its time
+  const std::map<Label, ExplicitStep>& steps;
+  std::optional<StiffnessConditioning> conditioning; ///< it takes its time
+  bool fromBackground;                               ///< tetrahedra, not from the surface alone
   std::vector<std::string> warnings;
 };
 
 std::string reportJson(const MeshReport& report);
 
-/// Tetrahedra, points, angles and lengths in one sentence.
-std::string summaryOf(const QualityGroup& whole);
+/// Tetrahedra, points, angles, lengths and what solvers feel in one sentence.
+std::string summaryOf(const MeshReport& report);
 
 } // namespace surgicalmesher

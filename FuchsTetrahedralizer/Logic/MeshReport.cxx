@@ -98,6 +98,7 @@ constexpr Column columns[] = {
   { "mean radius ratio",       "radiusRatio",       "mean",    1 },
   { "min scaled Jacobian",     "scaledJacobian",    "minimum", 1 },
   { "min volume (mm^3)",       "tetrahedronVolume", "minimum", 1 },
+  { "min height (mm)",         "height",            "minimum", 1 },
   { "mean edge/target",        "edgeOverTarget",    "mean",    1 },
   { "edges near target (%)",   "edgesNearTarget",   nullptr,   100 },
   { "median valence",          "valence",           "median",  1 },

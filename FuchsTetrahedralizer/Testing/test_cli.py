@@ -227,8 +227,25 @@ class FuchsTetrahedralizer(unittest.TestCase):
         # Chebyshev's bound on conjugate gradients, in a norm that differs from the residual's by the condition at most.
         bound = 0.5 * stiffness["conditionNumber"]**0.5 * math.log(2e8 * stiffness["conditionNumber"])
         self.assertTrue(10 < stiffness["iterations"] <= bound, stiffness)
+        self.assertAlmostEqual(stiffness["iterations"], stiffness["iterationsPerCubeRoot"] * stiffness["unknowns"]**(1 / 3))
+        self.assertEqual(stiffness["localModes"], [])
         os.remove(self.mesh)
         self.refused(2, "--report", "--edgeLength", "3", "--conditioning", surface)
+
+    def test_reports_explicit_steps(self):
+        surface = write(together(label(sphere(10), 1, 0), label(sphere(4, 20), 2, 0)), "surface.vtp")
+        report = self.filled("--edgeLength", "3", surface)["quality"]
+        explicit = report["explicit"]
+        steps = {tissue["label"]: tissue["step"] for tissue in explicit["tissues"]}
+        self.assertEqual(explicit["step"], min(steps.values()))
+        self.assertEqual(explicit["smallest"][0]["height"], report["whole"]["height"]["minimum"])
+        self.assertEqual(len(explicit["smallest"]), 100)
+        with open(os.path.join(FOLDER, "materials.csv"), "w", encoding="utf-8") as file:
+            file.write("tissue, youngsModulus, poissonsRatio\n1, 300, 0.45\n")
+        stiff = self.filled("--edgeLength", "3", "--materials", os.path.join(FOLDER, "materials.csv"), surface)
+        with_stiff = {tissue["label"]: tissue["step"] for tissue in stiff["quality"]["explicit"]["tissues"]}
+        self.assertAlmostEqual(with_stiff[1] / steps[1], 0.1)
+        self.assertAlmostEqual(with_stiff[2] / steps[2], 1)
 
     def test_shows_the_triangles_it_refuses(self):
         crossing = together(label(sphere(5), 1, 0), label(sphere(5, 6), 2, 0))

@@ -10,8 +10,6 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr std::int32_t kLinear = 0, kNonlinear = 1, kNullDisplacement = 2;
-
 /// `atTarget` 0 is `atEntry`.
 bool isInTube(const Vec3& x, const std::vector<Path>& paths, double atEntry, double atTarget)
 {

@@ -11,6 +11,9 @@
 namespace surgicalmesher
 {
 
+/// Constitutive classes, as MeshFile::constitutive has them.
+constexpr std::int32_t kLinear = 0, kNonlinear = 1, kNullDisplacement = 2;
+
 struct ConstitutiveRule : Focus
 {
   double nonlinearDistance = 0; ///< mm from a target or path; 0: classes stay as they are

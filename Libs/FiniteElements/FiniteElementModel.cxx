@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FiniteElementModel.h"
 
+#include "ConstitutiveTags.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
 #include "SetNames.h"
@@ -16,7 +17,6 @@ namespace
 {
 
 constexpr std::size_t kHalfName = 34; ///< of two names joined into one
-constexpr std::int32_t kNonlinear = 1, kNullDisplacement = 2;
 
 using Ids = std::vector<std::int32_t>;
 

@@ -28,7 +28,7 @@ constexpr double kDegrees = 57.295779513082321;
 struct Samples
 {
   std::size_t points = 0;
-  std::vector<double> dihedral, minimumDihedral, radiusRatio, scaledJacobian, volume, edgeOverTarget, valence;
+  std::vector<double> dihedral, minimumDihedral, radiusRatio, scaledJacobian, volume, height, edgeOverTarget, valence;
 };
 
 /// Label at each point if all tetrahedra around it have it and it is not on the hull of the mesh, else -1.
@@ -136,7 +136,7 @@ Edges edgesOf(const TetMesh& mesh)
 struct TetrahedronMeasures
 {
   std::array<double, 6> dihedral;
-  double minimumDihedral, radiusRatio, scaledJacobian, volume;
+  double minimumDihedral, radiusRatio, scaledJacobian, volume, height;
 };
 
 TetrahedronMeasures measuresOf(const TetMesh& mesh, std::size_t t)
@@ -144,8 +144,12 @@ TetrahedronMeasures measuresOf(const TetMesh& mesh, std::size_t t)
   const auto& ids = mesh.tetrahedra[t];
   const Vec3 &a = mesh.points[ids[0]], &b = mesh.points[ids[1]], &c = mesh.points[ids[2]], &d = mesh.points[ids[3]];
   const std::array<double, 6> angles = dihedralAngles(a, b, c, d);
-  return { angles, *std::min_element(angles.begin(), angles.end()), radiusRatio(a, b, c, d), scaledJacobian(a, b, c, d),
-           orient(a, b, c, d) / 6 };
+  return { angles,
+           *std::min_element(angles.begin(), angles.end()),
+           radiusRatio(a, b, c, d),
+           scaledJacobian(a, b, c, d),
+           orient(a, b, c, d) / 6,
+           leastHeight(a, b, c, d) };
 }
 
 /// What every group is assessed from, found once.
@@ -206,6 +210,7 @@ Samples samplesOf(const Context& context, const std::vector<std::int32_t>& tetra
     samples.radiusRatio.push_back(m.radiusRatio);
     samples.scaledJacobian.push_back(m.scaledJacobian);
     samples.volume.push_back(m.volume);
+    samples.height.push_back(m.height);
   }
   const std::vector<std::int32_t> uses = usesOf(context.mesh, tetrahedra);
   for (std::size_t id = 0; id < uses.size(); ++id)
@@ -228,6 +233,7 @@ QualityGroup groupOf(const std::vector<std::int32_t>& tetrahedra, const Samples&
   group.radiusRatio = distributionOf(samples.radiusRatio);
   group.scaledJacobian = distributionOf(samples.scaledJacobian);
   group.tetrahedronVolume = distributionOf(samples.volume);
+  group.height = distributionOf(samples.height);
   group.edgeOverTarget = distributionOf(samples.edgeOverTarget);
   group.valence = distributionOf(samples.valence);
   const auto near = std::count_if(samples.edgeOverTarget.begin(), samples.edgeOverTarget.end(),
@@ -287,6 +293,7 @@ void writeMembers(Writer& writer, const QualityGroup& group)
   write(writer, "radiusRatio", group.radiusRatio);
   write(writer, "scaledJacobian", group.scaledJacobian);
   write(writer, "tetrahedronVolume", group.tetrahedronVolume);
+  write(writer, "height", group.height);
   write(writer, "edgeOverTarget", group.edgeOverTarget);
   writeMember(writer, "edgesNearTarget", group.edgesNearTarget);
   write(writer, "valence", group.valence);
@@ -336,6 +343,14 @@ double scaledJacobian(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
                cd = norm(d - c);
   const double largest = std::max({ ab * ac * ad, ab * bc * bd, ac * bc * cd, ad * bd * cd });
   return largest > 0 ? std::sqrt(2.0) * orient(a, b, c, d) / largest : 0;
+}
+
+double leastHeight(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  const double most = std::max(
+    { squaredNorm(cross(u, v)), squaredNorm(cross(v, w)), squaredNorm(cross(w, u)), squaredNorm(cross(v - u, w - u)) });
+  return most > 0 ? std::abs(dot(cross(u, v), w)) / std::sqrt(most) : 0;
 }
 
 Distribution distributionOf(std::vector<double> values)

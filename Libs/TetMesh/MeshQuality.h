@@ -24,6 +24,9 @@ double radiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 /// Verdict). Regular: 1.
 double scaledJacobian(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
+/// The least of the four heights; 0 if flat.
+double leastHeight(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
 /// All zero if there are no values.
 struct Distribution
 {
@@ -52,6 +55,7 @@ struct QualityGroup
   Distribution radiusRatio;
   Distribution scaledJacobian;
   Distribution tetrahedronVolume; ///< mm^3
+  Distribution height;            ///< mm, the least of each tetrahedron
   Distribution edgeOverTarget;    ///< each edge once; empty if there is no target
   double edgesNearTarget = 0;     ///< share of edges between 0.7 and 1.4 times their target
   Distribution valence;           ///< tetrahedra at each point around which all are of the group and of one tissue

@@ -89,8 +89,8 @@ std::vector<std::vector<double>> scaledStiffness(const TetMesh& mesh, std::size_
   return k;
 }
 
-/// Largest over smallest eigenvalue.
-double conditionOf(std::vector<std::vector<double>> matrix)
+/// Descending.
+std::vector<double> eigenvaluesOf(std::vector<std::vector<double>> matrix)
 {
   const std::size_t n = matrix.size();
   std::vector<std::vector<double>> vectors(n, std::vector<double>(n));
@@ -98,7 +98,7 @@ double conditionOf(std::vector<std::vector<double>> matrix)
   for (std::size_t i = 0; i < n; ++i) rows[i] = matrix[i].data(), vectorRows[i] = vectors[i].data();
   std::vector<double> values(n);
   vtkMath::JacobiN(rows.data(), static_cast<int>(n), values.data(), vectorRows.data());
-  return values.front() / values.back();
+  return values;
 }
 
 } // namespace
@@ -119,8 +119,11 @@ TEST(StiffnessConditioning, IsThatOfTheDenseMatrix)
     const StiffnessConditioning found = stiffnessConditioning(mesh);
     EXPECT_TRUE(found.converged);
     EXPECT_EQ(found.unknowns, 3 * (mesh.points.size() - held));
-    const double expected = conditionOf(scaledStiffness(mesh, held));
-    EXPECT_NEAR(found.condition, expected, 1e-4 * expected);
+    const std::vector<double> expected = eigenvaluesOf(scaledStiffness(mesh, held));
+    EXPECT_NEAR(found.largestEigenvalue, expected.front(), 1e-6 * expected.front());
+    EXPECT_NEAR(found.smallestEigenvalue, expected.back(), 1e-4 * expected.back());
+    EXPECT_EQ(found.condition, found.largestEigenvalue / found.smallestEigenvalue);
+    EXPECT_NEAR(found.iterationsPerCubeRoot * std::cbrt(double(found.unknowns)), found.iterations, 1e-6);
     EXPECT_GT(found.iterations, 5);
     EXPECT_LE(found.iterations, 3 * int(found.unknowns));
   }
@@ -135,6 +138,30 @@ TEST(StiffnessConditioning, DependsOnShapesNotOnSize)
   const StiffnessConditioning slender = stiffnessConditioning(shakenBox({ 5, 4, 18 }, 0.1));
   EXPECT_GT(slender.condition, 3 * fine.condition);
   EXPECT_GT(slender.iterations, fine.iterations);
+}
+
+/// A block of 20 x 20 x 8 voxels, and a strand of one voxel beside the middle of one side.
+TEST(StiffnessConditioning, NamesTheStrandThatSwings)
+{
+  const auto blockWithStrand = [](int length)
+  {
+    return withoutOutside(tetrahedraOf(
+      paintedMap({ 20 + length, 20, 8 }, [](int i, int j, int k) { return i < 20              ? 1
+                                                                          : j == 10 && k == 4 ? 2
+                                                                                              : 0; })));
+  };
+  EXPECT_TRUE(stiffnessConditioning(blockWithStrand(0)).localModes.empty());
+  const TetMesh mesh = blockWithStrand(5);
+  const StiffnessConditioning found = stiffnessConditioning(mesh);
+  ASSERT_FALSE(found.localModes.empty());
+  double end = -1e9;
+  for (const Vec3& p : mesh.points) end = std::max(end, p.x);
+  const LocalMode& lowest = found.localModes.front();
+  EXPECT_EQ(lowest.label, 2);
+  EXPECT_GT(lowest.place.x, end - 5);
+  EXPECT_LT(lowest.place.x, end);
+  EXPECT_LT(lowest.nodeShare, kLocalShare);
+  EXPECT_NEAR(lowest.eigenvalue, found.smallestEigenvalue, 1e-6 * lowest.eigenvalue);
 }
 
 TEST(StiffnessConditioning, HoldsEveryPiece)

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What linear shape functions on a tetrahedron are made of.
+
+#include "FaceAdjacency.h"
+
+namespace surgicalmesher
+{
+
+/// Gradients of the four barycentric coordinates, 1/mm, and the volume, mm^3.
+struct LinearTetrahedron
+{
+  std::array<Vec3, 4> gradients;
+  double volume = 0;
+};
+
+inline LinearTetrahedron linearTetrahedron(const std::array<Vec3, 4>& p)
+{
+  const double sixVolumes = orient(p[0], p[1], p[2], p[3]);
+  LinearTetrahedron result;
+  result.volume = sixVolumes / 6;
+  for (int f = 0; f < 4; ++f)
+  {
+    const auto& [i, j, k] = kFaceCorners[f];
+    result.gradients[f] = cross(p[j] - p[i], p[k] - p[i]) / -sixVolumes;
+  }
+  return result;
+}
+
+inline std::array<Vec3, 4> cornersOf(const TetMesh& mesh, std::size_t t)
+{
+  const auto& [a, b, c, d] = mesh.tetrahedra[t];
+  return { mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d] };
+}
+
+/// Lame's constants, in the unit of Young's modulus.
+struct LameConstants
+{
+  double lambda, mu;
+};
+
+inline LameConstants lameConstants(double youngsModulus, double poissonsRatio)
+{
+  return { youngsModulus * poissonsRatio / ((1 + poissonsRatio) * (1 - 2 * poissonsRatio)),
+           0.5 * youngsModulus / (1 + poissonsRatio) };
+}
+
+} // namespace surgicalmesher
