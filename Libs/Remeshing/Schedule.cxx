@@ -285,6 +285,7 @@ struct VolumeRow
   double splitEdge = 0; ///< 0: no splits
   bool whole = false;
   double worthwhileShare = 0;
+  double height = 0; ///< mm, see HeightOptions; 0: no heights are raised
 };
 
 ConditionalSweep sweepOf(const VolumeRow& row)
@@ -299,6 +300,7 @@ ConditionalSweep sweepOf(const VolumeRow& row)
                                       // Where many are bad, moving together costs more than all the rest.
                                       .together = row.splitEdge > 0 ? 20 : 0,
                                       .passes = row.passes } });
+  if (row.height > 0) stage.passes.push_back(RaiseHeights{ { .height = row.height } });
   return { { "improvement", { stage }, row.whole }, row.worthwhileShare };
 }
 
@@ -324,11 +326,18 @@ std::vector<VolumeRow> repairRows(double t)
   // clang-format on
 }
 
+/// Last, as only then the angles are what they are to be. Across blocks, since the lowest counts, wherever it is.
+VolumeRow heightsRow(double smallestLength)
+{
+  constexpr double share = 0.4; // the lattice has 0.82; more costs angles in lattices of one length
+  return { .tolerance = 4, .whole = true, .worthwhileShare = always, .height = share * smallestLength };
+}
+
 } // namespace
 
 /// No relaxation and no collapses: the lattice has its sizes, and both destroy it. For the same reason polishing spares
 /// its vertices. In the end the surface goes back to its samples as far as angles allow.
-std::vector<ConditionalSweep> sweepsForRawMesh(double t)
+std::vector<ConditionalSweep> sweepsForRawMesh(double t, double smallestLength)
 {
   const PolishingOptions polishing{ .sparesWhole = true };
   const PolishingOptions back{ .goodAngle = 28.4, .fit = 3, .sparesWhole = true };
@@ -341,11 +350,12 @@ std::vector<ConditionalSweep> sweepsForRawMesh(double t)
   });
   rows.push_back({ .rmsLimit = 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always });
   // clang-format on
+  rows.push_back(heightsRow(smallestLength));
   return sweepsOf(rows);
 }
 
 /// The surface gives way only where no angle comes right without.
-std::vector<ConditionalSweep> sweepsForImprovedMesh(double t)
+std::vector<ConditionalSweep> sweepsForImprovedMesh(double t, double smallestLength)
 {
   const PolishingOptions polishing{ .sparesWhole = true };
   std::vector<VolumeRow> rows = repairRows(t);
@@ -357,6 +367,7 @@ std::vector<ConditionalSweep> sweepsForImprovedMesh(double t)
   });
   // clang-format on
   rows.push_back({ .tolerance = 4, .angle = t, .trials = 40, .passes = 6, .splitEdge = 0.2, .whole = true });
+  rows.push_back(heightsRow(smallestLength));
   return sweepsOf(rows);
 }
 

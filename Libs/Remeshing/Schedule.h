@@ -79,10 +79,11 @@ struct ConditionalSweep
   double worthwhileShare;
 };
 
-/// For tetrahedra that nobody has improved yet, such as constrained Delaunay's. `targetAngle` in degrees, dihedral.
-std::vector<ConditionalSweep> sweepsForRawMesh(double targetAngle);
+/// For tetrahedra that nobody has improved yet, such as constrained Delaunay's. `targetAngle` in degrees, dihedral;
+/// `smallestLength`: the least L in tissues, mm, of which the last sweep makes every height a fair share.
+std::vector<ConditionalSweep> sweepsForRawMesh(double targetAngle, double smallestLength);
 /// For a mesh whose surface the surface stage improved to `targetAngle`, whatever fills it: the surface is held, but
 /// where an angle cannot be mended otherwise.
-std::vector<ConditionalSweep> sweepsForImprovedMesh(double targetAngle);
+std::vector<ConditionalSweep> sweepsForImprovedMesh(double targetAngle, double smallestLength);
 
 } // namespace surgicalmesher

@@ -4,6 +4,7 @@
 
 #include "Coarsening.h"
 #include "EvenLengths.h"
+#include "HeightRaising.h"
 #include "Improvement.h"
 #include "InterfaceRelabelling.h"
 #include "Polishing.h"
@@ -34,6 +35,10 @@ struct Improve ///< improveBlock
 {
   ImprovementOptions options;
 };
+struct RaiseHeights ///< raiseHeightsOfBlock
+{
+  HeightOptions options;
+};
 struct EvenOut ///< evenLengthsOfBlock
 {
   EdgeLengthOptions options;
@@ -52,7 +57,8 @@ struct RemoveEars ///< removeEarsOfBlock
   std::size_t few; ///< tetrahedra
 };
 
-using Pass = std::variant<Coarsen, Relax, Polish, Improve, EvenOut, RelabelInterface, RemoveSpikes, RemoveEars>;
+using Pass =
+  std::variant<Coarsen, Relax, Polish, Improve, RaiseHeights, EvenOut, RelabelInterface, RemoveSpikes, RemoveEars>;
 
 struct Stage
 {

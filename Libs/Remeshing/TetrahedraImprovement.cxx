@@ -6,8 +6,27 @@
 #include "Remesher.h"
 #include "Schedule.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace surgicalmesher
 {
+
+namespace
+{
+
+/// At the points of tissues.
+double smallestLength(const BackgroundMesh& background)
+{
+  double smallest = std::numeric_limits<double>::max();
+  for (std::size_t t = 0; t < background.mesh.tetrahedra.size(); ++t)
+    if (background.mesh.labels[t] != 0)
+      for (const std::int32_t id : background.mesh.tetrahedra[t])
+        smallest = std::min(smallest, double(background.lengths[id]));
+  return smallest;
+}
+
+} // namespace
 
 void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const TetrahedraImprovementOptions& options,
                        const Progress& progress)
@@ -16,8 +35,9 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
   background.mesh = mesh;
   for (const Vec3& p : mesh.points) background.lengths.push_back(float(length(p)));
   addInterfaceSamples(background, options.surfaceTolerance);
-  const std::vector<ConditionalSweep> sweeps =
-    options.isImproved ? sweepsForImprovedMesh(options.targetAngle) : sweepsForRawMesh(options.targetAngle);
+  const double smallest = smallestLength(background);
+  const std::vector<ConditionalSweep> sweeps = options.isImproved ? sweepsForImprovedMesh(options.targetAngle, smallest)
+                                                                  : sweepsForRawMesh(options.targetAngle, smallest);
   RemesherOptions remeshing;
   remeshing.featureAngle = options.featureAngle;
   Remesher remesher(std::move(background), length, remeshing, progress, sweeps.size());

@@ -24,7 +24,8 @@ struct TetrahedraImprovementOptions
 };
 
 /// Improves `mesh` (positively wound, face-to-face, label 0 outside; vertices on its hull stay) towards `length` and
-/// towards the target angle. Labels keep their topology, and no operation lowers the worst quality of what it touches.
+/// towards the target angle. Labels keep their topology, and no operation lowers the worst quality of what it
+/// touches below the target angle. Heights under 0.4 of the smallest length are raised in the end.
 /// Deterministic, whatever the number of threads.
 void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const TetrahedraImprovementOptions& options = {},
                        const Progress& progress = {});

@@ -3,7 +3,9 @@
 #include "Coarsening.h"
 #include "ComplexInvariants.h"
 #include "EvenLengths.h"
+#include "HeightRaising.h"
 #include "InterfaceRelabelling.h"
+#include "MeshQuality.h"
 #include "Polishing.h"
 #include "RandomMaps.h"
 #include "Relaxation.h"
@@ -114,6 +116,44 @@ TEST(Improvement, KeepsEveryPromiseAndRaisesTheWorstAngle)
   expectPromisesKept(1, true, [](GuardedOperations& operations) { improveBlock(operations); });
 }
 
+TEST(Heights, KeepEveryPromiseAndTheLeastRises)
+{
+  const auto leastOf = [](const TetComplex& complex)
+  {
+    const TetMesh mesh = meshOf(complex);
+    double least = 1e9;
+    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    {
+      const auto& [a, b, c, d] = mesh.tetrahedra[t];
+      if (mesh.labels[t] == 0) continue;
+      least = std::min(least, leastHeight(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]));
+    }
+    return least;
+  };
+  HeightOptions options;
+  options.height = 0.5;
+  int raised = 0;
+  const auto raise = [&](GuardedOperations& operations)
+  {
+    const double before = leastOf(operations.complex());
+    raiseHeightsOfBlock(operations, options);
+    EXPECT_GE(leastOf(operations.complex()), before);
+    raised += leastOf(operations.complex()) > 1.1 * before;
+  };
+  expectPromisesKept(sine2OfDegrees(options.goodAngle), false, raise);
+  EXPECT_GE(raised, 9);
+}
+
+TEST(Heights, AreLeftWhereTheyAreHighEnough)
+{
+  TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int, int, int) { return 1; })), 1.5f);
+  GuardedOperations operations(complex, scale);
+  HeightOptions options;
+  options.height = 0.4; // the lattice's are 0.5 and more
+  raiseHeightsOfBlock(operations, options);
+  EXPECT_EQ(operations.counts().moves + operations.counts().collapses, 0);
+}
+
 TEST(Improvement, HeldInterfaceStaysAsItIs)
 {
   for (unsigned seed = 1; seed <= 6; ++seed)
@@ -146,6 +186,9 @@ TEST(Improvement, HeldInterfaceStaysAsItIs)
     relaxBlock(operations);
     polishBlock(operations);
     improveBlock(operations, options);
+    HeightOptions heights;
+    heights.height = 1;
+    raiseHeightsOfBlock(operations, heights);
     ASSERT_TRUE(isConsistent(complex));
     EXPECT_EQ(placed(), start);
     EXPECT_GT(operations.counts().moves + operations.counts().flips + operations.counts().splits, 0);

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "HeightRaising.h"
+
+#include "FaceAdjacency.h"
+#include "MeshQuality.h"
+#include "TetQuality.h"
+#include "VertexSteps.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+class HeightRaising
+{
+public:
+  HeightRaising(GuardedOperations& operations, const HeightOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Good(sine2OfDegrees(options.goodAngle))
+  {
+  }
+
+  void run()
+  {
+    for (int pass = 0; pass < m_Options.passes; ++pass)
+    {
+      bool any = false;
+      for (const auto& [height, t] : lowTetrahedra())
+        if (m_Complex.alive(t) && heightOf(t) < m_Options.height) any = (collapseAnEdge(t) || moveVertices(t)) || any;
+      if (!any) return;
+    }
+  }
+
+private:
+  using Low = std::pair<double, std::int32_t>;
+
+  /// Ascending.
+  std::vector<Low> lowTetrahedra() const
+  {
+    std::vector<Low> low;
+    for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
+      if (m_Complex.alive(t) && m_Complex.labels[t] != 0)
+        if (const double height = heightOf(t); height < m_Options.height) low.push_back({ height, t });
+    std::sort(low.begin(), low.end());
+    return low;
+  }
+
+  double heightOf(std::int32_t t) const { return heightWith(t, -1, {}); }
+
+  /// With vertex v at p.
+  double heightWith(std::int32_t t, std::int32_t v, const Vec3& p) const
+  {
+    const auto& x = m_Complex.tets[t];
+    const auto at = [&](int i) -> const Vec3& { return x[i] == v ? p : m_Complex.points[x[i]]; };
+    return leastHeight(at(0), at(1), at(2), at(3));
+  }
+
+  /// The least of the tissues' tetrahedra at v, were it at p, but for those that contain `without`.
+  double leastAt(std::int32_t v, const Vec3& p, std::int32_t without = -1)
+  {
+    double least = std::numeric_limits<double>::max();
+    for (const std::int32_t t : m_Operations.star(v))
+      if (m_Complex.labels[t] != 0 && (without < 0 || !m_Complex.contains(t, without)))
+        least = std::min(least, heightWith(t, v, p));
+    return least;
+  }
+
+  double floorAt(std::int32_t v) { return std::min(m_Good, m_Operations.qualityAt(v)); }
+
+  bool collapseAnEdge(std::int32_t t)
+  {
+    const auto x = m_Complex.tets[t];
+    for (const auto& e : kEdgeCorners)
+      for (const auto& [u, v] : { std::pair(x[e[0]], x[e[1]]), std::pair(x[e[1]], x[e[0]]) })
+        if (collapseInto(u, v)) return true;
+    return false;
+  }
+
+  bool collapseInto(std::int32_t u, std::int32_t v)
+  {
+    if (m_Complex.locked[u] || !m_Operations.mayCollapse(u, v, false)) return false;
+    const Vec3& p = m_Complex.points[v];
+    return leastAt(u, p, v) > 1.001 * leastAt(u, m_Complex.points[u]) &&
+           m_Operations.collapse(u, v, p, floorAt(u), m_Options.longEdge);
+  }
+
+  bool moveVertices(std::int32_t t)
+  {
+    const auto x = m_Complex.tets[t];
+    bool any = false;
+    for (const std::int32_t v : x)
+    {
+      if (!m_Complex.locked[v] && climb(v)) any = true;
+      if (any && heightOf(t) >= m_Options.height) return true;
+    }
+    return any;
+  }
+
+  /// The way up for the lowest tetrahedra at v: the sum of the unit gradients of all that are nearly as low.
+  Vec3 uphill(std::int32_t v, double least)
+  {
+    const Vec3 p = m_Complex.points[v];
+    const double h = 1e-5 * m_Complex.lengths[v];
+    Vec3 sum;
+    for (const std::int32_t t : m_Operations.star(v))
+    {
+      if (m_Complex.labels[t] == 0 || heightWith(t, v, p) > 1.1 * least) continue;
+      Vec3 gradient;
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        Vec3 q = p;
+        q[axis] += h;
+        gradient[axis] = heightWith(t, v, q) - heightWith(t, v, p);
+      }
+      if (const double n = norm(gradient); n > 0) sum += gradient / n;
+    }
+    return sum;
+  }
+
+  bool climb(std::int32_t v)
+  {
+    const double size = m_Complex.lengths[v], floor = floorAt(v);
+    double least = leastAt(v, m_Complex.points[v]), step = 0.12 * size;
+    const double start = least;
+    const Quadric held = heldAt(m_Operations, v, 0.02);
+    for (int trial = 0; trial < m_Options.trials && least < m_Options.height && step > 0.004 * size; ++trial)
+    {
+      const Vec3 q = m_Complex.points[v] + step * easiest(m_Operations, v, held, uphill(v, least));
+      const double after = leastAt(v, q);
+      if (after > least && m_Operations.move(v, q, floor))
+      {
+        least = after;
+        step *= 1.3;
+      }
+      else step *= 0.7;
+    }
+    return least > start * (1 + 1e-3);
+  }
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const HeightOptions& m_Options;
+  const double m_Good;
+};
+
+} // namespace
+
+void raiseHeightsOfBlock(GuardedOperations& operations, const HeightOptions& options)
+{
+  HeightRaising(operations, options).run();
+}
+
+} // namespace surgicalmesher

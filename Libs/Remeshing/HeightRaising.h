@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Heights of the flattest and smallest tetrahedra, which set an explicit solver's step, whatever their angles.
+
+#include "GuardedOperations.h"
+
+namespace surgicalmesher
+{
+
+struct HeightOptions
+{
+  double height = 0;     ///< mm; tetrahedra of tissues with a smaller height than this are worked on
+  double goodAngle = 32; ///< degrees; no dihedral angle falls below this, or falls if it is below
+  double longEdge = 1.4; ///< collapses leave no edge longer than this share of its target
+  int trials = 24;       ///< positions tried for each vertex
+  int passes = 3;
+};
+
+/// Lowest first: merges one end of a short edge into the other, or moves vertices, where that raises the least height of
+/// all tetrahedra of tissues that change. Vertices of the interface move as far as the envelope allows.
+void raiseHeightsOfBlock(GuardedOperations& operations, const HeightOptions& options);
+
+} // namespace surgicalmesher
