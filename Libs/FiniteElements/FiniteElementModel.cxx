@@ -3,7 +3,6 @@
 
 #include "ConstitutiveTags.h"
 #include "Errors.h"
-#include "FaceAdjacency.h"
 #include "SetNames.h"
 
 #include <algorithm>
@@ -20,35 +19,56 @@ constexpr std::size_t kHalfName = 34; ///< of two names joined into one
 
 using Ids = std::vector<std::int32_t>;
 
+/// The face beyond each face of each element; its element is -1 at the mesh's boundary.
+using Neighbours = std::vector<std::array<ElementFace, 6>>;
+
+Neighbours neighboursOf(const std::vector<Cell>& elements)
+{
+  std::vector<std::pair<Cell, ElementFace>> faces;
+  for (std::size_t e = 0; e < elements.size(); ++e)
+  {
+    for (int f = 0; f < faceCount(elements[e]); ++f)
+      faces.push_back({ sorted(faceOf(elements[e], f)), { static_cast<std::int32_t>(e), f } });
+  }
+  std::stable_sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  Neighbours result(elements.size());
+  for (auto& across : result) across.fill({ -1, -1 });
+  for (std::size_t i = 1; i < faces.size(); ++i)
+  {
+    if (!(faces[i].first == faces[i - 1].first)) continue;
+    const ElementFace here = faces[i].second, there = faces[i - 1].second;
+    if (result[there.element][there.face].element >= 0)
+      throw InputError("element " + std::to_string(here.element + 1) + ": a face that three elements share");
+    result[here.element][here.face] = there;
+    result[there.element][there.face] = here;
+  }
+  return result;
+}
+
 /// The two sides of an interface: faces of the group with the higher id, and of the other.
 struct Interface
 {
-  std::vector<TetrahedronFace> high, low; ///< `low` is empty at the mesh's own boundary
+  std::vector<ElementFace> high, low; ///< `low` is empty at the mesh's own boundary
 };
 
-/// Interfaces between groups of tetrahedra by [higher, lower] group; `outside` is the group beyond the mesh.
+/// Interfaces between groups of elements by [higher, lower] group; `outside` is the group beyond the mesh.
 using Interfaces = std::map<std::array<std::int32_t, 2>, Interface>;
 
-std::int32_t faceTowards(const FaceAdjacency& neighbours, std::int32_t tetrahedron, std::int32_t beyond)
-{
-  const auto& across = neighbours.across[tetrahedron];
-  return static_cast<std::int32_t>(std::find(across.begin(), across.end(), beyond) - across.begin());
-}
-
 template <class Group>
-Interfaces interfacesOf(const FaceAdjacency& neighbours, const std::vector<Group>& group, std::int32_t outside)
+Interfaces interfacesOf(const std::vector<Cell>& elements, const Neighbours& neighbours,
+                        const std::vector<Group>& group, std::int32_t outside)
 {
   Interfaces result;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(group.size()); ++t)
+  for (std::int32_t e = 0; e < static_cast<std::int32_t>(group.size()); ++e)
   {
-    for (std::int32_t f = 0; f < 4; ++f)
+    for (std::int32_t f = 0; f < faceCount(elements[e]); ++f)
     {
-      const std::int32_t beyond = neighbours.across[t][f], here = group[t],
-                         there = beyond < 0 ? outside : group[beyond];
+      const ElementFace beyond = neighbours[e][f];
+      const std::int32_t here = group[e], there = beyond.element < 0 ? outside : group[beyond.element];
       if (here <= there) continue;
       Interface& interface = result[{ here, there }];
-      interface.high.push_back({ t, f });
-      if (beyond >= 0) interface.low.push_back({ beyond, faceTowards(neighbours, beyond, t) });
+      interface.high.push_back({ e, f });
+      if (beyond.element >= 0) interface.low.push_back(beyond);
     }
   }
   return result;
@@ -62,13 +82,6 @@ std::map<std::int32_t, Ids> membersOf(const std::vector<Group>& group)
   return result;
 }
 
-std::array<std::int32_t, 3> triangleOf(const TetMesh& mesh, const TetrahedronFace& face)
-{
-  const auto& corners = kFaceCorners[face.face];
-  const auto& ids = mesh.tetrahedra[face.tetrahedron];
-  return { ids[corners[0]], ids[corners[1]], ids[corners[2]] };
-}
-
 Ids sortedUnique(Ids ids)
 {
   std::sort(ids.begin(), ids.end());
@@ -76,23 +89,23 @@ Ids sortedUnique(Ids ids)
   return ids;
 }
 
-Ids pointsOf(const std::vector<std::array<std::int32_t, 3>>& triangles)
+Ids pointsOf(const std::vector<Cell>& cells)
 {
   Ids ids;
-  for (const auto& triangle : triangles) ids.insert(ids.end(), triangle.begin(), triangle.end());
+  for (const Cell& cell : cells) ids.insert(ids.end(), cell.begin(), cell.end());
   return sortedUnique(std::move(ids));
 }
 
-/// Points where tetrahedra of several groups meet, ascending.
-Ids pointsOfSeveral(const TetMesh& mesh, const Ids& group)
+/// Points where elements of several groups meet, ascending.
+Ids pointsOfSeveral(const std::vector<Cell>& elements, std::size_t points, const Ids& group)
 {
-  Ids first(mesh.points.size(), -1), result;
-  for (std::size_t t = 0; t < group.size(); ++t)
+  Ids first(points, -1), result;
+  for (std::size_t e = 0; e < group.size(); ++e)
   {
-    for (const std::int32_t id : mesh.tetrahedra[t])
+    for (const std::int32_t id : elements[e])
     {
-      if (first[id] < 0) first[id] = group[t];
-      else if (first[id] != group[t]) result.push_back(id);
+      if (first[id] < 0) first[id] = group[e];
+      else if (first[id] != group[e]) result.push_back(id);
     }
   }
   return sortedUnique(std::move(result));
@@ -118,23 +131,30 @@ std::string classTitle(std::int32_t id)
 class Builder
 {
 public:
-  Builder(const MeshFile& content, const FiniteElementOptions& options)
-    : m_Options(options), m_Mesh(m_Model.content.mesh), m_Tissues(m_Model.content.tissues)
+  Builder(const MeshFile& content, std::vector<Cell> elements, const FiniteElementOptions& options)
+    : m_Options(options), m_Elements(m_Model.elements), m_Labels(m_Model.content.mesh.labels),
+      m_Tissues(m_Model.content.tissues)
   {
     m_Model.content = content;
-    m_Model.content.subMesh.resize(m_Mesh.tetrahedra.size(), 0);
-    m_Model.content.constitutive.resize(m_Mesh.tetrahedra.size(), 0);
-    m_Neighbours = faceAdjacency(m_Mesh);
+    m_Model.elements = std::move(elements);
+    m_Model.content.subMesh.resize(m_Elements.size(), 0);
+    m_Model.content.constitutive.resize(m_Elements.size(), 0);
+    m_Neighbours = neighboursOf(m_Elements);
     reserveNames();
   }
 
-  FiniteElementModel build()
+  using NamedIds = std::map<std::string, std::vector<std::int32_t>>;
+
+  FiniteElementModel build(const NamedIds& namedElements = {}, const NamedIds& namedNodes = {})
   {
     addElementSets();
+    for (const auto& [name, members] : namedElements)
+      m_Model.elementSets.push_back({ info(m_Names.unique(name), name, SetKind::Named, {}), members });
     addOuterBoundary();
     addTissueInterfaces();
     addSubMeshInterfaces();
     addNullDisplacement();
+    for (const auto& [name, members] : namedNodes) addNamedNodes(name, members);
     addSections();
     for (const ShellChoice& choice : m_Options.shells) addShell(choice);
     return std::move(m_Model);
@@ -158,7 +178,7 @@ private:
       m_ClassName[id] = m_Names.unique("constitutive " + classTitle(id));
     }
     m_TissueName[0] = "outside";
-    for (const auto& [label, members] : membersOf(m_Mesh.labels))
+    for (const auto& [label, members] : membersOf(m_Labels))
     {
       m_TissueName[label] = m_Names.unique(tissueTitle(label, m_Tissues), "tissue_" + std::to_string(label));
     }
@@ -179,7 +199,7 @@ private:
     const auto add = [&](SetInfo info, const Ids& members) {
       m_Model.elementSets.push_back({ std::move(info), members });
     };
-    for (const auto& [label, members] : membersOf(m_Mesh.labels))
+    for (const auto& [label, members] : membersOf(m_Labels))
     {
       add(info(m_TissueName[label], tissueTitle(label, m_Tissues), SetKind::Tissue, { label }), members);
     }
@@ -193,8 +213,8 @@ private:
     }
   }
 
-  /// The triangles of `like`, turned round, if it is given: both sides list them alike.
-  void addSurface(SetInfo info, const std::vector<TetrahedronFace>& faces, const std::string& nodeSet,
+  /// The faces of `like`, turned round, if it is given: both sides list them alike.
+  void addSurface(SetInfo info, const std::vector<ElementFace>& faces, const std::string& nodeSet,
                   const SurfaceSet* like = nullptr)
   {
     SurfaceSet surface;
@@ -203,8 +223,8 @@ private:
     surface.nodeSet = nodeSet;
     for (std::size_t i = 0; i < faces.size(); ++i)
     {
-      if (!like) surface.triangles.push_back(triangleOf(m_Mesh, faces[i]));
-      else surface.triangles.push_back({ like->triangles[i][0], like->triangles[i][2], like->triangles[i][1] });
+      if (!like) surface.cells.push_back(faceOf(m_Elements[faces[i].element], faces[i].face));
+      else surface.cells.push_back(turnedRound(like->cells[i]));
     }
     m_Model.surfaces.push_back(std::move(surface));
   }
@@ -216,12 +236,12 @@ private:
 
   void addOuterBoundary()
   {
-    const auto whole = interfacesOf(m_Neighbours, Ids(m_Mesh.tetrahedra.size(), 1), 0);
+    const auto whole = interfacesOf(m_Elements, m_Neighbours, Ids(m_Elements.size(), 1), 0);
     if (whole.empty()) return;
     addSurface(info("outer_boundary", "outer boundary", SetKind::OuterBoundary, {}), whole.begin()->second.high,
                "outer_boundary_nodes");
     addNodeSet(info("outer_boundary_nodes", "outer boundary", SetKind::OuterBoundary, {}),
-               pointsOf(m_Model.surfaces.back().triangles));
+               pointsOf(m_Model.surfaces.back().cells));
   }
 
   /// Two surfaces and the set of the nodes that both have.
@@ -231,7 +251,7 @@ private:
     const std::string high = validName(names[ids[0]], kHalfName), low = validName(names[ids[1]], kHalfName);
     const std::string nodes = m_Names.unique(high + "_and_" + low);
     addSurface(info(m_Names.unique(high + "_to_" + low), original, kind, { ids[0], ids[1] }), interface.high, nodes);
-    addNodeSet(info(nodes, original, kind, { ids[0], ids[1] }), pointsOf(m_Model.surfaces.back().triangles));
+    addNodeSet(info(nodes, original, kind, { ids[0], ids[1] }), pointsOf(m_Model.surfaces.back().cells));
     if (interface.low.empty()) return;
     const SurfaceSet side = m_Model.surfaces.back();
     addSurface(info(m_Names.unique(low + "_to_" + high), original, kind, { ids[1], ids[0] }), interface.low, nodes,
@@ -240,7 +260,7 @@ private:
 
   void addTissueInterfaces()
   {
-    for (const auto& [ids, interface] : interfacesOf(m_Neighbours, m_Mesh.labels, 0))
+    for (const auto& [ids, interface] : interfacesOf(m_Elements, m_Neighbours, m_Labels, 0))
     {
       addInterface(ids, interface, SetKind::TissueInterface, m_TissueName,
                    tissueTitle(ids[0], m_Tissues) + " | " + tissueTitle(ids[1], m_Tissues));
@@ -249,26 +269,45 @@ private:
 
   void addSubMeshInterfaces()
   {
-    for (const auto& [ids, interface] : interfacesOf(m_Neighbours, m_Model.content.subMesh, -1))
+    for (const auto& [ids, interface] : interfacesOf(m_Elements, m_Neighbours, m_Model.content.subMesh, -1))
     {
       if (ids[1] < 0) continue;
       addInterface(ids, interface, SetKind::SubMeshInterface, m_SubMeshName,
                    subMeshTitle(ids[0]) + " | " + subMeshTitle(ids[1]));
     }
     addNodeSet(info("submesh_interface_nodes", "all sub-mesh interfaces", SetKind::SubMeshInterface, {}),
-               pointsOfSeveral(m_Mesh, m_Model.content.subMesh));
+               pointsOfSeveral(m_Elements, m_Model.content.mesh.points.size(), m_Model.content.subMesh));
   }
 
   void addNullDisplacement()
   {
     Ids points;
-    for (std::size_t t = 0; t < m_Mesh.tetrahedra.size(); ++t)
+    for (std::size_t e = 0; e < m_Elements.size(); ++e)
     {
-      const auto& ids = m_Mesh.tetrahedra[t];
-      if (m_Model.content.constitutive[t] == kNullDisplacement) points.insert(points.end(), ids.begin(), ids.end());
+      const Cell& ids = m_Elements[e];
+      if (m_Model.content.constitutive[e] == kNullDisplacement) points.insert(points.end(), ids.begin(), ids.end());
     }
     addNodeSet(info("null_displacement_nodes", "null displacement", SetKind::NullDisplacement, {}),
                sortedUnique(std::move(points)));
+  }
+
+  void addNamedNodes(const std::string& name, const Ids& points)
+  {
+    const std::string nodes = m_Names.unique(name);
+    std::vector<char> within(m_Model.content.mesh.points.size(), 0);
+    for (const std::int32_t id : points) within[id] = 1;
+    std::vector<ElementFace> faces;
+    for (std::int32_t e = 0; e < static_cast<std::int32_t>(m_Elements.size()); ++e)
+    {
+      for (int f = 0; f < faceCount(m_Elements[e]); ++f)
+      {
+        const Cell face = faceOf(m_Elements[e], f);
+        const bool all = std::all_of(face.begin(), face.end(), [&](std::int32_t id) { return within[id] != 0; });
+        if (all && m_Neighbours[e][f].element < 0) faces.push_back({ e, f });
+      }
+    }
+    if (!faces.empty()) addSurface(info(m_Names.unique(name + "_faces"), name, SetKind::Named, {}), faces, nodes);
+    addNodeSet(info(nodes, name, SetKind::Named, {}), points);
   }
 
   /// Index of the material of a tissue under `law`; made when first asked for.
@@ -286,21 +325,21 @@ private:
     return entry->second;
   }
 
-  MaterialLaw lawOf(std::int32_t tetrahedron) const
+  MaterialLaw lawOf(std::int32_t element) const
   {
-    if (m_Model.content.constitutive[tetrahedron] != kNonlinear) return MaterialLaw::LinearElastic;
-    const auto row = m_Options.materials.find(m_Mesh.labels[tetrahedron]);
+    if (m_Model.content.constitutive[element] != kNonlinear) return MaterialLaw::LinearElastic;
+    const auto row = m_Options.materials.find(m_Labels[element]);
     return row == m_Options.materials.end() ? TissueMaterial().nonlinearLaw : row->second.nonlinearLaw;
   }
 
   void addSections()
   {
-    const std::map<std::int32_t, Ids> tissues = membersOf(m_Mesh.labels);
+    const std::map<std::int32_t, Ids> tissues = membersOf(m_Labels);
     std::int32_t tissueSet = 0;
     for (const auto& [label, members] : tissues)
     {
       std::map<MaterialLaw, Ids> byLaw;
-      for (const std::int32_t t : members) byLaw[lawOf(t)].push_back(t);
+      for (const std::int32_t e : members) byLaw[lawOf(e)].push_back(e);
       for (const auto& [law, some] : byLaw)
       {
         const std::int32_t set = byLaw.size() == 1 ? tissueSet : addTissueMaterialSet(label, law, some);
@@ -339,19 +378,17 @@ private:
   void addShell(const ShellChoice& choice)
   {
     Shell shell = emptyShell(choice);
-    for (std::int32_t t = 0; t < static_cast<std::int32_t>(m_Mesh.tetrahedra.size()); ++t)
+    for (std::size_t e = 0; e < m_Elements.size(); ++e)
     {
-      for (std::int32_t f = 0; m_Mesh.labels[t] == choice.label && f < 4; ++f)
+      for (int f = 0; m_Labels[e] == choice.label && f < faceCount(m_Elements[e]); ++f)
       {
-        const std::int32_t beyond = m_Neighbours.across[t][f], there = beyond < 0 ? 0 : m_Mesh.labels[beyond];
+        const std::int32_t beyond = m_Neighbours[e][f].element, there = beyond < 0 ? 0 : m_Labels[beyond];
         if (there == choice.label || (choice.neighbour >= 0 && there != choice.neighbour)) continue;
-        const auto triangle = triangleOf(m_Mesh, { t, f });
-        auto corners = triangle;
-        std::sort(corners.begin(), corners.end());
-        if (m_ShellFaces.insert(corners).second) shell.triangles.push_back(triangle);
+        const Cell face = faceOf(m_Elements[e], f);
+        if (m_ShellFaces.insert(sorted(face)).second) shell.cells.push_back(face);
       }
     }
-    if (shell.triangles.empty())
+    if (shell.cells.empty())
     {
       throw InputError("shell of " + shell.original + ": no face of the mesh is left for it, at least one expected");
     }
@@ -360,13 +397,14 @@ private:
 
   const FiniteElementOptions& m_Options;
   FiniteElementModel m_Model;
-  const TetMesh& m_Mesh;
+  const std::vector<Cell>& m_Elements;
+  const std::vector<Label>& m_Labels;
   const TissueTable& m_Tissues;
-  FaceAdjacency m_Neighbours;
+  Neighbours m_Neighbours;
   SetNames m_Names;
   std::map<std::int32_t, std::string> m_TissueName, m_SubMeshName, m_ClassName;
   std::map<std::pair<std::int32_t, MaterialLaw>, std::int32_t> m_MaterialIndex; ///< label, -1 for the default
-  std::set<std::array<std::int32_t, 3>> m_ShellFaces;
+  std::set<Cell> m_ShellFaces;
 };
 
 } // namespace
@@ -384,13 +422,24 @@ std::string nameOf(SetKind kind)
   case SetKind::SubMeshInterface: return "subMeshInterface";
   case SetKind::NullDisplacement: return "nullDisplacement";
   case SetKind::Shell: return "shell";
+  case SetKind::Named: return "named";
   }
   return {};
 }
 
 FiniteElementModel finiteElementModel(const MeshFile& content, const FiniteElementOptions& options)
 {
-  return Builder(content, options).build();
+  const auto& tetrahedra = content.mesh.tetrahedra;
+  return Builder(content, { tetrahedra.begin(), tetrahedra.end() }, options).build();
+}
+
+FiniteElementModel finiteElementModel(const SolidMesh& mesh, const FiniteElementOptions& options)
+{
+  MeshFile content;
+  content.mesh.points = mesh.points;
+  content.mesh.labels = mesh.labels;
+  content.tissues = mesh.tissues;
+  return Builder(content, mesh.elements, options).build(mesh.elementSets, mesh.nodeSets);
 }
 
 } // namespace surgicalmesher

@@ -3,9 +3,10 @@
 /// A mesh as solvers see it: named sets of elements, nodes and faces, materials, shells. Every export is written from
 /// this and from nothing else.
 ///
-/// Ids of points and tetrahedra count from 0, as in the mesh; formats that count from 1 add 1. Lengths in mm, LPS.
+/// Ids of points and elements count from 0, as in the mesh; formats that count from 1 add 1. Lengths in mm, LPS.
 /// Units of materials are consistent with that: N, tonne, s, hence MPa and tonne/mm^3.
 
+#include "Cell.h"
 #include "MeshIO.h"
 
 #include <array>
@@ -28,11 +29,12 @@ enum class SetKind
   TissueInterface,  ///< faces: [label behind, label in front]; nodes: [higher label, lower label]; 0 is outside
   SubMeshInterface, ///< likewise between sub-meshes; nodes where any sub-meshes meet: []
   NullDisplacement, ///< nodes of null-displacement elements; []
-  Shell             ///< triangles; [label] or [label, neighbour]
+  Shell,            ///< faces; [label] or [label, neighbour]
+  Named             ///< elements, nodes or faces by a name that came with the mesh; []
 };
 
 /// The name of a kind in sidecars: "tissue", "subMesh", "constitutive", "tissueMaterial", "outerBoundary",
-/// "tissueInterface", "subMeshInterface", "nullDisplacement", "shell".
+/// "tissueInterface", "subMeshInterface", "nullDisplacement", "shell", "named".
 std::string nameOf(SetKind kind);
 
 /// What sets of all sorts have in common.
@@ -47,7 +49,7 @@ struct SetInfo
 
 struct ElementSet : SetInfo
 {
-  std::vector<std::int32_t> tetrahedra; ///< ascending
+  std::vector<std::int32_t> elements; ///< ascending
 };
 
 struct NodeSet : SetInfo
@@ -55,20 +57,13 @@ struct NodeSet : SetInfo
   std::vector<std::int32_t> points; ///< ascending
 };
 
-/// A side of a tetrahedron: `face` is the number of the corner opposite to it (see kFaceCorners).
-struct TetrahedronFace
-{
-  std::int32_t tetrahedron;
-  std::int32_t face;
-};
-
-/// An oriented surface. An interface between a and b is two such sets, one of a's tetrahedra and one of b's, with the
-/// same triangles in the same order and opposite winding; the one with the higher id behind comes first.
+/// An oriented surface. An interface between a and b is two such sets, one of a's elements and one of b's, with the
+/// same faces in the same order and opposite winding; the one with the higher id behind comes first.
 struct SurfaceSet : SetInfo
 {
-  std::vector<TetrahedronFace> faces;
-  std::vector<std::array<std::int32_t, 3>> triangles; ///< the same faces as point ids, wound out of their tetrahedra
-  std::string nodeSet;                                ///< name of the set of its points
+  std::vector<ElementFace> faces;
+  std::vector<Cell> cells; ///< the same faces as point ids, wound out of their elements
+  std::string nodeSet;     ///< name of the set of its points
 };
 
 /// What the elements of a material do under load.
@@ -94,23 +89,25 @@ struct Section
   std::int32_t material;   ///< index into FiniteElementModel::materials
 };
 
-/// Triangles on faces of the mesh, wound out of the tissue.
+/// Faces of the mesh, wound out of the tissue.
 struct Shell : SetInfo
 {
-  std::vector<std::array<std::int32_t, 3>> triangles; ///< point ids of the mesh
-  double thickness = 0;                               ///< mm
-  std::int32_t material = 0;                          ///< index into FiniteElementModel::materials
+  std::vector<Cell> cells;   ///< point ids of the mesh
+  double thickness = 0;      ///< mm
+  std::int32_t material = 0; ///< index into FiniteElementModel::materials
 };
 
 struct FiniteElementModel
 {
-  MeshFile
-    content; ///< points, tetrahedra, labels and the arrays that travel with them; subMesh and constitutive filled
-  std::vector<ElementSet> elementSets; ///< by kind: tissues, sub-meshes, constitutive classes, tissue materials
-  std::vector<SurfaceSet> surfaces;    ///< outer boundary, tissue interfaces (outside included), sub-mesh interfaces
-  std::vector<NodeSet> nodeSets;       ///< in the same order, then null displacement; one per interface, not per side
+  /// Points, labels and the arrays that travel with them; subMesh and constitutive filled. Of a SolidMesh without its
+  /// elements.
+  MeshFile content;
+  std::vector<Cell> elements;          ///< of any shape
+  std::vector<ElementSet> elementSets; ///< by kind: tissues, sub-meshes, constitutive classes, named, tissue materials
+  std::vector<SurfaceSet> surfaces;    ///< outer boundary, interfaces of tissues (and outside), of sub-meshes, named
+  std::vector<NodeSet> nodeSets; ///< in the same order, null displacement before named; one per interface, not per side
   std::vector<Material> materials;
-  std::vector<Section> sections; ///< every tetrahedron belongs to exactly one
+  std::vector<Section> sections; ///< every element belongs to exactly one
   std::vector<Shell> shells;     ///< no face belongs to two
 };
 
@@ -138,10 +135,24 @@ struct FiniteElementOptions
   std::vector<ShellChoice> shells;           ///< a face that several ask for belongs to the first
 };
 
+/// Elements of any shape, and what travels with them in their file.
+struct SolidMesh
+{
+  std::vector<Vec3> points;
+  std::vector<Cell> elements;                                             ///< of positive volume
+  std::vector<Label> labels;                                              ///< per element; not 0
+  TissueTable tissues;                                                    ///< names and colours
+  std::map<std::string, std::vector<std::int32_t>> elementSets, nodeSets; ///< ids by name, ascending
+};
+
 /// Sets, sections and shells of a mesh without label 0, as requireSound() wants it. An empty `subMesh` or
 /// `constitutive` stands for zeros. Throws InputError for a shell of a tissue that isn't there, or without a single
 /// face.
 FiniteElementModel finiteElementModel(const MeshFile& content, const FiniteElementOptions& options = {});
+
+/// The same with the mesh's own sets, kind Named. A set of nodes becomes a surface, too: the faces of the outer boundary
+/// that have all their nodes in it, if there are any. Throws InputError, too, for a face that three elements share.
+FiniteElementModel finiteElementModel(const SolidMesh& mesh, const FiniteElementOptions& options = {});
 
 /// The sets by name as JSON: what a sidecar file holds. Format in Docs/FuchsTetrahedralizer.md.
 std::string setNamesJSON(const FiniteElementModel& model);

@@ -47,7 +47,7 @@ void writeSets(JsonWriter& json, const FiniteElementModel& model)
   json.StartArray();
   for (std::size_t i = 0; i < model.elementSets.size(); ++i)
   {
-    writeSet(json, model.elementSets[i], "elements", model.elementSets[i].tetrahedra.size());
+    writeSet(json, model.elementSets[i], "elements", model.elementSets[i].elements.size());
     writeMember(json, "tag", tags.elementSets[i]);
     json.EndObject();
   }
@@ -67,7 +67,7 @@ void writeSets(JsonWriter& json, const FiniteElementModel& model)
   for (std::size_t i = 0; i < model.shells.size(); ++i)
   {
     const Shell& shell = model.shells[i];
-    writeSet(json, shell, "shell", shell.triangles.size());
+    writeSet(json, shell, "shell", shell.cells.size());
     writeMember(json, "thickness", shell.thickness);
     write(json, "material", model.materials[shell.material].name);
     writeFaceTags(json, tags, tags.shells[i]);

@@ -29,21 +29,22 @@ public:
       m_Tags.elementSets.push_back(set.kind == SetKind::Tissue ? set.ids[0] : ++m_Last);
     }
     m_Tags.surfaces.resize(m_Model.surfaces.size());
-    for (const auto kind : { SetKind::TissueInterface, SetKind::SubMeshInterface, SetKind::OuterBoundary })
+    for (const auto kind :
+         { SetKind::TissueInterface, SetKind::SubMeshInterface, SetKind::OuterBoundary, SetKind::Named })
     {
       numberSurfaces(kind);
     }
     for (const Shell& shell : m_Model.shells)
     {
       m_Tags.shells.push_back(++m_Last);
-      m_Tags.faceSets.push_back({ m_Last, &shell, &shell.triangles });
+      m_Tags.faceSets.push_back({ m_Last, &shell, &shell.cells });
     }
     m_Tags.nullDisplacement = ++m_Last;
     for (const NodeSet& set : m_Model.nodeSets)
     {
       if (set.kind == SetKind::NullDisplacement) m_Tags.fixedPoints = set.points;
     }
-    divideTetrahedra();
+    divideElements();
     divideFaces();
     return std::move(m_Tags);
   }
@@ -55,48 +56,44 @@ private:
     {
       const SurfaceSet& surface = m_Model.surfaces[i];
       if (surface.kind != kind) continue;
-      if (!isSecondSide(surface)) m_Tags.faceSets.push_back({ ++m_Last, &surface, &surface.triangles });
+      if (!isSecondSide(surface)) m_Tags.faceSets.push_back({ ++m_Last, &surface, &surface.cells });
       m_Tags.surfaces[i] = m_Last;
     }
   }
 
-  void divideTetrahedra()
+  void divideElements()
   {
-    std::vector<std::vector<std::size_t>> setsOf(m_Model.content.mesh.tetrahedra.size());
+    std::vector<std::vector<std::size_t>> setsOf(m_Model.elements.size());
     for (std::size_t s = 0; s < m_Model.elementSets.size(); ++s)
     {
-      for (const std::int32_t t : m_Model.elementSets[s].tetrahedra) setsOf[t].push_back(s);
+      for (const std::int32_t e : m_Model.elementSets[s].elements) setsOf[e].push_back(s);
     }
     std::map<std::vector<std::size_t>, std::vector<std::int32_t>> pieces;
-    for (std::size_t t = 0; t < setsOf.size(); ++t) pieces[setsOf[t]].push_back(static_cast<std::int32_t>(t));
-    for (auto& [sets, tetrahedra] : pieces) m_Tags.tetrahedronPieces.push_back({ sets, std::move(tetrahedra) });
+    for (std::size_t e = 0; e < setsOf.size(); ++e) pieces[setsOf[e]].push_back(static_cast<std::int32_t>(e));
+    for (auto& [sets, elements] : pieces) m_Tags.elementPieces.push_back({ sets, std::move(elements) });
   }
 
   void divideFaces()
   {
     struct Face
     {
-      std::array<std::int32_t, 3> triangle;
+      Cell cell;
       std::vector<std::size_t> sets;
     };
-    std::map<std::array<std::int32_t, 3>, Face> faces;
+    std::map<Cell, Face> faces;
     for (std::size_t s = 0; s < m_Tags.faceSets.size(); ++s)
     {
-      for (const auto& triangle : *m_Tags.faceSets[s].triangles)
-      {
-        std::array<std::int32_t, 3> corners = triangle;
-        std::sort(corners.begin(), corners.end());
-        faces.emplace(corners, Face{ triangle, {} }).first->second.sets.push_back(s);
-      }
+      for (const Cell& cell : *m_Tags.faceSets[s].cells)
+        faces.emplace(sorted(cell), Face{ cell, {} }).first->second.sets.push_back(s);
     }
-    std::map<std::vector<std::size_t>, std::vector<std::array<std::int32_t, 3>>> pieces;
-    for (const auto& [corners, face] : faces) pieces[face.sets].push_back(face.triangle);
-    for (auto& [sets, triangles] : pieces) addPiece(sets, std::move(triangles));
+    std::map<std::vector<std::size_t>, std::vector<Cell>> pieces;
+    for (const auto& [corners, face] : faces) pieces[face.sets].push_back(face.cell);
+    for (auto& [sets, cells] : pieces) addPiece(sets, std::move(cells));
   }
 
-  void addPiece(const std::vector<std::size_t>& sets, std::vector<std::array<std::int32_t, 3>> triangles)
+  void addPiece(const std::vector<std::size_t>& sets, std::vector<Cell> cells)
   {
-    FacePiece piece{ 0, {}, sets, std::move(triangles) };
+    FacePiece piece{ 0, {}, sets, std::move(cells) };
     for (const std::size_t s : sets)
     {
       const FaceSet& set = m_Tags.faceSets[s];

@@ -16,8 +16,8 @@ namespace surgicalmesher
 struct FaceSet
 {
   std::int32_t tag;
-  const SetInfo* info;                                       ///< within the model
-  const std::vector<std::array<std::int32_t, 3>>* triangles; ///< within the model
+  const SetInfo* info;            ///< within the model
+  const std::vector<Cell>* cells; ///< within the model
 };
 
 /// The faces that belong to the same sets, and to no others.
@@ -26,14 +26,14 @@ struct FacePiece
   std::int32_t tag = 0;
   std::string name;              ///< of its interface; of all its interfaces and shells with two underscores between
   std::vector<std::size_t> sets; ///< indices into SetTags::faceSets, ascending
-  std::vector<std::array<std::int32_t, 3>> triangles; ///< point ids, wound as in the first of these sets
+  std::vector<Cell> cells;       ///< point ids, wound as in the first of these sets
 };
 
-/// The tetrahedra that belong to the same sets, and to no others.
-struct TetrahedronPiece
+/// The elements that belong to the same sets, and to no others.
+struct ElementPiece
 {
-  std::vector<std::size_t> sets;        ///< indices into FiniteElementModel::elementSets, ascending: first its tissue
-  std::vector<std::int32_t> tetrahedra; ///< ascending
+  std::vector<std::size_t> sets;      ///< indices into FiniteElementModel::elementSets, ascending: first its tissue
+  std::vector<std::int32_t> elements; ///< ascending
 };
 
 struct SetTags
@@ -44,9 +44,9 @@ struct SetTags
   std::int32_t nullDisplacement = 0;     ///< of the set of such nodes
   std::vector<std::int32_t> fixedPoints; ///< that set, ascending; empty if there is none
 
-  std::vector<FaceSet> faceSets; ///< tissue interfaces, sub-mesh interfaces, outer boundary, shells
+  std::vector<FaceSet> faceSets; ///< tissue interfaces, sub-mesh interfaces, outer boundary, named, shells
   std::vector<FacePiece> facePieces;
-  std::vector<TetrahedronPiece> tetrahedronPieces;
+  std::vector<ElementPiece> elementPieces;
 };
 
 /// Refers to the model, which must live as long.

@@ -480,6 +480,11 @@ void writeMesh(const MeshFile& content, const std::string& file, FieldTexts text
   addTissues(grid->GetFieldData(), present, content.tissues);
   if (content.targetAngle > 0)
     addArray<vtkDoubleArray>(grid->GetFieldData(), kTargetAngle, std::vector<double>{ content.targetAngle });
+  writeGrid(grid, file, texts);
+}
+
+void writeGrid(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts texts)
+{
   if (texts == FieldTexts::LeftOut) removeStrings(grid->GetFieldData());
   const std::string extension = text::extensionOf(file);
   if (extension == ".vtk")
@@ -488,7 +493,7 @@ void writeMesh(const MeshFile& content, const std::string& file, FieldTexts text
     writeLegacy(grid, file, texts);
     return;
   }
-  if (extension != ".vtu") refuse(file, "tetrahedra are written as .vtu or .vtk");
+  if (extension != ".vtu") refuse(file, "volume elements are written as .vtu or .vtk");
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writeXML(writer.Get(), grid, file);
 }

@@ -7,6 +7,7 @@
 #include "ElementQuality.h"
 #include "Errors.h"
 #include "ReportMembers.h"
+#include "SolverExports.h"
 #include "TemplateFit.h"
 #include "TemplateFitCLIXML.h"
 #include "TissueMapIO.h"
@@ -234,6 +235,7 @@ void run(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
+  announceExports(line);
   const Units units{ millimetresIn(line.text("templateUnit")), millimetresIn(line.text("targetUnit")) };
   const LandmarkPairs pairs = readPairs(line, units);
   const std::string templateFile = line.text("template"), fittedName = line.outputNames("fitted").at(0);
@@ -255,6 +257,7 @@ void run(CommandLine& line)
   report(progress, 0.9, "writing");
   writeElementMesh(content, fit.points / units.ofTarget, templateFile, line.outputFile("fitted"));
   writeCarried(line, carriedFiles, units, mesh.points, fit.points);
+  writeExports(line, content, fit.points, templateFile);
   tell(line, results);
   const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty()) writeReport(reportFile, line, results);

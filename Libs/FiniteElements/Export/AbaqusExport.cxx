@@ -3,6 +3,8 @@
 
 #include "TextNumbers.h"
 
+#include <map>
+
 namespace surgicalmesher
 {
 namespace
@@ -14,17 +16,26 @@ constexpr std::size_t kIdsPerLine = 16;
 /// Abaqus's number of the face opposite to each corner: S1 has the corners 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1.
 constexpr int kFaceNumber[4] = { 3, 4, 2, 1 };
 
+int faceNumber(const Cell& element, int face) { return element.size() == 4 ? kFaceNumber[face] : face + 1; }
+
 std::string number(double value) { return textOf(value, kNumberLength); }
 
-/// Rows of ids that count from 1, each after a number of its own from `first` on.
-template <class Rows>
-void appendRows(std::string& text, const Rows& rows, std::size_t first)
+/// One card for all cells of each of the types that occur: each cell by its number, from `first` on, and its nodes.
+void appendCells(std::string& text, const std::vector<Cell>& cells, std::size_t first, const std::string& set,
+                 const std::map<std::size_t, std::string>& types)
 {
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  for (const auto& [size, type] : types)
   {
-    text += std::to_string(first + i);
-    for (const std::int32_t id : rows[i]) text += ", " + std::to_string(id + 1);
-    text += "\n";
+    bool begun = false;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+    {
+      if (cells[i].size() != size) continue;
+      if (!begun) text += "*ELEMENT, TYPE=" + type + ", ELSET=" + set + "\n";
+      begun = true;
+      text += std::to_string(first + i);
+      for (const std::int32_t id : cells[i]) text += ", " + std::to_string(id + 1);
+      text += "\n";
+    }
   }
 }
 
@@ -40,15 +51,12 @@ void appendNodes(std::string& text, const std::vector<Vec3>& points)
 
 void appendElements(std::string& text, const FiniteElementModel& model)
 {
-  const auto& tetrahedra = model.content.mesh.tetrahedra;
-  text += "*ELEMENT, TYPE=C3D4, ELSET=all_elements\n";
-  appendRows(text, tetrahedra, 1);
-  std::size_t first = tetrahedra.size() + 1;
+  appendCells(text, model.elements, 1, "all_elements", { { 4, "C3D4" }, { 6, "C3D6" }, { 8, "C3D8" } });
+  std::size_t first = model.elements.size() + 1;
   for (const Shell& shell : model.shells)
   {
-    text += "*ELEMENT, TYPE=S3, ELSET=" + shell.name + "\n";
-    appendRows(text, shell.triangles, first);
-    first += shell.triangles.size();
+    appendCells(text, shell.cells, first, shell.name, { { 3, "S3" }, { 4, "S4" } });
+    first += shell.cells.size();
   }
 }
 
@@ -57,7 +65,7 @@ void appendSets(std::string& text, const FiniteElementModel& model)
   for (const ElementSet& set : model.elementSets)
   {
     text += "*ELSET, ELSET=" + set.name + "\n";
-    appendIds(text, set.tetrahedra, kIdsPerLine);
+    appendIds(text, set.elements, kIdsPerLine);
   }
   for (const NodeSet& set : model.nodeSets)
   {
@@ -67,9 +75,9 @@ void appendSets(std::string& text, const FiniteElementModel& model)
   for (const SurfaceSet& set : model.surfaces)
   {
     text += "*SURFACE, NAME=" + set.name + ", TYPE=ELEMENT\n";
-    for (const auto& [tetrahedron, face] : set.faces)
+    for (const auto& [element, face] : set.faces)
     {
-      text += std::to_string(tetrahedron + 1) + ", S" + std::to_string(kFaceNumber[face]) + "\n";
+      text += std::to_string(element + 1) + ", S" + std::to_string(faceNumber(model.elements[element], face)) + "\n";
     }
   }
 }

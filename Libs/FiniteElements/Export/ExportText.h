@@ -2,11 +2,10 @@
 #pragma once
 /// Text that reads back as the same numbers, whatever the host's locale.
 
+#include "Cell.h"
 #include "TextNumbers.h"
 #include "Vec3.h"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <locale>
 #include <sstream>
@@ -26,16 +25,12 @@ inline std::ostream& operator<<(std::ostream& out, const Vec3& p)
 }
 
 /// Point ids, counted from 1, with a blank before each.
-template <std::size_t N>
 struct FromOne
 {
-  const std::array<std::int32_t, N>& ids;
+  const Cell& ids;
 };
-template <std::size_t N>
-FromOne(const std::array<std::int32_t, N>&) -> FromOne<N>;
 
-template <std::size_t N>
-std::ostream& operator<<(std::ostream& out, const FromOne<N>& cell)
+inline std::ostream& operator<<(std::ostream& out, const FromOne& cell)
 {
   for (const std::int32_t id : cell.ids) out << ' ' << id + 1;
   return out;

@@ -3,6 +3,7 @@
 
 #include "TextNumbers.h"
 
+#include <map>
 #include <set>
 
 namespace surgicalmesher
@@ -12,21 +13,41 @@ namespace
 
 constexpr std::size_t kIdsPerLine = 16;
 
-/// <tag id="n">a,b,c</tag> for each row, ids counted from 1.
-template <class Rows>
-void appendRows(std::string& text, const char* tag, const Rows& rows, std::size_t first)
+/// <tag id="n">a,b,c</tag>, ids counted from 1.
+void appendRow(std::string& text, const std::string& tag, const Cell& cell, std::size_t number)
 {
-  for (std::size_t i = 0; i < rows.size(); ++i)
+  text += "      <" + tag + " id=\"" + std::to_string(number) + "\">";
+  const char* separator = "";
+  for (const std::int32_t id : cell)
   {
-    text += "      <" + std::string(tag) + " id=\"" + std::to_string(first + i) + "\">";
-    const char* separator = "";
-    for (const std::int32_t id : rows[i])
-    {
-      text += separator + std::to_string(id + 1);
-      separator = ",";
-    }
-    text += "</" + std::string(tag) + ">\n";
+    text += separator + std::to_string(id + 1);
+    separator = ",";
   }
+  text += "</" + tag + ">\n";
+}
+
+std::string typeOf(const Cell& element)
+{
+  return element.size() == 4 ? "tet4" : element.size() == 6 ? "penta6" : "hex8";
+}
+std::string typeOfFace(const Cell& face) { return face.size() == 3 ? "tri3" : "quad4"; }
+
+/// A set's elements of one type, and what they are called.
+struct Portion
+{
+  std::string name, type;
+  std::vector<std::int32_t> elements;
+};
+
+/// A part has elements of one type: a set of several becomes several parts, with the types in their names.
+std::vector<Portion> portionsOf(const FiniteElementModel& model, const ElementSet& set)
+{
+  std::map<std::string, std::vector<std::int32_t>> byType;
+  for (const std::int32_t e : set.elements) byType[typeOf(model.elements[e])].push_back(e);
+  std::vector<Portion> portions;
+  for (const auto& [type, elements] : byType)
+    portions.push_back({ set.name + (byType.size() == 1 ? "" : "_" + type), type, elements });
+  return portions;
 }
 
 void appendMaterials(std::string& text, const FiniteElementModel& model)
@@ -59,21 +80,21 @@ void appendNodes(std::string& text, const std::vector<Vec3>& points)
 /// Parts: an element belongs to exactly one, the one of its section or shell.
 void appendParts(std::string& text, const FiniteElementModel& model)
 {
-  const auto& tetrahedra = model.content.mesh.tetrahedra;
   for (const Section& section : model.sections)
   {
-    const ElementSet& set = model.elementSets[section.elementSet];
-    text += "    <Elements type=\"tet4\" name=\"" + set.name + "\">\n";
-    for (const std::int32_t t : set.tetrahedra) appendRows(text, "elem", std::vector{ tetrahedra[t] }, t + 1);
-    text += "    </Elements>\n";
+    for (const Portion& part : portionsOf(model, model.elementSets[section.elementSet]))
+    {
+      text += "    <Elements type=\"" + part.type + "\" name=\"" + part.name + "\">\n";
+      for (const std::int32_t e : part.elements) appendRow(text, "elem", model.elements[e], e + 1);
+      text += "    </Elements>\n";
+    }
   }
-  std::size_t first = tetrahedra.size() + 1;
+  std::size_t next = model.elements.size();
   for (const Shell& shell : model.shells)
   {
-    text += "    <Elements type=\"tri3\" name=\"" + shell.name + "\">\n";
-    appendRows(text, "elem", shell.triangles, first);
+    text += "    <Elements type=\"" + typeOfFace(shell.cells[0]) + "\" name=\"" + shell.name + "\">\n";
+    for (const Cell& cell : shell.cells) appendRow(text, "elem", cell, ++next);
     text += "    </Elements>\n";
-    first += shell.triangles.size();
   }
 }
 
@@ -88,32 +109,36 @@ void appendSets(std::string& text, const FiniteElementModel& model)
   for (const SurfaceSet& set : model.surfaces)
   {
     text += "    <Surface name=\"" + set.name + "\">\n";
-    appendRows(text, "tri3", set.triangles, 1);
+    for (std::size_t i = 0; i < set.cells.size(); ++i) appendRow(text, typeOfFace(set.cells[i]), set.cells[i], i + 1);
     text += "    </Surface>\n";
   }
   std::set<std::int32_t> parts; // are element sets of the same name already
-  for (const Section& section : model.sections) parts.insert(section.elementSet);
+  for (const Section& section : model.sections)
+  {
+    if (portionsOf(model, model.elementSets[section.elementSet]).size() == 1) parts.insert(section.elementSet);
+  }
   for (std::size_t i = 0; i < model.elementSets.size(); ++i)
   {
     if (parts.count(static_cast<std::int32_t>(i)) != 0) continue;
     text += "    <ElementSet name=\"" + model.elementSets[i].name + "\">\n";
-    appendIds(text, model.elementSets[i].tetrahedra, kIdsPerLine, ",");
+    appendIds(text, model.elementSets[i].elements, kIdsPerLine, ",");
     text += "    </ElementSet>\n";
   }
 }
 
 void appendDomains(std::string& text, const FiniteElementModel& model)
 {
-  const auto attributes = [&](const SetInfo& set, std::int32_t material)
-  { return " name=\"" + set.name + "\" mat=\"" + model.materials[material].name + "\""; };
+  const auto attributes = [&](const std::string& name, std::int32_t material)
+  { return " name=\"" + name + "\" mat=\"" + model.materials[material].name + "\""; };
   text += "  <MeshDomains>\n";
   for (const Section& section : model.sections)
   {
-    text += "    <SolidDomain" + attributes(model.elementSets[section.elementSet], section.material) + "/>\n";
+    for (const Portion& part : portionsOf(model, model.elementSets[section.elementSet]))
+      text += "    <SolidDomain" + attributes(part.name, section.material) + "/>\n";
   }
   for (const Shell& shell : model.shells)
   {
-    text += "    <ShellDomain" + attributes(shell, shell.material) + ">\n      <shell_thickness>" +
+    text += "    <ShellDomain" + attributes(shell.name, shell.material) + ">\n      <shell_thickness>" +
             textOf(shell.thickness) + "</shell_thickness>\n    </ShellDomain>\n";
   }
   text += "  </MeshDomains>\n";

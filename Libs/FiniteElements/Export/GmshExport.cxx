@@ -5,6 +5,8 @@
 #include "SetTags.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace surgicalmesher
 {
@@ -12,7 +14,9 @@ namespace
 {
 
 // Gmsh's element types.
-constexpr int kTriangle = 2, kTetrahedron = 4, kPoint = 15;
+constexpr int kPoint = 15;
+int typeOf(const Cell& element) { return element.size() == 4 ? 4 : element.size() == 6 ? 6 : 5; }
+int typeOfFace(const Cell& face) { return face.size() == 3 ? 2 : 3; }
 
 struct PhysicalName
 {
@@ -63,11 +67,10 @@ private:
     return names;
   }
 
-  template <class Cells>
-  void writeBounds(const Cells& cells)
+  void writeBounds(const std::vector<Cell>& cells)
   {
     Vec3 low = m_Points[cells[0][0]], high = low;
-    for (const auto& cell : cells)
+    for (const Cell& cell : cells)
     {
       for (const std::int32_t id : cell)
       {
@@ -90,26 +93,25 @@ private:
 
   void writeEntities()
   {
-    const auto& mesh = m_Model.content.mesh;
     m_Out << "$Entities\n"
-          << !m_Fixed.empty() << " 0 " << m_Tags.facePieces.size() << ' ' << m_Tags.tetrahedronPieces.size() << '\n';
+          << !m_Fixed.empty() << " 0 " << m_Tags.facePieces.size() << ' ' << m_Tags.elementPieces.size() << '\n';
     if (!m_Fixed.empty()) m_Out << "1 " << m_Points[m_Fixed[0]] << " 1 " << m_Tags.nullDisplacement << '\n';
     for (std::size_t p = 0; p < m_Tags.facePieces.size(); ++p)
     {
       m_Out << p + 1 << ' ';
-      writeBounds(m_Tags.facePieces[p].triangles);
+      writeBounds(m_Tags.facePieces[p].cells);
       Ids tags;
       for (const std::size_t s : m_Tags.facePieces[p].sets) tags.push_back(m_Tags.faceSets[s].tag);
       writeTags(tags);
     }
-    for (std::size_t p = 0; p < m_Tags.tetrahedronPieces.size(); ++p)
+    for (std::size_t p = 0; p < m_Tags.elementPieces.size(); ++p)
     {
       m_Out << p + 1 << ' ';
-      std::vector<std::array<std::int32_t, 4>> cells;
-      for (const std::int32_t t : m_Tags.tetrahedronPieces[p].tetrahedra) cells.push_back(mesh.tetrahedra[t]);
+      std::vector<Cell> cells;
+      for (const std::int32_t e : m_Tags.elementPieces[p].elements) cells.push_back(m_Model.elements[e]);
       writeBounds(cells);
       Ids tags;
-      for (const std::size_t s : m_Tags.tetrahedronPieces[p].sets) tags.push_back(m_Tags.elementSets[s]);
+      for (const std::size_t s : m_Tags.elementPieces[p].sets) tags.push_back(m_Tags.elementSets[s]);
       writeTags(tags);
     }
     m_Out << "$EndEntities\n";
@@ -123,14 +125,14 @@ private:
     const auto claim = [&](std::int32_t id) { owner[id] = owner[id] < 0 ? piece : owner[id]; };
     for (const FacePiece& faces : m_Tags.facePieces)
     {
-      for (const auto& triangle : faces.triangles) std::for_each(triangle.begin(), triangle.end(), claim);
+      for (const Cell& face : faces.cells) std::for_each(face.begin(), face.end(), claim);
       ++piece;
     }
-    for (const TetrahedronPiece& cells : m_Tags.tetrahedronPieces)
+    for (const ElementPiece& cells : m_Tags.elementPieces)
     {
-      for (const std::int32_t t : cells.tetrahedra)
+      for (const std::int32_t e : cells.elements)
       {
-        const auto& corners = m_Model.content.mesh.tetrahedra[t];
+        const Cell& corners = m_Model.elements[e];
         std::for_each(corners.begin(), corners.end(), claim);
       }
       ++piece;
@@ -156,26 +158,61 @@ private:
     m_Out << "$EndNodes\n";
   }
 
-  void writeElements()
+  /// Elements of one type in one entity, each after its number.
+  struct Block
   {
-    const auto& tetrahedra = m_Model.content.mesh.tetrahedra;
-    std::size_t next = tetrahedra.size(), total = next + m_Fixed.size();
-    for (const FacePiece& piece : m_Tags.facePieces) total += piece.triangles.size();
-    m_Out << "$Elements\n"
-          << !m_Fixed.empty() + m_Tags.facePieces.size() + m_Tags.tetrahedronPieces.size() << ' ' << total << " 1 "
-          << total << '\n';
-    if (!m_Fixed.empty()) m_Out << "0 1 " << kPoint << ' ' << m_Fixed.size() << '\n';
-    for (const std::int32_t id : m_Fixed) m_Out << ++next << ' ' << id + 1 << '\n';
+    int dimension = 0, type = 0;
+    std::size_t entity = 0;
+    std::vector<std::pair<std::size_t, Cell>> rows;
+  };
+
+  /// A block for each type that an entity has.
+  static void addBlocks(std::vector<Block>& blocks, int dimension, std::size_t entity,
+                        const std::vector<std::pair<std::size_t, Cell>>& rows)
+  {
+    std::map<int, Block> byType;
+    for (const auto& row : rows)
+    {
+      const int type = dimension == 0 ? kPoint : dimension == 2 ? typeOfFace(row.second) : typeOf(row.second);
+      Block& block = byType.try_emplace(type, Block{ dimension, type, entity, {} }).first->second;
+      block.rows.push_back(row);
+    }
+    for (auto& [type, block] : byType) blocks.push_back(std::move(block));
+  }
+
+  std::vector<Block> blocksOfAll() const
+  {
+    std::vector<Block> blocks;
+    std::vector<std::pair<std::size_t, Cell>> rows;
+    std::size_t next = m_Model.elements.size();
+    for (const std::int32_t id : m_Fixed) rows.push_back({ ++next, { id } });
+    addBlocks(blocks, 0, 1, rows);
     for (std::size_t p = 0; p < m_Tags.facePieces.size(); ++p)
     {
-      m_Out << "2 " << p + 1 << ' ' << kTriangle << ' ' << m_Tags.facePieces[p].triangles.size() << '\n';
-      for (const auto& triangle : m_Tags.facePieces[p].triangles) m_Out << ++next << FromOne{ triangle } << '\n';
+      rows.clear();
+      for (const Cell& face : m_Tags.facePieces[p].cells) rows.push_back({ ++next, face });
+      addBlocks(blocks, 2, p + 1, rows);
     }
-    for (std::size_t p = 0; p < m_Tags.tetrahedronPieces.size(); ++p)
+    for (std::size_t p = 0; p < m_Tags.elementPieces.size(); ++p)
     {
-      const Ids& members = m_Tags.tetrahedronPieces[p].tetrahedra;
-      m_Out << "3 " << p + 1 << ' ' << kTetrahedron << ' ' << members.size() << '\n';
-      for (const std::int32_t t : members) m_Out << t + 1 << FromOne{ tetrahedra[t] } << '\n';
+      rows.clear();
+      for (const std::int32_t e : m_Tags.elementPieces[p].elements)
+        rows.push_back({ std::size_t(e) + 1, m_Model.elements[e] });
+      addBlocks(blocks, 3, p + 1, rows);
+    }
+    return blocks;
+  }
+
+  void writeElements()
+  {
+    const std::vector<Block> blocks = blocksOfAll();
+    std::size_t total = 0;
+    for (const Block& block : blocks) total += block.rows.size();
+    m_Out << "$Elements\n" << blocks.size() << ' ' << total << " 1 " << total << '\n';
+    for (const Block& block : blocks)
+    {
+      m_Out << block.dimension << ' ' << block.entity << ' ' << block.type << ' ' << block.rows.size() << '\n';
+      for (const auto& [number, cell] : block.rows) m_Out << number << FromOne{ cell } << '\n';
     }
     m_Out << "$EndElements\n";
   }
@@ -194,11 +231,11 @@ std::string gmsh22(const FiniteElementModel& model)
   const TetMesh& mesh = model.content.mesh;
   const SetTags tags = tagsOf(model);
   std::vector<PhysicalName> names;
-  std::size_t next = mesh.tetrahedra.size(), total = next;
+  std::size_t next = model.elements.size(), total = next;
   for (const FacePiece& piece : tags.facePieces)
   {
     names.push_back({ 2, piece.tag, piece.name });
-    total += piece.triangles.size();
+    total += piece.cells.size();
   }
   for (const ElementSet& set : model.elementSets)
   {
@@ -209,16 +246,17 @@ std::string gmsh22(const FiniteElementModel& model)
   out << "$Nodes\n" << mesh.points.size() << '\n';
   for (std::size_t i = 0; i < mesh.points.size(); ++i) out << i + 1 << ' ' << mesh.points[i] << '\n';
   out << "$EndNodes\n$Elements\n" << total << '\n';
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  for (std::size_t e = 0; e < model.elements.size(); ++e)
   {
-    out << t + 1 << ' ' << kTetrahedron << " 2 " << mesh.labels[t] << ' ' << mesh.labels[t]
-        << FromOne{ mesh.tetrahedra[t] } << '\n';
+    const Cell& element = model.elements[e];
+    out << e + 1 << ' ' << typeOf(element) << " 2 " << mesh.labels[e] << ' ' << mesh.labels[e] << FromOne{ element }
+        << '\n';
   }
   for (const FacePiece& piece : tags.facePieces)
   {
-    for (const auto& triangle : piece.triangles)
+    for (const Cell& face : piece.cells)
     {
-      out << ++next << ' ' << kTriangle << " 2 " << piece.tag << ' ' << piece.tag << FromOne{ triangle } << '\n';
+      out << ++next << ' ' << typeOfFace(face) << " 2 " << piece.tag << ' ' << piece.tag << FromOne{ face } << '\n';
     }
   }
   out << "$EndElements\n";

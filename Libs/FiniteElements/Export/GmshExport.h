@@ -2,7 +2,7 @@
 #pragma once
 /// Gmsh meshes: .msh is version 4.1, .msh2 is 2.2, as Gmsh itself has it. Text.
 ///
-/// Tetrahedra have the numbers that they have in the mesh, from 1; nodes likewise.
+/// Elements have the numbers that they have in the mesh, from 1; nodes likewise.
 
 #include "Export.h"
 
@@ -14,7 +14,7 @@ namespace surgicalmesher
 /// Entities are the disjoint pieces of the sets.
 void writeGmsh41(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 
-/// Version 2.2, in which an element has one physical group: a tetrahedron its tissue, a triangle its piece (see
+/// Version 2.2, in which an element has one physical group: an element its tissue, a face its piece (see
 /// SetTags.h).
 void writeGmsh22(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 

@@ -4,8 +4,24 @@
 #include "ExportText.h"
 #include "SetTags.h"
 
+#include <map>
+#include <utility>
+
 namespace surgicalmesher
 {
+
+namespace
+{
+
+/// A section of cells, each with a reference; nothing if there is none.
+void writeSection(ExportText& out, const char* title, const std::vector<std::pair<Cell, std::int32_t>>& cells)
+{
+  if (cells.empty()) return;
+  out << "\n\n" << title << '\n' << cells.size();
+  for (const auto& [cell, reference] : cells) out << '\n' << FromOne{ cell } << ' ' << reference;
+}
+
+} // namespace
 
 void writeMedit(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
@@ -13,21 +29,21 @@ void writeMedit(const FiniteElementModel& model, const std::string& file, const 
   const SetTags tags = tagsOf(model);
   std::vector<std::int32_t> reference(mesh.points.size(), 0);
   for (const std::int32_t id : tags.fixedPoints) reference[id] = tags.nullDisplacement;
-  std::size_t triangles = 0;
-  for (const FacePiece& piece : tags.facePieces) triangles += piece.triangles.size();
-  ExportText out;
-  out << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n" << mesh.points.size() << '\n';
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) out << mesh.points[i] << ' ' << reference[i] << '\n';
-  out << "\nTriangles\n" << triangles;
+  std::map<std::size_t, std::vector<std::pair<Cell, std::int32_t>>> faces, elements; // by their number of nodes
   for (const FacePiece& piece : tags.facePieces)
   {
-    for (const auto& triangle : piece.triangles) out << '\n' << FromOne{ triangle } << ' ' << piece.tag;
+    for (const Cell& face : piece.cells) faces[face.size()].push_back({ face, piece.tag });
   }
-  out << "\n\nTetrahedra\n" << mesh.tetrahedra.size();
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-  {
-    out << '\n' << FromOne{ mesh.tetrahedra[t] } << ' ' << mesh.labels[t];
-  }
+  for (std::size_t e = 0; e < model.elements.size(); ++e)
+    elements[model.elements[e].size()].push_back({ model.elements[e], mesh.labels[e] });
+  ExportText out;
+  out << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n" << mesh.points.size();
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) out << '\n' << mesh.points[i] << ' ' << reference[i];
+  writeSection(out, "Triangles", faces[3]);
+  writeSection(out, "Quadrilaterals", faces[4]);
+  writeSection(out, "Tetrahedra", elements[4]);
+  writeSection(out, "Prisms", elements[6]);
+  writeSection(out, "Hexahedra", elements[8]);
   out << "\n\nEnd\n";
   writeBytes(out.str(), destination(file));
 }

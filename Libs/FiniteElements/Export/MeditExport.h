@@ -7,8 +7,8 @@
 namespace surgicalmesher
 {
 
-/// References: of Vertices, the tag of null-displacement nodes (see SetTags.h) or 0; of Triangles, the tag of their
-/// piece; of Tetrahedra, the label of their tissue.
+/// References: of Vertices, the tag of null-displacement nodes (see SetTags.h) or 0; of Triangles and Quadrilaterals, the
+/// tag of their piece; of Tetrahedra, Prisms and Hexahedra, the label of their tissue. FreeFEM reads tetrahedra alone.
 void writeMedit(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 
 } // namespace surgicalmesher

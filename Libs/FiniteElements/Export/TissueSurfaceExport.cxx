@@ -23,7 +23,17 @@ namespace
 
 using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
-/// By label: the triangles of all interfaces that have the tissue behind them, wound out of it. 0: the outer boundary.
+/// A quadrilateral is divided from its node of lowest id, on both sides of an interface alike.
+void addTriangles(const Cell& face, Triangles& triangles)
+{
+  const auto first = std::size_t(std::min_element(face.begin(), face.end()) - face.begin());
+  const auto corner = [&](std::size_t i) { return face[(first + i) % face.size()]; };
+  if (face.size() == 3) return triangles.push_back({ face[0], face[1], face[2] });
+  triangles.push_back({ corner(0), corner(1), corner(2) });
+  triangles.push_back({ corner(0), corner(2), corner(3) });
+}
+
+/// By label: the faces of all interfaces that have the tissue behind them, wound out of it. 0: the outer boundary.
 std::map<std::int32_t, Triangles> surfacesOf(const FiniteElementModel& model)
 {
   std::map<std::int32_t, Triangles> result;
@@ -31,7 +41,7 @@ std::map<std::int32_t, Triangles> surfacesOf(const FiniteElementModel& model)
   {
     if (surface.kind != SetKind::TissueInterface && surface.kind != SetKind::OuterBoundary) continue;
     Triangles& triangles = result[surface.kind == SetKind::OuterBoundary ? 0 : surface.ids[0]];
-    triangles.insert(triangles.end(), surface.triangles.begin(), surface.triangles.end());
+    for (const Cell& face : surface.cells) addTriangles(face, triangles);
   }
   return result;
 }

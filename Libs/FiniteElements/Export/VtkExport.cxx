@@ -5,6 +5,7 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
+#include <vtkCellType.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
@@ -12,9 +13,12 @@
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 
+#include <algorithm>
 #include <set>
 
 namespace surgicalmesher
@@ -37,9 +41,9 @@ void addPoints(vtkPolyData* data, const FiniteElementModel& model, std::vector<s
   shellId.assign(meshPoints.size(), -1);
   for (const Shell& shell : model.shells)
   {
-    for (const auto& triangle : shell.triangles)
+    for (const Cell& cell : shell.cells)
     {
-      for (const std::int32_t id : triangle) shellId[id] = 0;
+      for (const std::int32_t id : cell) shellId[id] = 0;
     }
   }
   vtkNew<vtkPoints> points;
@@ -62,10 +66,10 @@ void addTriangles(vtkPolyData* data, const FiniteElementModel& model, const std:
   vtkNew<vtkDoubleArray> thickness;
   for (const Shell& shell : model.shells)
   {
-    for (const auto& [a, b, c] : shell.triangles)
+    for (const Cell& cell : shell.cells)
     {
-      const vtkIdType ids[3] = { shellId[a], shellId[b], shellId[c] };
-      triangles->InsertNextCell(3, ids);
+      triangles->InsertNextCell(static_cast<int>(cell.size()));
+      for (const std::int32_t id : cell) triangles->InsertCellPoint(shellId[id]);
       label->InsertNextValue(shell.ids[0]);
       thickness->InsertNextValue(shell.thickness);
     }
@@ -97,10 +101,62 @@ void addTissues(vtkPolyData* data, const FiniteElementModel& model)
   named(colors, "TissueColors", data->GetFieldData());
 }
 
+int typeOf(const Cell& element)
+{
+  return element.size() == 4 ? VTK_TETRA : element.size() == 6 ? VTK_WEDGE : VTK_HEXAHEDRON;
+}
+
+/// 1 for each member of a set, else 0.
+void addMembership(const std::string& name, const std::vector<std::int32_t>& members, std::size_t count,
+                   vtkFieldData* data)
+{
+  vtkNew<vtkIntArray> array;
+  array->SetNumberOfValues(static_cast<vtkIdType>(count));
+  array->Fill(0);
+  for (const std::int32_t id : members) array->SetValue(id, 1);
+  named(array, name.c_str(), data);
+}
+
+/// Elements of any shape with the arrays of writeMesh() and the sets of kind Named.
+vtkSmartPointer<vtkUnstructuredGrid> gridOf(const FiniteElementModel& model)
+{
+  const MeshFile& content = model.content;
+  auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  for (const Vec3& p : content.mesh.points) points->InsertNextPoint(&p.x);
+  grid->SetPoints(points);
+  vtkNew<vtkIntArray> label, subMesh, constitutive;
+  for (std::size_t e = 0; e < model.elements.size(); ++e)
+  {
+    const Cell cell = inOrderOfVtk(model.elements[e]);
+    vtkIdType ids[8];
+    std::copy(cell.begin(), cell.end(), ids);
+    grid->InsertNextCell(typeOf(cell), static_cast<vtkIdType>(cell.size()), ids);
+    label->InsertNextValue(content.mesh.labels[e]);
+    subMesh->InsertNextValue(content.subMesh[e]);
+    constitutive->InsertNextValue(content.constitutive[e]);
+  }
+  named(label, "TissueLabel", grid->GetCellData());
+  named(subMesh, "SubMesh", grid->GetCellData());
+  named(constitutive, "Constitutive", grid->GetCellData());
+  for (const ElementSet& set : model.elementSets)
+  {
+    if (set.kind == SetKind::Named) addMembership(set.name, set.elements, model.elements.size(), grid->GetCellData());
+  }
+  for (const NodeSet& set : model.nodeSets)
+  {
+    if (set.kind == SetKind::Named)
+      addMembership(set.name, set.points, content.mesh.points.size(), grid->GetPointData());
+  }
+  return grid;
+}
+
 } // namespace
 
 void writeVtk(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
+  if (model.content.mesh.tetrahedra.empty()) return writeGrid(gridOf(model), destination(file), FieldTexts::LeftOut);
   writeMesh(model.content, destination(file), FieldTexts::LeftOut);
 }
 

@@ -6,6 +6,7 @@
 
 #include <vtk_hdf5.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <type_traits>
 
@@ -91,6 +92,24 @@ std::string escaped(const std::string& text)
   return result;
 }
 
+/// XDMF's name and number of a cell's type.
+struct XdmfType
+{
+  const char* name;
+  std::int32_t number;
+};
+
+XdmfType typeOf(const Cell& cell, int dimension)
+{
+  switch (cell.size())
+  {
+  case 3: return { "Triangle", 4 };
+  case 4: return dimension == 2 ? XdmfType{ "Quadrilateral", 5 } : XdmfType{ "Tetrahedron", 6 };
+  case 6: return { "Wedge", 8 };
+  default: return { "Hexahedron", 9 };
+  }
+}
+
 /// One .xdmf with one grid, and the .h5 that it refers to.
 class XdmfFile
 {
@@ -102,12 +121,24 @@ public:
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"" + grid + "\" GridType=\"Uniform\">\n";
   }
 
-  template <std::size_t N>
-  void topology(const char* type, const std::vector<std::array<std::int32_t, N>>& cells)
+  /// Elements (3) or faces (2): of one type as a table, of several ("Mixed") as a list in which each follows its type's
+  /// number.
+  void topology(const std::vector<Cell>& cells, int dimension)
   {
+    const bool isMixed =
+      std::any_of(cells.begin(), cells.end(), [&](const Cell& cell) { return cell.size() != cells[0].size(); });
+    std::vector<std::int32_t> numbers;
+    for (const Cell& cell : cells)
+    {
+      if (isMixed) numbers.push_back(typeOf(cell, dimension).number);
+      const Cell ordered = inOrderOfVtk(cell);
+      numbers.insert(numbers.end(), ordered.begin(), ordered.end());
+    }
+    const std::size_t columns = isMixed || cells.empty() ? 1 : cells[0].size();
+    const char* type = isMixed ? "Mixed" : cells.empty() ? "Triangle" : typeOf(cells[0], dimension).name;
     m_Text += std::string("<Topology TopologyType=\"") + type + "\" NumberOfElements=\"" +
-              std::to_string(cells.size()) + "\">" + item("topology", cells.data()->data(), cells.size(), N) +
-              "</Topology>\n";
+              std::to_string(cells.size()) + "\">" +
+              item("topology", numbers.data(), numbers.size() / columns, static_cast<int>(columns)) + "</Topology>\n";
   }
 
   void geometry(const std::vector<Vec3>& points)
@@ -146,10 +177,11 @@ private:
   MemoryFile m_Data;
 };
 
-void writeTetrahedra(const MeshFile& content, const std::string& file, const Destination& destination)
+void writeElements(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
+  const MeshFile& content = model.content;
   XdmfFile xdmf(file, "mesh");
-  xdmf.topology("Tetrahedron", content.mesh.tetrahedra);
+  xdmf.topology(model.elements, 3);
   xdmf.geometry(content.mesh.points);
   const std::vector<std::int32_t> labels(content.mesh.labels.begin(), content.mesh.labels.end());
   xdmf.attribute("TissueLabel", "Cell", labels);
@@ -161,15 +193,15 @@ void writeTetrahedra(const MeshFile& content, const std::string& file, const Des
 
 void writeFacets(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
-  std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<Cell> faces;
   std::vector<std::int32_t> tags;
   for (const FacePiece& piece : tagsOf(model).facePieces)
   {
-    triangles.insert(triangles.end(), piece.triangles.begin(), piece.triangles.end());
-    tags.resize(triangles.size(), piece.tag);
+    faces.insert(faces.end(), piece.cells.begin(), piece.cells.end());
+    tags.resize(faces.size(), piece.tag);
   }
   XdmfFile xdmf(file, "facets");
-  xdmf.topology("Triangle", triangles);
+  xdmf.topology(faces, 2);
   xdmf.geometry(model.content.mesh.points);
   xdmf.attribute("FacetTag", "Cell", tags);
   xdmf.write(destination);
@@ -181,7 +213,7 @@ void writeXdmf(const FiniteElementModel& model, const std::string& file, const D
 {
   const std::filesystem::path path(file);
   const std::string facets = path.stem().string() + "_facets" + path.extension().string();
-  writeTetrahedra(model.content, file, destination);
+  writeElements(model, file, destination);
   writeFacets(model, (path.parent_path() / facets).string(), destination);
 }
 

@@ -7,9 +7,9 @@
 namespace surgicalmesher
 {
 
-/// Writes four files: x.xdmf and x.h5, the grid "mesh" of tetrahedra with the cell attributes TissueLabel, SubMesh,
-/// Constitutive and the point attribute TargetEdgeLength; x_facets.xdmf and x_facets.h5, the grid "facets" of triangles
-/// on the same points with the attribute FacetTag (the tags of pieces, see SetTags.h). FEniCSx wants an .h5 by the name
+/// Writes four files: x.xdmf and x.h5, the grid "mesh" of elements with the cell attributes TissueLabel, SubMesh,
+/// Constitutive and the point attribute TargetEdgeLength; x_facets.xdmf and x_facets.h5, the grid "facets" of their
+/// faces on the same points with the attribute FacetTag (the tags of pieces, see SetTags.h). FEniCSx wants an .h5 by the name
 /// of each .xdmf, and its older versions read a grid's first attribute alone; meshio wants one grid per file.
 void writeXdmf(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 

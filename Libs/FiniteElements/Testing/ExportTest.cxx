@@ -150,19 +150,19 @@ TEST_F(AbaqusDeck, HasThePointsAndTetrahedra)
 TEST_F(AbaqusDeck, HasTheSets)
 {
   for (const ElementSet& set : model.elementSets)
-    EXPECT_EQ(idsIn(card("ELSET", "ELSET", set.name).data()), set.tetrahedra);
+    EXPECT_EQ(idsIn(card("ELSET", "ELSET", set.name).data()), set.elements);
   for (const NodeSet& set : model.nodeSets) EXPECT_EQ(idsIn(card("NSET", "NSET", set.name).data()), set.points);
   for (const SurfaceSet& set : model.surfaces)
   {
     const Card& surface = card("SURFACE", "NAME", set.name);
-    ASSERT_EQ(surface.lines.size(), set.triangles.size());
+    ASSERT_EQ(surface.lines.size(), set.cells.size());
     for (std::size_t i = 0; i < surface.lines.size(); ++i)
     {
       const std::size_t comma = surface.lines[i].find(", S");
       const auto& ids = model.content.mesh.tetrahedra.at(std::stoul(surface.lines[i].substr(0, comma)) - 1);
       std::set<std::int32_t> corners;
       for (const int corner : kAbaqusFaces[surface.lines[i].at(comma + 3) - '1']) corners.insert(ids[corner - 1]);
-      EXPECT_EQ(corners, std::set<std::int32_t>(set.triangles[i].begin(), set.triangles[i].end()));
+      EXPECT_EQ(corners, std::set<std::int32_t>(set.cells[i].begin(), set.cells[i].end()));
     }
   }
 }
@@ -215,11 +215,11 @@ TEST_F(AbaqusDeck, ShellsShareTheNodes)
   {
     const Card& elements = card("ELEMENT", "ELSET", shell.name);
     EXPECT_EQ(elements.parameters.at("TYPE"), "S3");
-    ASSERT_EQ(elements.lines.size(), shell.triangles.size());
+    ASSERT_EQ(elements.lines.size(), shell.cells.size());
     for (std::size_t i = 0; i < elements.lines.size(); ++i)
     {
-      const auto& [a, b, c] = shell.triangles[i];
-      EXPECT_EQ(idsIn(elements.lines[i]), (Ids{ next++, a, b, c }));
+      const Cell& cell = shell.cells[i];
+      EXPECT_EQ(idsIn(elements.lines[i]), (Ids{ next++, cell[0], cell[1], cell[2] }));
     }
     EXPECT_EQ(numbersIn(card("SHELL SECTION", "ELSET", shell.name).data()), Numbers{ shell.thickness });
   }
@@ -339,13 +339,13 @@ TEST_F(FebioModel, EveryElementIsInOnePartWithADomain)
     const ElementSet& set = model.elementSets[section.elementSet];
     vtkXMLDataElement* part = child(mesh, "Elements", set.name);
     EXPECT_STREQ(part->GetAttribute("type"), "tet4");
-    EXPECT_EQ(attributesOf(part), set.tetrahedra);
+    EXPECT_EQ(attributesOf(part), set.elements);
     const std::vector<Ids> rows = rowsOf(part);
     for (std::size_t i = 0; i < rows.size(); ++i)
     {
-      const auto& ids = model.content.mesh.tetrahedra[set.tetrahedra[i]];
+      const auto& ids = model.content.mesh.tetrahedra[set.elements[i]];
       EXPECT_EQ(rows[i], Ids(ids.begin(), ids.end()));
-      ++count[set.tetrahedra[i]];
+      ++count[set.elements[i]];
     }
     child(materials, "material", child(domains, "SolidDomain", set.name)->GetAttribute("mat"));
   }
@@ -361,7 +361,7 @@ TEST_F(FebioModel, HasTheSetsAndNoNameTwice)
     const ElementSet& set = model.elementSets[i];
     if (parts.count(static_cast<std::int32_t>(i)) > 0)
       EXPECT_THROW(child(mesh, "ElementSet", set.name), std::out_of_range);
-    else EXPECT_EQ(idsIn(child(mesh, "ElementSet", set.name)->GetCharacterData()), set.tetrahedra);
+    else EXPECT_EQ(idsIn(child(mesh, "ElementSet", set.name)->GetCharacterData()), set.elements);
   }
   for (const NodeSet& set : model.nodeSets)
   {
@@ -369,7 +369,7 @@ TEST_F(FebioModel, HasTheSetsAndNoNameTwice)
   }
   for (const SurfaceSet& set : model.surfaces)
   {
-    EXPECT_EQ(rowsOf(child(mesh, "Surface", set.name)), asIds(set.triangles));
+    EXPECT_EQ(rowsOf(child(mesh, "Surface", set.name)), asIds(set.cells));
   }
 }
 
@@ -388,7 +388,7 @@ TEST_F(FebioModel, HasMaterialsShellsAndClamps)
   }
   for (const Shell& shell : model.shells)
   {
-    EXPECT_EQ(rowsOf(child(mesh, "Elements", shell.name)), asIds(shell.triangles));
+    EXPECT_EQ(rowsOf(child(mesh, "Elements", shell.name)), asIds(shell.cells));
     vtkXMLDataElement* domain = child(root->FindNestedElementWithName("MeshDomains"), "ShellDomain", shell.name);
     EXPECT_EQ(numbersIn(domain->FindNestedElementWithName("shell_thickness")->GetCharacterData()),
               Numbers{ shell.thickness });
@@ -442,7 +442,7 @@ TEST(Export, ShellFilesShareThePointsOfTheVolume)
   vtkIdType cell = 0;
   for (const Shell& shell : model.shells)
   {
-    for (const auto& triangle : shell.triangles)
+    for (const auto& triangle : shell.cells)
     {
       EXPECT_EQ(data->GetCellData()->GetArray("TissueLabel")->GetComponent(cell, 0), shell.ids[0]);
       EXPECT_EQ(data->GetCellData()->GetArray("Thickness")->GetComponent(cell, 0), shell.thickness);

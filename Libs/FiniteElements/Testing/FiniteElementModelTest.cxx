@@ -19,7 +19,7 @@ namespace
 
 using test::randomBlocks;
 using test::volumeOf;
-using Triangles = std::vector<std::array<std::int32_t, 3>>;
+using Triangles = std::vector<Cell>;
 
 constexpr double kExact = 1e-10;
 
@@ -42,7 +42,7 @@ bool isClosed(const Triangles& triangles)
 double enclosedVolume(const TetMesh& mesh, const Triangles& triangles)
 {
   double volume = 0;
-  for (const auto& [a, b, c] : triangles) volume += orient({}, mesh.points[a], mesh.points[b], mesh.points[c]) / 6;
+  for (const Cell& t : triangles) volume += orient({}, mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]) / 6;
   return volume;
 }
 
@@ -60,7 +60,7 @@ Triangles trianglesOf(const FiniteElementModel& model, SetKind kind, std::int32_
   for (const SurfaceSet& surface : model.surfaces)
   {
     if (surface.kind == kind && surface.ids[0] == behind)
-      result.insert(result.end(), surface.triangles.begin(), surface.triangles.end());
+      result.insert(result.end(), surface.cells.begin(), surface.cells.end());
   }
   return result;
 }
@@ -99,8 +99,8 @@ TEST_P(FiniteElementModels, ElementSetsOfEachKindPartitionTheMesh)
                                                            : content.constitutive[t];
         if (id == set.ids[0]) volume += volumeOf(content.mesh, static_cast<std::int32_t>(t));
       }
-      EXPECT_NEAR(volumeOf(content.mesh, set.tetrahedra), volume, kExact * volume) << set.name;
-      for (const std::int32_t t : set.tetrahedra) ++count[t];
+      EXPECT_NEAR(volumeOf(content.mesh, set.elements), volume, kExact * volume) << set.name;
+      for (const std::int32_t t : set.elements) ++count[t];
     }
     EXPECT_EQ(count, std::vector<int>(count.size(), 1)) << nameOf(kind);
   }
@@ -112,7 +112,7 @@ TEST_P(FiniteElementModels, SectionsPartitionTheMesh)
   for (const Section& section : model.sections)
   {
     const bool isNonlinear = model.materials.at(section.material).law == MaterialLaw::NeoHookean;
-    for (const std::int32_t t : model.elementSets.at(section.elementSet).tetrahedra)
+    for (const std::int32_t t : model.elementSets.at(section.elementSet).elements)
     {
       ++count[t];
       EXPECT_EQ(isNonlinear, content.constitutive[t] == 1);
@@ -128,7 +128,7 @@ TEST_P(FiniteElementModels, SurfacesOfATissueCloseAroundIt)
     if (set.kind != SetKind::Tissue) continue;
     const Triangles boundary = trianglesOf(model, SetKind::TissueInterface, set.ids[0]);
     EXPECT_TRUE(isClosed(boundary)) << set.name;
-    const double volume = volumeOf(content.mesh, set.tetrahedra);
+    const double volume = volumeOf(content.mesh, set.elements);
     EXPECT_NEAR(enclosedVolume(content.mesh, boundary), volume, kExact * volume) << set.name;
   }
 }
@@ -137,29 +137,30 @@ TEST_P(FiniteElementModels, OuterBoundaryClosesAroundTheMesh)
 {
   const SurfaceSet& outer = model.surfaces.front();
   ASSERT_EQ(outer.kind, SetKind::OuterBoundary);
-  EXPECT_TRUE(isClosed(outer.triangles));
+  EXPECT_TRUE(isClosed(outer.cells));
   std::vector<std::int32_t> all(content.mesh.tetrahedra.size());
   std::iota(all.begin(), all.end(), 0);
   const double volume = volumeOf(content.mesh, all);
-  EXPECT_NEAR(enclosedVolume(content.mesh, outer.triangles), volume, kExact * volume);
-  std::set<std::array<std::int32_t, 3>> byTissue;
+  EXPECT_NEAR(enclosedVolume(content.mesh, outer.cells), volume, kExact * volume);
+  std::set<Cell> byTissue;
   for (const SurfaceSet& surface : model.surfaces)
   {
     if (surface.kind == SetKind::TissueInterface && surface.ids[1] == 0)
-      byTissue.insert(surface.triangles.begin(), surface.triangles.end());
+      byTissue.insert(surface.cells.begin(), surface.cells.end());
   }
-  EXPECT_EQ(byTissue, (std::set<std::array<std::int32_t, 3>>(outer.triangles.begin(), outer.triangles.end())));
+  EXPECT_EQ(byTissue, (std::set<Cell>(outer.cells.begin(), outer.cells.end())));
 }
 
 TEST_P(FiniteElementModels, TrianglesAreTheFacesWoundOutwards)
 {
   for (const SurfaceSet& surface : model.surfaces)
   {
-    ASSERT_EQ(surface.faces.size(), surface.triangles.size()) << surface.name;
+    ASSERT_EQ(surface.faces.size(), surface.cells.size()) << surface.name;
     for (std::size_t i = 0; i < surface.faces.size(); ++i)
     {
-      const auto& ids = content.mesh.tetrahedra[surface.faces[i].tetrahedron];
-      const auto& [a, b, c] = surface.triangles[i];
+      const auto& ids = content.mesh.tetrahedra[surface.faces[i].element];
+      const Cell& face = surface.cells[i];
+      const std::int32_t a = face[0], b = face[1], c = face[2];
       const std::int32_t apex = ids[surface.faces[i].face];
       EXPECT_EQ((std::set<std::int32_t>{ a, b, c, apex }), std::set<std::int32_t>(ids.begin(), ids.end()));
       const auto& p = content.mesh.points;
@@ -173,7 +174,7 @@ TEST_P(FiniteElementModels, BothSidesOfAnInterfaceHaveTheSameNodes)
   std::map<std::vector<std::int32_t>, const SurfaceSet*> byIds[2];
   for (const SurfaceSet& surface : model.surfaces)
   {
-    EXPECT_EQ(nodeSet(model, surface.nodeSet).points, pointsOf(surface.triangles)) << surface.name;
+    EXPECT_EQ(nodeSet(model, surface.nodeSet).points, pointsOf(surface.cells)) << surface.name;
     if (surface.kind == SetKind::OuterBoundary) continue;
     byIds[surface.kind == SetKind::SubMeshInterface][surface.ids] = &surface;
   }
@@ -321,12 +322,12 @@ TEST(FiniteElementModel, ShellsAreFacesOfTheirTissue)
     const auto found =
       std::find_if(model.surfaces.begin(), model.surfaces.end(),
                    [&](const SurfaceSet& s) { return s.kind == SetKind::TissueInterface && s.ids == ids; });
-    return found == model.surfaces.end() ? Triangles() : found->triangles;
+    return found == model.surfaces.end() ? Triangles() : found->cells;
   };
-  EXPECT_EQ(model.shells[0].triangles.size(), surface({ 2, 1 }).size());
-  EXPECT_EQ(sorted(model.shells[2].triangles), sorted(surface({ 1, 0 })));
-  Triangles whole = model.shells[0].triangles;
-  whole.insert(whole.end(), model.shells[1].triangles.begin(), model.shells[1].triangles.end());
+  EXPECT_EQ(model.shells[0].cells.size(), surface({ 2, 1 }).size());
+  EXPECT_EQ(sorted(model.shells[2].cells), sorted(surface({ 1, 0 })));
+  Triangles whole = model.shells[0].cells;
+  whole.insert(whole.end(), model.shells[1].cells.begin(), model.shells[1].cells.end());
   EXPECT_TRUE(isClosed(whole)) << "what the first shell took, the second lacks";
   EXPECT_NEAR(enclosedVolume(content.mesh, whole),
               enclosedVolume(content.mesh, trianglesOf(model, SetKind::TissueInterface, 2)), 1e-9);

@@ -17,7 +17,7 @@ namespace surgicalmesher
 namespace
 {
 
-using Triangle = std::array<std::int32_t, 3>;
+using Triangle = Cell;
 
 FiniteElementModel modelWithShells(unsigned seed)
 {
@@ -64,7 +64,7 @@ TEST_P(TagsOfSets, AreTheSameOnBothSidesOfAnInterface)
   std::map<std::int32_t, std::multiset<Triangle>> faces;
   for (std::size_t i = 0; i < model.surfaces.size(); ++i)
   {
-    const auto corners = cornersOf(model.surfaces[i].triangles);
+    const auto corners = cornersOf(model.surfaces[i].cells);
     EXPECT_EQ(faces.emplace(tags.surfaces[i], corners).first->second, corners) << model.surfaces[i].name;
   }
   EXPECT_LT(faces.size(), model.surfaces.size());
@@ -77,14 +77,14 @@ TEST_P(TagsOfSets, PiecesOfFacesAreDisjointAndMakeUpEverySet)
   for (const FacePiece& piece : tags.facePieces)
   {
     EXPECT_TRUE(pieces.emplace(piece.tag, &piece).second) << piece.name;
-    all.merge(cornersOf(piece.triangles));
+    all.merge(cornersOf(piece.cells));
   }
   EXPECT_EQ(std::set<Triangle>(all.begin(), all.end()).size(), all.size());
   for (const FaceSet& set : tags.faceSets)
   {
     std::multiset<Triangle> whole;
-    for (const std::int32_t tag : piecesOf(tags, set.tag)) whole.merge(cornersOf(pieces.at(tag)->triangles));
-    EXPECT_EQ(whole, cornersOf(*set.triangles)) << set.info->name;
+    for (const std::int32_t tag : piecesOf(tags, set.tag)) whole.merge(cornersOf(pieces.at(tag)->cells));
+    EXPECT_EQ(whole, cornersOf(*set.cells)) << set.info->name;
   }
 }
 
@@ -107,13 +107,13 @@ TEST_P(TagsOfSets, PiecesOfTetrahedraAreDisjointAndMakeUpEverySet)
 {
   std::vector<std::vector<std::int32_t>> members(model.elementSets.size());
   std::vector<std::int32_t> all;
-  for (const TetrahedronPiece& piece : tags.tetrahedronPieces)
+  for (const ElementPiece& piece : tags.elementPieces)
   {
-    all.insert(all.end(), piece.tetrahedra.begin(), piece.tetrahedra.end());
+    all.insert(all.end(), piece.elements.begin(), piece.elements.end());
     ASSERT_EQ(model.elementSets[piece.sets[0]].kind, SetKind::Tissue);
     for (const std::size_t s : piece.sets)
     {
-      members[s].insert(members[s].end(), piece.tetrahedra.begin(), piece.tetrahedra.end());
+      members[s].insert(members[s].end(), piece.elements.begin(), piece.elements.end());
     }
   }
   std::sort(all.begin(), all.end());
@@ -123,7 +123,7 @@ TEST_P(TagsOfSets, PiecesOfTetrahedraAreDisjointAndMakeUpEverySet)
   for (std::size_t s = 0; s < members.size(); ++s)
   {
     std::sort(members[s].begin(), members[s].end());
-    EXPECT_EQ(members[s], model.elementSets[s].tetrahedra) << model.elementSets[s].name;
+    EXPECT_EQ(members[s], model.elementSets[s].elements) << model.elementSets[s].name;
   }
 }
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Elements and their faces as lists of node ids.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+
+namespace surgicalmesher
+{
+
+/// Node ids. An element of four is a tetrahedron, of six a wedge, of eight a hexahedron: the base counter-clockwise seen
+/// from inside, then the opposite side (or corner) in the same order, as in Abaqus. A face of three or four is
+/// counter-clockwise seen from outside.
+class Cell
+{
+public:
+  Cell() = default;
+  Cell(std::initializer_list<std::int32_t> ids) : m_Size(ids.size())
+  {
+    std::copy(ids.begin(), ids.end(), m_Ids.begin());
+  }
+  template <std::size_t N>
+  Cell(const std::array<std::int32_t, N>& ids) : m_Size(N)
+  {
+    static_assert(N <= 8);
+    std::copy(ids.begin(), ids.end(), m_Ids.begin());
+  }
+
+  std::size_t size() const { return m_Size; }
+  std::int32_t operator[](std::size_t i) const { return m_Ids[i]; }
+  std::int32_t* begin() { return m_Ids.data(); }
+  std::int32_t* end() { return m_Ids.data() + m_Size; }
+  const std::int32_t* begin() const { return m_Ids.data(); }
+  const std::int32_t* end() const { return m_Ids.data() + m_Size; }
+
+  void append(std::int32_t id) { m_Ids[m_Size++] = id; }
+
+  friend bool operator==(const Cell& a, const Cell& b) { return a.m_Size == b.m_Size && a.m_Ids == b.m_Ids; }
+  friend bool operator<(const Cell& a, const Cell& b) { return a.m_Ids < b.m_Ids; }
+
+private:
+  std::array<std::int32_t, 8> m_Ids{}; ///< 0 beyond the size
+  std::size_t m_Size = 0;
+};
+
+/// A face of an element. Of a tetrahedron, `face` is the number of the corner opposite to it (see kFaceCorners); of
+/// wedges and hexahedra, 0 to 4 or 5 in Abaqus's order (S1 and up).
+struct ElementFace
+{
+  std::int32_t element;
+  std::int32_t face;
+};
+
+int faceCount(const Cell& element);
+Cell faceOf(const Cell& element, int face);
+
+/// The same face seen from its other side, with the same first node.
+Cell turnedRound(const Cell& face);
+
+/// VTK numbers a wedge's triangles the other way round; other cells stay as they are.
+Cell inOrderOfVtk(const Cell& cell);
+
+/// Ids in ascending order: equal for all windings.
+Cell sorted(Cell cell);
+
+} // namespace surgicalmesher
