@@ -39,6 +39,6 @@ problem = LinearProblem(ufl.inner(stress, ufl.sym(ufl.grad(v))) * ufl.dx, densit
 displacement = problem.solve().x.array.reshape(-1, 3)
 print("converged", problem.solver.getConvergedReason())
 print("nodes", len(displacement))
-print("tetrahedra", len(tissues.values))
+print("elements", len(tissues.values))
 print("tissues", len(np.unique(tissues.values)))
 print("displacement", np.linalg.norm(displacement, axis=1).max())

@@ -28,7 +28,7 @@ fespace Sh(Th, P1);
 Sh size = sqrt(ux^2 + uy^2 + uz^2);
 int[int] found = regions(Th);
 cout.precision(12);
-cout << "nodes " << Th.nv << endl << "tetrahedra " << Th.nt << endl << "tissues " << found.n << endl;
+cout << "nodes " << Th.nv << endl << "elements " << Th.nt << endl << "tissues " << found.n << endl;
 cout << "displacement " << size[].max << endl;
 """
 

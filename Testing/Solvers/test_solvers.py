@@ -69,7 +69,7 @@ class SolversTest(unittest.TestCase):
             with self.subTest(script):
                 result = self.result(script)
                 self.assertEqual(int(result["nodes"]), len(self.mesh.points))
-                self.assertEqual(int(result["tetrahedra"]), len(self.mesh.tetrahedra))
+                self.assertEqual(int(result["elements"]), len(self.mesh.tetrahedra))
                 self.assertEqual(int(result["tissues"]), len(np.unique(self.mesh.tissue)))
 
     def test_all_find_the_same_displacement(self):

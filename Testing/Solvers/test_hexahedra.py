@@ -1,0 +1,107 @@
+"""The project's template of hexahedra: made anew, exported to solvers, and operated on. usage: test_hexahedra.py BIN OUTDIR
+
+Solvers that are not installed are named, and the status is then 77; CMake/debian-packages.txt has them all.
+"""
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+from vtk.util.numpy_support import vtk_to_numpy
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+EXAMPLE = os.path.join(ROOT, "workflow", "example")
+sys.path[:0] = [EXAMPLE, os.path.join(ROOT, "workflow", "hexahedra")]
+from make_template import make  # noqa: E402
+from meshfiles import cell_array, read_dataset  # noqa: E402
+
+BIN, OUTDIR = map(os.path.abspath, sys.argv[1:3])
+SKIPPED = 77
+SOLVERS = {"calculix": ("inp", "ccx"), "fenicsx": ("xdmf", "dolfinx"), "getfem": ("msh2", "getfem")}
+ENVIRONMENT = {**os.environ, "PATH": BIN + os.pathsep + os.environ["PATH"], "OMP_NUM_THREADS": "1",
+               "XDG_CACHE_HOME": os.path.join(OUTDIR, "cache")}
+
+
+def installed(name):
+    return shutil.which(name) or importlib.util.find_spec(name)
+
+
+def run(*command):
+    """What the command prints, line by line as words."""
+    done = subprocess.run([sys.executable, *command], env=ENVIRONMENT, stdin=subprocess.DEVNULL, capture_output=True,
+                          text=True)
+    if done.returncode:
+        raise AssertionError(f"{command}: {done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+    return [line.split() for line in done.stdout.splitlines() if line.split()]
+
+
+class HexahedraTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(OUTDIR, ignore_errors=True)
+        os.environ["PATH"] = ENVIRONMENT["PATH"]
+        formats = ("inp", "msh", "msh2", "xdmf")
+        make(OUTDIR, *(word for e in formats for word in ("--export", os.path.join(OUTDIR, "face." + e))))
+        cls.grid = read_dataset(os.path.join(OUTDIR, "face.vtu"))
+
+    def test_stored_template_is_what_the_script_makes(self):
+        stored = read_dataset(os.path.join(ROOT, "TemplateHexMesher", "Template", "face.vtu"))
+        self.assertEqual(stored.GetNumberOfCells(), self.grid.GetNumberOfCells())
+        np.testing.assert_allclose(vtk_to_numpy(stored.GetPoints().GetData()),
+                                   vtk_to_numpy(self.grid.GetPoints().GetData()), atol=0.01)
+        same = cell_array(stored, "TissueLabel") == cell_array(self.grid, "TissueLabel")
+        self.assertGreater(same.mean(), 0.999)
+
+    def test_solvers_agree(self):
+        """Soft tissue hangs from its bone: by three formats, three programs, and their own assembly."""
+        found = {}
+        for script, (extension, needs) in SOLVERS.items():
+            if installed(needs):
+                lines = run(os.path.join(HERE, f"run_{script}.py"), os.path.join(OUTDIR, "face." + extension),
+                            "inner_faces")
+                found[script] = dict(words for words in lines if len(words) == 2)
+        print(found)
+        for script, result in found.items():
+            self.assertEqual(int(result["nodes"]), self.grid.GetNumberOfPoints(), script)
+            if script != "calculix":
+                self.assertEqual(int(result["elements"]), self.grid.GetNumberOfCells(), script)
+                self.assertEqual(int(result["tissues"]), 6, script)
+        displacements = [float(result["displacement"]) for result in found.values()]
+        self.assertTrue(all(0 < d < 10 for d in displacements))
+        # FEniCSx integrates over skewed hexahedra with more points than the other two.
+        self.assertLess(max(displacements, default=1) / min(displacements, default=1), 1.001)
+        missing = [needs for _, needs in SOLVERS.values() if not installed(needs)]
+        if missing:
+            self.skipTest(f"{', '.join(missing)} not installed")
+
+    @unittest.skipUnless(installed("gmsh"), "gmsh is not installed")
+    def test_gmsh_finds_every_set(self):
+        lines = run(os.path.join(HERE, "run_gmsh.py"), os.path.join(OUTDIR, "face.msh"))
+        groups = {words[-1]: int(words[3]) for words in lines if words[0] == "group"}
+        self.assertIn(["complaints", "0"], lines)
+        self.assertEqual(groups["layer_0"] * 4, self.grid.GetNumberOfCells())
+        self.assertEqual(groups["inner_faces"], groups["layer_3"])
+        labels = cell_array(self.grid, "TissueLabel")
+        self.assertEqual(groups["orbicularis_oris"], np.count_nonzero(labels == 2))
+
+    @unittest.skipUnless(installed("ccx"), "ccx is not installed")
+    def test_example_operates(self):
+        """Fit to the second person, CalculiX, picture."""
+        folder = os.path.join(OUTDIR, "example")
+        lines = run(os.path.join(EXAMPLE, "display.py"), sys.executable,
+                    os.path.join(ROOT, "workflow", "hexahedra", "example.py"), folder)
+        self.assertIn("0 invalid,", " ".join(lines[0]))
+        self.assertLess(float(lines[0][4]), 0.2)
+        self.assertTrue(6 <= float(lines[1][2]) < 8, lines)
+        self.assertGreater(os.path.getsize(os.path.join(folder, "operation.png")), 20000)
+
+
+if __name__ == "__main__":
+    outcome = unittest.main(argv=sys.argv[:1], exit=False).result
+    for test, reason in outcome.skipped:
+        print("skipped:", test, reason)
+    sys.exit(1 if not outcome.wasSuccessful() else SKIPPED if outcome.skipped else 0)
