@@ -13,9 +13,9 @@ namespace surgicalmesher
 {
 
 /// What is written beside the exports; before anything is read.
-inline void announceExports(CommandLine& line)
+inline void announceExports(CommandLine& line, const std::vector<std::string>& exports)
 {
-  for (const std::string& file : line.outputNames("export"))
+  for (const std::string& file : exports)
   {
     for (const ExportSidecar& sidecar : exportSidecars(file))
     {
@@ -26,14 +26,12 @@ inline void announceExports(CommandLine& line)
 }
 
 /// `points` in mm; `file` is named in messages.
-inline void writeExports(CommandLine& line, const ElementMeshFile& content, const Points& points,
-                         const std::string& file)
+inline void writeExports(CommandLine& line, const std::vector<std::string>& exports, const std::string& materials,
+                         const ElementMeshFile& content, const Points& points, const std::string& file)
 {
-  const std::vector<std::string> exports = line.outputNames("export");
   if (exports.empty()) return;
   const SolidMesh solid = solidMeshOf(content, points, file);
   FiniteElementOptions options;
-  const std::string materials = line.text("materials");
   if (!materials.empty())
     options.materials = readMaterialTable(materials, solid.tissues, { solid.labels.begin(), solid.labels.end() });
   const FiniteElementModel model = finiteElementModel(solid, options);

@@ -235,7 +235,8 @@ void run(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
-  announceExports(line);
+  const std::vector<std::string> exports = line.outputNames("export");
+  announceExports(line, exports);
   const Units units{ millimetresIn(line.text("templateUnit")), millimetresIn(line.text("targetUnit")) };
   const LandmarkPairs pairs = readPairs(line, units);
   const std::string templateFile = line.text("template"), fittedName = line.outputNames("fitted").at(0);
@@ -257,7 +258,7 @@ void run(CommandLine& line)
   report(progress, 0.9, "writing");
   writeElementMesh(content, fit.points / units.ofTarget, templateFile, line.outputFile("fitted"));
   writeCarried(line, carriedFiles, units, mesh.points, fit.points);
-  writeExports(line, content, fit.points, templateFile);
+  writeExports(line, exports, line.text("materials"), content, fit.points, templateFile);
   tell(line, results);
   const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty()) writeReport(reportFile, line, results);

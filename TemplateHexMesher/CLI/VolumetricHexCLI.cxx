@@ -224,7 +224,8 @@ void run(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
-  announceExports(line);
+  const std::vector<std::string> exports = line.outputNames("export");
+  announceExports(line, exports);
   const HexOptions options = readOptions(line);
   const std::string envelopeFile = line.text("envelope"), sidesFile = line.text("sides");
   const std::vector<double> cutOffs = readCutOffs(line);
@@ -243,7 +244,7 @@ void run(CommandLine& line)
   const ElementMeshFile content = contentOf(mesh);
   addParts(parts, classes.part, vtkUnstructuredGrid::SafeDownCast(content.data));
   writeElementMesh(content, mesh.mesh.points, envelopeFile, line.outputFile("mesh"));
-  writeExports(line, content, mesh.mesh.points, envelopeFile);
+  writeExports(line, exports, line.text("materials"), content, mesh.mesh.points, envelopeFile);
   tell(line, quality, distances);
   warnOfEmptyParts(line, parts, classes);
   const std::string reportFile = line.outputFile("report");
