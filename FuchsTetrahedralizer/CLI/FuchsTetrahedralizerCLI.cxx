@@ -195,8 +195,9 @@ void mesh(CommandLine& line)
   requireUsableOptions(line);
   TetrahedralizerOptions options;
   options.constitutive = readConstitutiveRule(line);
-  options.featureAngle = line.number("featureAngle");
   SurfaceFile content = readSurface(line.text("surface"));
+  const bool isOfMap = !content.boundaryDistance.empty(); // folded where the map has cracks, which are no edges to keep
+  options.featureAngle = isOfMap ? 0 : line.number("featureAngle");
   const TargetLengths lengths = readLengths(line, content);
   TetrahedralizerInput input = readInput(line, std::move(content), lengths.inWorld);
   for (const std::string& warning : warningsOfPlaces(options.constitutive, input.surface)) line.warning(warning);

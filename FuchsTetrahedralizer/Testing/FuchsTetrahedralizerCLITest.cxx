@@ -71,7 +71,7 @@ TEST_F(FuchsTetrahedralizerCLI, RefusesSurfacesAtFault)
     const std::string file = std::string(name) + ".vtp";
     expectRefused(more + file + " m.vtu", 1, file + ": ");
   }
-  expectRefused(more + ". m.vtu", 1, "is a folder");
+  expectRefused(more + ". m.vtu", 1, "is a directory");
 }
 
 TEST_F(FuchsTetrahedralizerCLI, RefusesAmbientTetrahedraAtFault)
@@ -85,7 +85,7 @@ TEST_F(FuchsTetrahedralizerCLI, RefusesAmbientTetrahedraAtFault)
     const std::string file = std::string(name) + ".vtu";
     expectRefused("--edgeLength 2 --ambient " + file + " ball.vtp m.vtu", 1, file + ": ");
   }
-  expectRefused("--edgeLength 2 --ambient . ball.vtp m.vtu", 1, "is a folder");
+  expectRefused("--edgeLength 2 --ambient . ball.vtp m.vtu", 1, "is a directory");
 }
 
 TEST_F(FuchsTetrahedralizerCLI, RefusesScalesAtFault)
@@ -316,4 +316,13 @@ TEST_F(FuchsTetrahedralizerCLI, Trial_B04_ACubeOfTwelveTrianglesKeepsItsShape)
   const std::string figures = readBytes(folder.file("r.txt")), key = "smallestDihedralAngle = ";
   ASSERT_NE(figures.find(key), std::string::npos);
   EXPECT_GE(std::stod(figures.substr(figures.find(key) + key.size())), 20);
+
+  // A surface of a map is folded at the map's cracks, which are no sharp edges: the option is not for it.
+  SurfaceFile ofMap = readSurface(folder.file("cube.ply"));
+  ofMap.boundaryDistance.assign(ofMap.surface.points.size(), 0);
+  writeSurface(ofMap, folder.file("cube.vtp"));
+  expectDone("--edgeLength 5 cube.vtp kept.vtu");
+  expectDone("--edgeLength 5 --featureAngle 0 cube.vtp free.vtu");
+  EXPECT_EQ(readBytes(folder.file("kept.vtu")), readBytes(folder.file("free.vtu")));
+  EXPECT_NE(readBytes(folder.file("kept.vtu")), readBytes(folder.file("m.vtu")));
 }

@@ -135,7 +135,7 @@ class ConfigurationTest(unittest.TestCase):
         self.assertEqual(process.returncode, 0, process.stdout)
         return {name for name, row in read_summary(folder).items() if row["state"] == "meshed"}
 
-    def test_names_are_text_whatever_yaml_makes_of_them(self):
+    def test_b07_names_are_text_whatever_yaml_makes_of_them(self):
         names = ("010", "007", "1e3", "yes", "2026-11-23", "1_0", "p.1")
         patients = "".join(f"  {name}: {{map: p0.nrrd, targetPoint: \"{self.point}\"}}\n" for name in names)
         write_text(f"folder: out\noptions: {{{OWN}}}\npatients:\n{patients}")
@@ -143,7 +143,7 @@ class ConfigurationTest(unittest.TestCase):
         for name in names:
             self.assertTrue(os.path.exists(f"out/{name}/mesh/mesh.vtu"), name)
 
-    def test_folders_with_spaces_and_quotes(self):
+    def test_b09_folders_with_spaces_and_quotes(self):
         root = os.path.abspath("a source folder")
         os.makedirs(root)
         shutil.copytree(os.path.join(ROOT, "workflow"), os.path.join(root, "workflow"))
@@ -154,7 +154,7 @@ class ConfigurationTest(unittest.TestCase):
         self.assertEqual(self.meshed(run(root=root), folder), {"a"})
         self.assertFalse(os.path.exists("my"))
 
-    def test_booleans_in_quotes(self):
+    def test_b15_booleans_in_quotes(self):
         for text, on in (("'no'", False), ("no", False), ("'yes'", True), ("true", True)):
             write_text(f"folder: out\noptions: {{{OWN}, followThickness: {text}}}\n"
                        f"patients: {{a: {{map: p0.nrrd, targetPoint: \"{self.point}\"}}}}\n")
@@ -199,7 +199,7 @@ class ConfigurationTest(unittest.TestCase):
         write_text(f"folder: out\noptions: {{{OWN}, targetPoint: '{self.point}'}}\npatients: bids\n")
         self.assertEqual(self.meshed(run()), {"sub-01_space-orig"})
 
-    def test_bytes_of_bad_files_and_damaged_results_leave_the_table_whole(self):
+    def test_b08_bytes_of_bad_files_and_damaged_results_leave_the_table_whole(self):
         with open("names.lut", "wb") as file:
             file.write(b"\xff\x00\x1b[2J\xfe table\n" * 20)
         patients = {name: {"map": "p0.nrrd", "targetPoint": self.point} for name in ("a", "b", "c", "d")}

@@ -94,7 +94,7 @@ class OwnMapTest(unittest.TestCase):
         self.assert_refused(2, "overwritten", "refused", "map.nrrd", "--targets", "refused/report.json")
         self.assertEqual(sorted(os.listdir("refused")), ["prepared.nrrd", "report.json"])
 
-    def test_earlier_results_stay_until_there_are_new_ones(self):
+    def test_b06_earlier_results_stay_until_there_are_new_ones(self):
         coarse = ("--minimumEdgeLength", "6", "--maximumEdgeLength", "8")
         os.makedirs("kept")
         for name in ("labels.nrrd", "mesh.vtu", "mine.txt"):
@@ -124,7 +124,7 @@ class OwnMapTest(unittest.TestCase):
         with open(f"{folder}/report.json", encoding="utf-8") as file:
             self.assertEqual(json.load(file)["warnings"], [table])
 
-    def test_targets_outside_of_the_map_and_beside_the_tissue(self):
+    def test_b05_targets_outside_of_the_map_and_beside_the_tissue(self):
         coarse = ("--minimumEdgeLength", "6", "--maximumEdgeLength", "8")
         self.assert_shown(run("far", "map.nrrd", "--targetPoint", "500,0,0", *coarse), "far",
                           "target (500, 0, 0) mm LPS", "outside the label map", "mm from the nearest tissue")
@@ -136,7 +136,7 @@ class OwnMapTest(unittest.TestCase):
         self.assert_shown(run("beside", "beside.nrrd", "--targetPoint", "10,5,0", *coarse), "beside",
                           "target (10, 5, 0) mm LPS lies beside the tissue", "opposite sign")
 
-    def test_maps_of_one_voxel_and_of_one_slice(self):
+    def test_b05_maps_of_one_voxel_and_of_one_slice(self):
         write_nrrd("voxel.nrrd", np.ones((1, 1, 1), np.uint16), np.diag([2.0, 2, 2, 1]))
         self.assert_shown(run("voxel", "voxel.nrrd", "--targetPoint", "30,0,0"), "voxel", "outside the label map")
         labels = np.ones((20, 20, 1), np.uint16)
