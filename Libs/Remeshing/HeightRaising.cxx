@@ -38,14 +38,16 @@ public:
 private:
   using Low = std::pair<double, std::int32_t>;
 
-  /// Ascending.
+  /// Ascending, no more than are worked on.
   std::vector<Low> lowTetrahedra() const
   {
     std::vector<Low> low;
     for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
       if (m_Complex.alive(t) && m_Complex.labels[t] != 0)
         if (const double height = heightOf(t); height < m_Options.height) low.push_back({ height, t });
+    const auto most = std::max<std::size_t>(100, std::size_t(m_Options.worstShare * double(m_Complex.tets.size())));
     std::sort(low.begin(), low.end());
+    low.resize(std::min(low.size(), most));
     return low;
   }
 
