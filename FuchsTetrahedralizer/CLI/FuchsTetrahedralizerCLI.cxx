@@ -187,6 +187,13 @@ void returnFigures(CommandLine& line, const QualityGroup& whole)
   line.returnValue("smallestDihedralAngle", std::to_string(whole.dihedral.minimum));
 }
 
+VertexPlacement readPlacement(const CommandLine& line)
+{
+  const std::string name = line.text("placement");
+  if (name == "not whole") return VertexPlacement::NotWhole;
+  return name == "all" ? VertexPlacement::All : VertexPlacement::Lattice;
+}
+
 void mesh(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
@@ -195,6 +202,7 @@ void mesh(CommandLine& line)
   requireUsableOptions(line);
   TetrahedralizerOptions options;
   options.constitutive = readConstitutiveRule(line);
+  options.placement = readPlacement(line);
   SurfaceFile content = readSurface(line.text("surface"));
   const bool isOfMap = !content.boundaryDistance.empty(); // folded where the map has cracks, which are no edges to keep
   options.featureAngle = isOfMap ? 0 : line.number("featureAngle");

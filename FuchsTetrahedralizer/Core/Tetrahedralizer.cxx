@@ -63,8 +63,8 @@ FiniteElementMesh tetrahedralizeTissues(TetrahedralizerInput input, const Target
   const SizingFunction& length = lengths.inWorld;
   const TetrahedraImprovementOptions improvement = improvementOptions(input, options);
   report(progress, 0, "tetrahedra");
-  TetMesh mesh = input.background ? withLatticeInside(input.background->mesh, length, input.name)
-                                  : fillWithTetrahedra(input.surface, length, input.name);
+  TetMesh mesh = input.background ? withLatticeInside(input.background->mesh, length, input.name, options.placement)
+                                  : fillWithTetrahedra(input.surface, length, input.name, options.placement);
   input.background.reset(); // its memory is needed
   improveInFrame(mesh, lengths, improvement, subProgress(progress, 0.25, 0.85));
   report(progress, 0.85, "sub-meshes");

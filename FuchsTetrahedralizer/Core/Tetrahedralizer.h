@@ -10,6 +10,7 @@
 #include "ScaleField.h"
 #include "SizingFunction.h"
 #include "SubMeshes.h"
+#include "VertexPlacement.h"
 
 #include <optional>
 #include <string>
@@ -41,6 +42,7 @@ struct TetrahedralizerInput
 struct TetrahedralizerOptions
 {
   double featureAngle = 0; ///< degrees, see TetrahedraImprovementOptions; not used with background tetrahedra
+  VertexPlacement placement = VertexPlacement::Lattice; ///< of what is laid inside the surface
   ConstitutiveRule constitutive;
 };
 

@@ -4,11 +4,7 @@
 #include "Errors.h"
 #include "Parallel.h"
 #include "Place.h"
-
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Simple_cartesian.h>
+#include "SurfaceLocator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,61 +14,6 @@ namespace surgicalmesher
 {
 namespace
 {
-
-/// Answers where a point lies with respect to the surface; safe to ask from several threads. Approximate arithmetic is
-/// good enough: a wrong answer costs a point, nothing else.
-class SurfaceLocator
-{
-public:
-  explicit SurfaceLocator(const SurfaceComplex& surface) : m_Surface(surface)
-  {
-    m_Triangles.reserve(surface.triangles.size());
-    for (const auto& [a, b, c] : surface.triangles)
-    {
-      m_Triangles.emplace_back(cgal(surface.points[a]), cgal(surface.points[b]), cgal(surface.points[c]));
-    }
-    m_Tree.insert(m_Triangles.begin(), m_Triangles.end());
-    m_Tree.build();
-    m_Tree.accelerate_distance_queries();
-  }
-
-  struct Answer
-  {
-    double distance; ///< to the surface, mm
-    bool inside;     ///< of some tissue
-  };
-
-  Answer ask(const Vec3& p) const
-  {
-    const auto [closest, primitive] = m_Tree.closest_point_and_primitive(cgal(p));
-    const double squared = CGAL::squared_distance(cgal(p), closest);
-    return { std::sqrt(squared), labelTowards(p, primitive) != 0 };
-  }
-
-private:
-  using Kernel = CGAL::Simple_cartesian<double>;
-  using Triangles = std::vector<Kernel::Triangle_3>;
-  using Iterator = Triangles::const_iterator;
-  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Iterator>>>;
-
-  static Kernel::Point_3 cgal(const Vec3& p) { return { p.x, p.y, p.z }; }
-
-  /// The label at p: on the near side of the first triangle on the way to the middle of the closest one. (The closest
-  /// triangle itself can't be asked: where it is closest with an edge, p may lie on either side of its plane.)
-  Label labelTowards(const Vec3& p, Iterator closest) const
-  {
-    const Kernel::Ray_3 ray(cgal(p), CGAL::centroid(*closest));
-    const auto hit = m_Tree.first_intersected_primitive(ray);
-    const Iterator first = hit ? *hit : closest;
-    const auto& [i, j, k] = m_Surface.triangles[first - m_Triangles.begin()];
-    const bool front = orient(m_Surface.points[i], m_Surface.points[j], m_Surface.points[k], p) > 0;
-    return m_Surface.labels[first - m_Triangles.begin()][front ? 1 : 0];
-  }
-
-  const SurfaceComplex& m_Surface;
-  Triangles m_Triangles;
-  Tree m_Tree;
-};
 
 double checkedLength(const SizingFunction& edgeLength, const Vec3& p)
 {

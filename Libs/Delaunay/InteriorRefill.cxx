@@ -60,11 +60,12 @@ std::set<Label> tissuesWithRoom(const TetMesh& mesh, const SizingFunction& edgeL
   return result;
 }
 
-std::optional<TetMesh> filled(const SurfaceComplex& surface, const SizingFunction& edgeLength, const std::string& name)
+std::optional<TetMesh> filled(const SurfaceComplex& surface, const SizingFunction& edgeLength, const std::string& name,
+                              VertexPlacement placement)
 {
   try
   {
-    return fillWithTetrahedra(surface, edgeLength, name);
+    return fillWithTetrahedra(surface, edgeLength, name, placement);
   }
   catch (const EngineError&)
   {
@@ -74,7 +75,8 @@ std::optional<TetMesh> filled(const SurfaceComplex& surface, const SizingFunctio
 
 } // namespace
 
-TetMesh withLatticeInside(const TetMesh& ambient, const SizingFunction& edgeLength, const std::string& name)
+TetMesh withLatticeInside(const TetMesh& ambient, const SizingFunction& edgeLength, const std::string& name,
+                          VertexPlacement placement)
 {
   const std::set<Label> roomy = tissuesWithRoom(ambient, edgeLength);
   if (roomy.empty()) return ambient;
@@ -82,7 +84,7 @@ TetMesh withLatticeInside(const TetMesh& ambient, const SizingFunction& edgeLeng
   for (Label& label : masked.labels) label = roomy.count(label) > 0 ? label : Label(0);
   std::vector<std::int32_t> ambientId; // of the surface's points, then of the new ones
   const SurfaceComplex surface = interfaceOf(masked, &ambientId);
-  const std::optional<TetMesh> inside = filled(surface, edgeLength, name);
+  const std::optional<TetMesh> inside = filled(surface, edgeLength, name, placement);
   if (!inside) return ambient;
   TetMesh result;
   result.points = ambient.points;

@@ -267,20 +267,26 @@ TetMesh tetrahedralize(const SurfaceComplex& surface, const std::vector<Vec3>& l
   return mesh;
 }
 
-TetMesh fillWithTetrahedra(const SurfaceComplex& surface, const SizingFunction& edgeLength, const std::string& name)
+TetMesh fillWithTetrahedra(const SurfaceComplex& surface, const SizingFunction& edgeLength, const std::string& name,
+                           VertexPlacement placement)
 {
+  const auto filled = [&](double clearance)
+  {
+    const std::vector<Vec3> lattice = latticePoints(surface, edgeLength, clearance);
+    return tetrahedralize(surface, placedPoints(surface, lattice, edgeLength, placement, clearance), name);
+  };
   for (const double clearance : { 0.45, 0.6 })
   {
     try
     {
-      return tetrahedralize(surface, latticePoints(surface, edgeLength, clearance), name);
+      return filled(clearance);
     }
     catch (const EngineError&)
     {
       // Other points, other coincidences.
     }
   }
-  return tetrahedralize(surface, latticePoints(surface, edgeLength, 0.75), name);
+  return filled(0.75);
 }
 
 } // namespace surgicalmesher

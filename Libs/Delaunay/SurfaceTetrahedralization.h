@@ -4,6 +4,7 @@
 
 #include "BccLattice.h"
 #include "SurfaceRefused.h"
+#include "VertexPlacement.h"
 
 namespace surgicalmesher
 {
@@ -20,8 +21,9 @@ namespace surgicalmesher
 /// there are such: its failed assertions and crashes are failures like others.
 TetMesh tetrahedralize(const SurfaceComplex& surface, const std::vector<Vec3>& latticePoints, const std::string& name);
 
-/// The same with the lattice points of `edgeLength`. TetGen stumbles over rare coincidences of points; it is then given
+/// The same with the lattice points of `edgeLength`, adjusted as `placement` says. TetGen stumbles over rare coincidences of points; it is then given
 /// others, farther away from the surface, before EngineError is thrown.
-TetMesh fillWithTetrahedra(const SurfaceComplex& surface, const SizingFunction& edgeLength, const std::string& name);
+TetMesh fillWithTetrahedra(const SurfaceComplex& surface, const SizingFunction& edgeLength, const std::string& name,
+                           VertexPlacement placement = VertexPlacement::Lattice);
 
 } // namespace surgicalmesher
