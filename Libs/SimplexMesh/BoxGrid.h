@@ -20,6 +20,10 @@ struct Box
   {
     return { p - Vec3{ reach, reach, reach }, p + Vec3{ reach, reach, reach } };
   }
+  bool contains(const Vec3& p) const
+  {
+    return p.x >= low.x && p.x <= high.x && p.y >= low.y && p.y <= high.y && p.z >= low.z && p.z <= high.z;
+  }
   void add(const Vec3& p)
   {
     for (int a = 0; a < 3; ++a)

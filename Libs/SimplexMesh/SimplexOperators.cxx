@@ -5,7 +5,6 @@
 
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 namespace surgicalmesher
@@ -77,9 +76,10 @@ double roundnessOf(const std::vector<Vec3>& vertices)
 
 } // namespace
 
-SimplexOperators::SimplexOperators(const SurfaceComplex& surface, const TissueBoundary& boundary, OperatorLimits limits)
+SimplexOperators::SimplexOperators(const SurfaceComplex& surface, const TissueBoundary& boundary, OperatorLimits limits,
+                                   const std::vector<DualEdge>& creases)
   : m_Boundary(boundary), m_Limits(std::move(limits)), m_Points(surface.points), m_At(surface.points.size()),
-    m_Grid(cellSize(surface))
+    m_Distances(surface.points.size()), m_Grid(cellSize(surface))
 {
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
   {
@@ -91,6 +91,7 @@ SimplexOperators::SimplexOperators(const SurfaceComplex& surface, const TissueBo
     }
     insert(triangle);
   }
+  for (const auto& [a, b] : creases) setCrease(a, b);
 }
 
 // ---- elements -------------------------------------------------------------------------------------------------------
@@ -100,19 +101,36 @@ CornerTriangle SimplexOperators::cornersOf(const Triangle& t) const
   return { { m_Points[t.corners[0]], m_Points[t.corners[1]], m_Points[t.corners[2]] }, t.corners };
 }
 
-SimplexOperators::Fit SimplexOperators::fitOf(const Triangle& t) const
+double SimplexOperators::distanceAt(const Vec3& p, const std::array<Label, 2>& labels) const
+{
+  const auto nearest = m_Boundary.nearest(p, labels);
+  return nearest ? nearest->distance : 2 * m_Boundary.reach();
+}
+
+double SimplexOperators::distanceOfPoint(std::int32_t p, const std::array<Label, 2>& labels)
+{
+  auto& known = m_Distances[p];
+  for (const auto& [between, distance] : known)
+    if (between == labels) return distance;
+  known.emplace_back(labels, distanceAt(m_Points[p], labels));
+  return known.back().second;
+}
+
+SimplexOperators::Fit SimplexOperators::fitOf(const Triangle& t)
 {
   const auto corners = cornersOf(t).corners;
   const Vec3 centroid = (corners[0] + corners[1] + corners[2]) / 3,
              n = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  const double bound = m_Limits.proximity(centroid);
+  double farthest = 0;
+  for (std::int32_t p : t.corners) farthest = std::max(farthest, distanceOfPoint(p, t.labels));
+  for (int k = 0; m_Limits.isBoundStrict && k < 3; ++k)
+    if (t.corners[k] < t.corners[(k + 1) % 3]) // once for both triangles of a sheet
+      farthest = std::max(farthest, distanceAt(0.5 * (corners[k] + corners[(k + 1) % 3]), t.labels));
   Fit fit;
-  for (const Vec3& p : { corners[0], corners[1], corners[2], centroid })
-  {
-    const auto nearest = m_Boundary.nearest(p, t.labels);
-    fit.distance = std::max(fit.distance, (nearest ? nearest->distance : 2 * m_Boundary.reach()) / bound);
-    if (nearest) fit.cosine = dot(n, nearest->normal) / std::max(1e-300, norm(n)); // the last one: the centroid's
-  }
+  const auto nearest = m_Boundary.nearest(centroid, t.labels);
+  farthest = std::max(farthest, nearest ? nearest->distance : 2 * m_Boundary.reach());
+  if (nearest) fit.cosine = dot(n, nearest->normal) / std::max(1e-300, norm(n));
+  fit.distance = farthest / m_Limits.proximity(centroid);
   return fit;
 }
 
@@ -120,6 +138,7 @@ std::int32_t SimplexOperators::addPoint(const Vec3& p)
 {
   m_Points.push_back(p);
   m_At.emplace_back();
+  m_Distances.emplace_back();
   return std::int32_t(m_Points.size()) - 1;
 }
 
@@ -194,28 +213,34 @@ bool SimplexOperators::staysCovered(const Patch& before, const Patch& after, con
   for (const Facet& f : before.facets)
     for (const Vec3& p : f.shape.corners) box.add(p);
   const double bound = m_Limits.proximity(0.5 * (box.low + box.high));
+  if (m_Limits.isBoundStrict)
+  {
+    box.add(box.low - Vec3{ bound, bound, bound });
+    box.add(box.high + Vec3{ bound, bound, bound });
+  }
   bool holds = true;
-  m_Boundary.samples(box,
-                     [&](const Vec3& p, std::array<Label, 2> labels)
-                     {
-                       if (labels[0] < labels[1]) std::swap(labels[0], labels[1]);
-                       const auto distanceTo = [&](const Patch& patch)
-                       {
-                         double best = 2 * bound; // farther samples belong to other parts of the surface
-                         for (const Facet& f : patch.facets)
-                         {
-                           if (f.labels != labels || norm(p - f.centroid) >= best + f.radius) continue;
-                           const auto& [a, b, c] = f.shape.corners;
-                           best = std::min(best, norm(nearestOnTriangle(p, a, b, c) - p));
-                         }
-                         return best;
-                       };
-                       const double now = distanceTo(after);
-                       if (now <= bound) return true;
-                       const double limit = std::max(bound, distanceTo(before));
-                       holds = now <= limit || coveredElsewhere(p, limit, labels, old);
-                       return holds;
-                     });
+  const auto visit = [&](const Vec3& p, std::array<Label, 2> labels)
+  {
+    if (labels[0] < labels[1]) std::swap(labels[0], labels[1]);
+    const auto distanceTo = [&](const Patch& patch)
+    {
+      double best = 2 * bound; // farther samples belong to other parts of the surface
+      for (const Facet& f : patch.facets)
+      {
+        if (f.labels != labels || norm(p - f.centroid) >= best + f.radius) continue;
+        const auto& [a, b, c] = f.shape.corners;
+        best = std::min(best, norm(nearestOnTriangle(p, a, b, c) - p));
+      }
+      return best;
+    };
+    const double now = distanceTo(after);
+    if (now <= bound) return true;
+    const double limit = m_Limits.isBoundStrict ? bound : std::max(bound, distanceTo(before));
+    holds = now <= limit || coveredElsewhere(p, limit, labels, old);
+    return holds;
+  };
+  if (m_Limits.isBoundStrict) m_Boundary.allSamples(box, visit);
+  else m_Boundary.samples(box, visit);
   return holds;
 }
 
@@ -257,7 +282,7 @@ void SimplexOperators::addFits(Patch& patch, const std::vector<std::int32_t>& ol
   }
 }
 
-bool SimplexOperators::fits(const std::vector<Triangle>& fresh, const Fit& before) const
+bool SimplexOperators::fits(const std::vector<Triangle>& fresh, const Fit& before)
 {
   return std::all_of(fresh.begin(), fresh.end(),
                      [&](const Triangle& t)
@@ -276,14 +301,23 @@ bool SimplexOperators::replace(const std::vector<std::int32_t>& old, const std::
   Patch before = patchOf(gone);
   addFits(before, old);
   std::vector<Vec3> home;
-  for (const auto& [id, p] : moved) home.push_back(std::exchange(m_Points[id], p));
+  std::vector<std::vector<std::pair<std::array<Label, 2>, double>>> distances;
+  for (const auto& [id, p] : moved)
+  {
+    home.push_back(std::exchange(m_Points[id], p));
+    distances.push_back(std::exchange(m_Distances[id], {}));
+  }
   const Patch after = patchOf(fresh);
   const bool holds = after.quality >= std::min(m_Limits.minimumQuality, before.quality) &&
                      !(sameTriangles && turns(before, after)) && fits(fresh, before.fit) && !crosses(old, fresh) &&
                      staysCovered(before, after, old);
   if (!holds)
   {
-    for (std::size_t i = 0; i < moved.size(); ++i) m_Points[moved[i].first] = home[i];
+    for (std::size_t i = 0; i < moved.size(); ++i)
+    {
+      m_Points[moved[i].first] = home[i];
+      m_Distances[moved[i].first] = distances[i];
+    }
     return false;
   }
   for (std::size_t i = 0; i < old.size(); ++i)
@@ -338,12 +372,31 @@ bool SimplexOperators::keepsTissues(std::int32_t a, std::int32_t b) const
   return true;
 }
 
+/// Two faces fuse along a curve or where one of them lies beside it, and no two parts of curves become one.
+bool SimplexOperators::keepsCreases(std::int32_t a, std::int32_t b) const
+{
+  if (m_Creases.empty()) return true;
+  const int orderA = junctionOrder(a), orderB = junctionOrder(b);
+  if (orderA == 0 || orderB == 0) return true;
+  if (!isCurve(a, b) || orderA + orderB == 4) return false;
+  const std::vector<std::int32_t> between = trianglesAt(a, b);
+  return std::none_of(between.begin(), between.end(),
+                      [&](std::int32_t t)
+                      {
+                        const std::int32_t c = thirdCorner(m_Triangles[t].corners, a, b);
+                        return isCurve(a, c) && isCurve(b, c);
+                      });
+}
+
 // ---- operators ------------------------------------------------------------------------------------------------------
 
 bool SimplexOperators::fuse(std::int32_t a, std::int32_t b)
 {
   const std::vector<std::int32_t> between = trianglesAt(a, b);
-  if (between.empty() || !keepsTissues(a, b)) return false;
+  if (between.empty() || !keepsTissues(a, b) || !keepsCreases(a, b)) return false;
+  std::vector<std::int32_t> creasesOfB;
+  for (std::int32_t c : faceNeighbours(b))
+    if (isCrease(b, c)) creasesOfB.push_back(c);
   std::vector<std::int32_t> old = m_At[a];
   std::vector<Triangle> fresh;
   for (std::int32_t t : m_At[b])
@@ -364,10 +417,17 @@ bool SimplexOperators::fuse(std::int32_t a, std::int32_t b)
   }
   if (orderA >= orderB) places.push_back(m_Points[a]);
   if (orderB >= orderA) places.push_back(m_Points[b]);
-  return std::any_of(places.begin(), places.end(),
-                     [&](const Vec3& p) {
-                       return replace(old, fresh, { { a, p } }, false);
-                     });
+  const bool isDone = std::any_of(places.begin(), places.end(),
+                                  [&](const Vec3& p) {
+                                    return replace(old, fresh, { { a, p } }, false);
+                                  });
+  if (!isDone) return false;
+  for (std::int32_t c : creasesOfB)
+  {
+    m_Creases.erase({ std::min(b, c), std::max(b, c) });
+    if (c != a) setCrease(a, c);
+  }
+  return true;
 }
 
 bool SimplexOperators::cut(std::int32_t a)
@@ -412,7 +472,7 @@ bool SimplexOperators::cutEdge(std::int32_t a, std::int32_t b)
 {
   const std::vector<std::int32_t> old = trianglesAt(a, b);
   const Vec3 middle = 0.5 * (m_Points[a] + m_Points[b]);
-  const std::int32_t m = addPoint(old.size() == 2 ? onBoundary(middle, m_Triangles[old[0]].labels) : middle);
+  const std::int32_t m = addPoint(isCurve(a, b) ? middle : onBoundary(middle, m_Triangles[old[0]].labels));
   std::vector<Triangle> fresh;
   for (std::int32_t t : old)
     for (std::int32_t end : { a, b })
@@ -420,13 +480,19 @@ bool SimplexOperators::cutEdge(std::int32_t a, std::int32_t b)
       fresh.push_back(m_Triangles[t]);
       std::replace(fresh.back().corners.begin(), fresh.back().corners.end(), end, m);
     }
-  return replace(old, fresh, {}, false);
+  const bool wasCrease = isCrease(a, b);
+  if (!replace(old, fresh, {}, false)) return false;
+  if (!wasCrease) return true;
+  m_Creases.erase({ std::min(a, b), std::max(a, b) });
+  setCrease(a, m);
+  setCrease(m, b);
+  return true;
 }
 
 bool SimplexOperators::swap(std::int32_t a, std::int32_t b)
 {
   const auto [c, d] = endsOf(a, b);
-  if (c < 0 || !trianglesAt(c, d).empty()) return false;
+  if (c < 0 || isCrease(a, b) || !trianglesAt(c, d).empty()) return false;
   const std::vector<std::int32_t> old = trianglesAt(a, b);
   const std::array<Label, 2> labels = m_Triangles[old[0]].labels;
   for (const Label tissue : labels)
@@ -481,12 +547,35 @@ std::vector<std::int32_t> SimplexOperators::trianglesAt(std::int32_t a, std::int
   return between;
 }
 
-/// 0 inside a sheet, 1 on a curve between three or more tissues, 2 where such curves meet or end.
+bool SimplexOperators::isCurve(std::int32_t a, std::int32_t b) const
+{
+  return trianglesAt(a, b).size() != 2 || isCrease(a, b);
+}
+
+std::vector<Label> SimplexOperators::tissuesAt(std::int32_t a) const
+{
+  std::set<Label> tissues;
+  for (std::int32_t t : m_At[a]) tissues.insert(m_Triangles[t].labels.begin(), m_Triangles[t].labels.end());
+  return { tissues.begin(), tissues.end() };
+}
+
+std::vector<std::int32_t> SimplexOperators::curveNeighbours(std::int32_t a) const
+{
+  std::vector<std::int32_t> neighbours = faceNeighbours(a);
+  neighbours.erase(std::remove_if(neighbours.begin(), neighbours.end(), [&](std::int32_t b) { return !isCurve(a, b); }),
+                   neighbours.end());
+  return neighbours;
+}
+
 int SimplexOperators::junctionOrder(std::int32_t a) const
 {
-  int curves = 0;
-  for (std::int32_t b : faceNeighbours(a)) curves += trianglesAt(a, b).size() != 2;
-  return curves == 0 ? 0 : curves == 2 ? 1 : 2;
+  const std::vector<std::int32_t> along = curveNeighbours(a);
+  if (along.size() != 2) return along.empty() ? 0 : 2;
+  if (m_Creases.empty()) return 1;
+  constexpr double straight = 0.7; // cosine of the turn
+  const Vec3 in = m_Points[a] - m_Points[along[0]], out = m_Points[along[1]] - m_Points[a];
+  const bool turns = isCrease(a, along[0]) && isCrease(a, along[1]) && dot(in, out) < straight * norm(in) * norm(out);
+  return turns ? 2 : 1;
 }
 
 /// The faces around face a, counter-clockwise; none unless it lies inside one sheet.
@@ -586,6 +675,19 @@ double SimplexOperators::centreDistance(std::int32_t a) const
   return most;
 }
 
+double SimplexOperators::faceQuality(std::int32_t a, const Vec3& p) const
+{
+  double worst = 1;
+  for (std::int32_t t : m_At[a])
+  {
+    CornerTriangle shape = cornersOf(m_Triangles[t]);
+    for (int k = 0; k < 3; ++k)
+      if (shape.ids[k] == a) shape.corners[k] = p;
+    worst = std::min(worst, qualityOf(shape));
+  }
+  return worst;
+}
+
 double SimplexOperators::edgeQuality(std::int32_t a, std::int32_t b) const
 {
   double worst = 1;
@@ -629,6 +731,16 @@ SurfaceComplex SimplexOperators::surface(std::vector<std::int32_t>* pointIds) co
   std::vector<std::int32_t> ids = compactPoints(result.triangles, m_Points.size());
   result.points = valuesAt(m_Points, ids);
   if (pointIds) *pointIds = std::move(ids);
+  return result;
+}
+
+std::vector<DualEdge> SimplexOperators::creases() const
+{
+  std::vector<std::int32_t> ids, newId(m_Points.size(), -1);
+  surface(&ids);
+  for (std::size_t p = 0; p < ids.size(); ++p) newId[ids[p]] = std::int32_t(p);
+  std::vector<DualEdge> result;
+  for (const auto& [a, b] : m_Creases) result.push_back({ newId[a], newId[b] });
   return result;
 }
 

@@ -21,24 +21,23 @@ double meanEdge(const SurfaceComplex& surface)
   return surface.triangles.empty() ? 1 : sum / (2. * double(surface.triangles.size()));
 }
 
-Vec3 nearestOnSegment(const Vec3& p, const Vec3& a, const Vec3& b)
-{
-  const Vec3 ab = b - a;
-  const double length2 = squaredNorm(ab);
-  return length2 > 0 ? a + std::clamp(dot(p - a, ab) / length2, 0., 1.) * ab : a;
-}
-
 } // namespace
 
+// By Voronoi regions (Ericson 2005, 5.1.5).
 Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
 {
-  const Vec3 n = cross(b - a, c - a);
-  const auto inside = [&](const Vec3& q, const Vec3& r) { return dot(cross(r - q, p - q), n) >= 0; };
-  if (squaredNorm(n) > 0 && inside(a, b) && inside(b, c) && inside(c, a)) return p - dot(p - a, n) / squaredNorm(n) * n;
-  Vec3 best = nearestOnSegment(p, a, b);
-  for (const Vec3& q : { nearestOnSegment(p, b, c), nearestOnSegment(p, c, a) })
-    if (squaredNorm(q - p) < squaredNorm(best - p)) best = q;
-  return best;
+  const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+  const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
+               d6 = dot(ac, cp);
+  if (d1 <= 0 && d2 <= 0) return a;
+  if (d3 >= 0 && d4 <= d3) return b;
+  if (d6 >= 0 && d5 <= d6) return c;
+  const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return d1 - d3 > 0 ? a + d1 / (d1 - d3) * ab : a;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return d2 - d6 > 0 ? a + d2 / (d2 - d6) * ac : a;
+  if (va <= 0 && d4 >= d3 && d5 >= d6) return b + (d4 - d3) / std::max(1e-300, (d4 - d3) + (d5 - d6)) * (c - b);
+  const double sum = va + vb + vc;
+  return sum > 0 ? a + vb / sum * ab + vc / sum * ac : a;
 }
 
 SurfaceComplex smoothedBoundary(const TissueMap& map)
@@ -49,7 +48,8 @@ SurfaceComplex smoothedBoundary(const TissueMap& map)
 }
 
 TissueBoundary::TissueBoundary(const SurfaceComplex& surface, double reach)
-  : m_Surface(surface), m_Reach(reach), m_Cell(1.2 * meanEdge(surface)), m_Grid(m_Cell)
+  : m_Surface(surface), m_Reach(reach), m_Cell(1.2 * meanEdge(surface)), m_Grid(m_Cell),
+    m_SampleGrid(std::max(m_Cell, 0.5 * reach))
 {
   for (std::size_t t = 0; t < m_Surface.triangles.size(); ++t)
   {
@@ -63,6 +63,26 @@ TissueBoundary::TissueBoundary(const SurfaceComplex& surface, double reach)
     for (std::int32_t p : m_Surface.triangles[t]) radius = std::max(radius, norm(m_Surface.points[p] - m_Centroids[t]));
     m_Radii.push_back(radius);
   }
+  addSamples();
+}
+
+void TissueBoundary::addSamples()
+{
+  std::vector<std::vector<std::array<Label, 2>>> seen(m_Surface.points.size());
+  for (std::size_t t = 0; t < m_Surface.triangles.size(); ++t)
+  {
+    const std::array<Label, 2>& labels = m_Surface.labels[t];
+    m_Samples.push_back({ m_Centroids[t], labels });
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t a = m_Surface.triangles[t][k], b = m_Surface.triangles[t][(k + 1) % 3];
+      if (a < b) m_Samples.push_back({ 0.5 * (m_Surface.points[a] + m_Surface.points[b]), labels });
+      if (std::find(seen[a].begin(), seen[a].end(), labels) != seen[a].end()) continue;
+      seen[a].push_back(labels);
+      m_Samples.push_back({ m_Surface.points[a], labels });
+    }
+  }
+  for (std::size_t s = 0; s < m_Samples.size(); ++s) m_SampleGrid.insert(std::int32_t(s), Box::around(m_Samples[s].p));
 }
 
 std::optional<BoundaryPoint> TissueBoundary::nearest(const Vec3& p, const std::array<Label, 2>& tissues) const
@@ -70,7 +90,7 @@ std::optional<BoundaryPoint> TissueBoundary::nearest(const Vec3& p, const std::a
   BoundaryPoint found;
   found.distance = std::numeric_limits<double>::infinity();
   const auto& points = m_Surface.points;
-  for (double radius = std::min(0.5 * m_Cell, m_Reach);; radius = std::min(2 * radius, m_Reach))
+  for (double radius = std::min(0.25 * m_Cell, m_Reach);; radius = std::min(2 * radius, m_Reach))
   {
     m_Grid.visit(Box::around(p, radius),
                  [&](std::int32_t t)

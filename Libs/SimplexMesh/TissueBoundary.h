@@ -43,12 +43,29 @@ public:
     m_Grid.visit(box, [&](std::int32_t t) { return visit(m_Centroids[t], m_Surface.labels[t]); });
   }
 
+  /// Likewise those in the box, each once for each labels, and the triangles' corners and the middles of their edges.
+  template <class Visit>
+  void allSamples(const Box& box, const Visit& visit) const
+  {
+    m_SampleGrid.visit(box, [&](std::int32_t s)
+                       { return !box.contains(m_Samples[s].p) || visit(m_Samples[s].p, m_Samples[s].labels); });
+  }
+
 private:
+  struct Sample
+  {
+    Vec3 p;
+    std::array<Label, 2> labels;
+  };
+
+  void addSamples();
+
   SurfaceComplex m_Surface;
+  std::vector<Sample> m_Samples;
   std::vector<Vec3> m_Centroids;
   std::vector<double> m_Radii; ///< of the triangles, around their centroids
   double m_Reach, m_Cell;
-  BoxGrid m_Grid;
+  BoxGrid m_Grid, m_SampleGrid;
 };
 
 /// Nearest point of triangle abc to p.

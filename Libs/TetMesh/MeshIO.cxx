@@ -293,7 +293,7 @@ void requirePositive(const TetMesh& mesh, const std::string& file)
 
 SurfaceFile readSurface(const std::string& file)
 {
-  const VTKFile source = readVTKFile(file, { ".vtp", ".vtk", ".stl", ".ply" });
+  const VTKFile source = readVTKFile(file, { ".vtp", ".vtk", ".stl", ".ply", ".obj" });
   const vtkSmartPointer<vtkPolyData> data = trianglesOf(source.data, file);
   requireIdRange(data->GetNumberOfPoints(), "points", file);
   requireIdRange(data->GetNumberOfCells(), "triangles", file);

@@ -29,7 +29,8 @@ struct SurfaceFile
   TissueTable tissues;                  ///< names and colours
 };
 
-/// Reads .vtp, .vtk, .stl or .ply; other polygons than triangles are triangulated, points without a triangle dropped.
+/// Reads .vtp, .vtk, .stl, .ply or .obj; other polygons than triangles are triangulated, points without a triangle
+/// dropped.
 /// Refused: missing file, another format, damaged content, no triangles, point ids out of range, non-finite
 /// coordinates, BoundaryLabels or point arrays of the wrong size or with values out of range, a triangle with the same
 /// label on both sides or with a point used twice.

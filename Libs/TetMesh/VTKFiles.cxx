@@ -11,6 +11,7 @@
 #include <vtkCellArray.h>
 #include <vtkFieldData.h>
 #include <vtkNew.h>
+#include <vtkOBJReader.h>
 #include <vtkPLYReader.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataReader.h>
@@ -129,6 +130,13 @@ VTKFile readPLY(const std::string& file)
   return result;
 }
 
+VTKFile readOBJ(const std::string& file)
+{
+  vtkNew<vtkOBJReader> reader;
+  reader->SetFileName(file.c_str());
+  return { outputOf(reader.Get(), file, "Wavefront OBJ"), false };
+}
+
 VTKFile readByExtension(const std::string& file)
 {
   const std::string extension = text::extensionOf(file);
@@ -136,6 +144,7 @@ VTKFile readByExtension(const std::string& file)
   if (extension == ".vtu") return readXML<vtkXMLUnstructuredGridReader>(file, "VTK XML unstructured grid (.vtu)");
   if (extension == ".stl") return readSTL(file);
   if (extension == ".ply") return readPLY(file);
+  if (extension == ".obj") return readOBJ(file);
   return isLegacyGrid(file) ? readLegacy<vtkUnstructuredGridReader>(file) : readLegacy<vtkPolyDataReader>(file);
 }
 

@@ -19,8 +19,8 @@ struct VTKFile
   bool ras = false;                  ///< the file says, in its title or its field data, SPACE=RAS
 };
 
-/// Reads a file of one of `extensions`, which are of .vtp, .vtu, .vtk (polygonal data or an unstructured grid), .stl and
-/// .ply, with all its arrays. Throws InputError with the file's name: missing, of another extension, damaged, more points
+/// Reads a file of one of `extensions`, which are of .vtp, .vtu, .vtk (polygonal data or an unstructured grid), .stl,
+/// .ply and .obj, with all its arrays. Throws InputError with the file's name: missing, of another extension, damaged, more points
 /// or cells in its header than it has room for, cells of points that are not there, or more than ten seconds and half a
 /// second for each megabyte.
 VTKFile readVTKFile(const std::string& file, const std::vector<std::string>& extensions);
