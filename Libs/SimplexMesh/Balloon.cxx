@@ -336,9 +336,13 @@ std::map<Label, BalloonSize> balloonSizes(const SurfaceComplex& surface)
   {
     const auto& [a, b, c] = surface.triangles[t];
     const Vec3 &p = surface.points[a], &q = surface.points[b], &r = surface.points[c];
-    BalloonSize& size = sizes[surface.labels[t][0]];
-    size.volume += dot(p, cross(q, r)) / 6;
-    size.area += norm(cross(q - p, r - p)) / 2;
+    for (int side = 0; side < 2; ++side)
+    {
+      if (surface.labels[t][side] == 0) continue;
+      BalloonSize& size = sizes[surface.labels[t][side]];
+      size.volume += (side == 0 ? 1 : -1) * dot(p, cross(q, r)) / 6;
+      size.area += norm(cross(q - p, r - p)) / 2;
+    }
   }
   return sizes;
 }

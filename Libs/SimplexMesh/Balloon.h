@@ -72,7 +72,7 @@ struct BalloonStep
 
 struct BalloonResult
 {
-  SurfaceComplex surface;             ///< labels [tissue, 0]
+  SurfaceComplex surface;             ///< labels [tissue, 0]; see withSharedInterfaces where balloons meet
   std::vector<BalloonStep> evolution; ///< the last one is the result
   std::map<Label, BalloonHalt> halts; ///< by tissue
   bool isAtRest = false;              ///< or else the motions ran out

@@ -59,8 +59,8 @@ public:
   /// T2: cuts face a across its longer side. On a curve between tissues, the new face is made of four vertices per
   /// tissue.
   bool cut(std::int32_t a);
-  /// T2 on the edge between a and b: a new face of four vertices, or of four per tissue, in its middle. In the dual, the
-  /// edge ab is split.
+  /// T2 on the edge between a and b: a new face of four vertices, or of four per tissue, in its middle. In the dual,
+  /// the edge ab is split.
   bool cutEdge(std::int32_t a, std::int32_t b);
   /// T7: the edge between faces a and b becomes one between the faces at its two ends.
   bool swap(std::int32_t a, std::int32_t b);
@@ -83,7 +83,8 @@ public:
   /// Of the centre of face a's vertices to the boundary of its tissues, mm: the largest over the sheets that meet
   /// there; the reach, if there is nothing nearer.
   double centreDistance(std::int32_t a) const;
-  /// 0 inside a sheet, 1 on a curve between three or more tissues or on a crease, 2 where such curves meet, end or turn.
+  /// 0 inside a sheet, 1 on a curve between three or more tissues or on a crease, 2 where such curves meet, end or
+  /// turn.
   int junctionOrder(std::int32_t a) const;
   std::vector<Label> tissuesAt(std::int32_t a) const;              ///< ascending
   std::vector<std::int32_t> curveNeighbours(std::int32_t a) const; ///< along such curves, ascending

@@ -7,10 +7,12 @@
 #include "EnclosedVoxels.h"
 #include "Errors.h"
 #include "JsonMember.h"
+#include "MeshChecks.h"
 #include "MeshIO.h"
 #include "Place.h"
 #include "PrintableText.h"
 #include "ScaleOption.h"
+#include "SharedInterface.h"
 #include "Structures.h"
 #include "TextFile.h"
 #include "TissueMapIO.h"
@@ -20,6 +22,7 @@
 #include <vtkSMPTools.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -146,9 +149,6 @@ void warn(CommandLine& line, const BalloonResult& result, const TissueMap& map, 
                    " are held by the membrane's rigidity alone: a smaller --rigidity lets it into narrower places");
     if (halt.end > 0)
       line.warning(std::to_string(halt.end) + of + name + " are held by the end of the label map alone");
-    if (halt.neighbour > 0)
-      line.warning(std::to_string(halt.neighbour) + of + name +
-                   " lie at another balloon: the two surfaces do not share triangles");
   }
   if (!result.isAtRest) line.warning("the balloons were still moving when the motions ran out");
 }
@@ -191,7 +191,7 @@ std::string reportJSON(const CommandLine& line, const BalloonResult& result, con
   writeMember(json, "motions", last.motion);
   writeMember(json, "atRest", result.isAtRest);
   writeMember(json, "withinTolerance", last.withinTolerance);
-  writeMember(json, "triangles", last.vertices);
+  writeMember(json, "triangles", result.surface.triangles.size());
   const std::map<Label, BalloonSize> sizes = balloonSizes(result.surface);
   writeObjects(json, "tissues", result.halts,
                [&](const auto& tissue)
@@ -237,6 +237,22 @@ SurfaceFile surfaceFile(const BalloonResult& result, const TissueMap& map, const
   return content;
 }
 
+/// Where balloons lie against each other, gives them one interface.
+void shareInterfaces(BalloonResult& result, const TissueMap& map, const std::set<Label>& stops,
+                     const BalloonOptions& options, const Progress& progress)
+{
+  const bool meet =
+    std::any_of(result.halts.begin(), result.halts.end(), [](const auto& halt) { return halt.second.neighbour > 0; });
+  if (!meet) return;
+  std::vector<bool> isFree(map.labels.size());
+  for (std::size_t n = 0; n < isFree.size(); ++n) isFree[n] = stops.count(map.labels[n]) == 0;
+  const BalloonStep& last = result.evolution.back();
+  const double edge = std::sqrt(last.area / double(last.vertices));
+  const double gap = 2 * std::max(map.grid.largestSpacing(), edge);
+  result.surface = withSharedInterfaces(result.surface, map.grid, isFree, gap, options.edgeLength, progress);
+  requireSound(result.surface, "balloons' interface");
+}
+
 void run(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
@@ -254,7 +270,8 @@ void run(CommandLine& line)
   options.edgeLength = [&](const Vec3& p) { return double(scale(map.grid.gridToWorld(p))); };
 
   const StoppingField field(map, stops, options.rigidity / 2 + map.grid.largestSpacing());
-  const BalloonResult result = growBalloons(placed, field, options, subProgress(progress, 0.1, 0.95));
+  BalloonResult result = growBalloons(placed, field, options, subProgress(progress, 0.1, 0.9));
+  shareInterfaces(result, map, stops, options, subProgress(progress, 0.9, 0.95));
   warn(line, result, map, options);
 
   report(progress, 0.95, "writing");
@@ -265,10 +282,11 @@ void run(CommandLine& line)
   if (!labelMap.empty()) writeTissueMap(map, labelMap);
   if (!evolution.empty()) writeBytes(evolutionCSV(result.evolution), evolution);
   if (!reportFile.empty()) writeBytes(reportJSON(line, result, voxels, map.table), reportFile);
-  const BalloonStep& last = result.evolution.back();
-  line.message(std::to_string(last.vertices) + " triangles after " + std::to_string(last.motion) + " motions");
-  line.returnValue("triangleCount", std::to_string(last.vertices));
-  line.returnValue("motionCount", std::to_string(last.motion));
+  const std::string triangles = std::to_string(result.surface.triangles.size()),
+                    motions = std::to_string(result.evolution.back().motion);
+  line.message(triangles + " triangles after " + motions + " motions");
+  line.returnValue("triangleCount", triangles);
+  line.returnValue("motionCount", motions);
   report(progress, 1, "done");
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
+#include "MeshChecks.h"
 #include "MeshIO.h"
 #include "TissueMapIO.h"
 #include "VoxelMesh.h"
@@ -100,6 +101,22 @@ TEST_F(BalloonSurfaceCLI, GivesTheSameBytesWithAnyNumberOfThreads)
   expectDone(options + "--threads 3 --labelMap b.nrrd map.nrrd b.vtp");
   EXPECT_EQ(readBytes(folder.file("a.vtp")), readBytes(folder.file("b.vtp")));
   EXPECT_EQ(readBytes(folder.file("a.nrrd")), readBytes(folder.file("b.nrrd")));
+}
+
+TEST_F(BalloonSurfaceCLI, GivesTwoThatMeetOneInterface)
+{
+  writeSeeds("two.mrk.json", { { "front", centre() - Vec3{ 0, 4, 0 } }, { "back", centre() + Vec3{ 0, 4, 0 } } });
+  expectDone(
+    "--seeds two.mrk.json --stop 2 --edgeLength 2 --rigidity 6 --labelMap m.nrrd --report r.json map.nrrd s.vtp");
+  const SurfaceComplex surface = readSurface(folder.file("s.vtp")).surface;
+  const auto tissues = checkSurface(surface);
+  ASSERT_EQ(tissues.size(), 2u);
+  for (const auto& [label, tissue] : tissues) EXPECT_TRUE(tissue.manifold()) << label;
+  EXPECT_GT(std::count(surface.labels.begin(), surface.labels.end(), std::array<Label, 2>{ 5, 4 }), 20);
+  const TissueMap result = readTissueMap(folder.file("m.nrrd"));
+  for (const Label label : { 4, 5 })
+    EXPECT_NEAR(double(std::count(result.labels.begin(), result.labels.end(), label)), tissues.at(label).volume,
+                0.05 * tissues.at(label).volume);
 }
 
 TEST_F(BalloonSurfaceCLI, SaysWhereTheMembraneLeaks)

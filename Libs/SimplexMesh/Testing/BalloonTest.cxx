@@ -2,7 +2,9 @@
 #include "Balloon.h"
 #include "EnclosedVoxels.h"
 #include "Errors.h"
+#include "MeshChecks.h"
 #include "Shapes.h"
+#include "SharedInterface.h"
 #include "SimplexMesh.h"
 #include "VoxelMesh.h"
 
@@ -110,7 +112,7 @@ TEST(Balloon, LeavesByAHoleThatIsWiderThanItsRigidityAndStopsAtTheLimit)
   for (const Vec3& p : result.surface.points) EXPECT_LT(norm(p - centre), 22.5);
 }
 
-TEST(Balloon, TwoThatMeetDoNotCross)
+TEST(Balloon, TwoThatMeetDoNotCrossAndShareOneInterface)
 {
   const TissueMap map = mapOf(30, [](const Vec3& p) { return std::hypot(p.y, p.z) > 8; });
   const Vec3 c = centreOf(map);
@@ -129,6 +131,26 @@ TEST(Balloon, TwoThatMeetDoNotCross)
   EXPECT_EQ(seen.size(), count);
   const auto free = std::count(map.labels.begin(), map.labels.end(), Label(0));
   EXPECT_GT(double(count), 0.9 * double(free));
+
+  std::vector<bool> isFree;
+  for (const Label label : map.labels) isFree.push_back(label != wall);
+  const SurfaceComplex joined =
+    withSharedInterfaces(result.surface, map.grid, isFree, 4, [](const Vec3&) { return 2.; });
+  EXPECT_NO_THROW(requireSound(joined, "test"));
+  const auto tissues = checkSurface(joined);
+  ASSERT_EQ(tissues.size(), 2u);
+  for (const auto& [label, tissue] : tissues) EXPECT_EQ(tissue.euler, 2);
+  double shared = 0;
+  for (std::size_t t = 0; t < joined.triangles.size(); ++t)
+  {
+    const auto& [a, b, c3] = joined.triangles[t];
+    const Vec3 &p = joined.points[a], &q = joined.points[b], &r = joined.points[c3];
+    if (joined.labels[t][0] == 0 || joined.labels[t][1] == 0) continue;
+    EXPECT_NEAR(p.x, c.x, 2.5);
+    shared += 0.5 * norm(cross(q - p, r - p));
+  }
+  EXPECT_NEAR(shared / (std::acos(-1.) * 64), 1, 0.15);
+  EXPECT_NEAR((tissues.at(balloon).volume + tissues.at(balloon + 1).volume) / double(free), 1, 0.05);
 }
 
 TEST(Balloon, IsTheSameWithAnyNumberOfThreads)
