@@ -88,6 +88,18 @@ TEST_F(TemplateFitCLI, WritesTheFittedMeshWhatItCarriesAndTheReport)
   EXPECT_NE(readBytes(folder.file("r.json")).find("\"invalid\": 0"), std::string::npos);
 }
 
+TEST_F(TemplateFitCLI, ExportsMillimetresAndTheSetsOfTheTemplate)
+{
+  folder.write("named.inp", deckOf(mesh) + "*NSET, NSET=corner\n1, 2\n");
+  expectDone("--targetUnit m --landmarks a.fcsv,b.fcsv --export e.inp --export e.msh2 named.inp target.inp f.vtu");
+  const ElementMesh fitted = readElementMesh(folder.file("f.vtu")).mesh;
+  const ElementMesh exported = readElementMesh(folder.file("e.inp")).mesh;
+  EXPECT_LT((1000 * fitted.points - exported.points).colwise().norm().maxCoeff(), 1e-6);
+  const std::string deck = readBytes(folder.file("e.inp"));
+  for (const char* expected : { "*NSET, NSET=corner\n1, 2\n", "*ELSET, ELSET=skin\n" })
+    EXPECT_NE(deck.find(expected), std::string::npos) << expected;
+}
+
 TEST_F(TemplateFitCLI, RefusesLandmarksAtFault)
 {
   const LandmarkPairs pairs = everyNth(mesh.points, 0.001 * bent(mesh.points), 5);

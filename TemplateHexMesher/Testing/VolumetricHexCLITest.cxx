@@ -77,6 +77,22 @@ TEST_F(VolumetricHexCLI, WritesHexahedraWithTheirPartsAndTheReport)
     EXPECT_NE(report.find(expected), std::string::npos) << expected;
 }
 
+TEST_F(VolumetricHexCLI, ExportsTissuesLayersAndSides)
+{
+  folder.write("materials.csv", "tissue, youngsModulus, poissonsRatio\nbar, 6, 0.4\n");
+  expectDone(coarse + "--parts bar.vtk --materials materials.csv --export m.inp envelope.vtk sides.vtk m.vtu");
+  const std::string deck = readBytes(folder.file("m.inp"));
+  for (const char* expected :
+       { "*ELEMENT, TYPE=C3D8, ELSET=all_elements\n", "*ELSET, ELSET=filler\n", "*ELSET, ELSET=bar\n",
+         "*ELSET, ELSET=layer_3\n", "*NSET, NSET=inner\n", "*SURFACE, NAME=inner_faces, TYPE=ELEMENT\n",
+         "*SOLID SECTION, ELSET=bar, MATERIAL=material_bar_linear_elastic\n" })
+    EXPECT_NE(deck.find(expected), std::string::npos) << expected;
+  EXPECT_NE(readBytes(folder.file("m.inp.names.json")).find("\"inner_faces\""), std::string::npos);
+  expectRefused(coarse + "--export n.xyz envelope.vtk sides.vtk n.vtu", 2, "n.xyz");
+  expectRefused(coarse + "--parts bar.vtk --materials bar.vtk --export n.inp envelope.vtk sides.vtk n.vtu", 1,
+                "bar.vtk");
+}
+
 TEST_F(VolumetricHexCLI, WritesTheSameBytesWithOneThreadAndTwo)
 {
   expectDone(coarse + "--parts bar.vtk --threads 1 envelope.vtk sides.vtk a.vtu");
