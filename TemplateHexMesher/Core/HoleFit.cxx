@@ -19,11 +19,13 @@ using Eigen::Vector3d;
 constexpr int kRings = 3;
 constexpr int kRounds = 6;
 constexpr int kSteps = 15;
-constexpr double kPoor = 0.2;         ///< scaled Jacobian under which an element is improved
-constexpr double kPlaneWeight = 1;    ///< of the squared distance (mm) to the plane at the closest point of a side
-constexpr double kPointWeight = 0.02; ///< of that to the point itself
-constexpr double kBorderWeight = 1;   ///< of that to a hole's border
-constexpr double kHeldWeight = 1e3;   ///< of nodes that stay
+constexpr double kPoor = 0.2;           ///< scaled Jacobian under which an element is improved
+constexpr double kPlaneWeight = 1;      ///< of the squared distance (mm) to the plane at the closest point of a side
+constexpr double kPointWeight = 0.02;   ///< of that to the point itself
+constexpr double kBorderWeight = 1;     ///< of that to a hole's border
+constexpr double kFaceWeight = 2;       ///< of that of a face's middle to the plane at its closest point
+constexpr double kHeldWeight = 1e3;     ///< of nodes that stay
+constexpr std::size_t kAllMove = 20000; ///< nodes; a finer mesh needs it less, and its equations grow
 
 struct SidePatches
 {
@@ -150,6 +152,7 @@ public:
 private:
   std::vector<char> moving() const
   {
+    if (m_Mesh.nodes.size() <= kAllMove) return std::vector<char>(m_Mesh.nodes.size(), 1);
     std::vector<char> moves = m_Mesh.atHole;
     const std::vector<ElementQuality> quality = elementQuality(m_Mesh.mesh);
     for (std::size_t e = 0; e < quality.size(); ++e)
@@ -185,7 +188,32 @@ private:
       if (region.held[i]) result.push_back(pull);
       else addSlidingPulls(std::size_t(region.nodes[i]), point, pull, result);
     }
+    addFacePulls(region, points, result);
     return result;
+  }
+
+  /// Nodes on a curved surface leave the faces between them on its hollow side: their middles are drawn to it as well.
+  void addFacePulls(const Region& region, const Points& points, std::vector<Pull>& result) const
+  {
+    for (const Face& face : outerFaces(region.part.elements))
+    {
+      const auto isOn = [&](int layer)
+      {
+        return std::all_of(face.nodes.begin(), face.nodes.end(),
+                           [&](std::int32_t n) { return m_Mesh.nodes[std::size_t(region.nodes[n])][1] == layer; });
+      };
+      const Side side = isOn(0) ? Side::Outer : isOn(m_Mesh.divisions[1]) ? Side::Inner : Side::Hole;
+      if (side == Side::Hole) continue;
+      Pull pull;
+      pull.nodes = face.nodes;
+      pull.weights.fill(0.25);
+      const SurfacePoint closest =
+        m_Patches.patches[std::size_t(side)]->closest(pull.position(points), Vector3d::Zero(), 0);
+      pull.goal = closest.position;
+      pull.direction = closest.normal;
+      pull.along = kFaceWeight;
+      result.push_back(pull);
+    }
   }
 
   void addSlidingPulls(std::size_t node, const Vector3d& point, Pull pull, std::vector<Pull>& result) const
