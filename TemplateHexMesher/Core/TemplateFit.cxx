@@ -16,9 +16,9 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kNormalScale = 4;       ///< mm of distance that weigh as much as normals that differ by 1
+constexpr double kNormalScale = 10;      ///< mm of distance that weigh as much as normals that differ by 1
 constexpr double kPlaneWeight = 1;       ///< of the squared distance (mm) to the plane at the closest point
-constexpr double kPointWeight = 0.02;    ///< of that to the point itself
+constexpr double kPointWeight = 0.3;     ///< of that to the point itself
 constexpr double kCreaseWeight = 0.3;    ///< of that to the nearest crease
 constexpr double kCreaseReach = 8;       ///< mm
 constexpr double kOrientationReach = 20; ///< mm
