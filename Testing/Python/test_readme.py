@@ -10,6 +10,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 MODULES = ("SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer")
 # Programs without a panel of their own: their folder, whose name their page has, too.
 PROGRAMS = {"BalloonSurface": "SimplexMesher",
+            "LocalRegistration": "TissueMapper",
             "SurfaceRemesher": "SimplexMesher",
             "TemplateFit": "TemplateHexMesher",
             "TissueMapper": "TissueMapper",

@@ -2,6 +2,7 @@
 #include "HeadCompartments.h"
 
 #include "ExtraTrees.h"
+#include "ItkImage.h"
 #include "Sampling.h"
 
 #include <itkGradientMagnitudeRecursiveGaussianImageFilter.h>
@@ -19,35 +20,10 @@ namespace surgicalmesher
 namespace
 {
 
-using Image = itk::Image<float, 3>;
 using Mask = itk::Image<unsigned char, 3>;
 
-template <typename ItkImage, typename Values>
-typename ItkImage::Pointer asItkImage(const Grid& grid, const Values& values)
-{
-  const auto result = ItkImage::New();
-  typename ItkImage::SizeType size;
-  typename ItkImage::SpacingType spacing;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    size[axis] = grid.size[axis];
-    spacing[axis] = grid.spacing[axis];
-  }
-  result->SetRegions(typename ItkImage::RegionType(size));
-  result->SetSpacing(spacing);
-  result->Allocate();
-  std::copy(values.begin(), values.end(), result->GetBufferPointer());
-  return result;
-}
-
-std::vector<float> valuesOf(const Image& image)
-{
-  const float* values = image.GetBufferPointer();
-  return { values, values + image.GetBufferedRegion().GetNumberOfPixels() };
-}
-
 template <typename Filter>
-std::vector<float> filtered(const Image::Pointer& image, double sigma)
+std::vector<float> filtered(const ItkImage::Pointer& image, double sigma)
 {
   const auto filter = Filter::New();
   filter->SetInput(image);
@@ -56,15 +32,15 @@ std::vector<float> filtered(const Image::Pointer& image, double sigma)
   return valuesOf(*filter->GetOutput());
 }
 
-std::vector<float> blurred(const Image::Pointer& image, double sigma)
+std::vector<float> blurred(const ItkImage::Pointer& image, double sigma)
 {
-  return filtered<itk::SmoothingRecursiveGaussianImageFilter<Image, Image>>(image, sigma);
+  return filtered<itk::SmoothingRecursiveGaussianImageFilter<ItkImage, ItkImage>>(image, sigma);
 }
 
 /// Distance (mm) of every voxel to the nearest of the mask; 0 in it.
 std::vector<float> distanceTo(const Grid& grid, const std::vector<bool>& mask)
 {
-  using Filter = itk::SignedMaurerDistanceMapImageFilter<Mask, Image>;
+  using Filter = itk::SignedMaurerDistanceMapImageFilter<Mask, ItkImage>;
   if (std::find(mask.begin(), mask.end(), true) == mask.end()) return std::vector<float>(mask.size(), 1e6f);
   const auto filter = Filter::New();
   filter->SetInput(asItkImage<Mask>(grid, mask));
@@ -161,10 +137,11 @@ Features featuresOf(const ScalarImage& image, const std::vector<bool>& isBone, c
 {
   Features features;
   features.values.push_back(image.values);
-  const auto itkImage = asItkImage<Image>(image.grid, image.values);
+  const auto itkImage = asItkImage<ItkImage>(image.grid, image.values);
   for (const double sigma : { 1.0, 2.0, 4.0, 8.0 }) features.values.push_back(blurred(itkImage, sigma));
-  features.values.push_back(filtered<itk::GradientMagnitudeRecursiveGaussianImageFilter<Image, Image>>(itkImage, 1.0));
-  const auto bone = asItkImage<Image>(image.grid, isBone);
+  features.values.push_back(
+    filtered<itk::GradientMagnitudeRecursiveGaussianImageFilter<ItkImage, ItkImage>>(itkImage, 1.0));
+  const auto bone = asItkImage<ItkImage>(image.grid, isBone);
   for (const double sigma : { 2.0, 4.0, 8.0, 16.0 }) features.values.push_back(blurred(bone, sigma));
   features.values.push_back(boneDistance);
   features.values.push_back(depth);

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Voxel fields as images of ITK, and back.
+
+#include "Grid.h"
+
+#include <itkImage.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+using ItkImage = itk::Image<float, 3>;
+
+/// A copy of the values, where the grid lies in the world.
+template <typename Image, typename Values>
+typename Image::Pointer asItkImage(const Grid& grid, const Values& values)
+{
+  const auto result = Image::New();
+  typename Image::SizeType size;
+  typename Image::SpacingType spacing;
+  typename Image::PointType origin;
+  typename Image::DirectionType direction;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    size[axis] = grid.size[axis];
+    spacing[axis] = grid.spacing[axis];
+    origin[axis] = grid.origin[axis];
+    for (int row = 0; row < 3; ++row) direction(row, axis) = grid.axes[axis][row];
+  }
+  result->SetRegions(typename Image::RegionType(size));
+  result->SetSpacing(spacing);
+  result->SetOrigin(origin);
+  result->SetDirection(direction);
+  result->Allocate();
+  std::copy(values.begin(), values.end(), result->GetBufferPointer());
+  return result;
+}
+
+inline std::vector<float> valuesOf(const ItkImage& image)
+{
+  const float* values = image.GetBufferPointer();
+  return { values, values + image.GetBufferedRegion().GetNumberOfPixels() };
+}
+
+} // namespace surgicalmesher
