@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FeatureSimplification.h"
 
-#include "PaddedMap.h"
 #include "Parallel.h"
 #include "RegionRemoval.h"
 
@@ -23,45 +22,37 @@ constexpr double requiredShare = 0.38;
 
 constexpr double largestSize = 16; ///< in smallest voxel spacings
 
-/// s(x) at the voxels of a padded map.
+/// s(x) at the voxels of a map.
 class FeatureSizes
 {
 public:
-  FeatureSizes(const Grid& paddedGrid, int margin, const ScaleField& scale, double featureScale)
-    : m_Grid(paddedGrid), m_Margin(margin), m_Scale(scale), m_Factor(featureScale),
-      m_Smallest(std::min({ paddedGrid.spacing.x, paddedGrid.spacing.y, paddedGrid.spacing.z }))
+  FeatureSizes(const PaddedMap& map, const ScaleField& scale, double featureScale)
+    : m_Map(map), m_Scale(scale), m_Factor(featureScale), m_Smallest(map.grid.smallestSpacing())
   {
   }
 
   /// mm; 0 where nothing is to change.
   double at(std::size_t voxel) const
   {
-    const std::size_t i = voxel % m_Grid.size[0], j = voxel / m_Grid.size[0] % m_Grid.size[1];
-    const std::size_t k = voxel / m_Grid.size[0] / m_Grid.size[1];
-    const Vec3& s = m_Grid.spacing;
-    const double margin = m_Margin;
-    const double size =
-      m_Factor * m_Scale(m_Grid.gridToWorld({ (i - margin) * s.x, (j - margin) * s.y, (k - margin) * s.z }));
+    const double size = m_Factor * m_Scale(m_Map.worldAt(voxel));
     return size < m_Smallest ? 0 : std::min(size, largestSize * m_Smallest);
   }
 
   double smallestSpacing() const { return m_Smallest; }
 
 private:
-  const Grid& m_Grid;
-  int m_Margin;
+  const PaddedMap& m_Map;
   const ScaleField& m_Scale;
   double m_Factor, m_Smallest;
 };
 
-/// Steps from a voxel of a padded map to the voxels of the balls around it, by diameter.
+/// Steps from a voxel to the voxels of the balls around it, by diameter.
 class Balls
 {
 public:
-  Balls(const Grid& paddedGrid, double smallestSpacing, double largestDiameter) : m_Unit(smallestSpacing / 4)
+  Balls(const Grid& grid, double smallestSpacing, double largestDiameter) : m_Unit(smallestSpacing / 4)
   {
-    for (int index = 0; index <= indexOf(largestDiameter); ++index)
-      m_Steps.push_back(ball(paddedGrid, index * m_Unit / 2));
+    for (int index = 0; index <= indexOf(largestDiameter); ++index) m_Steps.push_back(ball(grid, index * m_Unit / 2));
   }
 
   const std::vector<std::ptrdiff_t>& ofDiameter(double diameter) const { return m_Steps[indexOf(diameter)]; }
@@ -161,15 +152,15 @@ private:
   std::vector<bool> m_Dirty;
 };
 
-/// The two rules on a padded map.
+/// The two rules.
 class Simplifier
 {
 public:
-  Simplifier(TissueMap& map, int margin, const ScaleField& scale, double featureScale, double largest,
+  Simplifier(PaddedMap& map, const ScaleField& scale, double featureScale, double largest,
              const std::set<Label>& closed)
-    : m_Map(map), m_Margin(margin), m_Closed(closed), m_Steps(neighbourSteps(map.grid)),
-      m_Sizes(map.grid, margin, scale, featureScale), m_Largest(largest),
-      m_Balls(map.grid, m_Sizes.smallestSpacing(), largest + m_Sizes.smallestSpacing()), m_Dirty(map.grid)
+    : m_Map(map), m_Closed(closed), m_Steps(neighbourSteps(map.grid)), m_Sizes(map, scale, featureScale),
+      m_Largest(largest), m_Balls(map.grid, m_Sizes.smallestSpacing(), largest + m_Sizes.smallestSpacing()),
+      m_Dirty(map.grid)
   {
   }
 
@@ -201,18 +192,12 @@ private:
                    voxels * voxelVolume < m_Largest * m_Largest * m_Largest;
       least[r] = m_Largest;
     }
-    const std::size_t rowSize = m_Map.grid.size[0];
-    for (std::size_t row = 0; row + 1 < regions.rowBegins.size(); ++row)
-    {
-      for (std::size_t run = regions.rowBegins[row]; run < regions.rowBegins[row + 1]; ++run)
-      {
-        const auto [begin, region] = regions.runs[run];
-        if (!isSmall[region]) continue;
-        const std::size_t end = run + 1 < regions.rowBegins[row + 1] ? regions.runs[run + 1].begin : rowSize;
-        for (std::size_t i = begin; i < end; ++i)
-          least[region] = std::min(least[region], m_Sizes.at(row * rowSize + i));
-      }
-    }
+    forEachRun(regions, m_Map.grid.size[0],
+               [&](std::uint32_t region, std::size_t begin, std::size_t end)
+               {
+                 for (std::size_t v = begin; isSmall[region] && v < end; ++v)
+                   least[region] = std::min(least[region], m_Sizes.at(v));
+               });
     for (std::size_t r = 0; r < isSmall.size(); ++r)
     {
       isSmall[r] = isSmall[r] && regions.list[r].voxels * voxelVolume < least[r] * least[r] * least[r];
@@ -231,7 +216,7 @@ private:
         for (const auto& [voxel, label] : changes)
         {
           m_Map.labels[voxel] = label;
-          m_Dirty.mark(voxel, m_Margin - 1);
+          m_Dirty.mark(voxel, m_Map.margin - 1);
         }
       }
     }
@@ -246,7 +231,7 @@ private:
     parallelFor(cubes.size(),
                 [&](vtkIdType c)
                 {
-                  m_Dirty.visitVoxels(cubes[c], m_Margin,
+                  m_Dirty.visitVoxels(cubes[c], m_Map.margin,
                                       [&](std::size_t voxel)
                                       {
                                         const Label label = ruling(voxel);
@@ -305,8 +290,7 @@ private:
     return count;
   }
 
-  TissueMap& m_Map;
-  int m_Margin;
+  PaddedMap& m_Map;
   const std::set<Label>& m_Closed;
   std::array<std::ptrdiff_t, 27> m_Steps;
   FeatureSizes m_Sizes;
@@ -328,29 +312,35 @@ std::set<Label> halved(const std::map<Label, std::size_t>& before, const TissueM
   return result;
 }
 
+/// s anywhere, mm.
+double largestFeature(const Grid& grid, const ScaleField& scale, double featureScale)
+{
+  const double longest = *std::max_element(scale.lengths.begin(), scale.lengths.end());
+  return std::min(featureScale * longest, largestSize * grid.smallestSpacing());
+}
+
 } // namespace
 
-std::set<Label> simplifyFeatures(TissueMap& map, const ScaleField& scale, const FeatureOptions& options,
+int featureMargin(const Grid& grid, const ScaleField& scale, double featureScale)
+{
+  return 1 + int((largestFeature(grid, scale, featureScale) / grid.smallestSpacing() + 1) / 2);
+}
+
+std::set<Label> simplifyFeatures(PaddedMap& map, const ScaleField& scale, const FeatureOptions& options,
                                  const Progress& progress)
 {
-  const Vec3& s = map.grid.spacing;
-  const double smallest = std::min({ s.x, s.y, s.z });
-  const double longest = *std::max_element(scale.lengths.begin(), scale.lengths.end());
-  const double largest = std::min(options.featureScale * longest, largestSize * smallest);
+  const double largest = largestFeature(map.grid, scale, options.featureScale);
   std::set<Label> keptWhole;
-  if (!(largest >= smallest)) return keptWhole;
+  if (!(largest >= map.grid.smallestSpacing())) return keptWhole;
 
-  // The largest ball reaches over the border by as much as this.
-  const int margin = 1 + int((largest / smallest + 1) / 2);
   const std::map<Label, std::size_t> voxels = countVoxels(map);
   std::set<Label> closed = options.protectedLabels;
-  TissueMap simplified = map;
+  PaddedMap simplified;
   for (double done = 0;; done += (0.9 - done) / 2)
   {
     report(progress, done, "Simplifying features");
-    TissueMap work = padded(map, margin);
-    Simplifier(work, margin, scale, options.featureScale, largest, closed).run();
-    copyWithoutMargin(work, margin, simplified);
+    simplified = map;
+    Simplifier(simplified, scale, options.featureScale, largest, closed).run();
     const std::set<Label> tooSmall = halved(voxels, simplified);
     if (tooSmall.empty()) break;
     keptWhole.insert(tooSmall.begin(), tooSmall.end());
@@ -361,11 +351,11 @@ std::set<Label> simplifyFeatures(TissueMap& map, const ScaleField& scale, const 
   return keptWhole;
 }
 
-std::vector<bool> voxelsBelowScale(const Grid& grid, const ScaleField& scale, double featureScale)
+std::vector<bool> voxelsBelowScale(const PaddedMap& map, const ScaleField& scale, double featureScale)
 {
-  const FeatureSizes sizes(grid, 0, scale, featureScale);
-  std::vector<bool> below(grid.voxelCount());
-  for (std::size_t v = 0; v < below.size(); ++v) below[v] = sizes.at(v) == 0;
+  const FeatureSizes sizes(map, scale, featureScale);
+  std::vector<bool> below(map.labels.size());
+  for (std::size_t v = 0; v < below.size(); ++v) below[v] = map.isInMargin(v) || sizes.at(v) == 0;
   return below;
 }
 

@@ -13,9 +13,9 @@
 /// every boundary that is not flat. It takes as many rounds as s has voxels, and a last search for small regions
 /// follows. A narrow passage through a wall that is itself thin can remain.
 
+#include "PaddedMap.h"
 #include "Progress.h"
 #include "ScaleField.h"
-#include "TissueMap.h"
 
 #include <set>
 #include <vector>
@@ -29,14 +29,17 @@ struct FeatureOptions
   std::set<Label> protectedLabels; ///< keep every voxel and gain none; label 0 protects the background
 };
 
-/// Simplifies the map at `scale`. A voxel changes only where s(x) is at least the smallest voxel spacing; sizes over 16
+/// The margin that the balls of simplifyFeatures() need: the largest reaches over the map's border by so many voxels.
+int featureMargin(const Grid& grid, const ScaleField& scale, double featureScale);
+
+/// Simplifies the map, which has featureMargin() around it, at `scale`. A voxel changes only where s(x) is at least the smallest voxel spacing; sizes over 16
 /// of that spacing count as 16. No tissue disappears: one that would lose more than half of its voxels is left as if
 /// protected, and these are returned. Deterministic. The map may hold new diagonal contacts afterwards. If `progress`
 /// throws, the map is as it was.
-std::set<Label> simplifyFeatures(TissueMap& map, const ScaleField& scale, const FeatureOptions& options,
+std::set<Label> simplifyFeatures(PaddedMap& map, const ScaleField& scale, const FeatureOptions& options,
                                  const Progress& progress = {});
 
-/// The voxels where s(x) is below the smallest voxel spacing.
-std::vector<bool> voxelsBelowScale(const Grid& grid, const ScaleField& scale, double featureScale);
+/// The voxels where s(x) is below the smallest voxel spacing, and all of the margin.
+std::vector<bool> voxelsBelowScale(const PaddedMap& map, const ScaleField& scale, double featureScale);
 
 } // namespace surgicalmesher

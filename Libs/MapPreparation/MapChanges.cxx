@@ -2,7 +2,6 @@
 #include "MapChanges.h"
 
 #include "DigitalTopology.h"
-#include "PaddedMap.h"
 
 #include <algorithm>
 #include <array>
@@ -79,11 +78,10 @@ private:
   std::size_t m_RowSize;
 };
 
-/// Pieces of two padded maps.
 class PieceFinder
 {
 public:
-  PieceFinder(const TissueMap& before, const TissueMap& after)
+  PieceFinder(const PaddedMap& before, const PaddedMap& after)
     : m_Before(before), m_After(after), m_Steps(neighbourSteps(before.grid)), m_RegionsAfter(after)
   {
   }
@@ -169,15 +167,10 @@ private:
     return { label, kind, piece.size(), placeOf(piece) };
   }
 
-  Vec3 placeOf(const Voxels& piece) const
-  {
-    const std::size_t voxel = piece[piece.size() / 2];
-    const auto [i, j, k] = m_Before.grid.voxelAt(voxel);
-    return m_Before.grid.gridToWorld(m_Before.grid.position(i - 1, j - 1, k - 1)); // the margin shifts voxels by one
-  }
+  Vec3 placeOf(const Voxels& piece) const { return m_Before.worldAt(piece[piece.size() / 2]); }
 
-  const TissueMap& m_Before;
-  const TissueMap& m_After;
+  const PaddedMap& m_Before;
+  const PaddedMap& m_After;
   std::array<std::ptrdiff_t, 27> m_Steps;
   RegionLookup m_RegionsAfter;
 };
@@ -191,11 +184,9 @@ const char* nameOf(ChangeKind kind)
   return names[int(kind)];
 }
 
-std::vector<MapChange> mapChanges(const TissueMap& before, const TissueMap& after)
+std::vector<MapChange> mapChanges(const PaddedMap& before, const PaddedMap& after)
 {
-  // A piece at the border has its neighbours, and theirs are not looked at.
-  const TissueMap paddedBefore = padded(before, 1), paddedAfter = padded(after, 1);
-  return PieceFinder(paddedBefore, paddedAfter).find();
+  return PieceFinder(before, after).find();
 }
 
 } // namespace surgicalmesher

@@ -2,7 +2,7 @@
 #pragma once
 /// What became of a map, piece by piece: the differences between two maps, by tissue and kind.
 
-#include "TissueMap.h"
+#include "PaddedMap.h"
 
 #include <cstddef>
 #include <vector>
@@ -38,8 +38,8 @@ struct MapChange
 
 /// Every piece, by tissue, then kind. Each voxel that differs is in one piece that its label `before` lost, and in one
 /// that its label `after` gained. Pieces lost are joined through faces, pieces gained through corners as well; whether
-/// a piece joined others is seen from the voxels around it. Both maps have the same grid; voxels beyond it are
-/// background. Time grows with the number of voxels that differ.
-std::vector<MapChange> mapChanges(const TissueMap& before, const TissueMap& after);
+/// a piece joined others is seen from the voxels around it. Both maps have the same grid and margin, of one voxel or more:
+/// a piece at the border has its neighbours, and theirs are not looked at. Time grows with the number of voxels that differ.
+std::vector<MapChange> mapChanges(const PaddedMap& before, const PaddedMap& after);
 
 } // namespace surgicalmesher

@@ -8,8 +8,8 @@
 /// the voxels of each label are face-connected within the block, and so are the others. A block that fails is
 /// *critical*.
 
+#include "PaddedMap.h"
 #include "Progress.h"
-#include "TissueMap.h"
 
 #include <cstddef>
 #include <map>
@@ -52,17 +52,21 @@ std::size_t countCriticalBlocks(const TissueMap& map);
 /// EngineError if a contact cannot be resolved, with its place in mm; the map is then as it was.
 PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, const Progress& progress = {});
 
+/// The same for what goes on working with the margin (at least one voxel, and of no influence): the prepared map.
+PaddedMap preparedMap(const TissueMap& map, int margin, const PreparationOptions& options, PreparationReport& report,
+                      const Progress& progress = {});
+
 /// Which voxels of a prepared map a change has to leave alone.
 struct ChangeLimits
 {
-  std::vector<bool> fixedVoxels; ///< by voxel: keep their label
+  std::vector<bool> fixedVoxels; ///< by voxel of the padded map: keep their label
   std::set<Label> closedLabels;  ///< gain no voxel
 };
 
 /// Prepares a changed copy of a prepared map, within limits that the change has kept: removes the islands that it cut
 /// off, and resolves the contacts that it made. Succeeds always, as voxels can go back to what they were; islands that
 /// hold a fixed voxel, or one gone back, stay.
-void prepareAgain(TissueMap& map, const TissueMap& prepared, const PreparationOptions& options,
+void prepareAgain(PaddedMap& map, const PaddedMap& prepared, const PreparationOptions& options,
                   const ChangeLimits& limits);
 
 } // namespace surgicalmesher

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RegionRemoval.h"
 
-#include "PaddedMap.h"
-
 #include <tuple>
 #include <unordered_map>
 
@@ -14,16 +12,11 @@ namespace
 std::vector<std::size_t> voxelsOf(const TissueMap& map, const Regions& regions, const std::vector<bool>& chosen)
 {
   std::vector<std::size_t> voxels;
-  const std::size_t size = map.grid.size[0];
-  for (std::size_t row = 0; row + 1 < regions.rowBegins.size(); ++row)
-  {
-    for (std::size_t r = regions.rowBegins[row]; r < regions.rowBegins[row + 1]; ++r)
-    {
-      if (!chosen[regions.runs[r].region]) continue;
-      const std::size_t end = r + 1 < regions.rowBegins[row + 1] ? regions.runs[r + 1].begin : size;
-      for (std::size_t i = regions.runs[r].begin; i < end; ++i) voxels.push_back(row * size + i);
-    }
-  }
+  forEachRun(regions, map.grid.size[0],
+             [&](std::uint32_t region, std::size_t begin, std::size_t end)
+             {
+               for (std::size_t v = begin; chosen[region] && v < end; ++v) voxels.push_back(v);
+             });
   return voxels;
 }
 
@@ -115,7 +108,7 @@ std::vector<bool> largestRegions(const Regions& regions)
   return result;
 }
 
-RemovedVoxels removeRegions(TissueMap& map, const Regions& regions, const std::vector<bool>& chosen,
+RemovedVoxels removeRegions(PaddedMap& map, const Regions& regions, const std::vector<bool>& chosen,
                             const std::set<Label>& closed)
 {
   std::vector<std::size_t> open = voxelsOf(map, regions, chosen);

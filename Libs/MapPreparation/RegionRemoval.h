@@ -3,6 +3,7 @@
 /// Small regions of a map and how they go.
 
 #include "DigitalTopology.h"
+#include "PaddedMap.h"
 
 #include <set>
 #include <vector>
@@ -21,9 +22,8 @@ struct RemovedVoxels
 std::vector<bool> largestRegions(const Regions& regions);
 
 /// Gives the voxels of the chosen regions to the labels around them, from the outside of each region inwards: every
-/// voxel goes to the label with which it shares most surface. `map` has a margin (PaddedMap.h) and `regions` are its
-/// own; region 0 is not to be chosen. Labels in `closed` take nothing: a region that only they surround stays.
-RemovedVoxels removeRegions(TissueMap& map, const Regions& regions, const std::vector<bool>& chosen,
+/// voxel goes to the label with which it shares most surface. `regions` are those of `map`; region 0 is not to be chosen. Labels in `closed` take nothing: a region that only they surround stays.
+RemovedVoxels removeRegions(PaddedMap& map, const Regions& regions, const std::vector<bool>& chosen,
                             const std::set<Label>& closed = {});
 
 } // namespace surgicalmesher

@@ -15,15 +15,15 @@ ScaledPreparationReport prepareAtScale(TissueMap& map, const ScaleField& scale, 
     result.preparation = prepareMap(map, preparation, progress);
     return result;
   }
-  TissueMap prepared = map;
-  result.preparation = prepareMap(prepared, preparation, subProgress(progress, 0, 0.3));
-  TissueMap simplified = prepared;
+  const PaddedMap prepared = preparedMap(map, featureMargin(map.grid, scale, features.featureScale), preparation,
+                                         result.preparation, subProgress(progress, 0, 0.3));
+  PaddedMap simplified = prepared;
   result.keptWhole = simplifyFeatures(simplified, scale, features, subProgress(progress, 0.3, 0.8));
 
   report(progress, 0.8, "Resolving contacts");
-  ChangeLimits limits{ voxelsBelowScale(map.grid, scale, features.featureScale), features.protectedLabels };
+  ChangeLimits limits{ voxelsBelowScale(prepared, scale, features.featureScale), features.protectedLabels };
   limits.closedLabels.insert(result.keptWhole.begin(), result.keptWhole.end());
-  for (std::size_t v = 0; v < map.labels.size(); ++v)
+  for (std::size_t v = 0; v < prepared.labels.size(); ++v)
   {
     if (limits.closedLabels.count(prepared.labels[v])) limits.fixedVoxels[v] = true;
   }
@@ -34,7 +34,7 @@ ScaledPreparationReport prepareAtScale(TissueMap& map, const ScaleField& scale, 
   report(progress, 0.9, "Listing what changed");
   result.simplification = mapChanges(prepared, simplified);
   report(progress, 1, "Listing what changed");
-  map.labels.swap(simplified.labels);
+  copyWithoutMargin(simplified, map);
   return result;
 }
 

@@ -60,6 +60,21 @@ struct Regions
 
 Regions connectedRegions(const TissueMap& map);
 
+/// Calls visit(region, begin, end) for every run, in the order of memory: the voxels from index `begin` up to `end`, which
+/// is not one of them. `rowSize` is the map's size along i.
+template <class Visit>
+void forEachRun(const Regions& regions, std::size_t rowSize, const Visit& visit)
+{
+  for (std::size_t row = 0; row + 1 < regions.rowBegins.size(); ++row)
+  {
+    for (std::size_t r = regions.rowBegins[row]; r < regions.rowBegins[row + 1]; ++r)
+    {
+      const std::size_t end = r + 1 < regions.rowBegins[row + 1] ? regions.runs[r + 1].begin : rowSize;
+      visit(regions.runs[r].region, row * rowSize + regions.runs[r].begin, row * rowSize + end);
+    }
+  }
+}
+
 /// Topology of each region taken alone, by its index in `regions.list`; region 0 is left at zeros.
 std::vector<Betti> regionTopology(const TissueMap& map, const Regions& regions);
 

@@ -6,10 +6,21 @@
 namespace surgicalmesher
 {
 
-TissueMap padded(const TissueMap& map, int margin)
+bool PaddedMap::isInMargin(std::size_t index) const
 {
-  TissueMap result;
+  const auto voxel = grid.voxelAt(index);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (voxel[axis] < margin || voxel[axis] >= grid.size[axis] - margin) return true;
+  }
+  return false;
+}
+
+PaddedMap padded(const TissueMap& map, int margin)
+{
+  PaddedMap result;
   result.grid = map.grid;
+  result.margin = margin;
   for (int& size : result.grid.size) size += 2 * margin;
   result.labels.assign(result.grid.voxelCount(), 0);
   for (int k = 0; k < map.grid.size[2]; ++k)
@@ -23,8 +34,9 @@ TissueMap padded(const TissueMap& map, int margin)
   return result;
 }
 
-void copyWithoutMargin(const TissueMap& paddedMap, int margin, TissueMap& map)
+void copyWithoutMargin(const PaddedMap& paddedMap, TissueMap& map)
 {
+  const int margin = paddedMap.margin;
   for (int k = 0; k < map.grid.size[2]; ++k)
   {
     for (int j = 0; j < map.grid.size[1]; ++j)

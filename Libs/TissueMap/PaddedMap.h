@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A map with a margin of background around it: every voxel of the map then has all its neighbours in memory.
+/// A map with a margin of background around it: every voxel of the map then has its neighbours in memory, as far as the
+/// margin is wide.
 
 #include "TissueMap.h"
 
@@ -10,12 +11,30 @@
 namespace surgicalmesher
 {
 
-/// A copy of the map with `margin` voxels of background on all sides; voxel (i, j, k) becomes (i, j, k) + margin. The
-/// grid's origin stays that of the map.
-TissueMap padded(const TissueMap& map, int margin);
+/// Voxel (i, j, k) of the map is (i, j, k) + margin of the grid, whose origin stays that of the map.
+struct PaddedMap : TissueMap
+{
+  int margin = 0; ///< voxels, on all sides
 
-/// Copies what a padded copy holds within its margin back into the map.
-void copyWithoutMargin(const TissueMap& paddedMap, int margin, TissueMap& map);
+  /// The voxel of the map that lies at `index` in memory; in the margin, one beyond the map.
+  std::array<int, 3> mapVoxelAt(std::size_t index) const
+  {
+    const auto [i, j, k] = grid.voxelAt(index);
+    return { i - margin, j - margin, k - margin };
+  }
+  /// Centre of the voxel that lies at `index` in memory, mm.
+  Vec3 worldAt(std::size_t index) const
+  {
+    const auto [i, j, k] = mapVoxelAt(index);
+    return grid.gridToWorld(grid.position(i, j, k));
+  }
+  bool isInMargin(std::size_t index) const;
+};
+
+PaddedMap padded(const TissueMap& map, int margin);
+
+/// Copies what lies within the margin back into the map.
+void copyWithoutMargin(const PaddedMap& paddedMap, TissueMap& map);
 
 /// Steps from a voxel to its 3x3x3 neighbourhood, itself included, in memory order: i + 3 j + 9 k, the centre at 13.
 std::array<std::ptrdiff_t, 27> neighbourSteps(const Grid& grid);

@@ -11,20 +11,15 @@ namespace
 /// Mean grid position of each region's voxels, mm.
 std::vector<Vec3> centresOf(const TissueMap& map, const Regions& regions)
 {
-  const auto& size = map.grid.size;
   const Vec3& s = map.grid.spacing;
   std::vector<Vec3> sums(regions.list.size());
-  for (std::size_t row = 0; row + 1 < regions.rowBegins.size(); ++row)
-  {
-    const std::size_t j = row % size[1], k = row / size[1];
-    for (std::size_t r = regions.rowBegins[row]; r < regions.rowBegins[row + 1]; ++r)
-    {
-      const double begin = regions.runs[r].begin;
-      const double end = r + 1 < regions.rowBegins[row + 1] ? regions.runs[r + 1].begin : size[0];
-      sums[regions.runs[r].region] +=
-        (end - begin) * Vec3{ (begin + end - 1) / 2 * s.x, double(j) * s.y, double(k) * s.z };
-    }
-  }
+  forEachRun(regions, map.grid.size[0],
+             [&](std::uint32_t region, std::size_t begin, std::size_t end)
+             {
+               const auto [i, j, k] = map.grid.voxelAt(begin);
+               const double count = double(end - begin);
+               sums[region] += count * Vec3{ (2 * i + count - 1) / 2 * s.x, j * s.y, k * s.z };
+             });
   for (std::size_t r = 0; r < sums.size(); ++r)
   {
     if (regions.list[r].voxels > 0) sums[r] = sums[r] / double(regions.list[r].voxels);

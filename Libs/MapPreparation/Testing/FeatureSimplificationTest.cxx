@@ -53,10 +53,16 @@ FeatureOptions scaleOf(double featureScale)
   return options;
 }
 
-std::set<Label> simplify(TissueMap& map, double size)
+std::set<Label> simplify(TissueMap& map, const ScaleField& scale, const FeatureOptions& options,
+                         const Progress& progress = {})
 {
-  return simplifyFeatures(map, uniformScale(2 * size), scaleOf(0.5));
+  PaddedMap work = padded(map, featureMargin(map.grid, scale, options.featureScale));
+  const std::set<Label> keptWhole = simplifyFeatures(work, scale, options, progress);
+  copyWithoutMargin(work, map);
+  return keptWhole;
 }
+
+std::set<Label> simplify(TissueMap& map, double size) { return simplify(map, uniformScale(2 * size), scaleOf(0.5)); }
 
 /// L from 1 mm within 6 mm of voxel (0, 0, 0) up to 8 mm.
 ScaleField gradedScale(const Grid& grid)
@@ -159,14 +165,14 @@ TEST(FeatureSimplification, MapBelowTheScaleStays)
   TissueMap map = noise(random, 24, 4);
   map.grid.spacing = { 1, 1.5, 2 };
   const TissueMap before = map;
-  simplifyFeatures(map, uniformScale(8), scaleOf(0));
-  simplifyFeatures(map, uniformScale(1.9), scaleOf(0.5));
+  simplify(map, uniformScale(8), scaleOf(0));
+  simplify(map, uniformScale(1.9), scaleOf(0.5));
   EXPECT_EQ(map.labels, before.labels);
 
   const ScaleField scale = gradedScale(map.grid);
-  simplifyFeatures(map, scale, scaleOf(0.5));
+  simplify(map, scale, scaleOf(0.5));
   EXPECT_GT(differences(map, before), 0u);
-  const std::vector<bool> below = voxelsBelowScale(map.grid, scale, 0.5);
+  const std::vector<bool> below = voxelsBelowScale(padded(map, 0), scale, 0.5);
   for (std::size_t v = 0; v < map.labels.size(); ++v)
   {
     EXPECT_EQ(below[v], 0.5 * scale.lengths[v] < 1);
@@ -183,7 +189,7 @@ TEST(FeatureSimplification, ProtectedLabelsNeitherLoseNorGain)
     const TissueMap before = map;
     FeatureOptions options = scaleOf(0.5);
     options.protectedLabels = { Label(trial % 6), 3 };
-    simplifyFeatures(map, uniformScale(8), options);
+    simplify(map, uniformScale(8), options);
     for (std::size_t v = 0; v < map.labels.size(); ++v)
     {
       for (const Label label : options.protectedLabels) EXPECT_EQ(map.labels[v] == label, before.labels[v] == label);
@@ -208,7 +214,7 @@ TEST(FeatureSimplification, NoTissueLosesMoreThanHalf)
   {
     TissueMap map = noise(random, 18, 2 + trial % 5);
     const TissueMap before = map;
-    simplifyFeatures(map, gradedScale(map.grid), scaleOf(0.25 * (1 + trial % 6)));
+    simplify(map, gradedScale(map.grid), scaleOf(0.25 * (1 + trial % 6)));
     for (const Label label : presentLabels(before))
     {
       const auto voxels = [label](const TissueMap& m) { return std::count(m.labels.begin(), m.labels.end(), label); };
@@ -233,8 +239,8 @@ TEST(FeatureSimplification, SameResultFromAnyNumberOfThreads)
 TEST(FeatureSimplification, CancellingLeavesTheMap)
 {
   std::mt19937 random(4);
-  TissueMap map = noise(random, 16, 3);
-  const TissueMap before = map;
+  const PaddedMap before = padded(noise(random, 16, 3), featureMargin({}, uniformScale(8), 0.5));
+  PaddedMap map = before;
   const Progress cancel = [](double fraction, const std::string&)
   {
     if (fraction == 1) throw std::runtime_error("cancelled");
@@ -252,7 +258,7 @@ TEST(FeatureSimplification, BrainAtlasLosesMostOfItsTunnels)
   PreparationOptions preparation;
   preparation.minimumIslandVolume = 30;
   prepareMap(exact, preparation);
-  simplifyFeatures(simple, uniformScale(8), scaleOf(0.5));
+  simplify(simple, uniformScale(8), scaleOf(0.5));
   prepareMap(simple, preparation);
   const auto tunnels = [](const TissueMap& map)
   {

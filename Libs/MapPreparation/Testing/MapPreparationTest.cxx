@@ -265,6 +265,20 @@ TEST(MapPreparation, KeepsItsPromisesOnNoise)
   }
 }
 
+TEST(MapPreparation, MarginIsOfNoInfluence)
+{
+  std::mt19937 random(6);
+  for (int trial = 0; trial < 50; ++trial)
+  {
+    const TissueMap before = noise(random, 12);
+    TissueMap narrow = before, wide = before;
+    PreparationReport report;
+    copyWithoutMargin(preparedMap(before, 1, islandsUnder(6), report), narrow);
+    copyWithoutMargin(preparedMap(before, 5, islandsUnder(6), report), wide);
+    ASSERT_EQ(narrow.labels, wide.labels) << "trial " << trial;
+  }
+}
+
 TEST(MapPreparation, ResolvesDenseNoiseAndCheckerboards)
 {
   std::mt19937 random(3);

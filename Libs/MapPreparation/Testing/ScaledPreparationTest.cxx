@@ -67,6 +67,11 @@ FeatureOptions featuresOf(double featureScale)
   return options;
 }
 
+std::vector<MapChange> changesBetween(const TissueMap& before, const TissueMap& after)
+{
+  return mapChanges(padded(before, 1), padded(after, 1));
+}
+
 std::size_t differences(const TissueMap& a, const TissueMap& b)
 {
   std::size_t count = 0;
@@ -80,7 +85,7 @@ TEST(MapChanges, StrandIsANeckWhereItAloneJoins)
 {
   const TissueMap before = slabs([](int i, int j, int) { return isStrand(i, j, 5); });
   const TissueMap after = slabs([](int, int, int) { return 0; });
-  const std::vector<MapChange> changes = mapChanges(before, after);
+  const std::vector<MapChange> changes = changesBetween(before, after);
   EXPECT_EQ(changes.size(), 2u);
   const MapChange neck = theOnly(ChangeKind::Neck, 1, changes);
   EXPECT_EQ(neck.voxels, 32u);
@@ -92,7 +97,7 @@ TEST(MapChanges, StrandIsAHandleBesideAnother)
 {
   const TissueMap before = slabs([](int i, int j, int) { return isStrand(i, j, 5) || isStrand(i, j, 15); });
   const TissueMap after = slabs([](int i, int j, int) { return isStrand(i, j, 15); });
-  EXPECT_EQ(theOnly(ChangeKind::Handle, 1, mapChanges(before, after)).voxels, 32u);
+  EXPECT_EQ(theOnly(ChangeKind::Handle, 1, changesBetween(before, after)).voxels, 32u);
 }
 
 TEST(MapChanges, PassagePocketAndPit)
@@ -101,11 +106,11 @@ TEST(MapChanges, PassagePocketAndPit)
   const TissueMap passage = slabs([](int i, int, int k) { return !(k == 12 && (i == 9 || i == 10)); });
   const TissueMap pocket = slabs([](int i, int j, int k) { return !(i == 9 && j == 9 && k == 9); });
   const TissueMap pit = slabs([](int i, int j, int k) { return !(i < 5 && j == 9 && k == 9); });
-  EXPECT_EQ(theOnly(ChangeKind::Tunnel, 1, mapChanges(passage, after)).voxels, 40u);
-  const std::vector<MapChange> filled = mapChanges(pocket, after);
+  EXPECT_EQ(theOnly(ChangeKind::Tunnel, 1, changesBetween(passage, after)).voxels, 40u);
+  const std::vector<MapChange> filled = changesBetween(pocket, after);
   EXPECT_EQ(theOnly(ChangeKind::Cavity, 1, filled).voxels, 1u);
   EXPECT_EQ(theOnly(ChangeKind::Island, 0, filled).voxels, 1u);
-  EXPECT_EQ(theOnly(ChangeKind::Cleft, 1, mapChanges(pit, after)).voxels, 3u);
+  EXPECT_EQ(theOnly(ChangeKind::Cleft, 1, changesBetween(pit, after)).voxels, 3u);
 }
 
 TEST(MapChanges, IslandAndTipByTissue)
@@ -113,10 +118,10 @@ TEST(MapChanges, IslandAndTipByTissue)
   const TissueMap before =
     slabs([](int i, int j, int k) { return k == 12 && j == 12 && i < 6 ? 3 : isStrand(i, j, 9) && k < 11; });
   const TissueMap after = slabs([](int, int, int) { return 0; });
-  const std::vector<MapChange> changes = mapChanges(before, after);
+  const std::vector<MapChange> changes = changesBetween(before, after);
   EXPECT_EQ(theOnly(ChangeKind::Island, 3, changes).voxels, 4u);
   EXPECT_EQ(theOnly(ChangeKind::End, 1, changes).voxels, 12u);
-  EXPECT_TRUE(mapChanges(before, before).empty());
+  EXPECT_TRUE(changesBetween(before, before).empty());
 }
 
 TEST(ScaledPreparation, WithoutFeatureScaleIsPreparation)
@@ -149,7 +154,7 @@ TEST(ScaledPreparation, KeepsItsPromisesOnNoise)
 
     ASSERT_EQ(countCriticalBlocks(simple), 0u) << "trial " << trial;
     EXPECT_EQ(presentLabels(simple), presentLabels(given)) << "trial " << trial;
-    const std::vector<bool> below = voxelsBelowScale(given.grid, scale, features.featureScale);
+    const std::vector<bool> below = voxelsBelowScale(padded(given, 0), scale, features.featureScale);
     for (std::size_t v = 0; v < given.labels.size(); ++v)
     {
       ASSERT_TRUE(!below[v] || simple.labels[v] == prepared.labels[v]) << "trial " << trial;

@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ContactResolver.h"
+
+#include "Errors.h"
+#include "Place.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <tuple>
+#include <utility>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+// Corners of a block: bit 0 of the number is i, bit 1 j, bit 2 k.
+// Voxels of a 3x3x3 neighbourhood: i + 3 j + 9 k, the centre at 13.
+
+using CornerMask = unsigned; ///< a set of corners, one bit each
+using Block = std::array<Label, 8>;
+using Neighbourhood = std::array<Label, 27>;
+
+constexpr int centre = 13;
+
+bool faceConnected(CornerMask corners)
+{
+  CornerMask reached = corners & (~corners + 1);
+  for (int step = 0; step < 7; ++step)
+  {
+    for (int c = 0; c < 8; ++c)
+    {
+      if (reached >> c & 1) reached |= (1u << (c ^ 1) | 1u << (c ^ 2) | 1u << (c ^ 4)) & corners;
+    }
+  }
+  return reached == corners;
+}
+
+/// For each set of corners, whether a label may hold exactly these.
+std::array<bool, 256> makeAllowedSets()
+{
+  std::array<bool, 256> allowed{};
+  for (CornerMask m = 0; m < 256; ++m) allowed[m] = faceConnected(m) && faceConnected(~m & 255);
+  return allowed;
+}
+
+const std::array<bool, 256> allowedSets = makeAllowedSets();
+
+CornerMask cornersOf(Label label, const Block& block)
+{
+  CornerMask corners = 0;
+  for (int c = 0; c < 8; ++c) corners |= CornerMask(block[c] == label) << c;
+  return corners;
+}
+
+bool isCritical(const Block& block)
+{
+  CornerMask seen = 0;
+  for (int c = 0; c < 8; ++c)
+  {
+    if (seen >> c & 1) continue;
+    const CornerMask corners = cornersOf(block[c], block);
+    if (!allowedSets[corners]) return true;
+    seen |= corners;
+    if (seen == 255) return false;
+  }
+  return false;
+}
+
+/// How many of the eight blocks around the centre are critical.
+int criticalBlocks(const Neighbourhood& n)
+{
+  constexpr std::array<int, 8> lowCorners{ 0, 1, 3, 4, 9, 10, 12, 13 };
+  int count = 0;
+  for (const int l : lowCorners)
+  {
+    count += isCritical({ n[l], n[l + 1], n[l + 3], n[l + 4], n[l + 9], n[l + 10], n[l + 12], n[l + 13] });
+  }
+  return count;
+}
+
+/// Face-connected parts of `label` among the 18 voxels around the centre, of which only those that touch the centre by
+/// a face count. One means that the centre can join or leave the label without its surroundings falling apart or
+/// meeting.
+int partsAround(const Neighbourhood& n, Label label)
+{
+  const auto& faces = sixNeighbours;
+  std::array<int, 27> part;
+  for (int v = 0; v < 27; ++v) part[v] = v != centre && n[v] == label ? v : -1;
+  int parts = 0;
+  for (const int f : faces) parts += part[f] >= 0;
+  // An edge voxel joins the two face voxels beside it.
+  for (int a = 0; a < 6; ++a)
+  {
+    for (int b = a + 1; b < 6; ++b)
+    {
+      const int edge = faces[a] + faces[b] - centre;
+      if (faces[a] + faces[b] == 2 * centre || part[faces[a]] < 0 || part[faces[b]] < 0 || part[edge] < 0) continue;
+      const int from = part[faces[b]], to = part[faces[a]];
+      if (from == to) continue;
+      --parts;
+      for (const int f : faces)
+      {
+        if (part[f] == from) part[f] = to;
+      }
+    }
+  }
+  return parts;
+}
+
+int faceContacts(const Neighbourhood& n, Label label)
+{
+  int contacts = 0;
+  for (const int face : sixNeighbours) contacts += n[face] == label;
+  return contacts;
+}
+
+/// Steps from the lowest corner of a block to its corners.
+std::array<std::ptrdiff_t, 8> cornerSteps(const Grid& grid)
+{
+  const std::ptrdiff_t j = grid.size[0], k = j * grid.size[1];
+  return { 0, 1, j, j + 1, k, k + 1, k + j, k + j + 1 };
+}
+
+template <std::size_t N>
+std::array<Label, N> gather(const TissueMap& map, std::size_t voxel, const std::array<std::ptrdiff_t, N>& steps)
+{
+  std::array<Label, N> result;
+  for (std::size_t n = 0; n < N; ++n) result[n] = map.labels[voxel + steps[n]];
+  return result;
+}
+
+/// Critical blocks left if the centre is given to `label`, plus parts split or joined, plus growth of the interface.
+int costOf(const Neighbourhood& around, Label label)
+{
+  const Label old = around[centre];
+  const int topology = std::abs(partsAround(around, old) - 1) + std::abs(partsAround(around, label) - 1);
+  const int roughness = faceContacts(around, old) - faceContacts(around, label);
+  Neighbourhood changed = around;
+  changed[centre] = label;
+  return criticalBlocks(changed) + topology + roughness;
+}
+
+constexpr std::uint8_t queued = 128; ///< in m_States; the other bits count the changes of the voxel
+constexpr std::uint8_t maximumCount = 127;
+constexpr int patience = 16; ///< changes of a voxel, where there is an original to go back to
+
+} // namespace
+
+std::vector<std::size_t> findCriticalBlocks(const PaddedMap& map)
+{
+  const auto& size = map.grid.size;
+  const auto corners = cornerSteps(map.grid);
+  std::vector<std::size_t> result;
+  std::vector<Label> differs(size[0]);
+  for (int k = 0; k + 1 < size[2]; ++k)
+  {
+    for (int j = 0; j + 1 < size[1]; ++j)
+    {
+      const std::size_t begin = map.grid.index(0, j, k);
+      const Label* a = map.labels.data() + begin;
+      const Label *b = a + corners[2], *c = a + corners[4], *d = a + corners[6];
+      // Uniform blocks cost one comparison.
+      for (int i = 0; i < size[0]; ++i) differs[i] = (a[i] ^ b[i]) | (a[i] ^ c[i]) | (a[i] ^ d[i]);
+      for (int i = 0; i + 1 < size[0]; ++i)
+      {
+        if ((differs[i] | differs[i + 1] | (a[i] ^ a[i + 1])) == 0) continue;
+        if (isCritical({ a[i], a[i + 1], b[i], b[i + 1], c[i], c[i + 1], d[i], d[i + 1] })) result.push_back(begin + i);
+      }
+    }
+  }
+  return result;
+}
+
+ContactResolver::ContactResolver(PaddedMap& map)
+  : m_Map(map), m_Corners(cornerSteps(map.grid)), m_Around(neighbourSteps(map.grid)), m_States(map.labels.size(), 0),
+    m_Voxels(labelCount, 0)
+{
+  for (const Label label : map.labels) ++m_Voxels[label];
+}
+
+ContactResolver::ContactResolver(PaddedMap& map, const PaddedMap& original, std::vector<bool> fixedVoxels,
+                                 const std::set<Label>& closedLabels)
+  : ContactResolver(map)
+{
+  m_Original = &original;
+  m_Fixed = std::move(fixedVoxels);
+  m_Closed = closedLabels;
+}
+
+void ContactResolver::enqueue(std::size_t block)
+{
+  if (m_States[block] & queued) return;
+  m_States[block] |= queued;
+  m_Queue.push_back(block);
+}
+
+void ContactResolver::updateAfter(const RemovedVoxels& removed)
+{
+  for (std::size_t v = 0; v < removed.voxels.size(); ++v)
+  {
+    recordChange(removed.labels[v], m_Map.labels[removed.voxels[v]]);
+    enqueueAround(removed.voxels[v]);
+  }
+}
+
+void ContactResolver::run()
+{
+  // Far more than pure noise takes.
+  std::size_t changesLeft = 1000 + 100 * m_Queue.size();
+  for (std::size_t head = 0; head < m_Queue.size(); ++head)
+  {
+    const std::size_t block = m_Queue[head];
+    m_States[block] &= ~queued;
+    if (!isCritical(gather(m_Map, block, m_Corners))) continue;
+    const Change change = bestChange(block);
+    if (m_Original && (change.cost == std::numeric_limits<int>::max() || changesOf(change.voxel) >= patience))
+    {
+      restore(block);
+      continue;
+    }
+    if (changesLeft-- == 0 || change.cost == std::numeric_limits<int>::max()) throwUnresolved(block);
+    apply(change);
+  }
+  m_Queue.clear();
+}
+
+/// Queues the critical ones of the eight blocks around a voxel.
+void ContactResolver::enqueueAround(std::size_t voxel)
+{
+  for (const std::ptrdiff_t c : m_Corners)
+  {
+    if (isCritical(gather(m_Map, voxel - c, m_Corners))) enqueue(voxel - c);
+  }
+}
+
+void ContactResolver::recordChange(Label from, Label to)
+{
+  --m_Voxels[from];
+  ++m_Voxels[to];
+}
+
+void ContactResolver::restore(std::size_t block)
+{
+  for (const std::ptrdiff_t corner : m_Corners)
+  {
+    const std::size_t voxel = block + corner;
+    m_Fixed[voxel] = true;
+    if (m_Map.labels[voxel] == m_Original->labels[voxel]) continue;
+    recordChange(m_Map.labels[voxel], m_Original->labels[voxel]);
+    m_Map.labels[voxel] = m_Original->labels[voxel];
+    enqueueAround(voxel);
+  }
+}
+
+/// The cheapest change of one voxel of the block to another label of the block. Neither fixed voxels nor the last
+/// voxel of a label are touched; cost stays at its maximum if nothing else is left.
+ContactResolver::Change ContactResolver::bestChange(std::size_t block) const
+{
+  Change best;
+  const Block labels = gather(m_Map, block, m_Corners);
+  for (int c = 0; c < 8; ++c)
+  {
+    const std::size_t voxel = block + m_Corners[c];
+    if (isFixed(voxel) || (labels[c] != 0 && m_Voxels[labels[c]] == 1)) continue;
+    const Neighbourhood around = gather(m_Map, voxel, m_Around);
+    const int price = changesOf(voxel) - criticalBlocks(around);
+    for (int l = 0; l < 8; ++l)
+    {
+      if (labels[l] == labels[c] || std::find(labels.begin(), labels.begin() + l, labels[l]) != labels.begin() + l)
+        continue;
+      if (m_Closed.count(labels[l])) continue;
+      const Change change{ price + costOf(around, labels[l]), noise(voxel, labels[l]), voxel, labels[l] };
+      if (std::tie(change.cost, change.noise) < std::tie(best.cost, best.noise)) best = change;
+    }
+  }
+  return best;
+}
+
+void ContactResolver::apply(const Change& change)
+{
+  recordChange(m_Map.labels[change.voxel], change.label);
+  m_Map.labels[change.voxel] = change.label;
+  if (changesOf(change.voxel) < maximumCount) ++m_States[change.voxel];
+  enqueueAround(change.voxel);
+}
+
+int ContactResolver::changesOf(std::size_t voxel) const { return m_States[voxel] & maximumCount; }
+
+/// Differs from visit to visit, so that equal choices are not always taken the same way. The voxel's number is that with
+/// a margin of one, whatever the margin.
+std::uint32_t ContactResolver::noise(std::size_t voxel, Label label) const
+{
+  const auto [i, j, k] = m_Map.mapVoxelAt(voxel);
+  const auto size = [&](int axis) { return std::size_t(m_Map.grid.size[axis] - 2 * m_Map.margin + 2); };
+  const std::size_t number = (std::size_t(k + 1) * size(1) + j + 1) * size(0) + i + 1;
+  std::uint64_t h = (number * 65537 + label) * 256 + changesOf(voxel);
+  h = (h ^ (h >> 31)) * 0x7fb5d329728ea185ull;
+  h = (h ^ (h >> 27)) * 0x81dadef4bc2dd44dull;
+  return std::uint32_t(h >> 33);
+}
+
+void ContactResolver::throwUnresolved(std::size_t block) const
+{
+  const Vec3 centre = 0.5 * (m_Map.worldAt(block) + m_Map.worldAt(block + m_Corners[7]));
+  throw EngineError("map preparation: the diagonal contact at " + place(centre) + " could not be resolved");
+}
+
+} // namespace surgicalmesher
