@@ -15,6 +15,7 @@
 #include "SurfacePreparation.h"
 #include "SurfaceRefused.h"
 #include "Tetrahedralizer.h"
+#include "TextFile.h"
 #include "TissueMapIO.h"
 #include "VtkExport.h"
 #include "Warnings.h"

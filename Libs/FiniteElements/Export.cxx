@@ -6,10 +6,10 @@
 #include "FebioExport.h"
 #include "GmshExport.h"
 #include "MeditExport.h"
-#include "Text.h"
 #include "TissueSurfaceExport.h"
 #include "VtkExport.h"
 #ifdef SURGICALMESHER_HDF5
+#include "TextFile.h"
 #include "XdmfExport.h"
 #endif
 

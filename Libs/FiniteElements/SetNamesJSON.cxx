@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FiniteElementModel.h"
-#include "JsonMember.h"
+#include "JsonReport.h"
 #include "SetNames.h"
 #include "SetTags.h"
-
-#include <rapidjson/prettywriter.h>
-#include <rapidjson/stringbuffer.h>
 
 namespace surgicalmesher
 {
 namespace
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
 void write(JsonWriter& json, const char* key, const std::string& value) { writeMember(json, key, validUtf8(value)); }
 
@@ -99,19 +94,19 @@ void writeMaterials(JsonWriter& json, const FiniteElementModel& model)
 
 std::string setNamesJSON(const FiniteElementModel& model)
 {
-  rapidjson::StringBuffer buffer;
-  JsonWriter json(buffer);
-  json.StartObject();
-  json.Key("units");
-  json.StartObject();
-  writeMember(json, "length", "mm");
-  writeMember(json, "stress", "MPa");
-  writeMember(json, "density", "tonne/mm^3");
-  json.EndObject();
-  writeSets(json, model);
-  writeMaterials(json, model);
-  json.EndObject();
-  return std::string(buffer.GetString()) + "\n";
+  const auto writeMembers = [&](JsonWriter& json)
+  {
+    writeObject(json, "units",
+                [&]
+                {
+                  writeMember(json, "length", "mm");
+                  writeMember(json, "stress", "MPa");
+                  writeMember(json, "density", "tonne/mm^3");
+                });
+    writeSets(json, model);
+    writeMaterials(json, model);
+  };
+  return jsonText(writeMembers);
 }
 
 } // namespace surgicalmesher

@@ -45,6 +45,16 @@ void writeMember(Writer& json, const char* key, const Value& value)
   writeValue(json, value);
 }
 
+/// "key": an object, whose members writeMembers() writes.
+template <class Writer, class WriteMembers>
+void writeObject(Writer& json, const char* key, const WriteMembers& writeMembers)
+{
+  json.Key(key);
+  json.StartObject();
+  writeMembers();
+  json.EndObject();
+}
+
 /// "key": an array of one object per item, whose members writeItem(item) writes.
 template <class Writer, class Items, class WriteItem>
 void writeObjects(Writer& json, const char* key, const Items& items, const WriteItem& writeItem)

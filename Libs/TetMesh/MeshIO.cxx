@@ -3,7 +3,7 @@
 
 #include "Compaction.h"
 #include "Errors.h"
-#include "Text.h"
+#include "TextFile.h"
 #include "VTKErrors.h"
 #include "VTKFiles.h"
 
@@ -26,11 +26,8 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <new>
 #include <set>
@@ -341,6 +338,12 @@ SurfaceFile readSurface(const std::string& file)
   return result;
 }
 
+void writePolyData(vtkPolyData* data, const std::string& file)
+{
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writeXML(writer.Get(), data, file);
+}
+
 void writeSurface(const SurfaceFile& content, const std::string& file)
 {
   if (text::extensionOf(file) != ".vtp") refuse(file, "surfaces are written as .vtp");
@@ -358,8 +361,7 @@ void writeSurface(const SurfaceFile& content, const std::string& file)
   addArray<vtkDoubleArray>(data->GetPointData(), kTargetEdgeLength, content.targetEdgeLength);
   addArray<vtkDoubleArray>(data->GetPointData(), kBoundaryDistance, content.boundaryDistance);
   addTissues(data->GetFieldData(), present, content.tissues);
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writeXML(writer.Get(), data, file);
+  writePolyData(data, file);
 }
 
 void writePolygons(const PolygonFile& content, const std::string& file)
@@ -377,8 +379,7 @@ void writePolygons(const PolygonFile& content, const std::string& file)
   addArray<vtkIntArray>(data->GetCellData(), kTissueLabel,
                         std::vector<int>(content.labels.begin(), content.labels.end()));
   addTissues(data->GetFieldData(), std::set<Label>(content.labels.begin(), content.labels.end()), content.tissues);
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writeXML(writer.Get(), data, file);
+  writePolyData(data, file);
 }
 
 MeshFile readMesh(const std::string& file)
@@ -496,16 +497,6 @@ void writeGrid(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts te
   if (extension != ".vtu") refuse(file, "volume elements are written as .vtu or .vtk");
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writeXML(writer.Get(), grid, file);
-}
-
-void writeBytes(const std::string& bytes, const std::string& file)
-{
-  errno = 0;
-  std::ofstream stream(file, std::ios::binary | std::ios::trunc);
-  if (!stream) refuse(file, std::string("can't be opened for writing (") + std::strerror(errno) + ")");
-  stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  stream.close();
-  if (!stream) refuse(file, std::string("can't be written to its end (") + std::strerror(errno) + ")");
 }
 
 } // namespace surgicalmesher

@@ -15,6 +15,7 @@
 #include <vector>
 
 class vtkFieldData;
+class vtkPolyData;
 class vtkUnstructuredGrid;
 
 namespace surgicalmesher
@@ -93,13 +94,13 @@ enum class FieldTexts
   LeftOut
 };
 
+/// Writes a .vtp (compressed).
+void writePolyData(vtkPolyData* data, const std::string& file);
+
 /// Writes a .vtu (compressed) or a legacy .vtk (binary, unless texts are left out), by the file's extension.
 void writeMesh(const MeshFile& content, const std::string& file, FieldTexts texts = FieldTexts::Written);
 
 /// Writes a grid with its arrays likewise.
 void writeGrid(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts texts);
-
-/// Writes `bytes` to `file`, and throws InputError unless all of them arrived there.
-void writeBytes(const std::string& bytes, const std::string& file);
 
 } // namespace surgicalmesher

@@ -259,28 +259,30 @@ using Writer = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
 void write(Writer& writer, const char* key, const Distribution& d)
 {
-  writer.Key(key);
-  writer.StartObject();
-  writeMember(writer, "count", d.count);
-  writeMember(writer, "minimum", d.minimum);
-  writeMember(writer, "percentile1", d.percentile1);
-  writeMember(writer, "percentile5", d.percentile5);
-  writeMember(writer, "median", d.median);
-  writeMember(writer, "percentile95", d.percentile95);
-  writeMember(writer, "percentile99", d.percentile99);
-  writeMember(writer, "maximum", d.maximum);
-  writeMember(writer, "mean", d.mean);
-  writer.EndObject();
+  writeObject(writer, key,
+              [&]
+              {
+                writeMember(writer, "count", d.count);
+                writeMember(writer, "minimum", d.minimum);
+                writeMember(writer, "percentile1", d.percentile1);
+                writeMember(writer, "percentile5", d.percentile5);
+                writeMember(writer, "median", d.median);
+                writeMember(writer, "percentile95", d.percentile95);
+                writeMember(writer, "percentile99", d.percentile99);
+                writeMember(writer, "maximum", d.maximum);
+                writeMember(writer, "mean", d.mean);
+              });
 }
 
 void write(Writer& writer, const char* key, const Histogram& histogram)
 {
-  writer.Key(key);
-  writer.StartObject();
-  writeMember(writer, "low", histogram.low);
-  writeMember(writer, "high", histogram.high);
-  writeMember(writer, "counts", histogram.counts);
-  writer.EndObject();
+  writeObject(writer, key,
+              [&]
+              {
+                writeMember(writer, "low", histogram.low);
+                writeMember(writer, "high", histogram.high);
+                writeMember(writer, "counts", histogram.counts);
+              });
 }
 
 void writeMembers(Writer& writer, const QualityGroup& group)
@@ -430,10 +432,7 @@ std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues)
   rapidjson::StringBuffer buffer;
   Writer writer(buffer);
   writer.StartObject();
-  writer.Key("whole");
-  writer.StartObject();
-  writeMembers(writer, quality.whole);
-  writer.EndObject();
+  writeObject(writer, "whole", [&] { writeMembers(writer, quality.whole); });
   writeObjects(writer, "tissues", quality.tissues,
                [&](const auto& tissue)
                {
@@ -447,13 +446,14 @@ std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues)
                  writeMember(writer, "subMesh", static_cast<std::size_t>(subMesh.first));
                  writeMembers(writer, subMesh.second);
                });
-  writer.Key("histograms");
-  writer.StartObject();
-  write(writer, "dihedral", quality.dihedral);
-  write(writer, "edgeOverTarget", quality.edgeOverTarget);
-  write(writer, "valence", quality.valence);
-  write(writer, "boundaryValence", quality.boundaryValence);
-  writer.EndObject();
+  writeObject(writer, "histograms",
+              [&]
+              {
+                write(writer, "dihedral", quality.dihedral);
+                write(writer, "edgeOverTarget", quality.edgeOverTarget);
+                write(writer, "valence", quality.valence);
+                write(writer, "boundaryValence", quality.boundaryValence);
+              });
   writer.EndObject();
   return buffer.GetString();
 }

@@ -534,6 +534,26 @@ MetaData segmentMetaData(const TissueTable& table)
   return metaData;
 }
 
+/// One number per voxel; `noun` and `expected` say in messages what it is to be.
+ScalarImage readNumbers(const std::string& file, const std::string& noun, bool (*isAllowed)(float),
+                        const std::string& expected)
+{
+  const Volume volume = readVolume(file);
+  if (volume.components > 1)
+    throw InputError(file + ": " + std::to_string(volume.components) + " values per voxel, expected one " + noun);
+  ScalarImage image;
+  image.grid = volume.grid;
+  image.values = gather<float>(volume,
+                               [&](const auto* voxel)
+                               {
+                                 const float value = float(*voxel);
+                                 if (isAllowed(value)) return value;
+                                 throw InputError(file + ": a voxel of value " + text::rounded(double(*voxel), 10) +
+                                                  ", expected " + expected);
+                               });
+  return image;
+}
+
 } // namespace
 
 TissueMap readTissueMap(const std::string& file)
@@ -566,22 +586,9 @@ void writeTissueMap(const TissueMap& map, const std::string& file)
 
 ScaleField readScale(const std::string& file)
 {
-  const Volume volume = readVolume(file);
-  if (volume.components > 1)
-  {
-    throw InputError(file + ": " + std::to_string(volume.components) + " values per voxel, expected one edge length");
-  }
-  ScaleField scale;
-  scale.grid = volume.grid;
-  scale.lengths = gather<float>(volume,
-                                [&](const auto* voxel)
-                                {
-                                  const float length = float(*voxel);
-                                  if (std::isfinite(length) && length > 0) return length;
-                                  throw InputError(file + ": an edge length of " + text::rounded(double(*voxel), 10) +
-                                                   ", expected more than 0 mm everywhere");
-                                });
-  return scale;
+  const auto isLength = [](float value) { return std::isfinite(value) && value > 0; };
+  ScalarImage image = readNumbers(file, "edge length", isLength, "edge lengths of more than 0 mm");
+  return { image.grid, std::move(image.values) };
 }
 
 void writeScale(const ScaleField& scale, const std::string& file)
@@ -591,22 +598,8 @@ void writeScale(const ScaleField& scale, const std::string& file)
 
 ScalarImage readImage(const std::string& file)
 {
-  const Volume volume = readVolume(file);
-  if (volume.components > 1)
-  {
-    throw InputError(file + ": " + std::to_string(volume.components) + " values per voxel, expected one");
-  }
-  ScalarImage image;
-  image.grid = volume.grid;
-  image.values = gather<float>(volume,
-                               [&](const auto* voxel)
-                               {
-                                 const float value = float(*voxel);
-                                 if (std::isfinite(value)) return value;
-                                 throw InputError(file + ": a voxel of value " + text::rounded(double(*voxel), 10) +
-                                                  ", expected finite numbers");
-                               });
-  return image;
+  return readNumbers(
+    file, "number", [](float value) { return std::isfinite(value); }, "finite numbers");
 }
 
 void writeImage(const ScalarImage& image, const std::string& file)

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Report.h"
 
-#include "JsonMember.h"
-#include "PrintableText.h"
-
-#include <rapidjson/prettywriter.h>
-#include <rapidjson/stringbuffer.h>
+#include "JsonReport.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +13,6 @@ namespace surgicalmesher
 {
 namespace
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
 /// LPS mm, to a hundredth.
 void writePlace(JsonWriter& json, const Vec3& place)
@@ -263,32 +257,29 @@ void writeFidelity(JsonWriter& json, const SurfaceReport& report)
 
 std::string reportJson(const SurfaceReport& report)
 {
-  rapidjson::StringBuffer buffer;
-  JsonWriter json(buffer);
-  json.SetFormatOptions(rapidjson::kFormatSingleLineArray);
-  json.StartObject();
-  writeMember(json, "tissues", report.topology.size());
-  writeMember(json, "points", report.points);
-  writeMember(json, "triangles", report.triangles);
-  writeSelection(json, report);
-  writePreparation(json, report);
-  writeSimplification(json, report);
-  writeObjects(json, "topology", report.topology,
-               [&](const auto& tissue)
-               {
-                 writeMember(json, "label", tissue.first);
-                 writeBetti(json, tissue.second);
-               });
-  writeStructures(json, report.structures);
-  writeThickness(json, report);
-  writeFidelity(json, report);
-  writeEvolution(json, report.evolution);
-  json.Key("warnings");
-  json.StartArray();
-  for (const std::string& warning : report.warnings) json.String(printable(warning).c_str());
-  json.EndArray();
-  json.EndObject();
-  return std::string(buffer.GetString(), buffer.GetSize()) + "\n";
+  const auto writeMembers = [&](JsonWriter& json)
+  {
+    writeMember(json, "tissues", report.topology.size());
+    writeMember(json, "points", report.points);
+    writeMember(json, "triangles", report.triangles);
+    writeSelection(json, report);
+    writePreparation(json, report);
+    writeSimplification(json, report);
+    writeObjects(json, "topology", report.topology,
+                 [&](const auto& tissue)
+                 {
+                   writeMember(json, "label", tissue.first);
+                   writeBetti(json, tissue.second);
+                 });
+    writeStructures(json, report.structures);
+    writeThickness(json, report);
+    writeFidelity(json, report);
+    writeEvolution(json, report.evolution);
+    writeWarnings(json, report.warnings);
+  };
+  JsonStyle style;
+  style.arraysInOneLine = true;
+  return jsonText(writeMembers, style);
 }
 
 std::string evolutionCsv(const std::vector<EvolutionStep>& evolution)

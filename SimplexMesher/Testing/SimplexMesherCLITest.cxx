@@ -465,7 +465,7 @@ TEST_F(SimplexMesherCLI, RefusesMapsAtFault)
   folder.write("cut.nii.gz", whole.substr(0, whole.size() / 2));
   const std::string more = "--edgeLength 2 --preparedLabelMap p.nrrd --ambient a.vtu --report r.json ";
   expectRefused(more + "missing.nrrd s.vtp", 1, "missing.nrrd: no such file");
-  expectRefused(more + ". s.vtp", 1, "is a directory");
+  expectRefused(more + ". s.vtp", 1, "is a folder");
   expectRefused(more + "text.nrrd s.vtp", 1, "text.nrrd: ");
   expectRefused(more + "empty.nrrd s.vtp", 1, "empty.nrrd: no voxel but background");
   expectRefused(more + "real.nrrd s.vtp", 1, "real.nrrd: a voxel of value 0.5");

@@ -4,32 +4,26 @@
 #include "CommandLine.h"
 #include "Errors.h"
 #include "IntensityImage.h"
-#include "JsonMember.h"
+#include "JsonReport.h"
 #include "MeshSizeEstimate.h"
 #include "NullDisplacement.h"
 #include "Place.h"
-#include "PrintableText.h"
 #include "SurgicalPathScaleCLIXML.h"
 #include "SurgicalScale.h"
 #include "TextFile.h"
 #include "TissueLengths.h"
 #include "TissueMapIO.h"
 
-#include <rapidjson/ostreamwrapper.h>
-#include <rapidjson/prettywriter.h>
 #include <vtkSMPTools.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <set>
 
 using namespace surgicalmesher;
 
 namespace
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
 
 /// What the run found out, besides its outputs.
 struct Results
@@ -183,51 +177,48 @@ void writeResults(JsonWriter& json, const Results& results, const std::vector<st
                   const Grid& scale)
 {
   const double voxelVolume = map.spacing.x * map.spacing.y * map.spacing.z;
-  json.Key("map");
-  json.StartObject();
-  writeMember(json, "size", map.size);
-  writeMember(json, "tissues", results.tissueCount);
-  json.EndObject();
-  json.Key("scale");
-  json.StartObject();
-  writeMember(json, "size", scale.size);
-  writeMember(json, "shortest", results.shortest);
-  writeMember(json, "longest", results.longest);
-  json.EndObject();
-  json.Key("nullDisplacement");
-  json.StartObject();
-  writeMember(json, "label", results.nullDisplacement.label);
-  writeMember(json, "voxels", results.nullDisplacement.voxelCount);
-  writeMember(json, "volume", double(results.nullDisplacement.voxelCount) * voxelVolume);
-  json.EndObject();
-  json.Key("estimate");
-  json.StartObject();
-  writeMember(json, "triangles", std::int64_t(std::llround(results.estimate.triangles)));
-  writeMember(json, "tetrahedra", std::int64_t(std::llround(results.estimate.tetrahedra)));
-  json.EndObject();
-  json.Key("warnings");
-  json.StartArray();
-  for (const std::string& warning : warnings) json.String(printable(warning).c_str());
-  json.EndArray();
+  writeObject(json, "map",
+              [&]
+              {
+                writeMember(json, "size", map.size);
+                writeMember(json, "tissues", results.tissueCount);
+              });
+  writeObject(json, "scale",
+              [&]
+              {
+                writeMember(json, "size", scale.size);
+                writeMember(json, "shortest", results.shortest);
+                writeMember(json, "longest", results.longest);
+              });
+  writeObject(json, "nullDisplacement",
+              [&]
+              {
+                writeMember(json, "label", results.nullDisplacement.label);
+                writeMember(json, "voxels", results.nullDisplacement.voxelCount);
+                writeMember(json, "volume", double(results.nullDisplacement.voxelCount) * voxelVolume);
+              });
+  writeObject(json, "estimate",
+              [&]
+              {
+                writeMember(json, "triangles", std::int64_t(std::llround(results.estimate.triangles)));
+                writeMember(json, "tetrahedra", std::int64_t(std::llround(results.estimate.tetrahedra)));
+              });
+  writeWarnings(json, warnings);
 }
 
 /// Lengths in mm, points in LPS, volumes in mm^3.
 void writeReport(const std::string& file, const CommandLine& line, const Focus& focus,
                  const SurgicalScaleOptions& options, const Results& results, const Grid& map, const Grid& scale)
 {
-  std::ofstream stream(file.c_str(), std::ios::binary);
-  rapidjson::OStreamWrapper wrapper(stream);
-  JsonWriter json(wrapper);
-  json.SetMaxDecimalPlaces(6);
-  json.StartObject();
-  writeMember(json, "module", std::string("SurgicalPathScale"));
-  writeMember(json, "labelMap", line.text("labelMap"));
-  writeFocus(json, focus);
-  writeParameters(json, options, line);
-  writeResults(json, results, line.warnings(), map, scale);
-  json.EndObject();
-  stream << '\n' << std::flush;
-  if (!stream) throw InputError(file + ": the report cannot be written whole");
+  const auto writeMembers = [&](JsonWriter& json)
+  {
+    writeMember(json, "module", std::string("SurgicalPathScale"));
+    writeMember(json, "labelMap", line.text("labelMap"));
+    writeFocus(json, focus);
+    writeParameters(json, options, line);
+    writeResults(json, results, line.warnings(), map, scale);
+  };
+  writeBytes(jsonText(writeMembers, { 6 }), file);
 }
 
 void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, const std::set<Label>& named,

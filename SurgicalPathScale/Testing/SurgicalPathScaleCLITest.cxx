@@ -199,7 +199,7 @@ TEST_F(SurgicalPathScaleCLI, RefusesBadInputWithOneLineAndStatusOne)
   folder.write("cut.nii.gz", whole.substr(0, whole.size() / 2));
   folder.write("lengths.csv", "label,minimum\nnobody,2\n");
   expectRefused("--targetPoint 0,0,0 missing.nrrd scale.nrrd", 1, "missing.nrrd: no such file");
-  expectRefused("--targetPoint 0,0,0 . scale.nrrd", 1, "is a directory");
+  expectRefused("--targetPoint 0,0,0 . scale.nrrd", 1, "is a folder");
   expectRefused("--targetPoint 0,0,0 text.nrrd scale.nrrd", 1, "text.nrrd: ");
   expectRefused("--targetPoint 0,0,0 empty.nrrd scale.nrrd", 1, "empty.nrrd: no voxel but background");
   expectRefused("--targetPoint 0,0,0 real.nrrd scale.nrrd", 1, "real.nrrd: a voxel of value 0.5");

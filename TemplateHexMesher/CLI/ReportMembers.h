@@ -3,19 +3,12 @@
 /// What the reports of both programs say about elements and distances.
 
 #include "ElementQuality.h"
-#include "Errors.h"
-#include "JsonMember.h"
+#include "JsonReport.h"
 #include "SurfaceDistance.h"
-
-#include <rapidjson/ostreamwrapper.h>
-#include <rapidjson/prettywriter.h>
-
-#include <fstream>
+#include "TextFile.h"
 
 namespace surgicalmesher
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
 
 /// Into an object.
 inline void writeQuality(JsonWriter& json, const QualitySummary& quality)
@@ -42,15 +35,7 @@ inline void writeDistance(JsonWriter& json, const char* key, const DistanceSumma
 template <class WriteMembers>
 void writeReportFile(const std::string& file, const WriteMembers& writeMembers)
 {
-  std::ofstream stream(file.c_str(), std::ios::binary);
-  rapidjson::OStreamWrapper wrapper(stream);
-  JsonWriter json(wrapper);
-  json.SetMaxDecimalPlaces(6);
-  json.StartObject();
-  writeMembers(json);
-  json.EndObject();
-  stream << '\n' << std::flush;
-  if (!stream) throw InputError(file + ": the report cannot be written whole");
+  writeBytes(jsonText(writeMembers, { 6 }), file);
 }
 
 } // namespace surgicalmesher

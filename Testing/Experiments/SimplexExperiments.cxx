@@ -13,6 +13,7 @@
 #include "MeshIO.h"
 #include "MeshQuality.h"
 #include "SimplexDeformation.h"
+#include "TextFile.h"
 #include "TissueMapIO.h"
 #include "VoxelMesh.h"
 

@@ -4,24 +4,19 @@
 #include "AvailableMemory.h"
 #include "CommandLine.h"
 #include "Errors.h"
-#include "JsonMember.h"
+#include "JsonReport.h"
+#include "TextFile.h"
 #include "ThreadCount.h"
 #include "TissueClassesIO.h"
 #include "TissueMapIO.h"
 #include "TissueMapperCLIXML.h"
 
-#include <rapidjson/ostreamwrapper.h>
-#include <rapidjson/prettywriter.h>
-
 #include <algorithm>
-#include <fstream>
 
 using namespace surgicalmesher;
 
 namespace
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
 
 /// Colours of an atlas's usual kind, in the order of the classes.
 void colour(TissueTable& table)
@@ -54,35 +49,31 @@ const char* nameOf(Admission admission)
 void writeReport(const std::string& file, const CommandLine& line, const std::vector<TissueClass>& classes,
                  const Classification& found)
 {
-  std::ofstream stream(file.c_str(), std::ios::binary);
-  rapidjson::OStreamWrapper wrapper(stream);
-  JsonWriter json(wrapper);
-  json.SetMaxDecimalPlaces(6);
-  json.StartObject();
-  writeMember(json, "module", "TissueMapper");
-  writeMember(json, "image", line.text("image"));
-  writeMember(json, "compartments", !line.flag("noCompartments"));
-  writeMember(json, "contiguity", !line.flag("noContiguity"));
-  writeMember(json, "boneThreshold", found.boneThreshold);
-  const std::map<Label, std::size_t> voxels = countVoxels(found.map);
-  json.Key("classes");
-  json.StartArray();
-  for (std::size_t c = 0; c < classes.size(); ++c)
+  const auto writeMembers = [&](JsonWriter& json)
   {
-    const auto count = voxels.find(classes[c].label);
-    json.StartObject();
-    writeMember(json, "label", classes[c].label);
-    writeMember(json, "name", classes[c].name);
-    writeMember(json, "compartment", nameOf(classes[c].admission));
-    writeMember(json, "trainingPoints", classes[c].points.size());
-    writeMember(json, "voxels", count == voxels.end() ? std::size_t(0) : count->second);
-    writeMember(json, "invalidated", found.invalidated[c]);
-    json.EndObject();
-  }
-  json.EndArray();
-  json.EndObject();
-  stream << '\n' << std::flush;
-  if (!stream) throw InputError(file + ": the report cannot be written whole");
+    writeMember(json, "module", "TissueMapper");
+    writeMember(json, "image", line.text("image"));
+    writeMember(json, "compartments", !line.flag("noCompartments"));
+    writeMember(json, "contiguity", !line.flag("noContiguity"));
+    writeMember(json, "boneThreshold", found.boneThreshold);
+    const std::map<Label, std::size_t> voxels = countVoxels(found.map);
+    json.Key("classes");
+    json.StartArray();
+    for (std::size_t c = 0; c < classes.size(); ++c)
+    {
+      const auto count = voxels.find(classes[c].label);
+      json.StartObject();
+      writeMember(json, "label", classes[c].label);
+      writeMember(json, "name", classes[c].name);
+      writeMember(json, "compartment", nameOf(classes[c].admission));
+      writeMember(json, "trainingPoints", classes[c].points.size());
+      writeMember(json, "voxels", count == voxels.end() ? std::size_t(0) : count->second);
+      writeMember(json, "invalidated", found.invalidated[c]);
+      json.EndObject();
+    }
+    json.EndArray();
+  };
+  writeBytes(jsonText(writeMembers, { 6 }), file);
 }
 
 void requireMemory(const ScalarImage& image, const std::string& file)

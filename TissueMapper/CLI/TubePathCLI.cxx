@@ -4,28 +4,23 @@
 #include "AvailableMemory.h"
 #include "CommandLine.h"
 #include "Errors.h"
-#include "JsonMember.h"
+#include "JsonReport.h"
 #include "PathRefinement.h"
 #include "Place.h"
+#include "TextFile.h"
 #include "ThreadCount.h"
 #include "TissueMapIO.h"
 #include "TubeLabel.h"
 #include "TubePathCLIXML.h"
 #include "TubePathIO.h"
 
-#include <rapidjson/ostreamwrapper.h>
-#include <rapidjson/prettywriter.h>
-
 #include <algorithm>
-#include <fstream>
 #include <numeric>
 
 using namespace surgicalmesher;
 
 namespace
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
 
 /// What the run found out, besides its outputs.
 struct Results
@@ -143,35 +138,28 @@ void write(JsonWriter& json, const char* key, const std::vector<double>& values)
 /// Lengths in mm, points in LPS, flux in the image's unit.
 void writeReport(const std::string& file, const CommandLine& line, const TubePath& tube, const Results& results)
 {
-  std::ofstream stream(file.c_str(), std::ios::binary);
-  rapidjson::OStreamWrapper wrapper(stream);
-  JsonWriter json(wrapper);
-  json.SetMaxDecimalPlaces(6);
-  json.StartObject();
-  writeMember(json, "module", "TubePath");
-  writeMember(json, "image", line.text("image"));
-  json.Key("parameters");
-  json.StartObject();
-  writeMember(json, "minimumRadius", line.numbers("radius")[0]);
-  writeMember(json, "maximumRadius", line.numbers("radius")[1]);
-  for (const char* name : { "polarity", "potential" }) writeMember(json, name, line.text(name));
-  for (const char* name : { "snap", "margin" }) writeMember(json, name, line.number(name));
-  writeMember(json, "label", line.integer("label"));
-  json.EndObject();
-  writeMember(json, "polarity", tube.isBright ? "bright" : "dark");
-  writeMember(json, "points", tube.points.size());
-  writeMember(json, "length", polylineLength(tube.points));
-  write(json, "radius", tube.radii);
-  write(json, "flux", tube.flux);
-  writeMember(json, "weakestFlux", results.weakest);
-  writeMember(json, "voxels", results.voxels);
-  json.Key("warnings");
-  json.StartArray();
-  for (const std::string& warning : results.warnings) json.String(warning.c_str());
-  json.EndArray();
-  json.EndObject();
-  stream << '\n' << std::flush;
-  if (!stream) throw InputError(file + ": the report cannot be written whole");
+  const auto writeMembers = [&](JsonWriter& json)
+  {
+    writeMember(json, "module", "TubePath");
+    writeMember(json, "image", line.text("image"));
+    json.Key("parameters");
+    json.StartObject();
+    writeMember(json, "minimumRadius", line.numbers("radius")[0]);
+    writeMember(json, "maximumRadius", line.numbers("radius")[1]);
+    for (const char* name : { "polarity", "potential" }) writeMember(json, name, line.text(name));
+    for (const char* name : { "snap", "margin" }) writeMember(json, name, line.number(name));
+    writeMember(json, "label", line.integer("label"));
+    json.EndObject();
+    writeMember(json, "polarity", tube.isBright ? "bright" : "dark");
+    writeMember(json, "points", tube.points.size());
+    writeMember(json, "length", polylineLength(tube.points));
+    write(json, "radius", tube.radii);
+    write(json, "flux", tube.flux);
+    writeMember(json, "weakestFlux", results.weakest);
+    writeMember(json, "voxels", results.voxels);
+    writeWarnings(json, results.warnings);
+  };
+  writeBytes(jsonText(writeMembers, { 6 }), file);
 }
 
 void requireMemory(double needed, const std::string& imageFile)

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TubePathIO.h"
 
-#include "Errors.h"
-#include "JsonMember.h"
+#include "JsonReport.h"
+#include "TextFile.h"
 #include "TissueMapIO.h"
-
-#include <rapidjson/ostreamwrapper.h>
-#include <rapidjson/prettywriter.h>
-
-#include <fstream>
 
 namespace surgicalmesher
 {
 
 namespace
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::OStreamWrapper>;
 
 void writeControlPoint(JsonWriter& json, const Vec3& point, std::size_t number)
 {
@@ -48,36 +41,31 @@ void writeMeasurement(JsonWriter& json, const std::string& name, const std::stri
 
 void writeTubePath(const TubePath& tube, const std::string& name, const std::string& file)
 {
-  std::ofstream stream(file.c_str(), std::ios::binary);
-  rapidjson::OStreamWrapper wrapper(stream);
-  JsonWriter json(wrapper);
-  json.SetFormatOptions(rapidjson::kFormatSingleLineArray);
-  json.SetMaxDecimalPlaces(6);
-  json.StartObject();
-  writeMember(json, "@schema",
-              "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/"
-              "markups-schema-v1.0.3.json#");
-  json.Key("markups");
-  json.StartArray();
-  json.StartObject();
-  writeMember(json, "type", "Curve");
-  writeMember(json, "name", name);
-  writeMember(json, "coordinateSystem", "LPS");
-  writeMember(json, "coordinateUnits", "mm");
-  json.Key("controlPoints");
-  json.StartArray();
-  for (std::size_t n = 0; n < tube.points.size(); ++n) writeControlPoint(json, tube.points[n], n + 1);
-  json.EndArray();
-  json.Key("measurements");
-  json.StartArray();
-  writeMeasurement(json, "Radius", "mm", tube.radii);
-  writeMeasurement(json, "Flux", "", tube.flux);
-  json.EndArray();
-  json.EndObject();
-  json.EndArray();
-  json.EndObject();
-  stream << '\n' << std::flush;
-  if (!stream) throw InputError(file + ": the path cannot be written whole");
+  const auto writeMembers = [&](JsonWriter& json)
+  {
+    writeMember(json, "@schema",
+                "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/"
+                "markups-schema-v1.0.3.json#");
+    json.Key("markups");
+    json.StartArray();
+    json.StartObject();
+    writeMember(json, "type", "Curve");
+    writeMember(json, "name", name);
+    writeMember(json, "coordinateSystem", "LPS");
+    writeMember(json, "coordinateUnits", "mm");
+    json.Key("controlPoints");
+    json.StartArray();
+    for (std::size_t n = 0; n < tube.points.size(); ++n) writeControlPoint(json, tube.points[n], n + 1);
+    json.EndArray();
+    json.Key("measurements");
+    json.StartArray();
+    writeMeasurement(json, "Radius", "mm", tube.radii);
+    writeMeasurement(json, "Flux", "", tube.flux);
+    json.EndArray();
+    json.EndObject();
+    json.EndArray();
+  };
+  writeBytes(jsonText(writeMembers, { 6, true }), file);
 }
 
 std::vector<TubePath> readTubePaths(const std::string& file, double missingRadius)

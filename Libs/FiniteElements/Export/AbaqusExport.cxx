@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "AbaqusExport.h"
 
+#include "TextFile.h"
 #include "TextNumbers.h"
 
 #include <map>

@@ -3,6 +3,7 @@
 
 #include "ExportText.h"
 #include "SetTags.h"
+#include "TextFile.h"
 
 #include <algorithm>
 #include <map>

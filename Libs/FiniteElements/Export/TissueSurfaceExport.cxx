@@ -4,7 +4,7 @@
 
 #include "Errors.h"
 #include "ExportText.h"
-#include "Text.h"
+#include "TextFile.h"
 
 #include <vtkCellArray.h>
 #include <vtkErrorCode.h>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "VtkExport.h"
 
-#include "Errors.h"
-
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkCellType.h>
@@ -16,7 +14,6 @@
 #include <vtkSmartPointer.h>
 #include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
 #include <set>
@@ -167,15 +164,7 @@ void writeShells(const FiniteElementModel& model, const std::string& file)
   addPoints(data, model, shellId);
   addTriangles(data, model, shellId);
   addTissues(data, model);
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetInputData(data);
-  writer->SetDataModeToAppended();
-  writer->EncodeAppendedDataOff();
-  writer->SetCompressorTypeToZLib();
-  writer->SetHeaderTypeToUInt64();
-  writer->WriteToOutputStringOn();
-  if (!writer->Write()) throw InputError(file + ": can't be composed");
-  writeBytes(writer->GetOutputString(), file);
+  writePolyData(data, file);
 }
 
 } // namespace surgicalmesher

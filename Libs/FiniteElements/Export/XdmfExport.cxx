@@ -3,6 +3,7 @@
 
 #include "Errors.h"
 #include "SetTags.h"
+#include "TextFile.h"
 
 #include <vtk_hdf5.h>
 

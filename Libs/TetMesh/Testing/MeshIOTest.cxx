@@ -4,6 +4,7 @@
 #include "FaceAdjacency.h"
 #include "MeshChecks.h"
 #include "Shapes.h"
+#include "TextFile.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>

@@ -312,7 +312,7 @@ TEST(ReadTissueMap, RefusesWhatIsNoImage)
   const std::string missing = folder.file("missing.nrrd");
   expectInputError([&] { readTissueMap(missing); }, missing, "no such file");
   const std::string directory = folder.file("");
-  expectInputError([&] { readTissueMap(directory); }, directory, "is a directory");
+  expectInputError([&] { readTissueMap(directory); }, directory, "is a folder");
   for (const char* name : { "text.nrrd", "text.nii", "text.nii.gz", "text.mha", "text.gipl", "text.txt", "text" })
   {
     expectFileRefused(name, "Once upon a time\nthere was a map.\n", "expected NRRD, NIfTI, MetaImage or GIPL");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Small text files: what the readers of tables and markups share.
+/// Whole files: text to read, bytes to write.
 
 #include "Text.h"
 
@@ -16,4 +16,8 @@ std::string readTextFile(const std::string& file);
 void requireReadableFile(const std::string& file);
 
 } // namespace text
+
+/// Writes `bytes` to `file`, and throws InputError unless all of them arrived there.
+void writeBytes(const std::string& bytes, const std::string& file);
+
 } // namespace surgicalmesher
