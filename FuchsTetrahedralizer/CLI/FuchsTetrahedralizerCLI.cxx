@@ -69,11 +69,13 @@ TetrahedralizerInput readInput(CommandLine& line, SurfaceFile&& content, const S
     }
     return input;
   }
-  if (content.surface.labels.empty())
-    throw InputError(input.name + ": no BoundaryLabels, expected them in a surface with ambient tetrahedra");
   input.surface = std::move(content.surface);
   input.background = readMesh(ambient);
-  requireInterfacesAre(input.surface, input.name, input.background->mesh, ambient);
+  if (!isInterfaceOf(input.surface, input.background->mesh))
+  {
+    throw InputError(ambient + ": these tetrahedra are of another surface than " + input.name +
+                     ", expected the two files that one run has written");
+  }
   return input;
 }
 

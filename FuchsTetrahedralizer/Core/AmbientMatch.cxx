@@ -1,76 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "AmbientMatch.h"
 
-#include "Errors.h"
 #include "FaceAdjacency.h"
-#include "MeshChecks.h"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 namespace surgicalmesher
 {
 namespace
 {
 
-using Position = std::tuple<double, double, double>;
+/// By its positions, smallest first and wound with the higher label behind, and its labels, higher first: equal
+/// triangles are equal wherever their numbering began.
+using PlacedTriangle = std::pair<std::array<std::array<double, 3>, 3>, std::array<Label, 2>>;
 
-/// A triangle by its positions, so that equal ones compare equal wherever their numbering began.
-struct Placed
+std::vector<PlacedTriangle> placedTriangles(const SurfaceComplex& surface)
 {
-  std::array<Position, 3> corners; ///< smallest first, wound with the higher label behind
-  std::array<Label, 2> labels;     ///< [higher, lower]
-};
-
-bool operator<(const Placed& a, const Placed& b)
-{
-  return std::tie(a.corners, a.labels) < std::tie(b.corners, b.labels);
-}
-
-std::vector<Placed> placedTriangles(const SurfaceComplex& surface)
-{
-  std::vector<Placed> result;
+  std::vector<PlacedTriangle> result;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
   {
-    Placed placed{ {}, surface.labels[t] };
-    for (int c = 0; c < 3; ++c)
+    auto [a, b, c] = surface.triangles[t];
+    auto [behind, front] = surface.labels[t];
+    if (behind < front)
     {
-      const Vec3& p = surface.points[surface.triangles[t][c]];
-      placed.corners[c] = { p.x, p.y, p.z };
+      std::swap(behind, front);
+      std::swap(b, c);
     }
-    if (placed.labels[0] < placed.labels[1])
-    {
-      std::swap(placed.labels[0], placed.labels[1]);
-      std::swap(placed.corners[1], placed.corners[2]);
-    }
-    std::rotate(placed.corners.begin(), std::min_element(placed.corners.begin(), placed.corners.end()),
-                placed.corners.end());
-    result.push_back(placed);
+    const auto at = [&](std::int32_t id) {
+      return std::array<double, 3>{ surface.points[id].x, surface.points[id].y, surface.points[id].z };
+    };
+    std::array<std::array<double, 3>, 3> corners{ at(a), at(b), at(c) };
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    result.emplace_back(corners, std::array<Label, 2>{ behind, front });
   }
   std::sort(result.begin(), result.end());
   return result;
 }
 
-void requireSubset(const std::vector<Placed>& part, const std::string& partName, const std::vector<Placed>& whole,
-                   const std::string& wholeName)
-{
-  std::vector<Placed> missing;
-  std::set_difference(part.begin(), part.end(), whole.begin(), whole.end(), std::back_inserter(missing));
-  if (missing.empty()) return;
-  const auto& [x, y, z] = missing.front().corners[0];
-  throw InputError(wholeName + ": " + std::to_string(missing.size()) + " triangles of " + partName +
-                   " are missing, the first at " + place({ x, y, z }) +
-                   ", expected tetrahedra whose label interfaces are exactly the surface's triangles");
-}
-
 } // namespace
 
-void requireInterfacesAre(const SurfaceComplex& surface, const std::string& surfaceName, const TetMesh& ambient,
-                          const std::string& ambientName)
+bool isInterfaceOf(const SurfaceComplex& surface, const TetMesh& background)
 {
-  const std::vector<Placed> wanted = placedTriangles(surface), found = placedTriangles(interfaceOf(ambient));
-  requireSubset(wanted, surfaceName, found, ambientName);
-  requireSubset(found, ambientName, wanted, surfaceName);
+  return surface.labels.size() == surface.triangles.size() &&
+         placedTriangles(surface) == placedTriangles(interfaceOf(background));
 }
 
 } // namespace surgicalmesher

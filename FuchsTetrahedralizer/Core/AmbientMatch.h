@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Does an ambient complex belong to a surface?
+/// Do background tetrahedra belong to a surface?
 
 #include "TetMesh.h"
-
-#include <string>
 
 namespace surgicalmesher
 {
 
-/// Throws InputError, with both names and the place in mm, unless the label interfaces of `ambient` are exactly the
-/// triangles of `surface`: the same positions and the same labels on the same sides.
-void requireInterfacesAre(const SurfaceComplex& surface, const std::string& surfaceName, const TetMesh& ambient,
-                          const std::string& ambientName);
+/// Whether the triangles of `surface` are exactly the label interfaces of `background`: the same positions and the same
+/// labels on the same sides, in any order. A surface without labels is none's.
+bool isInterfaceOf(const SurfaceComplex& surface, const TetMesh& background);
 
 } // namespace surgicalmesher

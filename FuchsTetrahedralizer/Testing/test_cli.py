@@ -186,9 +186,9 @@ class FuchsTetrahedralizer(unittest.TestCase):
         self.assertEqual({labels.GetValue(i) for i in range(mesh.GetNumberOfCells())}, {3})
         os.remove(self.mesh)
         other = write(label(sphere(1), 3, 0), "other.vtp")
-        self.refused(1, "are missing", "--edgeLength", "2", "--ambient", ambient, other)
+        self.refused(1, "of another surface", "--edgeLength", "2", "--ambient", ambient, other)
         unlabelled = write(sphere(1), "unlabelled.vtp")
-        self.refused(1, "BoundaryLabels", "--edgeLength", "2", "--ambient", ambient, unlabelled)
+        self.refused(1, "of another surface", "--edgeLength", "2", "--ambient", ambient, unlabelled)
 
     def test_writes_both_formats_and_the_same_bytes_twice(self):
         surface = write(label(sphere(10), 3, 0), "surface.vtp")
