@@ -121,7 +121,7 @@ std::vector<Vec3> taubin(const InterfaceGraph& graph, const std::vector<Vec3>& p
   return position;
 }
 
-/// Takes each samples point along with the corners of its face, by `share` of their way.
+/// Takes each sample along with the corners of its face, by `share` of their way.
 void moveSamples(BackgroundMesh& background, const InterfaceGraph& graph, const std::vector<Vec3>& target, double share)
 {
   const auto& points = background.mesh.points;

@@ -446,7 +446,7 @@ private:
               Vec3 p{ double(at[0]), double(at[1]), double(at[2]) };
               p[axis] = 0.5 * (here[axis] + beyond[axis]);
               for (int k = 0; k < 3; ++k) p[k] *= m_Map.grid.spacing[k];
-              out.background.samples.push_back({ p, 0, id, f });
+              out.background.samples.push_back({ { p, 0 }, id, f });
             }
       }
     }

@@ -341,9 +341,8 @@ private:
       for (std::int32_t i = 0; i < 4; ++i)
         for (std::int32_t e = complex.sampleHeads[t][i]; e >= 0; e = complex.samples[e].next)
         {
-          const BoundarySample& sample = complex.samples[e];
-          r.samples.push_back(
-            { sample.position, sample.tolerance, std::int32_t(r.tets.size()), i, complex.sampleNormal(e) });
+          const ListedSample& sample = complex.samples[e];
+          r.samples.push_back({ sample, std::int32_t(r.tets.size()), i, complex.sampleNormal(e) });
         }
       r.tets.push_back(x);
       r.labels.push_back(complex.labels[t]);

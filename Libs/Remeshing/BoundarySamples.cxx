@@ -26,11 +26,7 @@ void Sheet::addSamples(const TetComplex& complex, std::size_t k)
 {
   const auto [t, face] = faces[k].holder;
   for (std::int32_t e = complex.sampleHeads[t][face]; e >= 0; e = complex.samples[e].next)
-  {
-    const BoundarySample& sample = complex.samples[e];
-    const double tolerance = sample.tolerance;
-    samples.push_back({ sample.position, tolerance * tolerance, e, std::int32_t(k), -1, 0 });
-  }
+    samples.push_back({ complex.samples[e], e, std::int32_t(k), -1, 0 });
 }
 
 void gatherSheet(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star, Sheet& sheet)

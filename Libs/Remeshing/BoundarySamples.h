@@ -24,10 +24,8 @@ struct SheetFace
   std::pair<std::int32_t, int> holder; ///< see TetComplex
 };
 
-struct SheetSample
+struct SheetSample : BoundarySample
 {
-  Vec3 position;
-  double tolerance2; ///< mm^2
   std::int32_t id;   ///< in TetComplex::samples
   std::int32_t from; ///< number of its face in the sheet
   std::int32_t to;   ///< number of the new face that an operation hands it to; -1: none

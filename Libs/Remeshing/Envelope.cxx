@@ -24,7 +24,7 @@ struct FacesToSamples
     const Vec3 centre = (a + b + c) / 3.0;
     double least = std::numeric_limits<double>::max();
     for (const SheetSample& sample : sheet.samples)
-      least = std::min(least, squaredNorm(sample.position - centre) / sample.tolerance2);
+      least = std::min(least, squaredNorm(sample.position - centre) / sample.squaredTolerance());
     const double own = 0.5 * norm(cross(b - a, c - a));
     area += own;
     sum += own * least;
@@ -151,7 +151,7 @@ double Envelope::squaredDistanceToBoth(const Sheet& sheet, const SheetSample& sa
 /// are let go if the boundary of either stays within tolerance.
 bool Envelope::sampleStays(const Sheet& sheet, SheetSample& sample)
 {
-  const double tolerance2 = m_SquaredToleranceFactor * sample.tolerance2;
+  const double tolerance2 = m_SquaredToleranceFactor * sample.squaredTolerance();
   const bool hasFace = findNearestFace(sheet, sample);
   if (sample.distance2 <= std::max(tolerance2, m_LeastTolerance2)) return true;
   if (hasFace && sample.distance2 <= squaredDistanceNow(sheet, sample) * (1 + 1e-9)) return true;
@@ -164,11 +164,11 @@ bool Envelope::meanSquareStays(const Sheet& sheet)
 {
   double sum = 0;
   for (const SheetSample& sample : sheet.samples)
-    sum += std::min(1.0, sample.distance2 / (m_SquaredToleranceFactor * sample.tolerance2));
+    sum += std::min(1.0, sample.distance2 / (m_SquaredToleranceFactor * sample.squaredTolerance()));
   if (sum <= m_MeanSquareLimit * double(sheet.samples.size())) return true;
   double before = 0;
   for (const SheetSample& sample : sheet.samples)
-    before += std::min(1.0, squaredDistanceNow(sheet, sample) / (m_SquaredToleranceFactor * sample.tolerance2));
+    before += std::min(1.0, squaredDistanceNow(sheet, sample) / (m_SquaredToleranceFactor * sample.squaredTolerance()));
   return sum <= before * (1 + 1e-9);
 }
 
@@ -192,8 +192,8 @@ bool Envelope::comesNearer(double mostLeft)
   double before = 0, after = 0;
   for (const SheetSample& sample : sheet.samples)
   {
-    before += squaredDistanceNow(sheet, sample) / sample.tolerance2;
-    after += (sample.to < 0 ? squaredDistanceToBoth(sheet, sample) : sample.distance2) / sample.tolerance2;
+    before += squaredDistanceNow(sheet, sample) / sample.squaredTolerance();
+    after += (sample.to < 0 ? squaredDistanceToBoth(sheet, sample) : sample.distance2) / sample.squaredTolerance();
   }
   FacesToSamples now, then;
   for (const SheetFace& f : sheet.faces)
@@ -212,7 +212,7 @@ bool Envelope::growsSpike(const Vec3& p) const
 {
   if (m_VertexDistance == 0) return false;
   const auto [sample, distance2] = nearestSample(m_Sheet, p);
-  return sample && distance2 > m_VertexDistance * m_VertexDistance * sample->tolerance2 &&
+  return sample && distance2 > m_VertexDistance * m_VertexDistance * sample->squaredTolerance() &&
          distance2 > nearestSample(m_Sheet, m_Complex.points[m_SheetVertex]).second;
 }
 
@@ -228,7 +228,7 @@ bool Envelope::spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) co
       const double target = m_Complex.targetLength(f.vertices[k], x);
       if (squaredNorm(b - a) <= target * target) continue;
       const auto [sample, distance2] = nearestSample(sheet, 0.5 * (a + b));
-      if (!sample || distance2 <= m_VertexDistance * m_VertexDistance * sample->tolerance2) continue;
+      if (!sample || distance2 <= m_VertexDistance * m_VertexDistance * sample->squaredTolerance()) continue;
       const Vec3 other = f.vertices[k] == v ? b : a;
       if (distance2 > nearestSample(sheet, 0.5 * (from + other)).second) return true;
     }
@@ -242,7 +242,7 @@ bool Envelope::laysBare(std::int32_t t) const
   {
     if (m_Complex.onInterface[v]) continue;
     const auto [sample, distance2] = nearestSample(m_Old, m_Complex.points[v]);
-    if (!sample || distance2 > m_VertexDistance * m_VertexDistance * sample->tolerance2) return true;
+    if (!sample || distance2 > m_VertexDistance * m_VertexDistance * sample->squaredTolerance()) return true;
   }
   return false;
 }
@@ -357,7 +357,7 @@ void Envelope::attachMoved()
 bool Envelope::hasSampleBeyondTolerance()
 {
   const auto isBeyond = [&](const SheetSample& sample)
-  { return squaredDistanceNow(m_Sheet, sample) > m_SquaredToleranceFactor * sample.tolerance2; };
+  { return squaredDistanceNow(m_Sheet, sample) > m_SquaredToleranceFactor * sample.squaredTolerance(); };
   return std::any_of(m_Sheet.samples.begin(), m_Sheet.samples.end(), isBeyond);
 }
 

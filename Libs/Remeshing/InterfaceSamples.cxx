@@ -48,7 +48,7 @@ void addInterfaceSamples(BackgroundMesh& background, double tolerance)
       for (const auto& q : subdivided(p, parts))
         for (int k = 0; k < 3; ++k)
           background.samples.push_back(
-            { (4 * q[k] + q[(k + 1) % 3] + q[(k + 2) % 3]) / 6, float(tolerance * length), t, i });
+            { { (4 * q[k] + q[(k + 1) % 3] + q[(k + 2) % 3]) / 6, float(tolerance * length) }, t, i });
     }
 }
 

@@ -131,7 +131,7 @@ void TetComplex::addSample(std::int32_t t, int i, const Vec3& position, float to
                            const std::array<float, 3>& normal)
 {
   const auto [h, j] = holder(t, i);
-  samples.push_back({ position, tolerance, sampleHeads[h][j], -1 });
+  samples.push_back({ { position, tolerance }, sampleHeads[h][j], -1 });
   if (normal != std::array<float, 3>{ 0, 0, 0 } || !sampleNormals.empty())
   {
     sampleNormals.resize(samples.size(), { 0, 0, 0 });

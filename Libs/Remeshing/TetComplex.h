@@ -15,7 +15,7 @@
 /// A complex may be a block cut out of a larger one. The vertices on its border, whose star may go on outside, are
 /// locked: no operation moves or removes them.
 
-#include "TetMesh.h"
+#include "BackgroundMesh.h"
 
 #include <array>
 #include <cstdint>
@@ -24,11 +24,9 @@
 namespace surgicalmesher
 {
 
-/// A place on the boundary between two labels, as the map or an input surface shows it.
-struct BoundarySample
+/// In the list of its face.
+struct ListedSample : BoundarySample
 {
-  Vec3 position;
-  float tolerance = 0; ///< mm to the nearest face of its label pair
   std::int32_t next = -1;
   double distance2 = -1; ///< mm^2, to its face; -1 until somebody has asked
 };
@@ -54,7 +52,7 @@ public:
   std::vector<Label> labels;
   std::vector<std::array<std::int32_t, 4>> sampleHeads; ///< per face, held by the side of the larger label (on a
                                                         ///< block's border, by the block that has that side)
-  std::vector<BoundarySample> samples;
+  std::vector<ListedSample> samples;
   std::vector<std::array<float, 3>> sampleNormals; ///< as in BackgroundMesh; empty if no sample has one, apart because
                                                    ///< samples without are read more often than anything else
 
@@ -104,10 +102,10 @@ public:
   std::pair<std::int32_t, int> holder(std::int32_t t, int i) const;
 
   // --- changes of the complex; no guard here
-  /// Replaces u by v in star(u); the ring of uv dies. BoundarySample of the faces at u must have been taken before.
+  /// Replaces u by v in star(u); the ring of uv dies. Samples of the faces at u must have been taken before.
   void collapse(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& starOfU);
   /// Replaces tetrahedra by others that fill the same cavity; every border face keeps its outer neighbour and, if its
-  /// label pair persists, its samples. BoundarySample of inner interface faces must have been taken before. Returns the
+  /// label pair persists, its samples. Samples of inner interface faces must have been taken before. Returns the
   /// new ids.
   std::vector<std::int32_t> replace(const std::vector<std::int32_t>& old, const std::vector<Tet>& tetrahedra,
                                     const std::vector<Label>& newLabels);

@@ -8,13 +8,21 @@
 namespace surgicalmesher
 {
 
+/// A place where the map, or an input surface, says that the boundary between two labels is. What holds samples adds to
+/// them how it holds them.
+struct BoundarySample
+{
+  Vec3 position;
+  float tolerance = 0; ///< mm, to the nearest face of its pair of labels
+
+  double squaredTolerance() const { return double(tolerance) * tolerance; } ///< mm^2
+};
+
 struct BackgroundMesh
 {
-  /// A place on the boundary between two labels of the map, held by the face that stands for it.
-  struct Sample
+  /// Held by the face that stands for it.
+  struct Sample : BoundarySample
   {
-    Vec3 position;
-    float tolerance; ///< mm, to the nearest face of its pair of labels
     std::int32_t tetrahedron;
     std::int32_t face; ///< opposite this vertex (0..3); the tetrahedron's label is the larger of the face's two
     /// Normal of the boundary, out of the larger label, over the radius (mm) in which it is nearly plane; 0: not known.

@@ -22,7 +22,7 @@ using namespace test;
 
 const SizingFunction scale = [](const Vec3& p) { return float(2 + 0.2 * p.x); };
 
-/// BoundarySample in the middle of each interface face.
+/// A sample in the middle of each interface face.
 BackgroundMesh ambientOf(const TissueMap& map)
 {
   BackgroundMesh ambient;
@@ -31,8 +31,7 @@ BackgroundMesh ambientOf(const TissueMap& map)
   const TetComplex complex = complexOf(ambient.mesh, 1, 0.6f);
   const auto places = samplePlaces(complex);
   for (std::size_t e = 0; e < places.size(); ++e)
-    ambient.samples.push_back(
-      { complex.samples[e].position, complex.samples[e].tolerance, places[e].tet, places[e].face });
+    ambient.samples.push_back({ complex.samples[e], places[e].tet, places[e].face });
   return ambient;
 }
 

@@ -27,7 +27,7 @@ inline std::array<std::int32_t, 3> faceKey(const TetComplex::Tet& tet, int face)
   return key;
 }
 
-/// The complex of a mesh with one target length everywhere, and one samples point in the middle of each interface face.
+/// The complex of a mesh with one target length everywhere, and one sample in the middle of each interface face.
 inline TetComplex complexOf(const TetMesh& mesh, float length = 1, float tolerance = 0.5f)
 {
   TetComplex complex(mesh.points, std::vector<float>(mesh.points.size(), length), mesh.tetrahedra, mesh.labels);
@@ -96,7 +96,7 @@ inline std::map<Label, double> volumesOf(const TetMesh& mesh)
   return volumes;
 }
 
-/// Where an samples point hangs.
+/// Where a sample hangs.
 struct SamplePlace
 {
   std::int32_t tet = -1; ///< -1: let go

@@ -194,7 +194,7 @@ void expectQuality(const ComplexState& before, TetComplex& c, double minimumQual
   }
 }
 
-/// BoundarySample stays within its tolerance of faces of its label pair, or no farther than it was; or both labels
+/// A sample stays within its tolerance of faces of its label pair, or no farther than it was; or both labels
 /// still have a boundary within the tolerance, if they have not vanished, and the pair faces within `separatedFactor`
 /// times that, if any.
 void expectSamplesKept(const std::vector<SamplePlace>& before, const TetComplex& c, bool backgroundVanished)
