@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Report.h"
 
-#include "JsonMember.h"
+#include "JsonReport.h"
 #include "MeshChecks.h"
-#include "PrintableText.h"
 #include "SolverReport.h"
 
 #include <rapidjson/document.h>
-#include <rapidjson/prettywriter.h>
-#include <rapidjson/stringbuffer.h>
 
 #include <sstream>
 
@@ -18,16 +15,15 @@ namespace surgicalmesher
 namespace
 {
 
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
-
 void writeSubMeshes(JsonWriter& json, const SubMeshes& division)
 {
-  json.Key("subMeshes");
-  json.StartObject();
-  writeMember(json, "children", division.children);
-  writeMember(json, "pieces", division.pieces);
-  writeMember(json, "interfacePoints", division.interfacePoints);
-  json.EndObject();
+  writeObject(json, "subMeshes",
+              [&]
+              {
+                writeMember(json, "children", division.children);
+                writeMember(json, "pieces", division.pieces);
+                writeMember(json, "interfacePoints", division.interfacePoints);
+              });
 }
 
 void writeTopology(JsonWriter& json, const TetMesh& mesh)
@@ -56,24 +52,20 @@ void addMember(rapidjson::Document& object, const char* key, const std::string& 
 std::string reportJson(const MeshReport& report)
 {
   const MeshFile& content = report.mesh.content;
-  rapidjson::StringBuffer buffer;
-  JsonWriter json(buffer);
-  json.StartObject();
-  writeMember(json, "start", report.fromBackground ? "ambient tetrahedra" : "constrained Delaunay");
-  writeSubMeshes(json, report.mesh.division);
-  writeTopology(json, content.mesh);
-  json.Key("quality");
   rapidjson::Document members;
   members.Parse(qualityJSON(report.quality, content.tissues).c_str());
   addMember(members, "explicit", explicitJSON(content, report.steps));
   if (report.conditioning) addMember(members, "stiffness", stiffnessJSON(*report.conditioning, content.tissues));
-  members.Accept(json);
-  json.Key("warnings");
-  json.StartArray();
-  for (const std::string& warning : report.warnings) json.String(printable(warning).c_str());
-  json.EndArray();
-  json.EndObject();
-  return std::string(buffer.GetString()) + "\n";
+  return jsonText(
+    [&](JsonWriter& json)
+    {
+      writeMember(json, "start", report.fromBackground ? "ambient tetrahedra" : "constrained Delaunay");
+      writeSubMeshes(json, report.mesh.division);
+      writeTopology(json, content.mesh);
+      json.Key("quality");
+      members.Accept(json);
+      writeWarnings(json, report.warnings);
+    });
 }
 
 std::string summaryOf(const MeshReport& report)

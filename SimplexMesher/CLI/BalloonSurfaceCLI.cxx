@@ -6,7 +6,7 @@
 #include "CommandLine.h"
 #include "EnclosedVoxels.h"
 #include "Errors.h"
-#include "JsonMember.h"
+#include "JsonReport.h"
 #include "MeshChecks.h"
 #include "MeshIO.h"
 #include "Place.h"
@@ -17,8 +17,6 @@
 #include "TextFile.h"
 #include "TissueMapIO.h"
 
-#include <rapidjson/prettywriter.h>
-#include <rapidjson/stringbuffer.h>
 #include <vtkSMPTools.h>
 
 #include <algorithm>
@@ -30,8 +28,6 @@ using namespace surgicalmesher;
 
 namespace
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
 struct Seed
 {
@@ -176,35 +172,30 @@ void writeTissue(JsonWriter& json, Label label, const BalloonHalt& halt, const B
 std::string reportJSON(const CommandLine& line, const BalloonResult& result, const std::map<Label, std::size_t>& voxels,
                        const TissueTable& table)
 {
-  rapidjson::StringBuffer buffer;
-  JsonWriter json(buffer);
-  json.SetMaxDecimalPlaces(6);
-  json.StartObject();
-  writeMember(json, "module", std::string("BalloonSurface"));
-  json.Key("parameters");
-  json.StartObject();
-  for (const char* name : { "stop", "continuity" }) writeMember(json, name, line.text(name));
-  for (const char* name : { "edgeLength", "areaTolerance", "limit", "rigidity" })
-    writeMember(json, name, line.number(name));
-  json.EndObject();
-  const BalloonStep& last = result.evolution.back();
-  writeMember(json, "motions", last.motion);
-  writeMember(json, "atRest", result.isAtRest);
-  writeMember(json, "withinTolerance", last.withinTolerance);
-  writeMember(json, "triangles", result.surface.triangles.size());
-  const std::map<Label, BalloonSize> sizes = balloonSizes(result.surface);
-  writeObjects(json, "tissues", result.halts,
-               [&](const auto& tissue)
-               {
-                 const Label label = tissue.first;
-                 writeTissue(json, label, tissue.second, sizes.at(label), voxels.at(label), table);
-               });
-  json.Key("warnings");
-  json.StartArray();
-  for (const std::string& warning : line.warnings()) json.String(printable(warning).c_str());
-  json.EndArray();
-  json.EndObject();
-  return std::string(buffer.GetString()) + "\n";
+  const auto writeMembers = [&](JsonWriter& json)
+  {
+    writeMember(json, "module", std::string("BalloonSurface"));
+    json.Key("parameters");
+    json.StartObject();
+    for (const char* name : { "stop", "continuity" }) writeMember(json, name, line.text(name));
+    for (const char* name : { "edgeLength", "areaTolerance", "limit", "rigidity" })
+      writeMember(json, name, line.number(name));
+    json.EndObject();
+    const BalloonStep& last = result.evolution.back();
+    writeMember(json, "motions", last.motion);
+    writeMember(json, "atRest", result.isAtRest);
+    writeMember(json, "withinTolerance", last.withinTolerance);
+    writeMember(json, "triangles", result.surface.triangles.size());
+    const std::map<Label, BalloonSize> sizes = balloonSizes(result.surface);
+    writeObjects(json, "tissues", result.halts,
+                 [&](const auto& tissue)
+                 {
+                   const Label label = tissue.first;
+                   writeTissue(json, label, tissue.second, sizes.at(label), voxels.at(label), table);
+                 });
+    writeWarnings(json, line.warnings());
+  };
+  return jsonText(writeMembers, { 6 });
 }
 
 /// Gives the enclosed voxels that no balloon stops at to the balloons; returns their numbers.
