@@ -3,7 +3,7 @@
 
 #include "CommandLine.h"
 #include "Errors.h"
-#include "JsonMember.h"
+#include "JsonReport.h"
 #include "MeshChecks.h"
 #include "MeshIO.h"
 #include "PrintableText.h"
@@ -13,11 +13,10 @@
 #include "SurfaceRemesherCLIXML.h"
 #include "SurfaceRemeshing.h"
 #include "SurfaceValidity.h"
+#include "TextFile.h"
 #include "TissueMapIO.h"
 #include "TissueSurfaces.h"
 
-#include <rapidjson/prettywriter.h>
-#include <rapidjson/stringbuffer.h>
 #include <vtkSMPTools.h>
 
 #include <cmath>
@@ -27,8 +26,6 @@ using namespace surgicalmesher;
 
 namespace
 {
-
-using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
 /// What the command line alone can tell.
 void requireUsableOptions(const CommandLine& line)
@@ -133,37 +130,35 @@ void writeTriangles(JsonWriter& json, const char* key, const SurfaceComplex& sur
 std::string reportJSON(const CommandLine& line, const SurfaceFile& original, const RemeshedSurface& remeshed,
                        const Comparison& comparison)
 {
-  rapidjson::StringBuffer buffer;
-  JsonWriter json(buffer);
-  json.SetMaxDecimalPlaces(6);
-  json.StartObject();
-  writeMember(json, "module", std::string("SurfaceRemesher"));
-  json.Key("parameters");
-  json.StartObject();
-  for (const char* name : { "edgeLength", "chordError", "featureAngle" }) writeMember(json, name, line.number(name));
-  json.EndObject();
-  writeTriangles(json, "original", original.surface);
-  writeTriangles(json, "remeshed", remeshed.surface);
-  writeMember(json, "sharpEdges", remeshed.sharpEdges);
-  writeDistance(json, "toOriginal", comparison.toOriginal);
-  writeDistance(json, "fromOriginal", comparison.fromOriginal);
-  writeObjects(json, "tissues", comparison.before,
-               [&](const auto& tissue)
-               {
-                 const TissueSurface& after = comparison.after.at(tissue.first);
-                 writeMember(json, "label", tissue.first);
-                 writeMember(json, "name", printable(nameOf(tissue.first, original.tissues)));
-                 writeMember(json, "triangles", after.triangles);
-                 writeMember(json, "euler", after.euler);
-                 writeMember(json, "volumeBefore", tissue.second.volume);
-                 writeMember(json, "volume", after.volume);
-               });
-  json.Key("warnings");
-  json.StartArray();
-  for (const std::string& warning : line.warnings()) json.String(printable(warning).c_str());
-  json.EndArray();
-  json.EndObject();
-  return std::string(buffer.GetString()) + "\n";
+  const auto writeTissue = [&](JsonWriter& json, Label label, const TissueSurface& before)
+  {
+    const TissueSurface& after = comparison.after.at(label);
+    writeMember(json, "label", label);
+    writeMember(json, "name", printable(nameOf(label, original.tissues)));
+    writeMember(json, "triangles", after.triangles);
+    writeMember(json, "euler", after.euler);
+    writeMember(json, "volumeBefore", before.volume);
+    writeMember(json, "volume", after.volume);
+  };
+  const auto writeMembers = [&](JsonWriter& json)
+  {
+    writeMember(json, "module", std::string("SurfaceRemesher"));
+    writeObject(json, "parameters",
+                [&]
+                {
+                  for (const char* name : { "edgeLength", "chordError", "featureAngle" })
+                    writeMember(json, name, line.number(name));
+                });
+    writeTriangles(json, "original", original.surface);
+    writeTriangles(json, "remeshed", remeshed.surface);
+    writeMember(json, "sharpEdges", remeshed.sharpEdges);
+    writeDistance(json, "toOriginal", comparison.toOriginal);
+    writeDistance(json, "fromOriginal", comparison.fromOriginal);
+    writeObjects(json, "tissues", comparison.before,
+                 [&](const auto& tissue) { writeTissue(json, tissue.first, tissue.second); });
+    writeWarnings(json, line.warnings());
+  };
+  return jsonText(writeMembers, { 6 });
 }
 
 /// The guards let no operation go beyond the chord error, but the samples that they ask are centroids and corners.
