@@ -150,9 +150,11 @@ public:
   }
 
 private:
+  bool isCoarse() const { return m_Mesh.nodes.size() <= kAllMove; }
+
   std::vector<char> moving() const
   {
-    if (m_Mesh.nodes.size() <= kAllMove) return std::vector<char>(m_Mesh.nodes.size(), 1);
+    if (isCoarse()) return std::vector<char>(m_Mesh.nodes.size(), 1);
     std::vector<char> moves = m_Mesh.atHole;
     const std::vector<ElementQuality> quality = elementQuality(m_Mesh.mesh);
     for (std::size_t e = 0; e < quality.size(); ++e)
@@ -188,7 +190,7 @@ private:
       if (region.held[i]) result.push_back(pull);
       else addSlidingPulls(std::size_t(region.nodes[i]), point, pull, result);
     }
-    addFacePulls(region, points, result);
+    if (isCoarse()) addFacePulls(region, points, result);
     return result;
   }
 

@@ -11,10 +11,10 @@ namespace surgicalmesher
 using HoleBorders = std::vector<std::vector<Eigen::Vector3d>>; ///< closed loops of positions
 
 /// Moves nodes to the minimum of FitEnergy: all of a mesh of at most 20,000, else those within three elements of a hole,
-/// or of an element with a scaled Jacobian under 0.2. Nodes on a side of the envelope slide on it, and faces lie on it by
-/// their middles, too; nodes around a hole are drawn to its `borders` on the outer and the inner surface and to its
-/// walls between. Throws EngineError, with the place, if an element is still invalid
-/// after `repairRounds` rounds more.
+/// or of an element with a scaled Jacobian under 0.2. Nodes on a side of the envelope slide on it (in the smaller mesh
+/// faces lie on skin and inner surface by their middles, too); nodes around a hole are drawn to its `borders` on the
+/// outer and the inner surface and to its walls between. Throws EngineError, with the place, if an element is still
+/// invalid after `repairRounds` rounds more.
 void fitToHoles(LayeredMesh& mesh, const Envelope& envelope, const std::array<HoleBorders, 2>& borders,
                 int repairRounds, const Progress& progress = {});
 
