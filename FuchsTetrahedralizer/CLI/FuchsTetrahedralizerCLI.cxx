@@ -4,6 +4,7 @@
 
 #include "AmbientMatch.h"
 #include "CommandLine.h"
+#include "CurveFiles.h"
 #include "Errors.h"
 #include "Export.h"
 #include "FuchsTetrahedralizerCLIXML.h"
@@ -123,14 +124,24 @@ std::vector<ShellChoice> readShells(const CommandLine& line, const TissueTable& 
   return choices;
 }
 
+CurveNetwork readCurveNetwork(const CommandLine& line, const SizingFunction& edgeLength)
+{
+  std::vector<Curve> curves;
+  for (const std::string& file : line.texts("curves"))
+    for (Curve& curve : readCurves(file, line.number("curveRadius"))) curves.push_back(std::move(curve));
+  return curveNetwork(curves, edgeLength);
+}
+
 /// What the command line alone can tell.
 void requireUsableOptions(CommandLine& line)
 {
   if (line.flag("conditioning") && !line.given("report"))
     throw UsageError("--conditioning is given, but no --report, expected both");
+  if (line.given("curveMesh") && line.texts("curves").empty())
+    throw UsageError("--curveMesh is given, but no --curves, expected both");
   for (const std::string& file : line.outputNames("export"))
   {
-    for (const ExportSidecar& sidecar : exportSidecars(file))
+    for (const ExportSidecar& sidecar : exportSidecars(file, !line.texts("curves").empty()))
     {
       if (sidecar.isMany) line.alsoWritesMany("export", sidecar.before, sidecar.after);
       else line.alsoWrites("export", sidecar.before);
@@ -153,6 +164,8 @@ FiniteElementOptions readFiniteElementOptions(CommandLine& line, const Tetrahedr
     materials.empty() ? std::string() : warningOfMaterials(options, present, content.tissues, materials);
   if (!missing.empty()) line.warning(missing);
   options.shells = readShells(line, content.tissues, present);
+  options.beams.areTrusses = line.text("curveElements") == "truss";
+  options.beams.material.youngsModulus = 1e-3 * line.number("curveYoungsModulus");
   return options;
 }
 
@@ -210,6 +223,7 @@ void mesh(CommandLine& line)
   const bool isOfMap = !content.boundaryDistance.empty(); // folded where the map has cracks, which are no edges to keep
   options.featureAngle = isOfMap ? 0 : line.number("featureAngle");
   const TargetLengths lengths = readLengths(line, content);
+  options.curves = readCurveNetwork(line, lengths.inWorld);
   TetrahedralizerInput input = readInput(line, std::move(content), lengths.inWorld);
   for (const std::string& warning : warningsOfPlaces(options.constitutive, input.surface)) line.warning(warning);
   const FiniteElementOptions model = readFiniteElementOptions(line, input);
@@ -222,6 +236,7 @@ void mesh(CommandLine& line)
   if (!stillness.empty()) line.warning(stillness);
   writeMesh(result.content, line.outputFile("mesh"));
   writeChildAndParent(line, result.content);
+  if (const std::string curves = line.outputFile("curveMesh"); !curves.empty()) writeCurves(result.content, curves);
   writeExports(line, result.content, model);
   const MeshQuality quality = assessQuality(result.content.mesh, result.content.subMesh, lengths.inWorld);
   const std::map<Label, ExplicitStep> steps = explicitSteps(result.content, model.materials);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Tetrahedralizer.h"
 
+#include "CurveInsertion.h"
 #include "FaceAdjacency.h"
 #include "InteriorRefill.h"
 #include "MeshChecks.h"
 #include "SurfaceTetrahedralization.h"
 #include "TetrahedraImprovement.h"
+
+#include <algorithm>
 
 namespace surgicalmesher
 {
@@ -51,6 +54,17 @@ FiniteElementMesh finiteElementMesh(TetMesh mesh, const SizingFunction& length, 
   return result;
 }
 
+std::vector<CurveChain> insertedCurves(TetMesh& mesh, const SizingFunction& length, const CurveNetwork& curves,
+                                       const TetrahedraImprovementOptions& improvement)
+{
+  if (curves.arcs.empty()) return {};
+  CurveInsertionOptions options;
+  options.targetAngle = improvement.targetAngle;
+  options.surfaceTolerance = improvement.surfaceTolerance;
+  options.featureAngle = improvement.featureAngle;
+  return insertCurves(mesh, curves, length, options);
+}
+
 } // namespace
 
 TargetLengths lengthsOf(const SizingFunction& inWorld) { return { inWorld, inWorld, {} }; }
@@ -66,10 +80,16 @@ FiniteElementMesh tetrahedralizeTissues(TetrahedralizerInput input, const Target
   TetMesh mesh = input.background ? withLatticeInside(input.background->mesh, length, input.name, options.placement)
                                   : fillWithTetrahedra(input.surface, length, input.name, options.placement);
   input.background.reset(); // its memory is needed
-  improveInFrame(mesh, lengths, improvement, subProgress(progress, 0.25, 0.85));
+  improveInFrame(mesh, lengths, improvement, subProgress(progress, 0.25, 0.8));
+  report(progress, 0.8, "curves");
+  std::vector<CurveChain> curves = insertedCurves(mesh, length, options.curves, improvement);
   report(progress, 0.85, "sub-meshes");
+  std::vector<std::int32_t> ids;
   FiniteElementMesh result =
-    finiteElementMesh(withoutOutside(mesh), length, std::move(input.tissues), options.constitutive);
+    finiteElementMesh(withoutOutside(mesh, &ids), length, std::move(input.tissues), options.constitutive);
+  for (CurveChain& curve : curves)
+    for (std::int32_t& id : curve.points) id = std::int32_t(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+  result.content.curves = std::move(curves);
   report(progress, 0.95, "checks");
   requireSound(result.content.mesh, "final check");
   return result;

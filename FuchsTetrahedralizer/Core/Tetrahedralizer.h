@@ -5,6 +5,7 @@
 /// Computer Aided Surgery 12(1), 2007).
 
 #include "ConstitutiveTags.h"
+#include "CurveNetwork.h"
 #include "MeshIO.h"
 #include "Progress.h"
 #include "ScaleField.h"
@@ -44,17 +45,19 @@ struct TetrahedralizerOptions
   double featureAngle = 0; ///< degrees, see TetrahedraImprovementOptions; not used with background tetrahedra
   VertexPlacement placement = VertexPlacement::Lattice; ///< of what is laid inside the surface
   ConstitutiveRule constitutive;
+  CurveNetwork curves; ///< to be chains of edges, see insertCurves
 };
 
 struct FiniteElementMesh
 {
-  MeshFile content;   ///< tetrahedra of tissues alone, with every array but those of parts
+  MeshFile content;   ///< tetrahedra of tissues alone, with every array but those of parts, and the curves
   SubMeshes division; ///< into child and parent
 };
 
 /// Fills the surface: with the lattice and constrained Delaunay, or with the background tetrahedra and the lattice
 /// inside the tissues that have room for it; then improves all of them towards the target lengths. Every tissue keeps
-/// its topology. Deterministic, whatever the number of threads. Throws SurfaceRefused (see tetrahedralize), EngineError.
+/// its topology. Deterministic, whatever the number of threads. Throws SurfaceRefused (see tetrahedralize), InputError
+/// where a curve leaves the tissues, EngineError.
 FiniteElementMesh tetrahedralizeTissues(TetrahedralizerInput input, const TargetLengths& lengths,
                                         const TetrahedralizerOptions& options, const Progress& progress = {});
 

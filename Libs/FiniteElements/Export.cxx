@@ -49,7 +49,7 @@ const ExportFormat& exportFormatOf(const std::string& file)
   throw UsageError(file + ": extension \"" + extension + "\" found, one of " + known + " expected");
 }
 
-std::vector<ExportSidecar> exportSidecars(const std::string& file)
+std::vector<ExportSidecar> exportSidecars(const std::string& file, bool withCurves)
 {
   const std::filesystem::path path(file);
   const std::string stem = (path.parent_path() / path.stem()).string(), extension = path.extension().string();
@@ -61,6 +61,11 @@ std::vector<ExportSidecar> exportSidecars(const std::string& file)
     sidecars.push_back({ stem + ".h5", "" });
     sidecars.push_back({ stem + "_facets" + extension, "" });
     sidecars.push_back({ stem + "_facets.h5", "" });
+    if (withCurves)
+    {
+      sidecars.push_back({ stem + "_curves" + extension, "" });
+      sidecars.push_back({ stem + "_curves.h5", "" });
+    }
   }
   return sidecars;
 }

@@ -34,8 +34,8 @@ struct ExportSidecar
   bool isMany = false;
 };
 
-/// What exportModel writes besides `file`.
-std::vector<ExportSidecar> exportSidecars(const std::string& file);
+/// What exportModel writes besides `file`, if the mesh has curves or not.
+std::vector<ExportSidecar> exportSidecars(const std::string& file, bool withCurves = false);
 
 /// Writes the model, and beside it `<file>.names.json`, the map from set names to tissues (see setNamesJSON). Throws
 /// UsageError for an unknown extension, InputError if a file can't be written to its end.

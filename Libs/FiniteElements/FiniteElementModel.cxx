@@ -6,6 +6,7 @@
 #include "SetNames.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <set>
 #include <utility>
@@ -157,6 +158,7 @@ public:
     for (const auto& [name, members] : namedNodes) addNamedNodes(name, members);
     addSections();
     for (const ShellChoice& choice : m_Options.shells) addShell(choice);
+    for (std::size_t n = 0; n < m_Model.content.curves.size(); ++n) addBeams(n);
     return std::move(m_Model);
   }
 
@@ -395,6 +397,42 @@ private:
     m_Model.shells.push_back(std::move(shell));
   }
 
+  std::int32_t beamMaterial()
+  {
+    if (m_BeamMaterial >= 0) return m_BeamMaterial;
+    const TissueMaterial& properties = m_Options.beams.material;
+    m_Model.materials.push_back({ m_Names.unique("curve_material_linear_elastic"), MaterialLaw::LinearElastic,
+                                  properties.youngsModulus, properties.poissonsRatio, properties.density });
+    return m_BeamMaterial = static_cast<std::int32_t>(m_Model.materials.size() - 1);
+  }
+
+  /// A curve's edges by radius: sections of a model are constant, so that those within 5 % share one, of the same area
+  /// together.
+  void addBeams(std::size_t number)
+  {
+    const CurveChain& curve = m_Model.content.curves[number];
+    const double step = std::log(1.1);
+    std::map<long, Beam> sections;
+    for (std::size_t k = 1; k < curve.points.size(); ++k)
+    {
+      const double radius = 0.5 * (curve.radii[k - 1] + curve.radii[k]);
+      Beam& beam = sections[std::lround(std::log(radius) / step)];
+      beam.edges.push_back({ curve.points[k - 1], curve.points[k] });
+      beam.radius += radius * radius;
+    }
+    std::int32_t section = 0;
+    for (auto& [classOfRadius, beam] : sections)
+    {
+      const std::string suffix = sections.size() > 1 ? "_section_" + std::to_string(++section) : "";
+      static_cast<SetInfo&>(beam) = info(m_Names.unique(validName(curve.name, kHalfName) + suffix, "curve"), curve.name,
+                                         SetKind::Beam, { std::int32_t(number) + 1, std::max(section, 1) });
+      beam.radius = std::sqrt(beam.radius / double(beam.edges.size()));
+      beam.isTruss = m_Options.beams.areTrusses;
+      beam.material = beamMaterial();
+      m_Model.beams.push_back(std::move(beam));
+    }
+  }
+
   const FiniteElementOptions& m_Options;
   FiniteElementModel m_Model;
   const std::vector<Cell>& m_Elements;
@@ -405,6 +443,7 @@ private:
   std::map<std::int32_t, std::string> m_TissueName, m_SubMeshName, m_ClassName;
   std::map<std::pair<std::int32_t, MaterialLaw>, std::int32_t> m_MaterialIndex; ///< label, -1 for the default
   std::set<Cell> m_ShellFaces;
+  std::int32_t m_BeamMaterial = -1;
 };
 
 } // namespace
@@ -423,6 +462,7 @@ std::string nameOf(SetKind kind)
   case SetKind::NullDisplacement: return "nullDisplacement";
   case SetKind::Shell: return "shell";
   case SetKind::Named: return "named";
+  case SetKind::Beam: return "beam";
   }
   return {};
 }

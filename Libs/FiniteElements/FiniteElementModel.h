@@ -30,11 +30,13 @@ enum class SetKind
   SubMeshInterface, ///< likewise between sub-meshes; nodes where any sub-meshes meet: []
   NullDisplacement, ///< nodes of null-displacement elements; []
   Shell,            ///< faces; [label] or [label, neighbour]
+  Beam,             ///< edges; [curve, section], both from 1
   Named             ///< elements, nodes or faces by a name that came with the mesh; []
 };
 
 /// The name of a kind in sidecars: "tissue", "subMesh", "constitutive", "tissueMaterial", "outerBoundary",
-/// "tissueInterface", "subMeshInterface", "nullDisplacement", "shell", "named".
+/// "tissueInterface", "subMeshInterface", "nullDisplacement", "shell", "beam",
+/// "named".
 std::string nameOf(SetKind kind);
 
 /// What sets of all sorts have in common.
@@ -97,6 +99,15 @@ struct Shell : SetInfo
   std::int32_t material = 0; ///< index into FiniteElementModel::materials
 };
 
+/// Edges of the mesh along a curve, beams or trusses of one round section.
+struct Beam : SetInfo
+{
+  std::vector<Cell> edges;   ///< point ids of the mesh, along the curve
+  double radius = 0;         ///< mm
+  bool isTruss = false;      ///< resists stretch alone
+  std::int32_t material = 0; ///< index into FiniteElementModel::materials
+};
+
 struct FiniteElementModel
 {
   /// Points, labels and the arrays that travel with them; subMesh and constitutive filled. Of a SolidMesh without its
@@ -109,6 +120,7 @@ struct FiniteElementModel
   std::vector<Material> materials;
   std::vector<Section> sections; ///< every element belongs to exactly one
   std::vector<Shell> shells;     ///< no face belongs to two
+  std::vector<Beam> beams;       ///< by curve and radius
 };
 
 /// A tissue's row of a material table, or what tissues without one have.
@@ -129,10 +141,18 @@ struct ShellChoice
   double thickness = 1;        ///< mm
 };
 
+/// What curves are made of.
+struct BeamOptions
+{
+  bool areTrusses = false;
+  TissueMaterial material; ///< linear elastic
+};
+
 struct FiniteElementOptions
 {
   std::map<Label, TissueMaterial> materials; ///< tissues not listed share the material `default_material`
   std::vector<ShellChoice> shells;           ///< a face that several ask for belongs to the first
+  BeamOptions beams;                         ///< of the curves that the mesh has
 };
 
 /// Elements of any shape, and what travels with them in their file.

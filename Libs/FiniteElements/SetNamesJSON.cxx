@@ -68,6 +68,15 @@ void writeSets(JsonWriter& json, const FiniteElementModel& model)
     writeFaceTags(json, tags, tags.shells[i]);
     json.EndObject();
   }
+  for (std::size_t i = 0; i < model.beams.size(); ++i)
+  {
+    const Beam& beam = model.beams[i];
+    writeSet(json, beam, beam.isTruss ? "truss" : "beam", beam.edges.size());
+    writeMember(json, "radius", beam.radius);
+    write(json, "material", model.materials[beam.material].name);
+    writeMember(json, "tag", tags.beams[i]);
+    json.EndObject();
+  }
   json.EndArray();
 }
 

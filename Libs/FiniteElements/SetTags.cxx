@@ -40,6 +40,7 @@ public:
       m_Tags.faceSets.push_back({ m_Last, &shell, &shell.cells });
     }
     m_Tags.nullDisplacement = ++m_Last;
+    for (std::size_t i = 0; i < m_Model.beams.size(); ++i) m_Tags.beams.push_back(++m_Last);
     for (const NodeSet& set : m_Model.nodeSets)
     {
       if (set.kind == SetKind::NullDisplacement) m_Tags.fixedPoints = set.points;

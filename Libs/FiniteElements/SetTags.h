@@ -41,6 +41,7 @@ struct SetTags
   std::vector<std::int32_t> elementSets; ///< per element set
   std::vector<std::int32_t> surfaces;    ///< per surface; both sides of an interface have the same
   std::vector<std::int32_t> shells;      ///< per shell
+  std::vector<std::int32_t> beams;       ///< per beam
   std::int32_t nullDisplacement = 0;     ///< of the set of such nodes
   std::vector<std::int32_t> fixedPoints; ///< that set, ascending; empty if there is none
 

@@ -22,6 +22,7 @@ bool GuardedOperations::mayCollapse(std::int32_t u, std::int32_t v, bool moves) 
 {
   const auto& c = m_Complex;
   if (c.locked[u] || (c.onInterface[u] && m_Envelope.isHeld())) return false;
+  if (m_Curves && !m_Curves->mayCollapse(u, v)) return false;
   // The star of a locked vertex may show only some of its labels.
   return c.onInterface[u] ? c.onInterface[v] && !c.locked[v] : !moves || (!c.onInterface[v] && !c.locked[v]);
 }
@@ -120,6 +121,7 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
 {
   auto& c = m_Complex;
   const bool moves = !(p == c.points[v]), inside = !c.onInterface[u];
+  if (m_Curves && !m_Curves->mayCollapse(u, v, p)) return false;
   const std::vector<std::int32_t>& star = this->star(u);
   if (!inside)
   {
@@ -138,6 +140,7 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
     c.points[v] = p;
     c.lengths[v] = float(m_Length(p));
   }
+  if (m_Curves) m_Curves->collapsed(u, v);
   if (!inside) m_Envelope.attach();
   ++m_Counts.collapses;
   return true;

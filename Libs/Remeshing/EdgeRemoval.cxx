@@ -103,6 +103,7 @@ std::optional<RingCuts> cutsOf(const TetComplex& complex, const std::vector<std:
 bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double minimumQuality)
 {
   auto& c = m_Complex;
+  if (m_Curves && m_Curves->isEdge(a, b)) return false;
   if (!c.ring(a, b, seed, m_Ring, m_RingVertices)) return false;
   const int n = int(m_Ring.size());
   if (n < 3 || n > maximumRing) return false;

@@ -10,6 +10,7 @@ std::optional<std::int32_t> GuardedOperations::split(std::int32_t a, std::int32_
                                                      double minimumQuality)
 {
   auto& c = m_Complex;
+  if (m_Curves && !m_Curves->maySplit(a, b, p)) return {};
   if (!c.ring(a, b, seed, m_Ring, m_RingVertices)) return {};
   for (std::int32_t t : m_Ring)
     if (lenient(t, c.qualityWith(t, a, p)) < minimumQuality || lenient(t, c.qualityWith(t, b, p)) < minimumQuality)
@@ -41,6 +42,7 @@ std::optional<std::int32_t> GuardedOperations::split(std::int32_t a, std::int32_
       labels.push_back(c.labels[t]);
     }
   const auto ids = c.replace(m_Ring, fresh, labels);
+  if (m_Curves) m_Curves->split(a, b, m);
   changed();
   m_Envelope.attach(ids);
   ++m_Counts.splits;
@@ -50,8 +52,10 @@ std::optional<std::int32_t> GuardedOperations::split(std::int32_t a, std::int32_
 void GuardedOperations::takeBackSplit(std::int32_t v, std::int32_t a)
 {
   const Envelope::Lifted lifted(m_Envelope); // it was so before
+  if (m_Curves) m_Curves->setLifted(true);
   const bool done = collapseWithin(v, a, m_Complex.points[a], 0);
   assert(done);
+  if (m_Curves) m_Curves->setLifted(false);
   m_Counts.collapses -= done;
   m_Counts.splits -= done;
 }

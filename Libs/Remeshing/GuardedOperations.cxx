@@ -23,8 +23,8 @@ OperationCounts& OperationCounts::operator+=(const OperationCounts& more)
 }
 
 GuardedOperations::GuardedOperations(TetComplex& complex, SizingFunction length, const EnvelopeBounds& bounds,
-                                     double rigidity)
-  : m_Complex(complex), m_Length(std::move(length)), m_Envelope(complex, bounds), m_Topology(complex),
+                                     double rigidity, CurveChains* curves)
+  : m_Complex(complex), m_Curves(curves), m_Length(std::move(length)), m_Envelope(complex, bounds), m_Topology(complex),
     m_TriangleWeight(bounds.triangleWeight), m_Rigidity(rigidity)
 {
 }

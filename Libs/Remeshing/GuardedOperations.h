@@ -2,7 +2,7 @@
 #pragma once
 /// Edge collapse, vertex move, edge removal (flip), edge split and relabelling on a TetComplex, one file each, with
 /// every guard that keeps the complex's promises: positive volumes and a least quality, the topology of every tissue,
-/// the envelope of the interface, the locks of a block's border. On the dual simplex mesh, collapse, split and flip of
+/// the envelope of the interface, the curves along edges, the locks of a block's border. On the dual simplex mesh, collapse, split and flip of
 /// interface edges are Delingette's Eulerian operators T1, T2 and T7 (Audette et al. 2007); done on the tetrahedra of
 /// both sides they can neither tear nor cross.
 ///
@@ -13,6 +13,7 @@
 /// smaller one: theirs is multiplied by backgroundLeniency. Of the triangles between labels it is smallestSine2 times
 /// EnvelopeBounds::triangleWeight.
 
+#include "CurveChains.h"
 #include "Envelope.h"
 #include "SizingFunction.h"
 #include "StarQuality.h"
@@ -35,8 +36,9 @@ struct OperationCounts
 class GuardedOperations
 {
 public:
-  /// `rigidity`: see quadricOf.
-  GuardedOperations(TetComplex& complex, SizingFunction length, const EnvelopeBounds& bounds = {}, double rigidity = 0);
+  /// `rigidity`: see quadricOf. `curves`, if given, along edges of the complex, stay so.
+  GuardedOperations(TetComplex& complex, SizingFunction length, const EnvelopeBounds& bounds = {}, double rigidity = 0,
+                    CurveChains* curves = nullptr);
 
   // --- what is measured, and where
   /// Of t, and of its triangles between labels.
@@ -175,6 +177,7 @@ private:
   void place(std::int32_t v, const Vec3& p);
 
   TetComplex& m_Complex;
+  CurveChains* const m_Curves;
   SizingFunction m_Length;
   Envelope m_Envelope;
   CollapseTopology m_Topology;

@@ -33,20 +33,20 @@ EnvelopeBounds boundsOf(const Stage& stage, const RemesherOptions& options)
   return bounds;
 }
 
-OperationCounts runStages(TetComplex& block, const SizingFunction& length, const Sweep& sweep,
-                          const RemesherOptions& options)
+} // namespace
+
+OperationCounts runSweep(TetComplex& block, const SizingFunction& length, const Sweep& sweep,
+                         const RemesherOptions& options, CurveChains* curves)
 {
   OperationCounts counts;
   for (const Stage& stage : sweep.stages)
   {
-    GuardedOperations operations(block, length, boundsOf(stage, options), options.rigidity);
+    GuardedOperations operations(block, length, boundsOf(stage, options), options.rigidity, curves);
     for (const Pass& pass : stage.passes) std::visit(RunPass{ operations }, pass);
     counts += operations.counts();
   }
   return counts;
 }
-
-} // namespace
 
 Remesher::Remesher(BackgroundMesh mesh, SizingFunction length, const RemesherOptions& options, const Progress& progress,
                    std::size_t sweeps)
@@ -61,7 +61,7 @@ void Remesher::run(const Sweep& sweep)
   std::mutex mutex;
   const auto work = [&](TetComplex& block)
   {
-    const OperationCounts counts = runStages(block, m_Length, sweep, m_Options);
+    const OperationCounts counts = runSweep(block, m_Length, sweep, m_Options);
     const std::lock_guard<std::mutex> lock(mutex);
     m_Counts += counts;
   };

@@ -18,6 +18,10 @@ struct RemesherOptions
   double rigidity = 0;     ///< of the interface against bending, see quadricOf
 };
 
+/// Runs the stages of a sweep on one block. `curves`: see GuardedOperations.
+OperationCounts runSweep(TetComplex& block, const SizingFunction& length, const Sweep& sweep,
+                         const RemesherOptions& options, CurveChains* curves = nullptr);
+
 class Remesher
 {
 public:

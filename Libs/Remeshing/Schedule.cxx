@@ -371,4 +371,20 @@ std::vector<ConditionalSweep> sweepsForImprovedMesh(double t, double smallestLen
   return sweepsOf(rows);
 }
 
+/// Only what tracing has cut is short: collapses leave the rest of the lattice alone.
+std::vector<ConditionalSweep> sweepsForCurves(double t, double smallestLength)
+{
+  constexpr double shortEdge = 0.6, anyLevel = 1e9;
+  std::vector<ConditionalSweep> sweeps;
+  for (const double leastAngle : { 1.0, 5.0, 12.0, 18.0 })
+  {
+    const Coarsen coarsen{ anyLevel, { .shortEdge = shortEdge, .minimumAngle = leastAngle } };
+    const Stage stage{ { .rmsLimit = 1 }, { coarsen, improve(t, 12, 2) } };
+    sweeps.push_back({ { "curves", { stage } }, always });
+  }
+  const std::vector<ConditionalSweep> repairs = sweepsForImprovedMesh(t, smallestLength);
+  sweeps.insert(sweeps.end(), repairs.begin(), repairs.end());
+  return sweeps;
+}
+
 } // namespace surgicalmesher

@@ -86,4 +86,7 @@ std::vector<ConditionalSweep> sweepsForRawMesh(double targetAngle, double smalle
 /// where an angle cannot be mended otherwise.
 std::vector<ConditionalSweep> sweepsForImprovedMesh(double targetAngle, double smallestLength);
 
+/// For tetrahedra that curves have just been traced through, their chains as short as the tetrahedra they cut.
+std::vector<ConditionalSweep> sweepsForCurves(double targetAngle, double smallestLength);
+
 } // namespace surgicalmesher

@@ -6,6 +6,7 @@ namespace surgicalmesher
 
 bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
 {
+  if (m_Curves && !m_Curves->mayMove(v, p)) return false;
   if (m_Complex.onInterface[v])
   {
     if (m_Envelope.isHeld()) return false;
@@ -39,6 +40,7 @@ void GuardedOperations::place(std::int32_t v, const Vec3& p)
 {
   m_Complex.points[v] = p;
   m_Complex.lengths[v] = float(m_Length(p));
+  if (m_Curves) m_Curves->moved(v);
   for (Star* star : { &m_Star, &m_StarOfV })
     if (star->vertex != v) star->isMeasured = false;
 }

@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <new>
 #include <set>
 
@@ -45,6 +46,7 @@ constexpr const char* kInterface = "Interface";
 constexpr const char* kInterfaceId = "InterfaceId";
 constexpr const char* kVolumePointId = "VolumePointId";
 constexpr const char* kTargetEdgeLength = "TargetEdgeLength";
+constexpr const char* kRadius = "Radius";
 constexpr const char* kBoundaryDistance = "BoundaryDistance";
 constexpr const char* kTissueIds = "TissueIds";
 constexpr const char* kTargetAngle = "TargetDihedralAngle";
@@ -363,6 +365,30 @@ void writeSurface(const SurfaceFile& content, const std::string& file)
   writePolyData(data, file);
 }
 
+std::vector<Polyline> readPolylines(const std::string& file)
+{
+  const VTKFile source = readVTKFile(file, { ".vtp", ".vtk" });
+  vtkPolyData* data = vtkPolyData::SafeDownCast(source.data);
+  if (!data) refuse(file, "holds an unstructured grid, expected polygonal data");
+  vtkCellArray* lines = data->GetLines();
+  if (lines->GetNumberOfCells() == 0) refuse(file, "no lines, expected polylines");
+  const std::vector<Vec3> points = pointsOf(source.data, source.ras, file);
+  const std::vector<double> radii = numbersOf(data->GetPointData(), kRadius, points.size(), 0, file);
+  std::vector<Polyline> result(lines->GetNumberOfCells());
+  for (std::size_t n = 0; n < result.size(); ++n)
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    lines->GetCellAtId(n, size, ids);
+    for (vtkIdType k = 0; k < size; ++k)
+    {
+      result[n].points.push_back(points[ids[k]]);
+      if (!radii.empty()) result[n].radii.push_back(radii[ids[k]]);
+    }
+  }
+  return result;
+}
+
 void writePolygons(const PolygonFile& content, const std::string& file)
 {
   if (text::extensionOf(file) != ".vtp") refuse(file, "polygons are written as .vtp");
@@ -496,6 +522,44 @@ void writeGrid(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts te
   if (extension != ".vtu") refuse(file, "volume elements are written as .vtu or .vtk");
   vtkNew<vtkXMLUnstructuredGridWriter> writer;
   writeXML(writer.Get(), grid, file);
+}
+
+void writeCurves(const MeshFile& content, const std::string& file)
+{
+  if (text::extensionOf(file) != ".vtp") refuse(file, "curves are written as .vtp");
+  std::map<std::int32_t, double> radiusOf; // of a branching, the largest
+  for (const CurveChain& curve : content.curves)
+    for (std::size_t k = 0; k < curve.points.size(); ++k)
+      radiusOf[curve.points[k]] = std::max(radiusOf[curve.points[k]], curve.radii[k]);
+  std::map<std::int32_t, vtkIdType> number;
+  std::vector<Vec3> points;
+  std::vector<int> volumeId, curveId;
+  std::vector<double> radii;
+  for (const auto& [id, radius] : radiusOf)
+  {
+    number[id] = vtkIdType(points.size());
+    points.push_back(content.mesh.points[id]);
+    volumeId.push_back(id);
+    radii.push_back(radius);
+  }
+  vtkNew<vtkCellArray> lines;
+  std::vector<std::string> names;
+  for (const CurveChain& curve : content.curves)
+  {
+    curveId.push_back(int(names.size()));
+    names.push_back(curve.name);
+    lines->InsertNextCell(int(curve.points.size()));
+    for (const std::int32_t id : curve.points) lines->InsertCellPoint(number[id]);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(vtkPointsOf(points));
+  data->SetLines(lines);
+  addArray<vtkIntArray>(data->GetPointData(), kVolumePointId, volumeId);
+  addArray<vtkDoubleArray>(data->GetPointData(), kRadius, radii);
+  addArray<vtkIntArray>(data->GetCellData(), "CurveId", curveId);
+  addStrings(data->GetFieldData(), "CurveNames", names);
+  addStrings(data->GetFieldData(), "SPACE", { "LPS" });
+  writePolyData(data, file);
 }
 
 } // namespace surgicalmesher

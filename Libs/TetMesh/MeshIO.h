@@ -8,6 +8,7 @@
 /// expected; writers when the file can't be opened or not be written to its end. Writers write the file as named:
 /// atomic replacement is the caller's (CommandLine).
 
+#include "CurveChain.h"
 #include "TetMesh.h"
 
 #include <set>
@@ -54,6 +55,17 @@ struct PolygonFile
 /// Writes a .vtp: cell array TissueLabel, and field data as writeSurface does.
 void writePolygons(const PolygonFile& content, const std::string& file);
 
+/// A polyline and what travels with it in its file.
+struct Polyline
+{
+  std::vector<Vec3> points;
+  std::vector<double> radii; ///< per point, mm; empty: the file has none
+};
+
+/// Reads the lines of a .vtp or .vtk, radii from its point array Radius. Refused: missing file, another format, damaged
+/// content, no lines, non-finite coordinates, radii that are not over 0.
+std::vector<Polyline> readPolylines(const std::string& file);
+
 /// Labelled tetrahedra and what travels with them in their file. Empty vectors: the file has none.
 struct MeshFile
 {
@@ -65,6 +77,7 @@ struct MeshFile
   std::vector<std::int32_t> volumePointId;    ///< per point of a part: its id in the whole mesh
   std::vector<std::int32_t> interfaceId; ///< per point of a part: its number on the child/parent interface, -1 none
   TissueTable tissues;                   ///< names and colours
+  std::vector<CurveChain> curves;        ///< along edges; they have a file of their own
   /// Degrees, dihedral: what the surface stage has improved the mesh to, but for single places; 0: nobody says.
   double targetAngle = 0;
 };
@@ -102,5 +115,9 @@ void writeMesh(const MeshFile& content, const std::string& file, FieldTexts text
 
 /// Writes a grid with its arrays likewise.
 void writeGrid(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts texts);
+
+/// Writes the curves of a mesh as the lines of a .vtp: point arrays VolumePointId, the point's id in the mesh, and Radius
+/// (mm; 0: not given); cell array CurveId from 0; field data CurveNames and SPACE. Curves that meet share points.
+void writeCurves(const MeshFile& content, const std::string& file);
 
 } // namespace surgicalmesher

@@ -4,6 +4,8 @@
 #include "TextFile.h"
 #include "TextNumbers.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace surgicalmesher
@@ -13,6 +15,7 @@ namespace
 
 constexpr std::size_t kNumberLength = 20; ///< of a data field that CalculiX reads
 constexpr std::size_t kIdsPerLine = 16;
+constexpr double kPi = 3.14159265358979323846;
 
 /// Abaqus's number of the face opposite to each corner: S1 has the corners 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1.
 constexpr int kFaceNumber[4] = { 3, 4, 2, 1 };
@@ -59,6 +62,11 @@ void appendElements(std::string& text, const FiniteElementModel& model)
     appendCells(text, shell.cells, first, shell.name, { { 3, "S3" }, { 4, "S4" } });
     first += shell.cells.size();
   }
+  for (const Beam& beam : model.beams)
+  {
+    appendCells(text, beam.edges, first, beam.name, { { 2, beam.isTruss ? "T3D2" : "B31" } });
+    first += beam.edges.size();
+  }
 }
 
 void appendSets(std::string& text, const FiniteElementModel& model)
@@ -93,6 +101,43 @@ void appendMaterial(std::string& text, const Material& material)
   text += "*DENSITY\n" + number(material.density) + "\n";
 }
 
+/// Of the axes and the diagonals, the one farthest from all edges: what the sides of a section are turned to.
+Vec3 acrossAll(const Beam& beam, const std::vector<Vec3>& points)
+{
+  Vec3 best;
+  double least = 2;
+  for (int n = 1; n < 27; ++n)
+  {
+    Vec3 direction{ double((n + 1) % 3 - 1), double((n / 3 + 1) % 3 - 1), double((n / 9 + 1) % 3 - 1) };
+    direction = direction / norm(direction);
+    double most = 0;
+    for (const Cell& edge : beam.edges)
+    {
+      const Vec3 along = points[edge[1]] - points[edge[0]];
+      most = std::max(most, std::abs(dot(direction, along)) / norm(along));
+    }
+    if (most < least) least = most, best = direction;
+  }
+  return best;
+}
+
+/// A beam's section is a square of the same second moment of area: of round ones, Abaqus reads the radius and CalculiX
+/// the diameter.
+void appendBeamSection(std::string& text, const Beam& beam, const FiniteElementModel& model)
+{
+  const std::string of = ", ELSET=" + beam.name + ", MATERIAL=" + model.materials[beam.material].name;
+  const double r = beam.radius;
+  if (beam.isTruss)
+  {
+    text += "*SOLID SECTION" + of + "\n" + number(kPi * r * r) + "\n";
+    return;
+  }
+  const std::string side = number(std::pow(3 * kPi, 0.25) * r);
+  const Vec3 across = acrossAll(beam, model.content.mesh.points);
+  text += "*BEAM SECTION" + of + ", SECTION=RECT\n" + side + ", " + side + "\n" + number(across.x) + ", " +
+          number(across.y) + ", " + number(across.z) + "\n";
+}
+
 void appendSections(std::string& text, const FiniteElementModel& model)
 {
   for (const Material& material : model.materials) appendMaterial(text, material);
@@ -106,6 +151,7 @@ void appendSections(std::string& text, const FiniteElementModel& model)
     text += "*SHELL SECTION, ELSET=" + shell.name + ", MATERIAL=" + model.materials[shell.material].name + "\n" +
             number(shell.thickness) + "\n";
   }
+  for (const Beam& beam : model.beams) appendBeamSection(text, beam, model);
 }
 
 void appendClamps(std::string& text, const FiniteElementModel& model)

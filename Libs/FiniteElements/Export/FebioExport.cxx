@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr std::size_t kIdsPerLine = 16;
+constexpr double kPi = 3.14159265358979323846;
 
 /// <tag id="n">a,b,c</tag>, ids counted from 1.
 void appendRow(std::string& text, const std::string& tag, const Cell& cell, std::size_t number)
@@ -51,6 +52,32 @@ std::vector<Portion> portionsOf(const FiniteElementModel& model, const ElementSe
   return portions;
 }
 
+std::string beamMaterialName(const Beam& beam) { return beam.name + "_material"; }
+
+/// FEBio has a beam's section in its material. A round one's shear area is 0.9 of its area.
+void appendBeamMaterial(std::string& text, const Beam& beam, const FiniteElementModel& model, std::size_t id)
+{
+  const Material& material = model.materials[beam.material];
+  const auto line = [&](const char* tag, double value)
+  { text += std::string("      <") + tag + ">" + textOf(value) + "</" + tag + ">\n"; };
+  const double area = kPi * beam.radius * beam.radius, moment = area * beam.radius * beam.radius / 4;
+  text += "    <material id=\"" + std::to_string(id) + "\" name=\"" + beamMaterialName(beam) + "\" type=\"" +
+          (beam.isTruss ? "linear truss" : "linear-beam") + "\">\n";
+  line("density", material.density);
+  line("E", material.youngsModulus);
+  if (beam.isTruss) line("v", material.poissonsRatio);
+  else
+  {
+    line("G", material.youngsModulus / (2 * (1 + material.poissonsRatio)));
+    line("A", area);
+    line("A1", 0.9 * area);
+    line("A2", 0.9 * area);
+    line("I1", moment);
+    line("I2", moment);
+  }
+  text += "    </material>\n";
+}
+
 void appendMaterials(std::string& text, const FiniteElementModel& model)
 {
   text += "  <Material>\n";
@@ -63,6 +90,8 @@ void appendMaterials(std::string& text, const FiniteElementModel& model)
     text += "      <E>" + textOf(material.youngsModulus) + "</E>\n";
     text += "      <v>" + textOf(material.poissonsRatio) + "</v>\n    </material>\n";
   }
+  for (std::size_t i = 0; i < model.beams.size(); ++i)
+    appendBeamMaterial(text, model.beams[i], model, model.materials.size() + i + 1);
   text += "  </Material>\n";
 }
 
@@ -95,6 +124,12 @@ void appendParts(std::string& text, const FiniteElementModel& model)
   {
     text += "    <Elements type=\"" + typeOfFace(shell.cells[0]) + "\" name=\"" + shell.name + "\">\n";
     for (const Cell& cell : shell.cells) appendRow(text, "elem", cell, ++next);
+    text += "    </Elements>\n";
+  }
+  for (const Beam& beam : model.beams)
+  {
+    text += "    <Elements type=\"line2\" name=\"" + beam.name + "\">\n";
+    for (const Cell& edge : beam.edges) appendRow(text, "elem", edge, ++next);
     text += "    </Elements>\n";
   }
 }
@@ -141,6 +176,17 @@ void appendDomains(std::string& text, const FiniteElementModel& model)
   {
     text += "    <ShellDomain" + attributes(shell.name, shell.material) + ">\n      <shell_thickness>" +
             textOf(shell.thickness) + "</shell_thickness>\n    </ShellDomain>\n";
+  }
+  for (const Beam& beam : model.beams)
+  {
+    text += "    <BeamDomain name=\"" + beam.name + "\" mat=\"" + beamMaterialName(beam) + "\" type=\"" +
+            (beam.isTruss ? "linear-truss" : "linear-beam") + "\"";
+    if (!beam.isTruss) text += "/>\n";
+    else
+    {
+      text += ">\n      <cross_sectional_area>" + textOf(kPi * beam.radius * beam.radius) +
+              "</cross_sectional_area>\n    </BeamDomain>\n";
+    }
   }
   text += "  </MeshDomains>\n";
 }

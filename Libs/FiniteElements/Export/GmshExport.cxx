@@ -15,7 +15,7 @@ namespace
 {
 
 // Gmsh's element types.
-constexpr int kPoint = 15;
+constexpr int kLine = 1, kPoint = 15;
 int typeOf(const Cell& element) { return element.size() == 4 ? 4 : element.size() == 6 ? 6 : 5; }
 int typeOfFace(const Cell& face) { return face.size() == 3 ? 2 : 3; }
 
@@ -35,7 +35,7 @@ void writeHeader(std::ostream& out, const char* version, const std::vector<Physi
 
 // ---- 4.1 ------------------------------------------------------------------------------------------------------------
 
-/// Entities are the pieces, numbered from 1 in their order, and one point for all null-displacement nodes.
+/// Entities are beams and pieces, numbered from 1 in their order, and one point for all null-displacement nodes.
 class Gmsh41
 {
 public:
@@ -60,6 +60,8 @@ private:
   {
     std::vector<PhysicalName> names;
     if (!m_Fixed.empty()) names.push_back({ 0, m_Tags.nullDisplacement, "null_displacement_nodes" });
+    for (std::size_t b = 0; b < m_Tags.beams.size(); ++b)
+      names.push_back({ 1, m_Tags.beams[b], m_Model.beams[b].name });
     for (const FaceSet& set : m_Tags.faceSets) names.push_back({ 2, set.tag, set.info->name });
     for (std::size_t s = 0; s < m_Tags.elementSets.size(); ++s)
     {
@@ -95,8 +97,15 @@ private:
   void writeEntities()
   {
     m_Out << "$Entities\n"
-          << !m_Fixed.empty() << " 0 " << m_Tags.facePieces.size() << ' ' << m_Tags.elementPieces.size() << '\n';
+          << !m_Fixed.empty() << ' ' << m_Model.beams.size() << ' ' << m_Tags.facePieces.size() << ' '
+          << m_Tags.elementPieces.size() << '\n';
     if (!m_Fixed.empty()) m_Out << "1 " << m_Points[m_Fixed[0]] << " 1 " << m_Tags.nullDisplacement << '\n';
+    for (std::size_t b = 0; b < m_Model.beams.size(); ++b)
+    {
+      m_Out << b + 1 << ' ';
+      writeBounds(m_Model.beams[b].edges);
+      writeTags({ m_Tags.beams[b] });
+    }
     for (std::size_t p = 0; p < m_Tags.facePieces.size(); ++p)
     {
       m_Out << p + 1 << ' ';
@@ -174,7 +183,10 @@ private:
     std::map<int, Block> byType;
     for (const auto& row : rows)
     {
-      const int type = dimension == 0 ? kPoint : dimension == 2 ? typeOfFace(row.second) : typeOf(row.second);
+      const int type = dimension == 0   ? kPoint
+                       : dimension == 1 ? kLine
+                       : dimension == 2 ? typeOfFace(row.second)
+                                        : typeOf(row.second);
       Block& block = byType.try_emplace(type, Block{ dimension, type, entity, {} }).first->second;
       block.rows.push_back(row);
     }
@@ -188,6 +200,12 @@ private:
     std::size_t next = m_Model.elements.size();
     for (const std::int32_t id : m_Fixed) rows.push_back({ ++next, { id } });
     addBlocks(blocks, 0, 1, rows);
+    for (std::size_t b = 0; b < m_Model.beams.size(); ++b)
+    {
+      rows.clear();
+      for (const Cell& edge : m_Model.beams[b].edges) rows.push_back({ ++next, edge });
+      addBlocks(blocks, 1, b + 1, rows);
+    }
     for (std::size_t p = 0; p < m_Tags.facePieces.size(); ++p)
     {
       rows.clear();
@@ -238,6 +256,11 @@ std::string gmsh22(const FiniteElementModel& model)
     names.push_back({ 2, piece.tag, piece.name });
     total += piece.cells.size();
   }
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+  {
+    names.push_back({ 1, tags.beams[b], model.beams[b].name });
+    total += model.beams[b].edges.size();
+  }
   for (const ElementSet& set : model.elementSets)
   {
     if (set.kind == SetKind::Tissue) names.push_back({ 3, set.ids[0], set.name });
@@ -259,6 +282,11 @@ std::string gmsh22(const FiniteElementModel& model)
     {
       out << ++next << ' ' << typeOfFace(face) << " 2 " << piece.tag << ' ' << piece.tag << FromOne{ face } << '\n';
     }
+  }
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+  {
+    for (const Cell& edge : model.beams[b].edges)
+      out << ++next << ' ' << kLine << " 2 " << tags.beams[b] << ' ' << tags.beams[b] << FromOne{ edge } << '\n';
   }
   out << "$EndElements\n";
   return out.str();

@@ -104,6 +104,7 @@ XdmfType typeOf(const Cell& cell, int dimension)
 {
   switch (cell.size())
   {
+  case 2: return { "Polyline", 2 };
   case 3: return { "Triangle", 4 };
   case 4: return dimension == 2 ? XdmfType{ "Quadrilateral", 5 } : XdmfType{ "Tetrahedron", 6 };
   case 6: return { "Wedge", 8 };
@@ -122,7 +123,7 @@ public:
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"" + grid + "\" GridType=\"Uniform\">\n";
   }
 
-  /// Elements (3) or faces (2): of one type as a table, of several ("Mixed") as a list in which each follows its type's
+  /// Elements (3), faces (2) or edges (1): of one type as a table, of several ("Mixed") as a list in which each follows its type's
   /// number.
   void topology(const std::vector<Cell>& cells, int dimension)
   {
@@ -137,8 +138,8 @@ public:
     }
     const std::size_t columns = isMixed || cells.empty() ? 1 : cells[0].size();
     const char* type = isMixed ? "Mixed" : cells.empty() ? "Triangle" : typeOf(cells[0], dimension).name;
-    m_Text += std::string("<Topology TopologyType=\"") + type + "\" NumberOfElements=\"" +
-              std::to_string(cells.size()) + "\">" +
+    m_Text += std::string("<Topology TopologyType=\"") + type + "\"" + (columns == 2 ? " NodesPerElement=\"2\"" : "") +
+              " NumberOfElements=\"" + std::to_string(cells.size()) + "\">" +
               item("topology", numbers.data(), numbers.size() / columns, static_cast<int>(columns)) + "</Topology>\n";
   }
 
@@ -208,14 +209,37 @@ void writeFacets(const FiniteElementModel& model, const std::string& file, const
   xdmf.write(destination);
 }
 
+void writeLines(const FiniteElementModel& model, const std::string& file, const Destination& destination)
+{
+  std::vector<Cell> edges;
+  std::vector<std::int32_t> tags;
+  std::vector<double> radii;
+  const SetTags all = tagsOf(model);
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+  {
+    const Beam& beam = model.beams[b];
+    edges.insert(edges.end(), beam.edges.begin(), beam.edges.end());
+    tags.resize(edges.size(), all.beams[b]);
+    radii.resize(edges.size(), beam.radius);
+  }
+  XdmfFile xdmf(file, "curves");
+  xdmf.topology(edges, 1);
+  xdmf.geometry(model.content.mesh.points);
+  xdmf.attribute("CurveTag", "Cell", tags);
+  xdmf.attribute("Radius", "Cell", radii);
+  xdmf.write(destination);
+}
+
 } // namespace
 
 void writeXdmf(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
   const std::filesystem::path path(file);
-  const std::string facets = path.stem().string() + "_facets" + path.extension().string();
+  const auto beside = [&](const char* suffix)
+  { return (path.parent_path() / (path.stem().string() + suffix + path.extension().string())).string(); };
   writeElements(model, file, destination);
-  writeFacets(model, (path.parent_path() / facets).string(), destination);
+  writeFacets(model, beside("_facets"), destination);
+  if (!model.beams.empty()) writeLines(model, beside("_curves"), destination);
 }
 
 } // namespace surgicalmesher

@@ -15,6 +15,7 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUtilities.h>
 
+#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -492,6 +493,113 @@ TEST(Export, RefusesUnknownExtensionsWithTheKnownOnes)
     }
   }
   EXPECT_EQ(exportFormatOf("folder.vtu/M.INP").extension, ".inp");
+}
+
+/// Two curves along edges of the mesh, one of two radii.
+FiniteElementModel modelWithCurves(bool areTrusses)
+{
+  MeshFile content = test::randomBlocks(2);
+  const auto& first = content.mesh.tetrahedra.front();
+  const auto& last = content.mesh.tetrahedra.back();
+  content.curves = { { "basilar artery", { first[0], first[1], first[2] }, { 1, 1, 3 } },
+                     { "nerve", { last[0], last[1] }, { 0.5, 0.5 } } };
+  FiniteElementOptions options;
+  options.beams.areTrusses = areTrusses;
+  options.beams.material.youngsModulus = 2;
+  return finiteElementModel(content, options);
+}
+
+TEST(Beams, ACurveIsASetForEachRadius)
+{
+  const FiniteElementModel model = modelWithCurves(false);
+  ASSERT_EQ(model.beams.size(), 3u);
+  EXPECT_EQ(model.beams[0].name, "basilar_artery_section_1");
+  EXPECT_EQ(model.beams[0].original, "basilar artery");
+  EXPECT_EQ(model.beams[2].name, "nerve");
+  const double radii[] = { 1, 2, 0.5 };
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+  {
+    EXPECT_NEAR(model.beams[b].radius, radii[b], 1e-12);
+    EXPECT_EQ(model.beams[b].edges.size(), 1u);
+    EXPECT_EQ(model.materials[model.beams[b].material].youngsModulus, 2);
+  }
+}
+
+TEST(Beams, AbaqusHasTheirElementsAndSections)
+{
+  for (const bool areTrusses : { false, true })
+  {
+    const FiniteElementModel model = modelWithCurves(areTrusses);
+    auto next = static_cast<std::int32_t>(model.content.mesh.tetrahedra.size());
+    std::size_t elements = 0, sections = 0;
+    for (const Card& card : cardsOf(written(model, "m.inp")))
+    {
+      const std::string type = card.keyword == "ELEMENT" ? card.parameters.at("TYPE") : "";
+      if (type == (areTrusses ? "T3D2" : "B31"))
+      {
+        const Beam& beam = model.beams.at(elements++);
+        EXPECT_EQ(card.parameters.at("ELSET"), beam.name);
+        EXPECT_EQ(idsIn(card.data()), (Ids{ next++, beam.edges[0][0], beam.edges[0][1] }));
+      }
+      const bool isSection = card.keyword == "BEAM SECTION" || (card.keyword == "SOLID SECTION" && !card.lines.empty());
+      if (!isSection) continue;
+      const Beam& beam = model.beams.at(sections++);
+      const Numbers numbers = numbersIn(card.data());
+      const double r = beam.radius, area = std::acos(-1.0) * r * r;
+      EXPECT_EQ(card.parameters.at("ELSET"), beam.name);
+      EXPECT_EQ(card.keyword == "SOLID SECTION", areTrusses);
+      if (areTrusses) EXPECT_NEAR(numbers[0], area, 1e-9 * area);
+      else EXPECT_NEAR(std::pow(numbers[0], 4) / 12, area * r * r / 4, 1e-9 * area);
+    }
+    EXPECT_EQ(elements, 3u);
+    EXPECT_EQ(sections, 3u);
+  }
+}
+
+TEST(Beams, FebioHasTheirElementsAndSections)
+{
+  for (const bool areTrusses : { false, true })
+  {
+    const FiniteElementModel model = modelWithCurves(areTrusses);
+    const test::TemporaryFolder folder;
+    exportModel(model, folder.file("m.feb"));
+    vtkSmartPointer<vtkXMLDataElement> root;
+    root.TakeReference(vtkXMLUtilities::ReadElementFromFile(folder.file("m.feb").c_str()));
+    ASSERT_TRUE(root);
+    vtkXMLDataElement* mesh = root->FindNestedElementWithName("Mesh");
+    vtkXMLDataElement* domains = root->FindNestedElementWithName("MeshDomains");
+    vtkXMLDataElement* materials = root->FindNestedElementWithName("Material");
+    for (const Beam& beam : model.beams)
+    {
+      vtkXMLDataElement* elements = mesh->FindNestedElementWithNameAndAttribute("Elements", "name", beam.name.c_str());
+      ASSERT_TRUE(elements);
+      EXPECT_STREQ(elements->GetAttribute("type"), "line2");
+      EXPECT_EQ(idsIn(elements->GetNestedElement(0)->GetCharacterData()), (Ids{ beam.edges[0][0], beam.edges[0][1] }));
+      vtkXMLDataElement* domain =
+        domains->FindNestedElementWithNameAndAttribute("BeamDomain", "name", beam.name.c_str());
+      ASSERT_TRUE(domain);
+      vtkXMLDataElement* material =
+        materials->FindNestedElementWithNameAndAttribute("material", "name", domain->GetAttribute("mat"));
+      ASSERT_TRUE(material);
+      const double area = std::acos(-1.0) * beam.radius * beam.radius;
+      vtkXMLDataElement* written = areTrusses ? domain->FindNestedElementWithName("cross_sectional_area")
+                                              : material->FindNestedElementWithName("A");
+      ASSERT_TRUE(written);
+      EXPECT_NEAR(std::stod(written->GetCharacterData()), area, 1e-9 * area);
+    }
+  }
+}
+
+TEST(Beams, GmshAndTheSidecarNameThem)
+{
+  const FiniteElementModel model = modelWithCurves(false);
+  for (const char* name : { "m.msh", "m.msh2" })
+  {
+    const std::string text = written(model, name);
+    for (const Beam& beam : model.beams) EXPECT_NE(text.find("\"" + beam.name + "\"\n"), text.npos) << name;
+  }
+  const std::string names = setNamesJSON(model);
+  EXPECT_NE(names.find("\"kind\": \"beam\""), names.npos);
 }
 
 } // namespace
