@@ -71,7 +71,7 @@ TEST_F(FuchsTetrahedralizerCLI, RefusesSurfacesAtFault)
     const std::string file = std::string(name) + ".vtp";
     expectRefused(more + file + " m.vtu", 1, file + ": ");
   }
-  expectRefused(more + ". m.vtu", 1, "is a directory");
+  expectRefused(more + ". m.vtu", 1, "is a folder");
 }
 
 TEST_F(FuchsTetrahedralizerCLI, RefusesAmbientTetrahedraAtFault)
@@ -85,7 +85,7 @@ TEST_F(FuchsTetrahedralizerCLI, RefusesAmbientTetrahedraAtFault)
     const std::string file = std::string(name) + ".vtu";
     expectRefused("--edgeLength 2 --ambient " + file + " ball.vtp m.vtu", 1, file + ": ");
   }
-  expectRefused("--edgeLength 2 --ambient . ball.vtp m.vtu", 1, "is a directory");
+  expectRefused("--edgeLength 2 --ambient . ball.vtp m.vtu", 1, "is a folder");
 }
 
 TEST_F(FuchsTetrahedralizerCLI, RefusesScalesAtFault)

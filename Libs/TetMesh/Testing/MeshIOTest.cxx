@@ -241,7 +241,7 @@ TEST_F(ComplexIO, RefusesFilesThatAreNone)
   std::ofstream(path("text.vtk")) << "hello";
   std::ofstream(path("text.vtu")) << "<VTKFile type=\"PolyData\"></VTKFile>";
   expectRefusal([&] { readSurface(path("missing.vtp")); }, "no such file");
-  expectRefusal([&] { readSurface(path("folder.vtp")); }, "directory");
+  expectRefusal([&] { readSurface(path("folder.vtp")); }, "folder");
   expectRefusal([&] { readSurface(path("surface.obj")); }, "no such file");
   for (const char* name : { "text.vtp", "empty.stl", "text.ply", "text.vtk" })
   {

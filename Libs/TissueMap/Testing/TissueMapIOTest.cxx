@@ -549,7 +549,7 @@ TEST(Scale, RefusesLengthsThatAreNone)
     std::vector<float> lengths(8, 2.f);
     lengths[3] = bad;
     const std::string file = folder.write("scale.nrrd", nrrd("float", cubeGeometry(2), lengths));
-    expectInputError([&] { readScale(file); }, file, "expected more than 0 mm");
+    expectInputError([&] { readScale(file); }, file, "expected edge lengths of more than 0 mm");
   }
 }
 
