@@ -292,7 +292,7 @@ int ContactResolver::changesOf(std::size_t voxel) const { return m_States[voxel]
 std::uint32_t ContactResolver::noise(std::size_t voxel, Label label) const
 {
   const auto [i, j, k] = m_Map.mapVoxelAt(voxel);
-  const auto size = [&](int axis) { return std::size_t(m_Map.grid.size[axis] - 2 * m_Map.margin + 2); };
+  const auto size = [&](int axis) -> std::size_t { return m_Map.grid.size[axis] - 2 * m_Map.margin + 2; };
   const std::size_t number = (std::size_t(k + 1) * size(1) + j + 1) * size(0) + i + 1;
   std::uint64_t h = (number * 65537 + label) * 256 + changesOf(voxel);
   h = (h ^ (h >> 31)) * 0x7fb5d329728ea185ull;

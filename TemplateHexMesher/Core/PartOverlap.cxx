@@ -57,8 +57,8 @@ double shareInside(const Element& element, const Points& points, const InsideTes
   double all = 0, within = 0;
   for (int s = 0; s < kSamples * kSamples * kSamples; ++s)
   {
-    const Vector3d place(s % kSamples, s / kSamples % kSamples, s / kSamples / kSamples);
-    const Sample sample = sampleAt(corners, (place.array() + 0.5) / kSamples);
+    const Eigen::Array3i place(s % kSamples, s / kSamples % kSamples, s / kSamples / kSamples);
+    const Sample sample = sampleAt(corners, (place.cast<double>() + 0.5) / kSamples);
     all += sample.density;
     if (inside.contains(sample.position)) within += sample.density;
   }
