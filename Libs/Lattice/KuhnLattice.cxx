@@ -159,6 +159,7 @@ public:
                      {
                        for (vtkIdType i = begin; i < end; ++i) generateRoot(root(i), parts[i]);
                      });
+    reserveFor(parts, lattice);
     for (KuhnLattice& part : parts)
     {
       const std::int32_t shift = std::int32_t(out.mesh.tetrahedra.size());
@@ -175,6 +176,21 @@ public:
   }
 
 private:
+  static void reserveFor(const std::vector<KuhnLattice>& parts, KuhnLattice& whole)
+  {
+    std::size_t samples = 0, tetrahedra = 0, faces = 0;
+    for (const KuhnLattice& part : parts)
+    {
+      samples += part.background.samples.size();
+      tetrahedra += part.background.mesh.tetrahedra.size();
+      faces += part.interfaceFaces.size();
+    }
+    whole.background.samples.reserve(samples);
+    whole.background.mesh.tetrahedra.reserve(tetrahedra);
+    whole.background.mesh.labels.reserve(tetrahedra);
+    whole.interfaceFaces.reserve(faces);
+  }
+
   template <class T>
   static void append(std::vector<T>& to, const std::vector<T>& from)
   {

@@ -331,6 +331,10 @@ private:
     std::int32_t count = 0;
     for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
       if (complex.alive(t)) number[t] = count++;
+    r.tets.reserve(count);
+    r.neighbours.reserve(count);
+    r.labels.reserve(count);
+    r.samples.reserve(complex.samples.size());
     for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
     {
       if (!complex.alive(t)) continue;
