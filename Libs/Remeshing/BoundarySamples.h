@@ -26,10 +26,10 @@ struct SheetFace
 
 struct SheetSample : BoundarySample
 {
-  std::int32_t id;   ///< in TetComplex::samples
-  std::int32_t from; ///< number of its face in the sheet
-  std::int32_t to;   ///< number of the new face that an operation hands it to; -1: none
-  double distance2;  ///< mm^2, to that face
+  std::int32_t id;      ///< in TetComplex::samples
+  std::int32_t from;    ///< number of its face in the sheet
+  std::int32_t to = -1; ///< number of the new face that an operation hands it to; -1: none
+  double distance2 = 0; ///< mm^2, to that face
 };
 
 /// Some interface faces and their samples: those at a vertex, or those that an operation changes.
