@@ -9,6 +9,7 @@
 #include "SurfaceTetrahedralization.h"
 #include "TetrahedraImprovement.h"
 #include "VoxelMesh.h"
+#include "WorstAngle.h"
 
 #include <gtest/gtest.h>
 
@@ -37,20 +38,6 @@ std::vector<Shape> shapes()
            { "torus", torus(8, 3, 32, 12), 1.5 },
            { "nested spheres", nested, 1.5 },
            { "three tissues around a curve", interfaceOf(tetrahedraOf(junction)), 1.2 } };
-}
-
-/// Of the tissues, in degrees: the worst dihedral angle, 150 counting as 30.
-double worstAngle(const TetMesh& mesh)
-{
-  double worst = 90;
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-  {
-    const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    if (mesh.labels[t] == 0) continue;
-    for (double angle : dihedralAngles(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]))
-      worst = std::min({ worst, angle, 180 - angle });
-  }
-  return worst;
 }
 
 } // namespace

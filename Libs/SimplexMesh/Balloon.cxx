@@ -4,6 +4,7 @@
 #include "Errors.h"
 #include "Parallel.h"
 #include "SimplexDeformation.h"
+#include "SurfaceShapes.h"
 
 #include <limits>
 #include <memory>
@@ -23,43 +24,10 @@ constexpr double leastFaces = 40;         ///< that a balloon has, however small
 constexpr int motionsPerRound = 3;        ///< between operators
 constexpr int lastMotions = 12;           ///< after the last operators
 
-/// An octahedron's triangles, split into four twice, on a sphere.
-SurfaceComplex sphereAt(const Vec3& centre, double radius, Label tissue)
+SurfaceComplex seedSphere(const Vec3& centre, double radius, Label tissue)
 {
-  SurfaceComplex surface;
-  surface.points = { { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } };
-  surface.triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 },
-                        { 2, 0, 5 }, { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
-  for (int level = 0; level < 2; ++level)
-  {
-    std::map<std::array<std::int32_t, 2>, std::int32_t> middles;
-    const auto middle = [&](std::int32_t a, std::int32_t b)
-    {
-      const auto [entry, isNew] =
-        middles.emplace(std::array{ std::min(a, b), std::max(a, b) }, std::int32_t(surface.points.size()));
-      const Vec3 sum = surface.points[a] + surface.points[b];
-      if (isNew) surface.points.push_back(sum / norm(sum));
-      return entry->second;
-    };
-    std::vector<std::array<std::int32_t, 3>> finer;
-    for (const auto& [a, b, c] : surface.triangles)
-    {
-      const std::int32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-      finer.insert(finer.end(), { { a, ab, ca }, { ab, b, bc }, { ca, bc, c }, { ab, bc, ca } });
-    }
-    surface.triangles = std::move(finer);
-  }
-  for (Vec3& p : surface.points) p = centre + radius * p;
-  surface.labels.assign(surface.triangles.size(), { tissue, Label(0) });
-  return surface;
-}
-
-void append(SurfaceComplex& surface, const SurfaceComplex& other)
-{
-  const auto offset = std::int32_t(surface.points.size());
-  surface.points.insert(surface.points.end(), other.points.begin(), other.points.end());
-  for (const auto& [a, b, c] : other.triangles) surface.triangles.push_back({ a + offset, b + offset, c + offset });
-  surface.labels.insert(surface.labels.end(), other.labels.begin(), other.labels.end());
+  constexpr int levels = 2;
+  return sphere(centre, radius, levels, tissue, 0);
 }
 
 /// Spheres of a voxel and a half, or as small as the space around the seed asks for.
@@ -72,11 +40,11 @@ SurfaceComplex startingSpheres(const std::vector<BalloonSeed>& seeds, const Stop
     double radius = 1.5 * voxel;
     for (const BalloonSeed& other : seeds)
       if (&other != &seed) radius = std::min(radius, 0.4 * norm(other.centre - seed.centre));
-    SurfaceComplex sphere = sphereAt(seed.centre, radius, seed.tissue);
+    SurfaceComplex start = seedSphere(seed.centre, radius, seed.tissue);
     const auto hits = [&]
-    { return std::any_of(sphere.points.begin(), sphere.points.end(), [&](const Vec3& p) { return field.stops(p); }); };
-    while (radius > 0.2 * voxel && hits()) sphere = sphereAt(seed.centre, radius *= 0.7, seed.tissue);
-    append(all, sphere);
+    { return std::any_of(start.points.begin(), start.points.end(), [&](const Vec3& p) { return field.stops(p); }); };
+    while (radius > 0.2 * voxel && hits()) start = seedSphere(seed.centre, radius *= 0.7, seed.tissue);
+    append(all, start);
   }
   return all;
 }
