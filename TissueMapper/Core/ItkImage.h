@@ -14,6 +14,15 @@ namespace surgicalmesher
 
 using ItkImage = itk::Image<float, 3>;
 
+/// The grid as ITK sees it in its grid frame: the origin at voxel (0, 0, 0), no rotation.
+inline Grid inGridFrame(const Grid& grid)
+{
+  Grid result;
+  result.size = grid.size;
+  result.spacing = grid.spacing;
+  return result;
+}
+
 /// A copy of the values, where the grid lies in the world.
 template <typename Image, typename Values>
 typename Image::Pointer asItkImage(const Grid& grid, const Values& values)

@@ -2,11 +2,11 @@
 #include "MinimalPath.h"
 
 #include "Errors.h"
+#include "ItkImage.h"
 #include "Sampling.h"
 
 #include <itkFastMarchingImageFilterBase.h>
 #include <itkFastMarchingReachedTargetNodesStoppingCriterion.h>
-#include <itkImportImageFilter.h>
 
 #include <algorithm>
 #include <limits>
@@ -17,7 +17,7 @@ namespace surgicalmesher
 namespace
 {
 
-using Image = itk::Image<float, 3>;
+using Image = ItkImage;
 using Marching = itk::FastMarchingImageFilterBase<Image, Image>;
 using Criterion = itk::FastMarchingReachedTargetNodesStoppingCriterion<Image, Image>;
 
@@ -38,23 +38,6 @@ std::vector<std::array<int, 3>> voxelsAround(const Grid& grid, const Vec3& p)
     for (int j = range[1][0]; j <= range[1][1]; ++j)
       for (int i = range[0][0]; i <= range[0][1]; ++i) voxels.push_back({ i, j, k });
   return voxels;
-}
-
-Image::Pointer asItkImage(const Grid& grid, const std::vector<float>& values)
-{
-  const auto image = Image::New();
-  Image::SizeType size;
-  Image::SpacingType spacing;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    size[axis] = grid.size[axis];
-    spacing[axis] = grid.spacing[axis];
-  }
-  image->SetRegions(Image::RegionType(size));
-  image->SetSpacing(spacing);
-  image->Allocate();
-  std::copy(values.begin(), values.end(), image->GetBufferPointer());
-  return image;
 }
 
 Image::IndexType asItkIndex(const std::array<int, 3>& voxel) { return { { voxel[0], voxel[1], voxel[2] } }; }
@@ -156,7 +139,7 @@ std::vector<float> arrivalTimes(const Grid& grid, const std::vector<float>& spee
   criterion->SetTargetCondition(Criterion::AllTargets);
   criterion->SetTargetNodes(targets);
   const auto marching = Marching::New();
-  marching->SetInput(asItkImage(grid, speed));
+  marching->SetInput(asItkImage<Image>(inGridFrame(grid), speed));
   marching->SetTrialPoints(trial);
   marching->SetForbiddenPoints(forbidden);
   marching->SetStoppingCriterion(criterion);

@@ -3,6 +3,7 @@
 
 #include "Errors.h"
 #include "FluxField.h"
+#include "ItkImage.h"
 #include "MinimalPath.h"
 #include "PathRefinement.h"
 #include "Place.h"
@@ -107,34 +108,14 @@ Vec3 snapped(const Grid& grid, const std::vector<float>& ridge, const Vec3& p, d
   return best;
 }
 
-using ItkImage = itk::Image<float, 3>;
-
-ItkImage::Pointer asItkImage(const ScalarImage& image)
-{
-  const auto result = ItkImage::New();
-  ItkImage::SizeType size;
-  ItkImage::SpacingType spacing;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    size[axis] = image.grid.size[axis];
-    spacing[axis] = image.grid.spacing[axis];
-  }
-  result->SetRegions(ItkImage::RegionType(size));
-  result->SetSpacing(spacing);
-  result->Allocate();
-  std::copy(image.values.begin(), image.values.end(), result->GetBufferPointer());
-  return result;
-}
-
 template <typename Filter>
 std::vector<float> filtered(const ScalarImage& image, double sigma)
 {
   const auto filter = Filter::New();
-  filter->SetInput(asItkImage(image));
+  filter->SetInput(asItkImage<ItkImage>(inGridFrame(image.grid), image.values));
   filter->SetSigma(sigma);
   filter->Update();
-  const float* values = filter->GetOutput()->GetBufferPointer();
-  return { values, values + image.values.size() };
+  return valuesOf(*filter->GetOutput());
 }
 
 /// What the path follows, at least 0, by voxel.
