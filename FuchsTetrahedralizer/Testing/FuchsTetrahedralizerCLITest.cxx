@@ -276,6 +276,18 @@ TEST_F(FuchsTetrahedralizerCLI, Trial_B15_AMeshThatIsHeldStillIsSaid)
   EXPECT_NE(result.err.find("warning: every tetrahedron is null displacement"), std::string::npos) << result.err;
 }
 
+// Columns were named in lower case, and kinds of files that are read were left out.
+TEST_F(FuchsTetrahedralizerCLI, Trial_B15_MessagesSpellAsTheHelpDoes)
+{
+  folder.write("m.csv", "tissue,youngsModulus,poissonsRatio\n5,soft,0.45\n");
+  expectRefused("--edgeLength 4 --materials m.csv ball.vtp m.vtu", 1, "m.csv:2: youngsModulus");
+  folder.write("m.csv", "tissue,youngsModulus,poissonsRatio\n5,9,0.7\n");
+  expectRefused("--edgeLength 4 --materials m.csv ball.vtp m.vtu", 1, "m.csv:2: poissonsRatio");
+  folder.write("ball.xyz", "0 0 0\n");
+  expectRefused("--edgeLength 4 ball.xyz m.vtu", 1, "expected .vtp, .vtk, .stl, .ply or .obj");
+  EXPECT_NE(run("--help").out.find("[a file (.vtp, .vtk, .stl, .ply, .obj)]"), std::string::npos);
+}
+
 // Trial, 3b: a tissue that --materials forgot became soft tissue without a word.
 TEST_F(FuchsTetrahedralizerCLI, Trial_3b_TissuesWithoutAMaterialAreListed)
 {

@@ -28,6 +28,7 @@ struct DataBlock
   std::uint64_t offset = 0; ///< in the file
   std::uint64_t headerBytes = 0;
   bool compressed = false;
+  std::string compressedBytes; ///< as a MetaImage header tells them
 };
 
 bool hasExtension(const std::string& file, const std::string& extension)
@@ -45,7 +46,7 @@ bool isGzip(const std::string& file)
 
 DataBlock wholeFile(const std::string& file, std::uint64_t headerBytes)
 {
-  return { file, 0, headerBytes, isGzip(file) };
+  return { file, 0, headerBytes, isGzip(file), {} };
 }
 
 /// A file that the header names, relative to the header's folder.
@@ -69,7 +70,7 @@ std::string pairedImage(const std::string& file)
 DataBlock textHeader(const std::string& file, char separator, const std::string& dataKey,
                      const std::string& compressionKey)
 {
-  DataBlock block{ file, 0, 0, false };
+  DataBlock block{ file, 0, 0, false, {} };
   bool attached = true;
   std::ifstream stream(file.c_str(), std::ios::binary);
   for (std::string line; std::getline(stream, line);)
@@ -81,6 +82,7 @@ DataBlock textHeader(const std::string& file, char separator, const std::string&
     const std::string key = text::lowerCase(text::trimmed(line.substr(0, at)));
     const std::string value = text::trimmed(line.substr(at + 1));
     const std::string word = text::lowerCase(value);
+    if (key == "compresseddatasize") block.compressedBytes = value;
     if (key == compressionKey) block.compressed = word == "true" || word == "gzip" || word == "gz";
     if (key != dataKey) continue;
     attached = word == "local";
@@ -147,6 +149,17 @@ void requireLegibleNrrd(const std::string& file)
     if (line.size() > longest && line.find(":=") == std::string::npos)
       throw InputError(file + ": a line of " + std::to_string(line.size()) +
                        " characters in the header, expected fields of at most " + std::to_string(longest));
+}
+
+/// MetaImage's reader asks for so much memory before it reads.
+void requireCredibleCompression(const DataBlock& block, std::uint64_t fileSize)
+{
+  double claimed = 0;
+  if (block.compressedBytes.empty() ||
+      (text::parseNumber(block.compressedBytes, claimed) && claimed >= 0 && claimed + block.offset <= fileSize))
+    return;
+  throw InputError(block.file + ": CompressedDataSize is \"" + block.compressedBytes.substr(0, 40) +
+                   "\", expected no more than the file's " + std::to_string(fileSize) + " bytes");
 }
 
 } // namespace
@@ -217,16 +230,17 @@ void requireImageData(const std::string& imageFile, std::uint64_t byteCount)
   {
     throw InputError(imageFile + ": its voxels are not to be found, expected one file of voxels, " + block.file);
   }
+  stream.seekg(0, std::ios::end);
+  const std::uint64_t size = std::uint64_t(stream.tellg());
   const std::uint64_t expected = block.headerBytes + byteCount;
   if (block.compressed)
   {
+    requireCredibleCompression(block, size);
     stream.seekg(std::streamoff(block.offset));
     if (inflatedSize(stream, expected) >= expected) return;
     throw InputError(block.file + ": the compressed voxels are truncated or damaged, expected " +
                      std::to_string(byteCount) + " bytes of them");
   }
-  stream.seekg(0, std::ios::end);
-  const std::uint64_t size = std::uint64_t(stream.tellg());
   if (size >= block.offset + expected) return;
   throw InputError(block.file + ": truncated, " + std::to_string(size) + " bytes, expected " +
                    std::to_string(block.offset + expected));

@@ -642,6 +642,17 @@ TEST(Trial, B14_HeadersThatCrashTheirReaderAreRefused)
   expectFileRefused("map.nii", nifti.content(24), "header");
 }
 
+// B14, found by CorruptedFilesFuzz: ITK's reader asks for the memory that the header claims.
+TEST(Trial, B14_CompressedSizesBeyondTheFileAreRefused)
+{
+  for (const char* size : { "42949672956", "1e308", "-1" })
+    expectFileRefused("map.mha",
+                      std::string("ObjectType = Image\nNDims = 3\nBinaryData = True\nCompressedData = True\n"
+                                  "CompressedDataSize = ") +
+                        size + "\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n12345678",
+                      std::string("CompressedDataSize is \"") + size + "\", expected no more than");
+}
+
 TEST(Images, ComeBackAsTheyWereAndHaveNoHoles)
 {
   const TemporaryFolder folder;
