@@ -148,7 +148,7 @@ void expectInserted(const TetMesh& before, const std::vector<Curve>& curves, dou
     {
       const auto [low, high] = std::minmax(chains[c].points[n - 1], chains[c].points[n]);
       EXPECT_EQ(edges.count({ low, high }), 1u);
-      EXPECT_GT(norm(line[n] - line[n - 1]), 0.2 * length);
+      EXPECT_GT(norm(line[n] - line[n - 1]), 0.15 * length);
     }
     EXPECT_LE(farthest(line, curves[c].points), 0.1 * length);
     EXPECT_LE(farthest(curves[c].points, line), 0.1 * length);

@@ -43,8 +43,7 @@ bool onLattice(const Places& place, Place size)
 constexpr double kCoarsest = 1.41421356237309505;
 
 /// The cube's edge, within half an octave of the finest L(x), that makes the lattice's mean edge fit L(x) best over
-/// the places `lengths` are from: the mean of log2 L on the circle of an octave. Where L(x) is the same everywhere, the
-/// lattice has just that length.
+/// the places `lengths` are from: the mean of log2 L on the circle of an octave.
 double fittingCube(const std::vector<double>& lengths, double finest)
 {
   double x = 0, y = 0;
@@ -54,7 +53,7 @@ double fittingCube(const std::vector<double>& lengths, double finest)
     x += std::cos(angle);
     y += std::sin(angle);
   }
-  return finest * std::exp2(std::atan2(y, x) / (2 * M_PI)) / kLatticeMeanEdge;
+  return kMeanEdgeOverLength * finest * std::exp2(std::atan2(y, x) / (2 * M_PI)) / kLatticeMeanEdge;
 }
 
 /// An octree of lattice cubes in a box around the surface, `cube` times a power of 2 large, as L(x) allows.

@@ -18,6 +18,11 @@ namespace surgicalmesher
 /// Mean edge of the lattice's tetrahedra, over the cube's edge: 8 edges sqrt(3)/2 and 6 edges 1 at every vertex.
 constexpr double kLatticeMeanEdge = (8 * 0.86602540378443865 + 6) / 14;
 
+/// That mean edge over L(x), where L(x) is the same everywhere. What joins the lattice to the surface is the more
+/// regular the finer it is; under this, more tetrahedra cost solvers more than that saves
+/// (Docs/FuchsTetrahedralizer.md#method).
+constexpr double kMeanEdgeOverLength = 0.98;
+
 /// Lattice points in a box around the surface, its corners included: in the tissues with the density of L(x), outside
 /// ever sparser with the distance. All are at least `clearance` * L(x) away from the surface: closer ones make flat
 /// elements on it, farther ones long elements.

@@ -176,9 +176,9 @@ std::vector<CurveChain> insertCurves(TetMesh& mesh, const CurveNetwork& curves, 
   const double smallest = *std::min_element(complex.lengths.begin(), complex.lengths.end());
   RemesherOptions remeshing;
   remeshing.featureAngle = options.featureAngle;
-  for (const auto& [sweep, worthwhileShare] : sweepsForCurves(options.targetAngle, smallest))
-    if (worthwhileShare < 0 || isWorkLeft(complex, options.targetAngle))
-      runSweep(complex, length, sweep, remeshing, &chains);
+  for (const ConditionalSweep& next : sweepsForCurves(options.targetAngle, smallest))
+    if (next.worthwhileShare < 0 || isWorkLeft(complex, options.targetAngle))
+      runSweep(complex, length, next.sweep, remeshing, &chains);
   std::vector<CurveChain> result = chainsOf(chains);
   mesh = neighbourhood.mesh(result);
   return result;

@@ -285,7 +285,8 @@ struct VolumeRow
   double splitEdge = 0; ///< 0: no splits
   bool whole = false;
   double worthwhileShare = 0;
-  double height = 0; ///< mm, see HeightOptions; 0: no heights are raised
+  double height = 0;     ///< mm, see HeightOptions; 0: no heights are raised
+  bool balanced = false; ///< see ConditionalSweep
 };
 
 ConditionalSweep sweepOf(const VolumeRow& row)
@@ -301,7 +302,7 @@ ConditionalSweep sweepOf(const VolumeRow& row)
                                       .together = row.splitEdge > 0 ? 20 : 0,
                                       .passes = row.passes } });
   if (row.height > 0) stage.passes.push_back(RaiseHeights{ { .height = row.height } });
-  return { { "improvement", { stage }, row.whole }, row.worthwhileShare };
+  return { { "improvement", { stage }, row.whole }, row.worthwhileShare, row.balanced };
 }
 
 std::vector<ConditionalSweep> sweepsOf(const std::vector<VolumeRow>& rows)
@@ -336,7 +337,8 @@ VolumeRow heightsRow(double smallestLength)
 } // namespace
 
 /// No relaxation and no collapses: the lattice has its sizes, and both destroy it. For the same reason polishing spares
-/// its vertices. In the end the surface goes back to its samples as far as angles allow.
+/// its vertices. In the end the surface goes back to its samples as far as angles allow, and with
+/// them to the volumes that tissues had.
 std::vector<ConditionalSweep> sweepsForRawMesh(double t, double smallestLength)
 {
   const PolishingOptions polishing{ .sparesWhole = true };
@@ -348,7 +350,9 @@ std::vector<ConditionalSweep> sweepsForRawMesh(double t, double smallestLength)
     { .rmsLimit = 0.5, .polishes = 2, .polishing = polishing, .angle = t, .trials = 12, .worthwhileShare = always },
     { .rmsLimit = 0.8, .tolerance = 1.5, .polishes = 3, .polishing = polishing, .angle = t, .trials = 16, .worthwhileShare = always },
   });
-  rows.push_back({ .rmsLimit = 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always });
+  constexpr std::size_t balancingRounds = 3;
+  rows.insert(rows.end(), balancingRounds,
+              { .rmsLimit = 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always, .balanced = true });
   // clang-format on
   rows.push_back(heightsRow(smallestLength));
   return sweepsOf(rows);

@@ -77,6 +77,7 @@ struct ConditionalSweep
   Sweep sweep;
   /// Run only if more than this share of the tetrahedra is below the target angle; negative: always.
   double worthwhileShare;
+  bool balanced = false; ///< VolumeBalance is applied before it
 };
 
 /// For tetrahedra that nobody has improved yet, such as constrained Delaunay's. `targetAngle` in degrees, dihedral;

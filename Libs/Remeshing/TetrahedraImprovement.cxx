@@ -5,6 +5,7 @@
 #include "MeshQuality.h"
 #include "Remesher.h"
 #include "Schedule.h"
+#include "VolumeBalance.h"
 
 #include <algorithm>
 #include <limits>
@@ -15,6 +16,8 @@ namespace surgicalmesher
 namespace
 {
 
+constexpr double balancingGain = 0.7; // polishing brings vertices nearer to their samples as well, which adds volume
+
 /// At the points of tissues.
 double smallestLength(const BackgroundMesh& background)
 {
@@ -24,6 +27,18 @@ double smallestLength(const BackgroundMesh& background)
       for (const std::int32_t id : background.mesh.tetrahedra[t])
         smallest = std::min(smallest, double(background.lengths[id]));
   return smallest;
+}
+
+std::map<Label, double> tissueVolumes(const TetMesh& mesh)
+{
+  std::map<Label, double> volumes;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    const auto& [a, b, c, d] = mesh.tetrahedra[t];
+    if (mesh.labels[t] != 0)
+      volumes[mesh.labels[t]] += orient(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) / 6;
+  }
+  return volumes;
 }
 
 } // namespace
@@ -41,8 +56,10 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
   RemesherOptions remeshing;
   remeshing.featureAngle = options.featureAngle;
   Remesher remesher(std::move(background), length, remeshing, progress, sweeps.size());
-  for (const auto& [sweep, worthwhileShare] : sweeps)
+  VolumeBalance balance(tissueVolumes(mesh), options.surfaceTolerance * smallest, balancingGain);
+  for (const auto& [sweep, worthwhileShare, balanced] : sweeps)
   {
+    if (balanced) balance.apply(remesher.background());
     const TetMesh& now = remesher.background().mesh;
     const double most = worthwhileShare * double(now.tetrahedra.size());
     if (most < 0 || double(countBelow(now, options.targetAngle)) > most) remesher.run(sweep);

@@ -42,13 +42,22 @@ RemesherOptions remesherOptions(const TissueMesherOptions& options)
   return result;
 }
 
+/// Keeps the map's volumes: half a voxel at most.
+VolumeBalance balanceOf(const TissueMap& map)
+{
+  const Vec3 h = map.grid.spacing;
+  std::map<Label, double> volumes;
+  for (const auto& [label, voxels] : countVoxels(map)) volumes[label] = double(voxels) * h.x * h.y * h.z;
+  return { std::move(volumes), 0.5 * map.grid.smallestSpacing(), 1.5 };
+}
+
 /// A remesher that keeps a record of what it does, and tissues' volumes where it is asked to.
 class TissueRemesher
 {
 public:
   TissueRemesher(BackgroundMesh start, const TissueMap& map, const SizingFunction& length,
                  const TissueMesherOptions& options, const Progress& progress, std::size_t sweeps)
-    : m_Remesher(std::move(start), length, remesherOptions(options), progress, sweeps), m_Balance(map),
+    : m_Remesher(std::move(start), length, remesherOptions(options), progress, sweeps), m_Balance(balanceOf(map)),
       m_Balances(!isBounded(options))
   {
     m_Evolution.push_back(evolutionStep(m_Remesher.background(), "lattice", {}));

@@ -54,7 +54,7 @@ TEST(LatticePoints, FillTheInsideAtTheDensityAskedFor)
   for (const double length : { 0.7, 0.9, 1.3 })
   {
     const std::vector<Vec3> points = inside(latticePoints(surface, [=](const Vec3&) { return length; }), 7);
-    const double cube = length / kLatticeMeanEdge;
+    const double cube = kMeanEdgeOverLength * length / kLatticeMeanEdge;
     const double expected = 4.0 / 3 * M_PI * 7 * 7 * 7 * 2 / (cube * cube * cube);
     EXPECT_NEAR(double(points.size()), expected, 0.1 * expected) << length;
     for (std::size_t i = 0; i < points.size(); i += 7)

@@ -9,9 +9,6 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double most = 0.5; // voxels
-constexpr double gain = 1.5; // angles hold vertices back from where the samples go
-
 /// Corner number k of tetrahedron t, counted from i.
 const Vec3& corner(const TetMesh& mesh, std::int32_t t, int i, int k)
 {
@@ -26,12 +23,6 @@ Vec3 normal(const TetMesh& mesh, std::int32_t t, int i)
 }
 
 } // namespace
-
-VolumeBalance::VolumeBalance(const TissueMap& map) : m_Most(most * map.grid.smallestSpacing())
-{
-  const Vec3 h = map.grid.spacing;
-  for (const auto& [label, voxels] : countVoxels(map)) m_Volumes[label] = double(voxels) * h.x * h.y * h.z;
-}
 
 void VolumeBalance::apply(BackgroundMesh& background)
 {
@@ -67,7 +58,7 @@ double VolumeBalance::stepOf(Label label, double lacking)
 {
   double& moved = m_Moved[label];
   const double before = moved;
-  moved = std::clamp(moved + gain * lacking, -m_Most, m_Most);
+  moved = std::clamp(moved + m_Gain * lacking, -m_Most, m_Most);
   return moved - before;
 }
 

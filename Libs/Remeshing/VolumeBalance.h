@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Keeps the volume of every tissue: smoothing and least squares cut corners, which takes from whatever is convex.
+
+#include "BackgroundMesh.h"
+
+#include <map>
+
+namespace surgicalmesher
+{
+
+class VolumeBalance
+{
+public:
+  /// The volumes to keep, mm^3; how far (mm) samples may go for that in all, and by how much of what would make up for
+  /// the volume at once: above 1 where angles hold vertices back from where the samples go.
+  VolumeBalance(std::map<Label, double> volumes, double most, double gain)
+    : m_Most(most), m_Gain(gain), m_Volumes(std::move(volumes))
+  {
+  }
+
+  /// Moves the boundary samples of every tissue that has gained or lost volume along its boundary's normals; twice the
+  /// most between two tissues. The mesh must know its neighbours.
+  void apply(BackgroundMesh& background);
+
+private:
+  double stepOf(Label label, double lacking);
+
+  double m_Most, m_Gain;
+  std::map<Label, double> m_Volumes, m_Moved;
+};
+
+} // namespace surgicalmesher
