@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# The head phantom that Audette et al. (Computer Aided Surgery 12(1), 2007) announce: the classified head of Colin27 with
+# its optic nerves, followed through the T1, as tissues, shells and beams; fine along a transsphenoidal path, held still
+# away from it.
+# usage: head-phantom.sh OUTDIR MAP [T1]
+# MAP: BrainWeb's discrete phantom on the grid of T1, labels 1 to 9 as in names.txt beside this file (its fat, muscle and
+# connective tissue become one); T1: by default that of Debian's mricron-data. Leaves in OUTDIR the axes of the nerves,
+# the label map, scale, surface, mesh, its parent and child, shells and beams, models for CalculiX, FEBio and Gmsh,
+# report.json and critical_tissues.png. Earlier results go once the new ones are complete.
+# With SURGICALMESHER_BIN set to a folder of modules already built, it installs and builds nothing and uses these.
+set -euo pipefail
+
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+python=/usr/bin/python3
+
+# usage: refuse STATUS MESSAGE
+refuse()
+{
+  echo "head-phantom.sh: $2" >&2
+  exit "$1"
+}
+
+(($# == 2 || $# == 3)) || refuse 2 "$# arguments, expected OUTDIR MAP [T1]"
+folder=$1
+t1=${3:-/usr/share/mricron/templates/ch2.nii.gz}
+[[ -f $2 ]] || refuse 1 "$2: no such file, expected the label map of the phantom"
+[[ -f $t1 ]] || refuse 1 "$t1: no such file, expected the T1 of the phantom (Debian's package mricron-data has it)"
+map=$(realpath "$2")
+t1=$(realpath "$t1")
+
+if [[ -z ${SURGICALMESHER_BIN:-} ]]; then
+  "$root/CMake/build.sh" --for build,example TubePathCLI SurgicalPathScaleCLI SimplexMesherCLI FuchsTetrahedralizerCLI
+fi
+export PATH="${SURGICALMESHER_BIN:-$root/build/bin}:$PATH"
+mkdir -p "$folder" 2>/dev/null || refuse 1 "$folder: the folder cannot be made"
+folder=$(cd "$folder" && pwd)
+work=$(mktemp -d "$folder/.phantom.XXXXXX" 2>/dev/null) || refuse 1 "$folder: nothing can be written there"
+trap 'rm -rf -- "$work"' EXIT
+trap 'exit 129' HUP
+trap 'exit 130' INT
+trap 'exit 143' TERM
+cd "$work"
+
+# The modules' progress is for a terminal; elsewhere it goes to the log.
+run()
+{
+  echo "$*"
+  if [[ -t 1 ]]; then "$@"; else "$@" >>log.txt; fi
+}
+
+# A nerve is dark in the fat of the orbit and bright from its canal to the chiasm: two tubes on each side.
+# usage: follow LABEL POLARITY PART NAME
+labels=$map
+follow()
+{
+  run TubePathCLI --points "$here/$3.mrk.json" --polarity "$2" --name "$4" --label "$1" --addTo "$labels" \
+    --labelMap "with-$1.nrrd" "$t1" "$3.mrk.json"
+  labels=with-$1.nrrd
+}
+
+follow 20 bright left-optic-nerve "left optic nerve"
+follow 21 bright right-optic-nerve "right optic nerve"
+follow 22 dark left-orbital-nerve "left optic nerve in the orbit"
+follow 23 dark right-orbital-nerve "right optic nerve in the orbit"
+run SurgicalPathScaleCLI --targets "$here/sella.mrk.json" --path "$here/transsphenoidal-path.mrk.json" \
+  --minimumEdgeLength 1.5 --maximumEdgeLength 8 --childRadius 10 --pathChildRadius 3 --decayLength 40 \
+  --nullDisplacementRadius 60 --nullDisplacementPathDistance 30 --outputLabelMap labels.nrrd --report scale.json \
+  "$labels" scale.nrrd
+run SimplexMesherCLI --scale scale.nrrd --names "$here/names.txt" --tissues "$here/tissues.csv" \
+  --minimumIslandVolume 60 --featureScale 0.5 --preparedLabelMap prepared.nrrd --followedScale followed.nrrd \
+  --ambient ambient.vtu --report surface.json labels.nrrd surface.vtp
+curves=()
+for part in {left,right}-{optic,orbital}-nerve; do curves+=(--curves "$part.mrk.json"); done
+run FuchsTetrahedralizerCLI --scale followed.nrrd --ambient ambient.vtu "${curves[@]}" --curveYoungsModulus 500 \
+  --curveMesh nerves.vtp --shellThickness 0.5 --shells sheaths.vtp --parentMesh parent.vtu --childMesh child.vtu \
+  --export head.inp --export head.feb --export head.msh --report report.json surface.vtp mesh.vtu
+run "$python" "$root/workflow/example/display.py" "$python" "$here/critical_tissues.py" .
+rm -f with-*.nrrd
+mv -f -- * "$folder"
+echo "Written to $folder: mesh.vtu parent.vtu child.vtu nerves.vtp sheaths.vtp head.* report.json critical_tissues.png"
