@@ -21,6 +21,6 @@ if [[ -z $build ]]; then
 fi
 
 # Debian 12's ITK headers accept GCC only, and the host's are not here.
-sources | grep -E '^(Libs|[A-Za-z]+/(Core|CLI))/.*\.cxx$' | grep -vE '/Testing/|^Libs/SlicerSupport/' \
+sources | grep -E '^(Libs|Program|[A-Za-z]+/(Core|CLI))/.*\.cxx$' | grep -vE '/Testing/|^Libs/SlicerSupport/' \
   | xargs grep -L 'itk' | xargs -P "$(nproc)" -n 4 nice clang-tidy --quiet -p "$build" 2>/dev/null
 echo "check-style.sh: formatting, licence lines and clang-tidy are in order"

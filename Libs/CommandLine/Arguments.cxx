@@ -124,19 +124,9 @@ private:
   /// ", did you mean --targets?" of the known flag that takes the fewest changes, if these are few.
   std::string nearestFlag(const std::string& flag) const
   {
-    const std::string wanted = withoutDashes(flag);
     std::vector<std::string> known{ "help", "version", "xml", "returnparameterfile", "echo", "quiet", "progress" };
     for (const Parameter* parameter : m_Description.parameters()) known.push_back(parameter->longFlag);
-    std::string nearest;
-    std::size_t fewest = std::min<std::size_t>(wanted.size() / 3 + 1, 5);
-    for (const std::string& name : known)
-    {
-      if (name.empty()) continue;
-      const std::size_t changes = changesBetween(text::lowerCase(wanted), text::lowerCase(name));
-      if (changes > fewest || (changes == fewest && !nearest.empty())) continue;
-      nearest = name;
-      fewest = changes;
-    }
+    const std::string nearest = nearestWord(withoutDashes(flag), known);
     return nearest.empty() ? "" : "; did you mean --" + nearest + "?";
   }
 
@@ -213,6 +203,21 @@ private:
 };
 
 } // namespace
+
+std::string nearestWord(const std::string& wanted, const std::vector<std::string>& known)
+{
+  std::string nearest;
+  std::size_t fewest = std::min<std::size_t>(wanted.size() / 3 + 1, 5);
+  for (const std::string& word : known)
+  {
+    if (word.empty()) continue;
+    const std::size_t changes = changesBetween(text::lowerCase(wanted), text::lowerCase(word));
+    if (changes > fewest || (changes == fewest && !nearest.empty())) continue;
+    nearest = word;
+    fewest = changes;
+  }
+  return nearest;
+}
 
 Arguments parseArguments(const ModuleDescription& description, const std::vector<std::string>& arguments)
 {

@@ -41,4 +41,7 @@ struct Arguments
 /// repeated value, and a value its parameter does not accept.
 Arguments parseArguments(const ModuleDescription& description, const std::vector<std::string>& arguments);
 
+/// Of words, the one that takes the fewest changes to become `wanted`; empty if these are many.
+std::string nearestWord(const std::string& wanted, const std::vector<std::string>& known);
+
 } // namespace surgicalmesher

@@ -253,6 +253,8 @@ bool CommandLine::given(const std::string& name) const
   return d->arguments.values.count(d->parameter(name).name) != 0;
 }
 
+const std::map<std::string, std::vector<std::string>>& CommandLine::givenValues() const { return d->arguments.values; }
+
 bool CommandLine::flag(const std::string& name) const
 {
   const auto isFlag = [](const Parameter& p) { return p.type == "boolean"; };

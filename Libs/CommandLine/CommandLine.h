@@ -20,6 +20,7 @@
 #include "Vec3.h"
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -37,6 +38,8 @@ public:
   /// Slicer passes every number and choice, also those the user left alone: for them `given` tells nothing, and a value
   /// of their range has to mean "not used".
   bool given(const std::string& name) const;
+  /// All that was given, as it was typed, by parameter: for programs that hand options on.
+  const std::map<std::string, std::vector<std::string>>& givenValues() const;
   bool flag(const std::string& name) const;
   int integer(const std::string& name) const;
   double number(const std::string& name) const;

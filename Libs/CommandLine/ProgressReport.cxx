@@ -37,6 +37,14 @@ std::string quoted(const std::string& text)
   return result + "\"";
 }
 
+/// Without line ends; blanks stay, as columns of tables need them.
+std::string unbroken(std::string text)
+{
+  std::replace_if(
+    text.begin(), text.end(), [](char letter) { return letter == '\n' || letter == '\r' || letter == '\t'; }, ' ');
+  return text;
+}
+
 std::string percent(double fraction)
 {
   const std::string number = std::to_string(std::lround(fraction * 100));
@@ -106,7 +114,7 @@ void ProgressReport::message(const std::string& line)
   const std::lock_guard<std::mutex> lock(m_Mutex);
   if (m_Quiet) return;
   wipeBar();
-  const std::string text = text::oneLine(printable(line));
+  const std::string text = unbroken(printable(line));
   m_Stream << (m_Format == ProgressFormat::Json ? "{\"message\": " + quoted(text) + "}" : text) << "\n" << std::flush;
 }
 

@@ -20,7 +20,7 @@ PROGRAMS = {"BalloonSurface": "SimplexMesher",
             "VolumetricHex": "TemplateHexMesher"}
 PAGES = (["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{module}.md" for module in MODULES]
          + ["Docs/TemplateHexMesher.md", "Docs/TissueMapper.md", "Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/Multirate.md", "Docs/Fitness.md",
-            "Docs/Solvers.md", "Docs/Slicer.md", "Docs/Tutorial.md", "Docs/HeadPhantom.md"])
+            "Docs/Solvers.md", "Docs/Slicer.md", "Docs/Tutorial.md", "Docs/HeadPhantom.md", "Docs/surgicalmesher.md"])
 
 
 def text_of(*path):
@@ -147,6 +147,8 @@ class PagesTest(unittest.TestCase):
 
     def test_options_in_running_text_exist(self):
         known = {flag for module in [*MODULES, *PROGRAMS] for flag in options_of(module)[0]}
+        known |= {flag for file in glob.glob(os.path.join(ROOT, "Program", "*.xml"))
+                  for flag in re.findall(r"<longflag>(\w+)</longflag>", text_of(file))}
         known |= {"help", "version", "xml", "returnparameterfile", "quiet", "progress"}
         for page in PAGES:
             for flag in re.findall(r"`--(\w+)", text_of(page)):

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Configuration.h"
+
+#include "Arguments.h"
+#include "Errors.h"
+#include "TextFile.h"
+
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// Of a text, a number or a truth; empty for anything else.
+std::string scalarText(const toml::node& node)
+{
+  if (const auto* text = node.as_string()) return text->get();
+  if (const auto* number = node.as_integer()) return std::to_string(number->get());
+  if (const auto* number = node.as_floating_point()) return text::rounded(number->get(), 17);
+  if (const auto* truth = node.as_boolean()) return truth->get() ? "true" : "false";
+  return {};
+}
+
+std::vector<std::string> scalarTexts(const toml::array& array)
+{
+  std::vector<std::string> texts;
+  for (const toml::node& item : array) texts.push_back(scalarText(item));
+  return texts;
+}
+
+/// One value, or as many as a list has.
+std::vector<std::string> valuesOf(const toml::node& node, const Parameter& parameter)
+{
+  const toml::array* array = node.as_array();
+  if (!array) return { scalarText(node) };
+  const bool isOneList = parameter.isPoint() || parameter.isVector();
+  const bool holdsLists = !array->empty() && array->front().is_array();
+  if (isOneList && !holdsLists && !array->empty() && !array->front().is_string())
+    return { text::joined(scalarTexts(*array), ",") };
+  std::vector<std::string> values;
+  for (const toml::node& item : *array)
+  {
+    const toml::array* inner = item.as_array();
+    values.push_back(inner ? text::joined(scalarTexts(*inner), ",") : scalarText(item));
+  }
+  return values;
+}
+
+bool isReadFile(const Parameter& parameter) { return parameter.isFile() && !parameter.output; }
+
+const Parameter& parameterOf(const std::string& key, const ModuleDescription& description, const std::string& file)
+{
+  if (const Parameter* found = description.find(key); found && key != "config") return *found;
+  std::vector<std::string> names;
+  for (const Parameter* parameter : description.parameters()) names.push_back(parameter->name);
+  const std::string nearest = nearestWord(key, names);
+  throw InputError(file + ": " + key + ": unknown key found, one of the options of surgicalmesher mesh expected" +
+                   (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+}
+
+void requireAccepted(const Parameter& parameter, const std::vector<std::string>& values, const std::string& file)
+{
+  if (values.size() > 1 && !parameter.multiple)
+    throw InputError(file + ": " + parameter.name + ": a list found, one value expected");
+  for (const std::string& value : values)
+  {
+    if (parameter.type == "boolean" && value != "true" && value != "false")
+      throw InputError(file + ": " + parameter.name + ": '" + value + "' found, true or false expected");
+    try
+    {
+      if (parameter.type != "boolean") checkValue(parameter, value);
+    }
+    catch (const UsageError& error)
+    {
+      throw InputError(file + ": " + error.what());
+    }
+  }
+}
+
+std::string quoted(const std::string& text)
+{
+  std::string result = "\"";
+  for (const char letter : text)
+  {
+    if (letter == '"' || letter == '\\') result += '\\';
+    result += letter;
+  }
+  return result + "\"";
+}
+
+std::string absolutePath(const std::string& file)
+{
+  return std::filesystem::absolute(file).lexically_normal().string();
+}
+
+std::string tomlValue(const Parameter& parameter, const std::string& value)
+{
+  if (parameter.isInteger() || parameter.isNumber() || parameter.type == "boolean") return value;
+  if (parameter.isPoint()) return "[" + text::joined(text::split(value, ','), ", ") + "]";
+  return quoted(isReadFile(parameter) ? absolutePath(value) : value);
+}
+
+std::string entryOf(const Parameter& parameter, const RunOptions& options)
+{
+  const auto given = options.find(parameter.name);
+  std::vector<std::string> values;
+  if (given != options.end()) values = given->second;
+  else if (!parameter.defaultValue.empty()) values = { canonicalValue(parameter, parameter.defaultValue) };
+  else if (parameter.type == "boolean") values = { "false" };
+  const bool isSet = !values.empty();
+  for (std::string& value : values) value = tomlValue(parameter, value);
+  const std::string list = "[" + text::joined(values, ", ") + "]";
+  const std::string value = parameter.multiple ? list : isSet ? values.front() : "\"\"";
+  return "# " + parameter.description + "\n" + (isSet ? "" : "#") + parameter.name + " = " + value + "\n";
+}
+
+} // namespace
+
+RunOptions readConfiguration(const std::string& file, const ModuleDescription& description)
+{
+  const std::string content = text::readTextFile(file);
+  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  toml::table table;
+  try
+  {
+    table = toml::parse(content);
+  }
+  catch (const toml::parse_error& error)
+  {
+    throw InputError(file + ", line " + std::to_string(error.source().begin.line) + ": " +
+                     std::string(error.description()) + "; TOML expected");
+  }
+  RunOptions options;
+  for (const auto& [key, node] : table)
+  {
+    const Parameter& parameter = parameterOf(std::string(key.str()), description, file);
+    std::vector<std::string> values = valuesOf(node, parameter);
+    requireAccepted(parameter, values, file);
+    if (isReadFile(parameter))
+    {
+      for (std::string& value : values) value = (folder / value).lexically_normal().string();
+    }
+    if (!values.empty()) options[parameter.name] = values;
+  }
+  return options;
+}
+
+std::string configurationText(const RunOptions& options, const ModuleDescription& description)
+{
+  std::string text = "# surgicalmesher " + description.version +
+                     "\n# A run is repeated by\n"
+                     "#     surgicalmesher mesh --config THIS_FILE [[MAP] FOLDER]\n";
+  for (const ParameterGroup& group : description.groups)
+  {
+    text += "\n# ---- " + group.label + "\n\n";
+    for (const Parameter& parameter : group.parameters)
+    {
+      if (parameter.name != "config" && parameter.name != "target") text += entryOf(parameter, options);
+    }
+  }
+  return text;
+}
+
+} // namespace surgicalmesher

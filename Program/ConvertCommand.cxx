@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// surgicalmesher convert: a mesh of tetrahedra in the formats of solvers.
+
+#include "Commands.h"
+#include "Errors.h"
+#include "Export.h"
+#include "MaterialTable.h"
+#include "ShellChoices.h"
+
+#include <set>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+FiniteElementOptions readOptions(const CommandLine& line, const MeshFile& content)
+{
+  const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
+  FiniteElementOptions options;
+  const std::string materials = line.text("materials");
+  if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present);
+  options.shells = shellChoices(line.texts("shell"), content.tissues, present, line.number("shellThickness"));
+  return options;
+}
+
+} // namespace
+
+void convertCommand(CommandLine& line)
+{
+  const std::vector<std::string> files = line.outputNames("models");
+  for (const std::string& file : files)
+  {
+    exportFormatOf(file);
+    for (const ExportSidecar& sidecar : exportSidecars(file))
+    {
+      if (sidecar.isMany) line.alsoWritesMany("models", sidecar.before, sidecar.after);
+      else line.alsoWrites("models", sidecar.before);
+    }
+  }
+  const Progress progress = line.progress();
+  report(progress, 0, "reading");
+  const MeshFile content = readMesh(line.text("mesh"));
+  for (const Label label : content.mesh.labels)
+  {
+    if (label == 0)
+      throw InputError(line.text("mesh") + ": tetrahedra of label 0 found, those of tissues alone expected");
+  }
+  const FiniteElementModel model = finiteElementModel(content, readOptions(line, content));
+  double done = 0;
+  for (const std::string& file : files)
+  {
+    report(progress, 0.3 + 0.7 * done++ / double(files.size()), file);
+    exportModel(model, file, [&](const std::string& finalPath) { return line.outputPath(finalPath); });
+  }
+  report(progress, 1, "done");
+}
+
+} // namespace surgicalmesher

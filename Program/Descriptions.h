@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The descriptions (XML) of the commands, put together of their own and those of the programs that they run.
+
+#include "ModuleDescription.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+// The texts of the .xml files; DescriptionTexts.cxx.in.
+extern const char* const meshXML;
+extern const char* const estimateXML;
+extern const char* const qualityXML;
+extern const char* const convertXML;
+extern const char* const pathScaleXML;
+extern const char* const simplexMesherXML;
+extern const char* const tetrahedralizerXML;
+
+/// Options of the programs that join the stages, and are not the user's to give.
+const std::set<std::string>& stageOptions();
+
+/// `command` with the options of `programs` behind its own, each once, without stageOptions(). Outputs become texts:
+/// where they go is not for the command line alone to say.
+std::string mergedDescription(const std::string& command, const std::vector<std::string>& programs);
+
+} // namespace surgicalmesher

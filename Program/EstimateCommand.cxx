@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// surgicalmesher estimate: what a mesh will take, before anything is meshed.
+
+#include "ChildProcess.h"
+#include "Commands.h"
+#include "Errors.h"
+#include "JsonReport.h"
+#include "MemoryEstimate.h"
+#include "Platform.h"
+#include "StageRun.h"
+#include "TextFile.h"
+#include "TissueMapIO.h"
+
+#include <rapidjson/document.h>
+
+#include <csignal>
+#include <filesystem>
+
+namespace fs = std::filesystem;
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// Processor seconds per voxel face between labels, and per tetrahedron: Docs/Benchmarks.md, within a factor of 1.7.
+constexpr double secondsPerFace = 40e-6, secondsPerTetrahedron = 40e-6;
+
+struct Figures
+{
+  double triangles = 0, tetrahedra = 0;
+  double bytes = 0;
+  double seconds = 0; ///< of all processors together
+};
+
+/// A folder of its own, which goes with all that is in it.
+class ScratchFolder
+{
+public:
+  ScratchFolder()
+    : m_Path(fs::temp_directory_path() / ("surgicalmesher-" + hostName() + "-" + std::to_string(processId())))
+  {
+    fs::create_directory(m_Path);
+  }
+  ~ScratchFolder()
+  {
+    std::error_code error;
+    fs::remove_all(m_Path, error);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  std::string path() const { return m_Path.string(); }
+
+private:
+  fs::path m_Path;
+};
+
+double voxelFaces(const TissueMap& map)
+{
+  double faces = 0;
+  for (std::size_t n = 0; n < map.labels.size(); ++n)
+  {
+    const auto [i, j, k] = map.grid.voxelAt(n);
+    const Label label = map.labels[n];
+    for (const std::array<int, 3>& next : { std::array<int, 3>{ i + 1, j, k }, { i, j + 1, k }, { i, j, k + 1 } })
+      faces += label != labelAt(map, next);
+  }
+  return faces;
+}
+
+void readSize(const std::string& file, Figures& figures)
+{
+  rapidjson::Document json;
+  json.Parse(text::readTextFile(file).c_str());
+  figures.triangles = json["estimate"]["triangles"].GetDouble();
+  figures.tetrahedra = json["estimate"]["tetrahedra"].GetDouble();
+}
+
+Figures estimated(const CommandLine& line, const std::string& folder)
+{
+  Figures figures;
+  readSize(folder + "/scale.json", figures);
+  const TissueMap map = readTissueMap(line.text("labelMap"));
+  figures.bytes = double(estimateSurfaceMemory(map, readScale(folder + "/scale.nrrd")));
+  figures.seconds = secondsPerFace * voxelFaces(map) + secondsPerTetrahedron * figures.tetrahedra;
+  return figures;
+}
+
+void writeFigures(const Figures& figures, const std::string& file)
+{
+  const auto writeMembers = [&](JsonWriter& json)
+  {
+    writeMember(json, "triangles", std::int64_t(figures.triangles));
+    writeMember(json, "tetrahedra", std::int64_t(figures.tetrahedra));
+    writeMember(json, "memoryBytes", std::int64_t(figures.bytes));
+    writeMember(json, "processorSeconds", figures.seconds);
+  };
+  writeBytes(jsonText(writeMembers, { 3 }), file);
+}
+
+} // namespace
+
+void estimateCommand(CommandLine& line, const std::string& programs, const std::string& xml)
+{
+  const ScratchFolder folder;
+  RunOptions given = line.givenValues();
+  given.erase("estimate");
+  const RunRequest request{ fs::absolute(line.text("labelMap")).lexically_normal().string(), folder.path(),
+                            completedOptions(given, parseModuleDescription(xml)) };
+  const Progress progress = line.progress();
+  try
+  {
+    runStage(scaleStage(request), programs, line, subProgress(progress, 0, 0.6));
+  }
+  catch (const Interrupted& end)
+  {
+    std::error_code error;
+    fs::remove_all(folder.path(), error);
+    std::signal(end.signal, SIG_DFL);
+    std::raise(end.signal);
+  }
+  report(progress, 0.6, "memory and time");
+  const Figures figures = estimated(line, folder.path());
+  line.message("memory: about " + text::rounded(figures.bytes / 1e6) + " MB at most");
+  line.message("time: about " + text::rounded(figures.seconds, 2) + " s on one processor");
+  const std::string file = line.outputFile("estimate");
+  if (!file.empty()) writeFigures(figures, file);
+  report(progress, 1, "done");
+}
+
+} // namespace surgicalmesher

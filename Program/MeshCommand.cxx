@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: Apache-2.0
+// surgicalmesher mesh: the three stages in a row, as far as they have not been run before.
+
+#include "Arguments.h"
+#include "ChildProcess.h"
+#include "Commands.h"
+#include "Configuration.h"
+#include "Errors.h"
+#include "OutputFiles.h"
+#include "Platform.h"
+#include "RunRecord.h"
+#include "StageRun.h"
+#include "TextFile.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+
+namespace fs = std::filesystem;
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// A folder that is there while it lives, and goes again if nothing came into it.
+class ResultFolder
+{
+public:
+  explicit ResultFolder(const std::string& path) : m_Path(path)
+  {
+    std::error_code error;
+    if (fs::exists(path, error) && !fs::is_directory(path, error))
+      throw InputError(path + ": not a folder, expected one for the results");
+    m_IsNew = fs::create_directories(path, error);
+    if (error) throw InputError(path + ": the folder cannot be made");
+  }
+  ~ResultFolder()
+  {
+    std::error_code error;
+    if (m_IsNew && fs::is_empty(m_Path, error)) fs::remove(m_Path, error);
+  }
+  ResultFolder(const ResultFolder&) = delete;
+  ResultFolder& operator=(const ResultFolder&) = delete;
+
+private:
+  fs::path m_Path;
+  bool m_IsNew;
+};
+
+RunRequest requestOf(const CommandLine& line, const ModuleDescription& description)
+{
+  RunRequest request;
+  request.labelMap = fs::absolute(line.text("labelMap")).lexically_normal().string();
+  request.folder = fs::absolute(line.text("folder")).lexically_normal().string();
+  if (request.folder.back() == '/') request.folder.pop_back();
+  request.options = completedOptions(line.givenValues(), description);
+  return request;
+}
+
+/// Files of the user's, not of earlier stages.
+std::vector<std::string> givenFiles(const std::vector<Stage>& stages)
+{
+  std::vector<std::string> written, given;
+  for (const Stage& stage : stages)
+  {
+    for (const std::string& input : stage.inputs)
+    {
+      if (std::find(written.begin(), written.end(), input) == written.end()) given.push_back(input);
+    }
+    written.insert(written.end(), stage.outputs.begin(), stage.outputs.end());
+  }
+  return given;
+}
+
+void requireReadable(const std::vector<std::string>& files)
+{
+  for (const std::string& file : files) text::requireReadableFile(file);
+}
+
+void requireInputsKept(const std::vector<Stage>& stages, const std::vector<std::string>& given)
+{
+  for (const Stage& stage : stages)
+  {
+    for (const std::string& output : stage.outputs)
+    {
+      for (const std::string& input : given)
+      {
+        if (placeOf(input) == placeOf(output))
+          throw UsageError(input + " would be overwritten, expected another folder for the results");
+      }
+    }
+  }
+}
+
+/// What was made of results that are about to change goes, so that the folder never holds what does not fit together.
+void forget(const std::string& stage, RunRecord& record, const fs::path& folder, const std::vector<std::string>& given)
+{
+  for (const auto& output : record[stage].outputs)
+  {
+    const fs::path file(output.first);
+    const bool isGiven = std::find(given.begin(), given.end(), (folder / file).string()) != given.end();
+    std::error_code error;
+    if (file == file.filename() && !isGiven) fs::remove(folder / file, error);
+  }
+  record.erase(stage);
+}
+
+/// Fingerprints of what a stage has written: by name in the folder, by path elsewhere.
+std::map<std::string, std::string> writtenSince(const std::map<std::string, std::string>& before, const Stage& stage,
+                                                const fs::path& folder)
+{
+  std::map<std::string, std::string> written;
+  for (const auto& [name, state] : filesIn(folder.string()))
+  {
+    const auto earlier = before.find(name);
+    if (earlier == before.end() || earlier->second != state) written[name] = fingerprint((folder / name).string());
+  }
+  for (const fs::path file : stage.outputs)
+  {
+    const bool isElsewhere = file.parent_path() != folder;
+    const std::string bytes = isElsewhere ? fingerprint(file.string()) : std::string();
+    if (!bytes.empty()) written[file.string()] = bytes;
+  }
+  return written;
+}
+
+/// Runs what has to be run, and keeps the record.
+void runStages(const RunRequest& request, const std::string& programs, CommandLine& line, const Progress& progress)
+{
+  const std::vector<Stage> stages = stagesOf(request);
+  const std::vector<std::string> given = givenFiles(stages);
+  requireReadable(given);
+  requireInputsKept(stages, given);
+  RunRecord record = readRunRecord(request.folder);
+  double done = 0;
+  for (auto stage = stages.begin(); stage != stages.end(); ++stage)
+  {
+    StageRecord present = recordOf(*stage, (fs::path(programs) / stage->program).string(), request.folder);
+    const double begin = done;
+    done += stage->share;
+    const auto earlier = record.find(stage->name);
+    if (earlier != record.end() && stillHolds(earlier->second, present, request.folder))
+    {
+      line.message(stage->name + ": nothing has changed since the last run, its results stay");
+      continue;
+    }
+    const bool isFirstRun = record.empty();
+    for (auto later = stage; later != stages.end(); ++later) forget(later->name, record, request.folder, given);
+    if (!isFirstRun) writeRunRecord(record, request.folder);
+    const std::map<std::string, std::string> before = filesIn(request.folder);
+    const auto start = std::chrono::steady_clock::now();
+    runStage(*stage, programs, line, subProgress(progress, begin, done));
+    present.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    present.outputs = writtenSince(before, *stage, request.folder);
+    record[stage->name] = present;
+    writeRunRecord(record, request.folder);
+  }
+}
+
+/// Ends this process as the signal would have.
+[[noreturn]] void endBy(int signal)
+{
+  writeToStderr("surgicalmesher mesh: interrupted; stages that were complete are kept, and the same command goes on "
+                "from there\n");
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+  throw EngineError("interrupted");
+}
+
+/// Whether `argument` takes the next one as its value.
+bool takesNext(const std::string& argument, const ModuleDescription& description)
+{
+  if (argument.find('=') != std::string::npos || argument == "--quiet" || argument == "--echo") return false;
+  for (const Parameter* parameter : description.parameters())
+  {
+    if (argument == "--" + parameter->longFlag) return parameter->type != "boolean";
+  }
+  return true;
+}
+
+/// The arguments without a flag.
+std::vector<std::string> positionalsIn(const std::vector<std::string>& arguments, const ModuleDescription& description)
+{
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+  {
+    if (arguments[i].rfind("--", 0) != 0) found.push_back(arguments[i]);
+    else if (takesNext(arguments[i], description)) ++i;
+  }
+  return found;
+}
+
+/// The value of `--config`, empty without it.
+std::string configurationIn(const std::vector<std::string>& arguments)
+{
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+  {
+    if (arguments[i].rfind("--config=", 0) == 0) return arguments[i].substr(9);
+    if (arguments[i] == "--config" && i + 1 < arguments.size()) return arguments[i + 1];
+  }
+  return {};
+}
+
+bool isAmong(const std::vector<std::string>& arguments, const std::string& flag)
+{
+  return std::any_of(arguments.begin(), arguments.end(),
+                     [&](const std::string& word) { return word == flag || word.rfind(flag + "=", 0) == 0; });
+}
+
+} // namespace
+
+std::vector<std::string> withConfiguration(const std::vector<std::string>& arguments, const std::string& xml)
+{
+  const std::string file = configurationIn(arguments);
+  if (file.empty()) return arguments;
+  if (isAmong(arguments, "--preset"))
+    throw UsageError("--preset and --config are given, expected one of them: a configuration holds every option");
+  const ModuleDescription description = parseModuleDescription(xml);
+  RunOptions options = readConfiguration(file, description);
+  if (isAmong(arguments, "--target")) options.erase("targetPoint");
+  std::vector<std::string> all;
+  for (const auto& [name, values] : options)
+  {
+    const Parameter& parameter = *description.find(name);
+    const std::string flag = "--" + parameter.longFlag;
+    if (parameter.index >= 0 || isAmong(arguments, flag)) continue;
+    if (parameter.type == "boolean" && values.front() != (parameter.defaultValue == "true" ? "true" : "false"))
+      all.push_back(flag);
+    if (parameter.type == "boolean") continue;
+    for (const std::string& value : values) all.push_back(std::string(flag).append("=").append(value));
+  }
+  const std::size_t found = positionalsIn(arguments, description).size();
+  if (found < 2 && options.count("labelMap")) all.push_back(options["labelMap"].front());
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  if (found < 1 && options.count("folder")) all.push_back(options["folder"].front());
+  return all;
+}
+
+void meshCommand(CommandLine& line, const std::string& programs, const std::string& xml)
+{
+  const ModuleDescription description = parseModuleDescription(xml);
+  const RunRequest request = requestOf(line, description);
+  const Progress progress = line.progress();
+  const ResultFolder folder(request.folder);
+  try
+  {
+    runStages(request, programs, line, progress);
+  }
+  catch (const Interrupted& end)
+  {
+    endBy(end.signal);
+  }
+  RunOptions options = request.options;
+  options["labelMap"] = { request.labelMap };
+  options["folder"] = { request.folder };
+  writeBytes(configurationText(options, description), line.outputPath(request.folder + "/run.toml"));
+  report(progress, 1, "done");
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "RunRecord.h"
+
+#include "Errors.h"
+#include "JsonReport.h"
+#include "OutputFiles.h"
+#include "TextFile.h"
+
+#include <rapidjson/document.h>
+#include <vtksys/MD5.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+namespace fs = std::filesystem;
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+std::string recordFile(const std::string& folder) { return (fs::path(folder) / "stages.json").string(); }
+
+std::map<std::string, std::string> textsOf(const rapidjson::Value& stage, const char* key)
+{
+  std::map<std::string, std::string> texts;
+  if (!stage.HasMember(key) || !stage[key].IsObject()) return texts;
+  for (const auto& member : stage[key].GetObject())
+  {
+    if (member.value.IsString()) texts[member.name.GetString()] = member.value.GetString();
+  }
+  return texts;
+}
+
+StageRecord readStage(const rapidjson::Value& stage)
+{
+  StageRecord record;
+  if (!stage.IsObject()) return record;
+  if (stage.HasMember("program") && stage["program"].IsString()) record.program = stage["program"].GetString();
+  record.inputs = textsOf(stage, "inputs");
+  record.outputs = textsOf(stage, "outputs");
+  if (stage.HasMember("seconds") && stage["seconds"].IsNumber()) record.seconds = stage["seconds"].GetDouble();
+  if (stage.HasMember("arguments") && stage["arguments"].IsArray())
+  {
+    for (const auto& word : stage["arguments"].GetArray())
+      if (word.IsString()) record.arguments.emplace_back(word.GetString());
+  }
+  return record;
+}
+
+void writeTexts(JsonWriter& json, const char* key, const std::map<std::string, std::string>& texts)
+{
+  writeObject(json, key,
+              [&]
+              {
+                for (const auto& [name, text] : texts) writeMember(json, name.c_str(), text);
+              });
+}
+
+/// Of "map.nii.gz", "map".
+std::string stemOf(const fs::path& file)
+{
+  const std::string name = file.filename().string();
+  return name.substr(0, name.find('.', 1));
+}
+
+/// `text` without the folder's path.
+std::string insideFolder(std::string text, const std::string& folder)
+{
+  const std::size_t at = text.find(folder + "/");
+  return at == std::string::npos ? text : text.erase(at, folder.size() + 1);
+}
+
+/// The file, and those beside it that share its name.
+std::vector<std::string> withSiblings(const std::string& file)
+{
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(fs::path(file).parent_path(), error), end; !error && entry != end;
+       entry.increment(error))
+  {
+    const bool isSibling = entry->is_regular_file(error) && stemOf(entry->path()) == stemOf(file);
+    if (isSibling) files.push_back(entry->path().string());
+  }
+  return files;
+}
+
+} // namespace
+
+std::string fingerprint(const std::string& file)
+{
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return {};
+  vtksysMD5* md5 = vtksysMD5_New();
+  vtksysMD5_Initialize(md5);
+  std::vector<char> buffer(1 << 20);
+  while (stream.read(buffer.data(), std::streamsize(buffer.size())), stream.gcount() > 0)
+    vtksysMD5_Append(md5, reinterpret_cast<const unsigned char*>(buffer.data()), int(stream.gcount()));
+  std::string digest(32, ' ');
+  vtksysMD5_FinalizeHex(md5, digest.data());
+  vtksysMD5_Delete(md5);
+  return digest;
+}
+
+StageRecord recordOf(const Stage& stage, const std::string& program, const std::string& folder)
+{
+  StageRecord record;
+  record.program = fingerprint(program);
+  for (const std::string& word : stage.arguments)
+  {
+    if (word.rfind("--threads=", 0) != 0) record.arguments.push_back(insideFolder(word, folder));
+  }
+  for (const std::string& input : stage.inputs)
+  {
+    const bool isOwn = fs::path(input).parent_path() == fs::path(folder);
+    for (const std::string& file : isOwn ? std::vector<std::string>{ input } : withSiblings(input))
+      record.inputs[insideFolder(file, folder)] = fingerprint(file);
+  }
+  return record;
+}
+
+bool stillHolds(const StageRecord& earlier, const StageRecord& present, const std::string& folder)
+{
+  if (earlier.program != present.program || earlier.arguments != present.arguments || earlier.inputs != present.inputs)
+    return false;
+  const auto isWhole = [&](const auto& output)
+  { return fingerprint((fs::path(folder) / output.first).string()) == output.second; };
+  return !earlier.outputs.empty() && std::all_of(earlier.outputs.begin(), earlier.outputs.end(), isWhole);
+}
+
+std::map<std::string, std::string> filesIn(const std::string& folder)
+{
+  std::map<std::string, std::string> files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+  {
+    if (!entry.is_regular_file() || entry.path().filename().string().front() == '.') continue;
+    files[entry.path().filename().string()] =
+      std::to_string(entry.file_size()) + " " + std::to_string(entry.last_write_time().time_since_epoch().count());
+  }
+  return files;
+}
+
+RunRecord readRunRecord(const std::string& folder)
+{
+  RunRecord record;
+  std::error_code error;
+  if (!fs::exists(recordFile(folder), error)) return record;
+  rapidjson::Document json;
+  json.Parse(text::readTextFile(recordFile(folder)).c_str());
+  if (json.HasParseError() || !json.IsObject()) return record;
+  for (const auto& stage : json.GetObject()) record[stage.name.GetString()] = readStage(stage.value);
+  return record;
+}
+
+void writeRunRecord(const RunRecord& record, const std::string& folder)
+{
+  const auto writeStages = [&](JsonWriter& json)
+  {
+    for (const auto& [name, stage] : record)
+    {
+      writeObject(json, name.c_str(),
+                  [&, &stage = stage]
+                  {
+                    writeMember(json, "program", stage.program);
+                    writeMember(json, "arguments", stage.arguments);
+                    writeTexts(json, "inputs", stage.inputs);
+                    writeTexts(json, "outputs", stage.outputs);
+                    writeMember(json, "seconds", stage.seconds);
+                  });
+    }
+  };
+  OutputFiles files;
+  writeBytes(jsonText(writeStages), files.temporary(recordFile(folder)));
+  files.commit();
+}
+
+} // namespace surgicalmesher

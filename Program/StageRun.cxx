@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "StageRun.h"
+
+#include "ChildProcess.h"
+#include "Errors.h"
+#include "Text.h"
+
+#include <rapidjson/document.h>
+
+#include <filesystem>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// A line of a program's --progress json.
+void handOn(const std::string& text, const Stage& stage, CommandLine& line, const Progress& progress)
+{
+  rapidjson::Document json;
+  json.Parse(text.c_str());
+  if (json.HasParseError() || !json.IsObject()) return;
+  if (json.HasMember("progress") && json["progress"].IsNumber() && json.HasMember("stage"))
+    report(progress, json["progress"].GetDouble(), stage.name + ": " + json["stage"].GetString());
+  if (json.HasMember("message")) line.message(stage.name + ": " + json["message"].GetString());
+  if (json.HasMember("warning")) line.warning(json["warning"].GetString());
+}
+
+/// The last line that is no warning, without the program's name.
+std::string reasonIn(const std::string& errors, const Stage& stage)
+{
+  std::string reason;
+  for (const std::string& text : text::splitLines(errors))
+  {
+    if (!text.empty() && text.find(": warning: ") == std::string::npos) reason = text;
+  }
+  const std::string prefix = stage.program + ": ";
+  return reason.rfind(prefix, 0) == 0 ? reason.substr(prefix.size()) : reason;
+}
+
+} // namespace
+
+void runStage(const Stage& stage, const std::string& programs, CommandLine& line, const Progress& progress)
+{
+  std::vector<std::string> arguments = stage.arguments;
+  arguments.insert(arguments.begin(), "--progress=json");
+  report(progress, 0, stage.name);
+  const ChildOutcome outcome = runChild((std::filesystem::path(programs) / stage.program).string(), arguments,
+                                        [&](const std::string& text) { handOn(text, stage, line, progress); });
+  if (outcome.status == 0) return;
+  const std::string reason = reasonIn(outcome.errors, stage);
+  if (outcome.status == 1) throw InputError(reason);
+  if (outcome.status == 2) throw UsageError(reason);
+  throw EngineError("stage " + stage.name + ": " +
+                    (reason.empty() ? "ended with status " + std::to_string(outcome.status) : reason));
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// One stage, run.
+
+#include "CommandLine.h"
+#include "Stages.h"
+
+namespace surgicalmesher
+{
+
+/// Runs the stage's program, which lies in `programs`; its messages and warnings become those of `line`. Throws the
+/// error that the program ended with, and Interrupted (ChildProcess.h).
+void runStage(const Stage& stage, const std::string& programs, CommandLine& line, const Progress& progress);
+
+} // namespace surgicalmesher

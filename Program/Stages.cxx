@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Stages.h"
+
+#include "Descriptions.h"
+
+#include <filesystem>
+#include <set>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+std::string inFolder(const RunRequest& request, const std::string& name)
+{
+  return (std::filesystem::path(request.folder) / name).lexically_normal().string();
+}
+
+bool isGiven(const std::string& name, const ModuleDescription& program, const RunOptions& options)
+{
+  const auto found = options.find(name);
+  return found != options.end() && !isDefault(*program.find(name), found->second);
+}
+
+bool isTaken(const Stage& stage, const Parameter& parameter, const ModuleDescription& program,
+             const RunOptions& options)
+{
+  static const std::set<std::string> focus{ "targets", "path", "targetPoint", "pathPoint" };
+  if (stageOptions().count(parameter.name) || parameter.longFlag.empty()) return false;
+  if (!isGiven(parameter.name, program, options)) return false;
+  if (stage.name != "mesh") return true;
+  if (parameter.name.rfind("nullDisplacement", 0) == 0) return false;
+  return !focus.count(parameter.name) || isGiven("nonlinearDistance", program, options);
+}
+
+void addValue(Stage& stage, const RunRequest& request, const Parameter& parameter, const std::string& value)
+{
+  std::string text = value;
+  if (parameter.isFile())
+  {
+    if (parameter.output) checkValue(parameter, value);
+    text = parameter.output ? inFolder(request, value) : std::filesystem::absolute(value).lexically_normal().string();
+    (parameter.output ? stage.outputs : stage.inputs).push_back(text);
+    const bool isOneOfAList = parameter.multiple && parameter.output && text.find(',') != std::string::npos;
+    if (isOneOfAList) text = "\"" + text + "\"";
+  }
+  stage.arguments.push_back("--" + parameter.longFlag + "=" + text);
+}
+
+void addOptions(Stage& stage, const RunRequest& request, const char* xml)
+{
+  const ModuleDescription program = parseModuleDescription(xml);
+  for (const Parameter* parameter : program.parameters())
+  {
+    if (!isTaken(stage, *parameter, program, request.options)) continue;
+    if (parameter->type == "boolean") stage.arguments.push_back("--" + parameter->longFlag);
+    else
+    {
+      for (const std::string& value : request.options.at(parameter->name)) addValue(stage, request, *parameter, value);
+    }
+  }
+}
+
+void addInput(Stage& stage, const std::string& flag, const std::string& file)
+{
+  stage.arguments.push_back(flag + file);
+  stage.inputs.push_back(file);
+}
+
+void addOutput(Stage& stage, const std::string& flag, const std::string& file)
+{
+  stage.arguments.push_back(flag + file);
+  stage.outputs.push_back(file);
+}
+
+bool marksFarTissue(const RunRequest& request)
+{
+  const ModuleDescription program = parseModuleDescription(pathScaleXML);
+  return isGiven("nullDisplacementRadius", program, request.options) ||
+         isGiven("nullDisplacementPathDistance", program, request.options);
+}
+
+Stage surfaceStage(const RunRequest& request)
+{
+  Stage stage{ "surface", "SimplexMesherCLI", {}, {}, {}, 0.86 };
+  addOptions(stage, request, simplexMesherXML);
+  addInput(stage, "--scale=", inFolder(request, "scale.nrrd"));
+  addOutput(stage, "--preparedLabelMap=", inFolder(request, "prepared.nrrd"));
+  addOutput(stage, "--ambient=", inFolder(request, "ambient.vtu"));
+  addOutput(stage, "--report=", inFolder(request, "surface.json"));
+  addInput(stage, "", marksFarTissue(request) ? inFolder(request, "labels.nrrd") : request.labelMap);
+  addOutput(stage, "", inFolder(request, "surface.vtp"));
+  return stage;
+}
+
+Stage meshStage(const RunRequest& request)
+{
+  Stage stage{ "mesh", "FuchsTetrahedralizerCLI", {}, {}, {}, 0.12 };
+  addOptions(stage, request, tetrahedralizerXML);
+  addInput(stage, "--scale=", inFolder(request, "scale.nrrd"));
+  addInput(stage, "--ambient=", inFolder(request, "ambient.vtu"));
+  addOutput(stage, "--report=", inFolder(request, "mesh.json"));
+  addInput(stage, "", inFolder(request, "surface.vtp"));
+  addOutput(stage, "", inFolder(request, "mesh.vtu"));
+  return stage;
+}
+
+} // namespace
+
+Stage scaleStage(const RunRequest& request)
+{
+  Stage stage{ "scale", "SurgicalPathScaleCLI", {}, {}, {}, 0.02 };
+  addOptions(stage, request, pathScaleXML);
+  if (marksFarTissue(request)) addOutput(stage, "--outputLabelMap=", inFolder(request, "labels.nrrd"));
+  addOutput(stage, "--report=", inFolder(request, "scale.json"));
+  addInput(stage, "", request.labelMap);
+  addOutput(stage, "", inFolder(request, "scale.nrrd"));
+  return stage;
+}
+
+std::vector<Stage> stagesOf(const RunRequest& request)
+{
+  return { scaleStage(request), surfaceStage(request), meshStage(request) };
+}
+
+} // namespace surgicalmesher

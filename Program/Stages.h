@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// The three stages of a run, as command lines of the programs.
+
+#include "RunOptions.h"
+
+namespace surgicalmesher
+{
+
+struct RunRequest
+{
+  std::string labelMap; ///< absolute
+  std::string folder;   ///< absolute; of the results
+  RunOptions options;   ///< completed
+};
+
+struct Stage
+{
+  std::string name;                   ///< scale, surface or mesh
+  std::string program;                ///< its file name
+  std::vector<std::string> arguments; ///< files as absolute paths
+  std::vector<std::string> inputs;    ///< files that it reads
+  std::vector<std::string> outputs;   ///< files that it has to write
+  double share = 0;                   ///< of the time that all stages take, as a rule
+};
+
+/// Far tissue is marked in the map by the first stage; the last one gets targets and paths only to measure the
+/// nonlinear distance from them. Throws UsageError for an output that its program would not write.
+std::vector<Stage> stagesOf(const RunRequest& request);
+
+/// The first stage alone.
+Stage scaleStage(const RunRequest& request);
+
+} // namespace surgicalmesher

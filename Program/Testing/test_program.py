@@ -1,0 +1,231 @@
+"""surgicalmesher: the bytes of the three programs in a row, and what it adds to them.
+
+usage: test_program.py BIN OUTDIR
+"""
+import glob
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+import numpy as np
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
+from maps import cut_out, write_nrrd  # noqa: E402
+from measures import signed_volumes  # noqa: E402
+from meshfiles import read_mesh  # noqa: E402
+
+BIN, OUTDIR = (os.path.abspath(path) for path in sys.argv[1:3])
+TARGET = "-4,12,-7"
+SIZES = ("--minimumEdgeLength", "3", "--maximumEdgeLength", "6", "--childRadius", "4")
+
+
+def run(*arguments):
+    return subprocess.run([os.path.join(BIN, arguments[0]), *arguments[1:]], stdin=subprocess.DEVNULL, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
+
+
+def surgicalmesher(*arguments):
+    return run("surgicalmesher", *arguments)
+
+
+def bytes_of(file):
+    with open(file, "rb") as stream:
+        return stream.read()
+
+
+def run_three_programs(folder):
+    os.makedirs(folder)
+    inside = lambda name: os.path.join(folder, name)
+    for command in (
+            ("SurgicalPathScaleCLI", "--targetPoint", TARGET, *SIZES, "map.nrrd", inside("scale.nrrd")),
+            ("SimplexMesherCLI", "--minimumIslandVolume", "30", "--scale", inside("scale.nrrd"), "--preparedLabelMap",
+             inside("prepared.nrrd"), "--ambient", inside("ambient.vtu"), "map.nrrd", inside("surface.vtp")),
+            ("FuchsTetrahedralizerCLI", "--scale", inside("scale.nrrd"), "--ambient", inside("ambient.vtu"), "--export",
+             inside("head.inp"), inside("surface.vtp"), inside("mesh.vtu"))):
+        done = run(*command)
+        assert done.returncode == 0, done.stderr
+
+
+def write_hexahedra(file):
+    """Two unit cubes of the labels 3 and 7, as a legacy VTK file."""
+    points = [(x, y, z) for x in range(3) for y in range(2) for z in range(2)]
+    number = {point: n for n, point in enumerate(points)}
+    corners = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
+    cells = [[number[x + dx, dy, dz] for dx, dy, dz in corners] for x in range(2)]
+    with open(file, "w", encoding="ascii") as stream:
+        stream.write("# vtk DataFile Version 3.0\ncubes\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 12 double\n")
+        stream.writelines("%d %d %d\n" % point for point in points)
+        stream.write("CELLS 2 18\n" + "".join("8 " + " ".join(map(str, cell)) + "\n" for cell in cells))
+        stream.write("CELL_TYPES 2\n12\n12\nCELL_DATA 2\nSCALARS TissueLabel int 1\nLOOKUP_TABLE default\n3\n7\n")
+
+
+class ProgramTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(OUTDIR, ignore_errors=True)
+        os.makedirs(OUTDIR)
+        os.chdir(OUTDIR)
+        labels, affine = cut_out(np.s_[58:90, 84:116, 30:56])
+        write_nrrd("map.nrrd", labels, affine)
+        run_three_programs("three")
+        cls.command = ("mesh", "map.nrrd", "out", "--target", TARGET, *SIZES, "--minimumIslandVolume", "30", "--export",
+                       "head.inp")
+        done = surgicalmesher(*cls.command)
+        assert done.returncode == 0, done.stderr
+        cls.first = done.stdout
+
+    def assert_same_as_three_programs(self, folder):
+        for name in ("scale.nrrd", "prepared.nrrd", "surface.vtp", "ambient.vtu", "mesh.vtu"):
+            self.assertEqual(bytes_of(os.path.join(folder, name)), bytes_of(os.path.join("three", name)), name)
+
+    def assert_refused(self, status, words, *arguments):
+        before = sorted(glob.glob("**", recursive=True))
+        done = surgicalmesher(*arguments)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (status, 1), done.stderr)
+        for word in words:
+            self.assertIn(word, done.stderr)
+        self.assertEqual(sorted(glob.glob("**", recursive=True)), before)
+
+    def test_bytes_are_those_of_the_three_programs(self):
+        self.assert_same_as_three_programs("out")
+        self.assertEqual(bytes_of("out/head.inp"), bytes_of("three/head.inp"))
+
+    def test_what_has_not_changed_is_not_run_again(self):
+        shutil.copytree("out", "again")
+        command = [word if word != "out" else "again" for word in self.command]
+        stamps = {file: os.stat(file).st_mtime_ns for file in glob.glob("again/*.vt*")}
+        self.assertEqual(surgicalmesher(*command, "--threads", "1").stdout.count("nothing has changed"), 3)
+        self.assertEqual({file: os.stat(file).st_mtime_ns for file in stamps}, stamps)
+        with open("again/mesh.vtu", "r+b") as stream:
+            stream.truncate(1000)
+        self.assertEqual(surgicalmesher(*command).stdout.count("nothing has changed"), 2)
+        self.assert_same_as_three_programs("again")
+        done = surgicalmesher(*command, "--nonlinearDistance", "5")
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 2), done.stderr)
+        self.assertNotEqual(bytes_of("again/mesh.vtu"), bytes_of("out/mesh.vtu"))
+
+    def test_a_run_is_repeated_by_its_configuration(self):
+        done = surgicalmesher("mesh", "--config", "out/run.toml", "repeated")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_same_as_three_programs("repeated")
+        with open("repeated/run.toml", encoding="utf-8") as file:
+            self.assertEqual(file.read().replace("/repeated", "/out"), bytes_of("out/run.toml").decode())
+
+    def test_configuration_by_hand(self):
+        with open("hand.toml", "w", encoding="utf-8") as file:
+            file.write('labelMap = "map.nrrd"\nfolder = "by-hand"\ntargetPoint = [-4, 12, -7]\nminimumEdgeLength = 3.0\n'
+                       'maximumEdgeLength = 6\nchildRadius = 9\nminimumIslandVolume = 30\n')
+        done = surgicalmesher("mesh", "--config=hand.toml", "--childRadius", "4")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_same_as_three_programs("by-hand")
+
+    def test_refusals(self):
+        for name, text in (("key.toml", "minimumEdgLength = 3\n"), ("value.toml", "childRadius = -1\n"),
+                           ("list.toml", "childRadius = [1, 2]\n"), ("kind.toml", 'followThickness = "perhaps"\n'),
+                           ("broken.toml", "childRadius = \n")):
+            with open(name, "w", encoding="ascii") as file:
+                file.write(text)
+        target = ("--target", TARGET)
+        for status, words, arguments in (
+                (2, ["meshh", "did you mean mesh?"], ["meshh"]),
+                (2, ["did you mean --childRadius?"], ["mesh", "map.nrrd", "new", *target, "--childRadus", "4"]),
+                (2, ["from 0 to 500"], ["mesh", "map.nrrd", "new", *target, "--childRadius", "-4"]),
+                (2, ["unknown flag", "--report"], ["mesh", "map.nrrd", "new", *target, "--report", "x.json"]),
+                (2, ["neither a target nor a path"], ["mesh", "map.nrrd", "new"]),
+                (2, ["out/scale.nrrd would be overwritten"], ["mesh", "out/scale.nrrd", "out", *target]),
+                (2, [".doc"], ["mesh", "map.nrrd", "new", *target, "--export", "head.doc"]),
+                (1, ["nothing.nrrd"], ["mesh", "nothing.nrrd", "new", *target]),
+                (1, ["map.nrrd", "not a folder"], ["mesh", "map.nrrd", "map.nrrd", *target]),
+                (1, ["key.toml", "did you mean minimumEdgeLength?"], ["mesh", "--config", "key.toml"]),
+                (1, ["value.toml", "from 0 to 500"], ["mesh", "--config", "value.toml"]),
+                (1, ["list.toml", "one value expected"], ["mesh", "--config", "list.toml"]),
+                (1, ["kind.toml", "true or false"], ["mesh", "--config", "kind.toml"]),
+                (1, ["broken.toml, line 1"], ["mesh", "--config", "broken.toml"]),
+                (2, ["--preset"], ["mesh", "--config", "hand.toml", "--preset", "fine"]),
+                (2, [".doc"], ["convert", "out/mesh.vtu", "head.doc"]),
+                (1, ["map.nrrd"], ["quality", "map.nrrd"])):
+            with self.subTest(arguments=arguments):
+                self.assert_refused(status, words, *arguments)
+
+    def test_interrupt_leaves_whole_stages_alone(self):
+        command = [os.path.join(BIN, "surgicalmesher"), "mesh", "map.nrrd", "interrupted", "--target", TARGET,
+                   "--minimumEdgeLength", "0.7", "--maximumEdgeLength", "0.8"]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            for line in process.stdout:
+                if "surface: coarsening" in line or "surface: lattice" in line:
+                    break
+            process.send_signal(signal.SIGINT)
+            errors = process.communicate()[1]
+        self.assertEqual(process.returncode, -signal.SIGINT, errors)
+        self.assertIn("the same command goes on", errors)
+        self.assertEqual(sorted(os.listdir("interrupted")), ["scale.json", "scale.nrrd", "stages.json"])
+
+    def test_no_stage_outlives_its_parent(self):
+        if not sys.platform.startswith("linux"):
+            self.skipTest("only Linux tells a process that its parent has ended")
+        command = [os.path.join(BIN, "surgicalmesher"), "mesh", "map.nrrd", "killed", "--target", TARGET,
+                   "--minimumEdgeLength", "0.7", "--maximumEdgeLength", "0.8"]
+        with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
+            for line in process.stdout:
+                if "surface: " in line:
+                    break
+            process.kill()
+        for _ in range(300):
+            if not any(".partial" in name for name in os.listdir("killed")):
+                return
+            time.sleep(0.1)
+        self.fail("temporaries of a stage are still there")
+
+    def test_quality_of_tetrahedra(self):
+        done = surgicalmesher("quality", "out/mesh.vtu", "--report", "quality.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        mesh = read_mesh("out/mesh.vtu")
+        volumes = signed_volumes(mesh)
+        with open("quality.json", encoding="utf-8") as file:
+            report = json.load(file)
+        self.assertEqual(report["whole"]["tetrahedra"], len(volumes))
+        for tissue in report["tissues"]:
+            self.assertAlmostEqual(tissue["volume"], volumes[mesh.tissue == tissue["label"]].sum(), delta=1e-3)
+        self.assertEqual(done.stdout.count("\n"), 2 + len(report["tissues"]))
+
+    def test_quality_of_hexahedra(self):
+        write_hexahedra("cubes.vtk")
+        done = surgicalmesher("quality", "cubes.vtk", "--report", "cubes.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open("cubes.json", encoding="utf-8") as file:
+            tissues = json.load(file)["tissues"]
+        self.assertEqual([(t["label"], t["elements"], t["volume"], t["minimumScaledJacobian"]) for t in tissues],
+                         [(3, 1, 1, 1), (7, 1, 1, 1)])
+
+    def test_converted_mesh_is_the_export_of_the_run(self):
+        done = surgicalmesher("convert", "out/mesh.vtu", "converted.inp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(bytes_of("converted.inp"), bytes_of("out/head.inp"))
+
+    def test_estimate(self):
+        done = surgicalmesher("estimate", "map.nrrd", "--target", TARGET, *SIZES, "--estimate", "estimate.json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open("estimate.json", encoding="utf-8") as file:
+            estimate = json.load(file)
+        count = len(read_mesh("out/mesh.vtu").tetrahedra)
+        self.assertTrue(count / 2 < estimate["tetrahedra"] < count * 2, (count, estimate))
+        self.assertGreater(estimate["memoryBytes"], 25e6)
+        self.assertGreater(estimate["processorSeconds"], 0)
+
+    def test_presets_are_values_of_options(self):
+        done = surgicalmesher("mesh", "map.nrrd", "draft", "--target", TARGET, "--preset", "draft", "--childRadius", "4",
+                              "--maximumEdgeLength", "6")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        configuration = bytes_of("draft/run.toml").decode().splitlines()
+        for line in ('preset = "draft"', "minimumEdgeLength = 2", "maximumEdgeLength = 6", "minimumIslandVolume = 30"):
+            self.assertIn(line, configuration)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

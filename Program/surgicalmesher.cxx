@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// surgicalmesher: one command from label map to finite elements, and what one does with the results.
+
+#include "Arguments.h"
+#include "Commands.h"
+#include "Descriptions.h"
+#include "Errors.h"
+#include "Text.h"
+
+#include <vtksys/SystemTools.hxx>
+
+#include <filesystem>
+#include <iostream>
+
+using namespace surgicalmesher;
+
+namespace
+{
+
+struct Command
+{
+  std::string name, arguments, summary;
+  std::string xml;
+  void (*run)(CommandLine& line, const std::string& programs, const std::string& xml);
+};
+
+const std::vector<Command>& commands()
+{
+  static const std::vector<Command> all{
+    { "mesh", "MAP FOLDER", "from label map to mesh and exports",
+      mergedDescription(meshXML, { pathScaleXML, simplexMesherXML, tetrahedralizerXML }), meshCommand },
+    { "estimate", "MAP", "triangles, tetrahedra, memory and time, before anything is meshed",
+      mergedDescription(estimateXML, { pathScaleXML }), estimateCommand },
+    { "quality", "MESH", "measures of tetrahedra, hexahedra and wedges, by tissue", qualityXML,
+      [](CommandLine& line, const std::string&, const std::string&) { qualityCommand(line); } },
+    { "convert", "MESH FILE...", "a mesh in the formats of solvers", convertXML,
+      [](CommandLine& line, const std::string&, const std::string&) { convertCommand(line); } },
+  };
+  return all;
+}
+
+std::string padded(const std::string& text, std::size_t width) { return text + std::string(width - text.size(), ' '); }
+
+std::string usage()
+{
+  std::string text = "Usage: surgicalmesher COMMAND ...\n\n";
+  for (const Command& command : commands())
+    text += "  " + padded(command.name, 10) + padded(command.arguments, 14) + command.summary + "\n";
+  return text +
+         "\nsurgicalmesher COMMAND --help tells all options of a command; surgicalmesher --version the version.\n";
+}
+
+const Command& commandNamed(const std::string& name)
+{
+  std::vector<std::string> names;
+  for (const Command& command : commands())
+  {
+    if (name == command.name) return command;
+    names.push_back(command.name);
+  }
+  const std::string nearest = nearestWord(name, names);
+  throw UsageError("'" + name + "': unknown command found, one of " + text::joined(names, ", ") + " expected" +
+                   (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
+}
+
+/// The folder that the programs are installed to: that of this one.
+std::string folderOfPrograms(const char* self)
+{
+  std::string path, error;
+  vtksys::SystemTools::FindProgramPath(self, path, error);
+  std::error_code failed;
+  const std::filesystem::path real = std::filesystem::canonical(path, failed);
+  return (failed ? std::filesystem::path(path) : real).parent_path().string();
+}
+
+int run(const std::string& self, const std::vector<std::string>& arguments)
+{
+  const Command& command = commandNamed(arguments.front());
+  const std::string programs = folderOfPrograms(self.c_str());
+  std::vector<std::string> words(arguments.begin() + 1, arguments.end());
+  if (command.run == meshCommand) words = withConfiguration(words, command.xml);
+  words.insert(words.begin(), "surgicalmesher " + command.name);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  return runModule(int(pointers.size()), pointers.data(), command.xml,
+                   [&](CommandLine& line) { command.run(line, programs, command.xml); });
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  try
+  {
+    const std::string first = arguments.empty() ? "--help" : arguments.front();
+    if (first == "--version")
+      std::cout << "surgicalmesher " << parseModuleDescription(meshXML).version << "\n" << std::flush;
+    else if (first == "--help" || first == "-h") std::cout << usage() << std::flush;
+    else return run(argv[0], arguments);
+    return arguments.empty() ? 2 : 0;
+  }
+  catch (const Error& error)
+  {
+    std::cerr << "surgicalmesher: " << error.what() << "\n";
+    return error.exitStatus();
+  }
+}
