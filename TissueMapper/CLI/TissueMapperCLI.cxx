@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TissueMapperCLI: an MR image of a head and training points in; the label map of their classes out.
+// TissueMapperCLI: images of a head and training points in; the label map of their classes out.
 
 #include "AvailableMemory.h"
 #include "CommandLine.h"
@@ -12,6 +12,7 @@
 #include "TissueMapperCLIXML.h"
 
 #include <algorithm>
+#include <filesystem>
 
 using namespace surgicalmesher;
 
@@ -46,6 +47,14 @@ const char* nameOf(Admission admission)
   }
 }
 
+/// What goes before a class's label in the name of its file, and what after.
+std::pair<std::string, std::string> besideProbability(const std::filesystem::path& name)
+{
+  const std::string file = name.filename().string();
+  const std::size_t end = file.find('.');
+  return { (name.parent_path() / file.substr(0, end)).string() + "-", file.substr(end) };
+}
+
 void writeReport(const std::string& file, const CommandLine& line, const std::vector<TissueClass>& classes,
                  const Classification& found)
 {
@@ -53,6 +62,12 @@ void writeReport(const std::string& file, const CommandLine& line, const std::ve
   {
     writeMember(json, "module", "TissueMapper");
     writeMember(json, "image", line.text("image"));
+    json.Key("channels");
+    json.StartArray();
+    for (const std::string& channel : line.texts("channel")) writeValue(json, printable(channel));
+    json.EndArray();
+    writeMember(json, "biasCorrected", line.flag("correctBias"));
+    writeMember(json, "denoised", line.flag("denoise"));
     writeMember(json, "compartments", !line.flag("noCompartments"));
     writeMember(json, "contiguity", !line.flag("noContiguity"));
     writeMember(json, "boneThreshold", found.boneThreshold);
@@ -76,14 +91,45 @@ void writeReport(const std::string& file, const CommandLine& line, const std::ve
   writeBytes(jsonText(writeMembers, { 6 }), file);
 }
 
-void requireMemory(const ScalarImage& image, const std::string& file)
+void requireMemory(const ScalarImage& image, std::size_t channels, const std::string& file)
 {
-  constexpr double bytesPerVoxel = 110; // features of the trees, and the maps they are made of
-  const double needed = 50e6 + bytesPerVoxel * double(image.grid.voxelCount());
+  constexpr double bytesPerVoxel = 80, perChannel = 30; // features of the trees, and the maps they are made of
+  const double needed = 50e6 + (bytesPerVoxel + perChannel * double(channels)) * double(image.grid.voxelCount());
   const std::optional<std::uint64_t> available = availableMemory();
   if (!available || needed <= double(*available)) return;
   throw InputError(file + ": an image of this size takes about " + std::to_string(std::lround(needed / 1e6)) +
                    " MB of memory, found " + std::to_string(std::lround(double(*available) / 1e6)) + " MB available");
+}
+
+/// The largest probability of every voxel in one image, and one of every class beside it.
+void writeProbabilities(CommandLine& line, const std::vector<TissueClass>& classes, Classification& found)
+{
+  const std::string file = line.outputFile("probability");
+  if (file.empty()) return;
+  const std::filesystem::path name = line.outputNames("probability").front();
+  const auto [before, after] = besideProbability(name);
+  ScalarImage image{ found.map.grid, std::vector<float>(found.map.labels.size(), 0) };
+  for (const std::vector<float>& ofClass : found.probabilities)
+    for (std::size_t n = 0; n < ofClass.size(); ++n) image.values[n] = std::max(image.values[n], ofClass[n]);
+  writeImage(image, file);
+  for (std::size_t c = 0; c < classes.size(); ++c)
+  {
+    image.values = std::move(found.probabilities[c]);
+    writeImage(image, line.outputPath(before + std::to_string(classes[c].label) + after));
+  }
+}
+
+HeadImages readImages(const CommandLine& line)
+{
+  std::vector<std::string> files = line.texts("channel");
+  files.insert(files.begin(), line.text("image"));
+  std::vector<ScalarImage> channels;
+  for (const std::string& file : files)
+  {
+    channels.push_back(readImage(file));
+    if (channels.size() == 1) requireMemory(channels[0], files.size(), file);
+  }
+  return headImages(std::move(channels));
 }
 
 void run(CommandLine& line)
@@ -91,18 +137,26 @@ void run(CommandLine& line)
   setThreadCount(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
+  for (const std::string& name : line.outputNames("probability"))
+  {
+    const auto [before, after] = besideProbability(name);
+    line.alsoWritesMany("probability", before, after);
+  }
   if (line.text("training").empty())
     throw UsageError("--training is missing, expected a markups file of labelled training points");
   const std::vector<TissueClass> classes = readTissueClasses(line.text("training"), line.text("classes"));
-  const ScalarImage image = readImage(line.text("image"));
-  requireMemory(image, line.text("image"));
+  HeadImages images = readImages(line);
   ClassificationOptions options;
   options.useCompartments = !line.flag("noCompartments");
   options.useContiguity = !line.flag("noContiguity");
-  Classification found = classifyTissues(image, classes, options, subProgress(progress, 0.05, 0.95));
+  options.correctBias = line.flag("correctBias");
+  options.denoise = line.flag("denoise");
+  options.withProbabilities = !line.outputNames("probability").empty();
+  Classification found = classifyTissues(std::move(images), classes, options, subProgress(progress, 0.05, 0.95));
   report(progress, 0.95, "writing");
   colour(found.map.table);
   writeTissueMap(found.map, line.outputFile("labelMap"));
+  writeProbabilities(line, classes, found);
   const std::string namesFile = line.outputFile("names");
   if (!namesFile.empty()) writeTissueNames(found.map.table, namesFile);
   const std::string reportFile = line.outputFile("report");

@@ -132,16 +132,21 @@ struct Features
   }
 };
 
-Features featuresOf(const ScalarImage& image, const std::vector<bool>& isBone, const std::vector<float>& boneDistance,
+/// Of a CT among other images the bone says it all.
+Features featuresOf(const HeadImages& images, const std::vector<bool>& isBone, const std::vector<float>& boneDistance,
                     const std::vector<float>& depth)
 {
   Features features;
-  features.values.push_back(image.values);
-  const auto itkImage = asItkImage<ItkImage>(image.grid, image.values);
-  for (const double sigma : { 1.0, 2.0, 4.0, 8.0 }) features.values.push_back(blurred(itkImage, sigma));
-  features.values.push_back(
-    filtered<itk::GradientMagnitudeRecursiveGaussianImageFilter<ItkImage, ItkImage>>(itkImage, 1.0));
-  const auto bone = asItkImage<ItkImage>(image.grid, isBone);
+  for (std::size_t c = 0; c < images.channels.size(); ++c)
+  {
+    if (int(c) == images.ct && !images.isCtAlone()) continue;
+    features.values.push_back(images.channels[c].values);
+    const auto itkImage = asItkImage<ItkImage>(images.grid(), images.channels[c].values);
+    for (const double sigma : { 1.0, 2.0, 4.0, 8.0 }) features.values.push_back(blurred(itkImage, sigma));
+    features.values.push_back(
+      filtered<itk::GradientMagnitudeRecursiveGaussianImageFilter<ItkImage, ItkImage>>(itkImage, 1.0));
+  }
+  const auto bone = asItkImage<ItkImage>(images.grid(), isBone);
   for (const double sigma : { 2.0, 4.0, 8.0, 16.0 }) features.values.push_back(blurred(bone, sigma));
   features.values.push_back(boneDistance);
   features.values.push_back(depth);
@@ -246,11 +251,15 @@ std::vector<float> continuousCut(const Grid& grid, const std::vector<float>& wei
 
 } // namespace
 
-std::vector<bool> headMask(const ScalarImage& image, float threshold)
+std::vector<bool> headMask(const HeadImages& images, float threshold)
 {
-  const Grid& grid = image.grid;
-  std::vector<bool> bright(image.values.size());
-  for (std::size_t n = 0; n < bright.size(); ++n) bright[n] = image.values[n] > threshold;
+  constexpr float air = -500; // HU
+  const Grid& grid = images.grid();
+  const bool isCt = images.ct >= 0;
+  const ScalarImage& shown = images.channels[isCt ? std::size_t(images.ct) : 0];
+  const std::vector<float> values = isCt ? blurred(asItkImage<ItkImage>(grid, shown.values), 0.5) : shown.values;
+  std::vector<bool> bright(values.size());
+  for (std::size_t n = 0; n < bright.size(); ++n) bright[n] = values[n] > (isCt ? air : threshold);
   const std::vector<bool> whole = closed(grid, bright, 2);
   std::vector<bool> isOutside(whole.size(), false);
   std::vector<std::size_t> stack;
@@ -274,20 +283,37 @@ std::vector<bool> headMask(const ScalarImage& image, float threshold)
     forFaceNeighbours(grid, n, enter);
   }
   isOutside.flip();
+  if (isCt)
+    for (std::size_t n = 0; n < isOutside.size(); ++n) isOutside[n] = isOutside[n] && bright[n];
   return isOutside;
 }
 
-std::vector<Compartment> findCompartments(const ScalarImage& image, const BoneContrast& bone,
+HeadSigns headSigns(const HeadImages& images, const BoneContrast& bone, const BoneContrast& structural)
+{
+  const bool isCt = images.ct >= 0;
+  const std::vector<float>& shown = images.channels[isCt ? std::size_t(images.ct) : 0].values;
+  const std::vector<float>& values = images.structural().values;
+  HeadSigns signs;
+  signs.head = headMask(images, bone.threshold);
+  for (std::size_t n = 0; n < shown.size(); ++n)
+  {
+    signs.bone.push_back(signs.head[n] && (isCt ? shown[n] > bone.threshold : shown[n] <= bone.threshold));
+    const float share = (values[n] - structural.boneMedian) / (structural.softMedian - structural.boneMedian);
+    signs.softness.push_back(std::clamp(share, 0.05f, 1.f));
+  }
+  return signs;
+}
+
+std::vector<Compartment> findCompartments(const HeadImages& images, const HeadSigns& signs,
                                           const CompartmentSeeds& seeds, const Progress& progress)
 {
-  const Grid& grid = image.grid;
+  const Grid& grid = images.grid();
   report(progress, 0, "head and bone");
-  const std::vector<bool> head = headMask(image, bone.threshold);
-  std::vector<bool> isBone(head.size()), isSoft(head.size()), isBackground(head.size());
+  const std::vector<bool>&head = signs.head, &isBone = signs.bone;
+  std::vector<bool> isSoft(head.size()), isBackground(head.size());
   for (std::size_t n = 0; n < head.size(); ++n)
   {
     isBackground[n] = !head[n];
-    isBone[n] = head[n] && image.values[n] <= bone.threshold;
     isSoft[n] = head[n] && !isBone[n];
   }
   const std::vector<float> boneDistance = distanceTo(grid, isBone);
@@ -295,7 +321,7 @@ std::vector<Compartment> findCompartments(const ScalarImage& image, const BoneCo
   report(progress, 0.15, "compartments");
   std::vector<float> outside;
   {
-    const Features features = featuresOf(image, isBone, boneDistance, depth);
+    const Features features = featuresOf(images, isBone, boneDistance, depth);
     report(progress, 0.3, "compartments");
     outside = outsideProbability(grid, features, isSoft, seeds);
   }
@@ -305,17 +331,15 @@ std::vector<Compartment> findCompartments(const ScalarImage& image, const BoneCo
   const std::vector<signed char> flood = widestWays(grid, width, seeds);
 
   constexpr float least = 0.02f; // of a probability
-  std::vector<float> weight(head.size()), force(head.size()), start(head.size());
+  std::vector<float> force(head.size()), start(head.size());
   for (std::size_t n = 0; n < head.size(); ++n)
   {
     const float p = std::clamp(outside[n], least, 1 - least);
     force[n] = isSoft[n] ? 0.1f * (std::log(p / (1 - p)) + 0.5f * float(flood[n])) : 5.f;
     start[n] = force[n] < 0 ? 1.f : 0.f;
-    const float brightness = (image.values[n] - bone.boneMedian) / (bone.softMedian - bone.boneMedian);
-    weight[n] = std::clamp(brightness, 0.05f, 1.f);
   }
   const std::vector<float> inside =
-    continuousCut(grid, weight, force, std::move(start), 150, subProgress(progress, 0.6, 1));
+    continuousCut(grid, signs.softness, force, std::move(start), 150, subProgress(progress, 0.6, 1));
   std::vector<Compartment> compartments(head.size(), Compartment::Background);
   for (std::size_t n = 0; n < head.size(); ++n)
   {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The head in an MR image in which bone is dark: where it is, where its bone is, and what lies inside the skull
-/// (Audette et al., section 2.2, embedded structure).
+/// The head in its images: where it is, where its bone is, and what lies inside the skull (Audette et al., section 2.2,
+/// embedded structure).
 
+#include "HeadImages.h"
 #include "Progress.h"
-#include "ScalarImage.h"
 
 #include <array>
 #include <cstdint>
@@ -28,24 +28,36 @@ struct CompartmentSeeds
   std::vector<std::array<int, 3>> outside;
 };
 
-/// Values of tissue, brighter than which nothing is bone, and the medians between which the skull's border lies.
+/// Of one channel: the value that parts bone from soft tissue, and the medians between which the skull's border lies.
 struct BoneContrast
 {
   float threshold = 0;
   float boneMedian = 0;
-  float softMedian = 0; ///< of the darkest soft tissue
+  float softMedian = 0; ///< of the soft tissue nearest to bone
 };
 
-/// Which voxels are the head's: brighter than the threshold after closing by 2 mm, and what they enclose. The image's
-/// lower end is no way in: there the neck goes on.
-std::vector<bool> headMask(const ScalarImage& image, float threshold);
+/// What shows before any tissue is told apart.
+struct HeadSigns
+{
+  std::vector<bool> head;
+  std::vector<bool> bone;
+  std::vector<float> softness; ///< how far from bone's brightness towards that of soft tissue, 0.05 to 1
+};
 
-/// The compartment of every voxel. Bone is what is dark within the head. Soft tissue is inside or outside by three
-/// things together: extremely randomised trees on brightness at several scales, on bone nearby and on depth, trained at
-/// the seeds; a flood from all seeds through the widest ways between bones, which stops it at foramina; and a
-/// continuous cut of least weighted area between the two (Chambolle and Pock, JMIV 40(1), 2011), cheap where the image
-/// is as dark as bone. Both lists of seeds have at least one voxel. The same on any number of threads.
-std::vector<Compartment> findCompartments(const ScalarImage& image, const BoneContrast& bone,
+/// Which voxels are the head's: those over -500 HU of a CT, or else brighter than the threshold in the first image;
+/// closed by 2 mm, with what they enclose but a CT's air. The image's lower end is no way in: there the neck goes on.
+std::vector<bool> headMask(const HeadImages& images, float threshold);
+
+/// Bone is denser than `bone.threshold` in the CT, or else darker in the first image; softness is that of the
+/// structural image.
+HeadSigns headSigns(const HeadImages& images, const BoneContrast& bone, const BoneContrast& structural);
+
+/// The compartment of every voxel. Soft tissue is inside or outside by three things together: extremely randomised trees
+/// on brightness at several scales, on bone nearby and on depth, trained at the seeds; a flood from all seeds through
+/// the widest ways between bones, which stops it at foramina; and a continuous cut of least weighted area between the
+/// two (Chambolle and Pock, JMIV 40(1), 2011), cheap where softness is low. Both lists of seeds have at least one voxel.
+/// The same on any number of threads.
+std::vector<Compartment> findCompartments(const HeadImages& images, const HeadSigns& signs,
                                           const CompartmentSeeds& seeds, const Progress& progress = {});
 
 } // namespace surgicalmesher

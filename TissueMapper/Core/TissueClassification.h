@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Tissues of a head from an MR image in which bone is dark, and a few training points a class (Audette et al., section
-/// 2.2: structure-preserving classification).
+/// Tissues of a head from MR images, a CT, or both, and a few training points a class (Audette et al., section 2.2:
+/// structure-preserving classification).
 
 #include "HeadCompartments.h"
 #include "TissueMap.h"
@@ -36,6 +36,9 @@ struct ClassificationOptions
 {
   bool useCompartments = true;
   bool useContiguity = true; ///< contiguity and spatial limit
+  bool correctBias = false;
+  bool denoise = false;
+  bool withProbabilities = false;
 };
 
 /// What a head is usually made of: skull and bone are bone; CSF, grey and white matter lie within the skull; fat,
@@ -48,12 +51,15 @@ struct Classification
   std::vector<Compartment> compartments;
   float boneThreshold = 0;
   std::vector<std::size_t> invalidated; ///< by class: voxels that contiguity took away
+  /// If asked for, by class and voxel: by brightness, among the classes that its compartment admits.
+  std::vector<std::vector<float>> probabilities;
 };
 
-/// Throws InputError for fewer than two classes, a class without points, a point outside the image, no class or several
-/// of bone, bone that isn't darker than the rest, and compartments without training points on both sides. The same
-/// bytes whatever the number of threads.
-Classification classifyTissues(const ScalarImage& image, const std::vector<TissueClass>& classes,
+/// Bone is told by the CT, or else by the first image, an MR in which bone is dark. Throws InputError for fewer than two
+/// classes, a class without points, a point outside the image, no class or several of bone, bone that isn't darker than
+/// the rest (denser in a CT), and compartments without training points on both sides. The same bytes whatever the
+/// number of threads.
+Classification classifyTissues(HeadImages images, const std::vector<TissueClass>& classes,
                                const ClassificationOptions& options, const Progress& progress = {});
 
 } // namespace surgicalmesher

@@ -50,6 +50,17 @@ inline HeadPhantom headPhantom(double noise)
   return head;
 }
 
+/// A CT of it, in Hounsfield units.
+inline ScalarImage ctOf(const HeadPhantom& head, double noise)
+{
+  const std::array<float, 8> density{ -1000, 10, 38, 30, -90, 55, 25, 900 };
+  ScalarImage image{ head.truth.grid, {} };
+  std::mt19937 random(10);
+  std::normal_distribution<float> normal(0, float(noise));
+  for (const Label label : head.truth.labels) image.values.push_back(density[label] + normal(random));
+  return image;
+}
+
 /// `count` random voxels of each class.
 inline std::vector<TissueClass> trainingOf(const TissueMap& truth, int count)
 {

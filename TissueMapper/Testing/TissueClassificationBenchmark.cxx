@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Prints how tissues classified from a few points agree with a known map.
-//   TissueClassificationBenchmark T1 TRUTH [DRAWS] [POINTS]
-// TRUTH has BrainWeb's labels of Colin27 (1 CSF ... 9 connective tissue) on the grid of T1. Every draw takes POINTS
+//   TissueClassificationBenchmark TRUTH DRAWS POINTS [--correctBias] [--denoise] [--noCompartments] IMAGE...
+// TRUTH has BrainWeb's labels of Colin27 (1 CSF ... 9 connective tissue) on the grid of the images. Every draw takes POINTS
 // random voxels of each class as training points. Glial matter (8) is left out of the classes: no brightness of its
 // own.
 
@@ -88,26 +88,30 @@ Score scoreOf(const TissueMap& found, const TissueMap& truth)
   return score;
 }
 
-void run(const std::string& imageFile, const std::string& truthFile, int draws, int points)
+void run(const std::vector<std::string>& arguments)
 {
-  const ScalarImage image = readImage(imageFile);
-  const TissueMap truth = readTissueMap(truthFile);
-  for (const bool useCompartments : { true, false })
+  const TissueMap truth = readTissueMap(arguments.at(0));
+  const int draws = std::stoi(arguments.at(1)), points = std::stoi(arguments.at(2));
+  ClassificationOptions options;
+  std::vector<ScalarImage> channels;
+  for (std::size_t n = 3; n < arguments.size(); ++n)
   {
-    std::printf("%s\n", useCompartments ? "with compartments" : "without compartments");
-    for (int draw = 0; draw < draws; ++draw)
-    {
-      ClassificationOptions options;
-      options.useCompartments = useCompartments;
-      const auto begin = std::chrono::steady_clock::now();
-      const Classification found = classifyTissues(image, drawClasses(truth, points, 101 + draw), options);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-      const Score score = scoreOf(found.map, truth);
-      std::printf("draw %2d  right %.3f  mean Dice %.3f  (", draw + 1, score.right, score.meanDice);
-      for (const double dice : score.dice) std::printf(" %.3f", dice);
-      std::printf(" )  bone below %.1f  %.0f s\n", found.boneThreshold, seconds);
-      std::fflush(stdout);
-    }
+    if (arguments[n] == "--correctBias") options.correctBias = true;
+    else if (arguments[n] == "--denoise") options.denoise = true;
+    else if (arguments[n] == "--noCompartments") options.useCompartments = false;
+    else channels.push_back(readImage(arguments[n]));
+  }
+  const HeadImages images = headImages(channels);
+  for (int draw = 0; draw < draws; ++draw)
+  {
+    const auto begin = std::chrono::steady_clock::now();
+    const Classification found = classifyTissues(images, drawClasses(truth, points, 101 + draw), options);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const Score score = scoreOf(found.map, truth);
+    std::printf("draw %2d  right %.3f  mean Dice %.3f  (", draw + 1, score.right, score.meanDice);
+    for (const double dice : score.dice) std::printf(" %.3f", dice);
+    std::printf(" )  threshold of bone %.1f  %.0f s\n", found.boneThreshold, seconds);
+    std::fflush(stdout);
   }
 }
 
@@ -115,10 +119,11 @@ void run(const std::string& imageFile, const std::string& truthFile, int draws, 
 
 int main(int argc, char** argv)
 {
-  if (argc < 3) return std::fprintf(stderr, "TissueClassificationBenchmark T1 TRUTH [DRAWS] [POINTS]\n"), 2;
+  if (argc < 5)
+    return std::fprintf(stderr, "TissueClassificationBenchmark TRUTH DRAWS POINTS [OPTION]... IMAGE...\n"), 2;
   try
   {
-    run(argv[1], argv[2], argc > 3 ? std::atoi(argv[3]) : 10, argc > 4 ? std::atoi(argv[4]) : 20);
+    run({ argv + 1, argv + argc });
   }
   catch (const std::exception& error)
   {

@@ -38,10 +38,10 @@ TEST(TissueClassification, PartsByPlaceWhatLooksAlike)
 {
   const HeadPhantom head = headPhantom(3);
   const std::vector<TissueClass> classes = trainingOf(head.truth, 20);
-  const Classification with = classifyTissues(head.image, classes, {});
+  const Classification with = classifyTissues(headImages({ head.image }), classes, {});
   ClassificationOptions without;
   without.useCompartments = false;
-  const Classification flat = classifyTissues(head.image, classes, without);
+  const Classification flat = classifyTissues(headImages({ head.image }), classes, without);
   EXPECT_GT(shareRight(with.map, head.truth), 0.97);
   for (const Label label : { 1, 5 }) // CSF and muscle: 70 % fewer
   {
@@ -54,7 +54,7 @@ TEST(TissueClassification, PartsByPlaceWhatLooksAlike)
 TEST(TissueClassification, NoClassIsWhereItIsNotAdmitted)
 {
   const HeadPhantom head = headPhantom(6);
-  const Classification found = classifyTissues(head.image, trainingOf(head.truth, 20), {});
+  const Classification found = classifyTissues(headImages({ head.image }), trainingOf(head.truth, 20), {});
   for (std::size_t n = 0; n < found.map.labels.size(); ++n)
   {
     const Label label = found.map.labels[n];
@@ -68,7 +68,7 @@ TEST(TissueClassification, NoClassIsWhereItIsNotAdmitted)
 TEST(TissueClassification, TheFrontStopsInAHoleOfTheSkull)
 {
   const HeadPhantom head = headPhantom(2);
-  const Classification found = classifyTissues(head.image, trainingOf(head.truth, 20), {});
+  const Classification found = classifyTissues(headImages({ head.image }), trainingOf(head.truth, 20), {});
   const Grid& grid = head.truth.grid;
   std::size_t leaked = 0;
   for (int k = 0; k < grid.size[2]; ++k)
@@ -97,16 +97,16 @@ TEST(TissueClassification, LimitsAndContiguityTakeAwayWhatIsNotReached)
   for (const std::size_t n : island) head.image.values[n] = 165;
   std::vector<TissueClass> classes = trainingOf(head.truth, 20);
   classes[3].isContiguous = true;
-  const Classification found = classifyTissues(head.image, classes, {});
+  const Classification found = classifyTissues(headImages({ head.image }), classes, {});
   for (const std::size_t n : island) EXPECT_NE(found.map.labels[n], 4);
   EXPECT_GE(found.invalidated[3], island.size());
   ClassificationOptions without;
   without.useContiguity = false;
-  const Classification flat = classifyTissues(head.image, classes, without);
+  const Classification flat = classifyTissues(headImages({ head.image }), classes, without);
   for (const std::size_t n : island) EXPECT_EQ(flat.map.labels[n], 4);
   classes[3].points.resize(1);
   classes[3].limit = 5;
-  const Classification near = classifyTissues(head.image, classes, {});
+  const Classification near = classifyTissues(headImages({ head.image }), classes, {});
   for (int k = 0; k < grid.size[2]; ++k)
     for (int j = 0; j < grid.size[1]; ++j)
       for (int i = 0; i < grid.size[0]; ++i)
@@ -116,14 +116,59 @@ TEST(TissueClassification, LimitsAndContiguityTakeAwayWhatIsNotReached)
       }
 }
 
+TEST(TissueClassification, SeveralImagesPartMoreThanOne)
+{
+  const HeadPhantom head = headPhantom(12);
+  const std::vector<TissueClass> classes = trainingOf(head.truth, 20);
+  const double one = shareRight(classifyTissues(headImages({ head.image }), classes, {}).map, head.truth);
+  const Classification both = classifyTissues(headImages({ head.image, ctOf(head, 15) }), classes, {});
+  EXPECT_GT(shareRight(both.map, head.truth), one + 0.02);
+  EXPECT_EQ(falsePositives(both.map, head.truth, 7), 0u) << "bone is what is dense";
+  ClassificationOptions denoised;
+  denoised.denoise = true;
+  const Classification smooth = classifyTissues(headImages({ head.image, ctOf(head, 15) }), classes, denoised);
+  EXPECT_GT(shareRight(smooth.map, head.truth), shareRight(both.map, head.truth));
+}
+
+TEST(TissueClassification, ACtAloneShowsBoneAndWhatLiesWithin)
+{
+  const HeadPhantom head = headPhantom(1);
+  std::vector<TissueClass> classes = trainingOf(head.truth, 20);
+  const Classification found = classifyTissues(headImages({ ctOf(head, 5) }), classes, {});
+  std::size_t wrong = 0, inside = 0;
+  for (std::size_t n = 0; n < head.truth.labels.size(); ++n)
+  {
+    EXPECT_EQ(found.map.labels[n] == 7, head.truth.labels[n] == 7);
+    inside += head.truth.labels[n] == 2 || head.truth.labels[n] == 3;
+    wrong +=
+      (head.truth.labels[n] == 2 || head.truth.labels[n] == 3) && found.compartments[n] != Compartment::Intracranial;
+  }
+  EXPECT_LT(double(wrong), 0.01 * double(inside));
+}
+
+TEST(TissueClassification, ProbabilitiesAddUpToOne)
+{
+  const HeadPhantom head = headPhantom(6);
+  ClassificationOptions options;
+  options.withProbabilities = true;
+  const Classification found = classifyTissues(headImages({ head.image }), trainingOf(head.truth, 20), options);
+  ASSERT_EQ(found.probabilities.size(), 7u);
+  for (std::size_t n = 0; n < found.map.labels.size(); ++n)
+  {
+    double sum = 0;
+    for (const std::vector<float>& ofClass : found.probabilities) sum += ofClass[n];
+    EXPECT_NEAR(sum, found.map.labels[n] == 0 ? 0 : 1, 1e-5);
+  }
+}
+
 TEST(TissueClassification, IsTheSameOnOneThreadAndMany)
 {
   const HeadPhantom head = headPhantom(4);
   const std::vector<TissueClass> classes = trainingOf(head.truth, 10);
   vtkSMPTools::Initialize(1);
-  const Classification one = classifyTissues(head.image, classes, {});
+  const Classification one = classifyTissues(headImages({ head.image }), classes, {});
   vtkSMPTools::Initialize(3);
-  const Classification three = classifyTissues(head.image, classes, {});
+  const Classification three = classifyTissues(headImages({ head.image }), classes, {});
   vtkSMPTools::Initialize();
   EXPECT_EQ(one.map.labels, three.map.labels);
 }
@@ -133,7 +178,7 @@ TEST(TissueClassification, RefusesWhatItCanNotTellApart)
   const HeadPhantom head = headPhantom(2);
   const std::vector<TissueClass> classes = trainingOf(head.truth, 5);
   const auto expectRefused = [&](std::vector<TissueClass> changed)
-  { EXPECT_THROW(classifyTissues(head.image, changed, {}), InputError); };
+  { EXPECT_THROW(classifyTissues(headImages({ head.image }), changed, {}), InputError); };
   expectRefused({ classes[0] });
   std::vector<TissueClass> changed = classes;
   changed[2].points.clear();

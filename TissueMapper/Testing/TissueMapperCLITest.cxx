@@ -53,6 +53,26 @@ TEST_F(TissueMapperCLI, WritesAMapWithNames)
   EXPECT_EQ(report["classes"][0]["voxels"].GetUint64(), countVoxels(map).at(1));
 }
 
+TEST_F(TissueMapperCLI, TakesSeveralImagesAndWritesProbabilities)
+{
+  writeImage(ctOf(head, 20), folder.file("ct.nrrd"));
+  expectDone("--training points.fcsv --channel ct.nrrd --correctBias --denoise --probability p.nrrd t1.nrrd map.nrrd");
+  const TissueMap map = readTissueMap(folder.file("map.nrrd"));
+  const ScalarImage sure = readImage(folder.file("p.nrrd")), skull = readImage(folder.file("p-7.nrrd"));
+  for (std::size_t n = 0; n < map.labels.size(); ++n)
+  {
+    EXPECT_EQ(skull.values[n] == 1, map.labels[n] == 7);
+    EXPECT_EQ(sure.values[n] > 0, map.labels[n] != 0);
+  }
+  ScalarImage moved = head.image;
+  moved.grid.origin.x += 1;
+  writeImage(moved, folder.file("moved.nrrd"));
+  expectRefused("--training points.fcsv --channel moved.nrrd t1.nrrd other.nrrd", 1, "image 2 lies on another grid");
+  expectRefused("--training points.fcsv --channel ct.nrrd --probability p.nrrd ct.nrrd other.nrrd", 1,
+                "two images have");
+  expectRefused("--training points.fcsv --probability p.nrrd t1.nrrd p-3.nrrd", 2, "p-3.nrrd");
+}
+
 TEST_F(TissueMapperCLI, NumbersClassesAsTheTableSays)
 {
   folder.write("classes.csv", "label,name,compartment\n11,csf,\n12,Grey matter,\n13,white matter,intracranial\n"
