@@ -197,6 +197,7 @@ void writeReport(const std::string& file, const CommandLine& line, const Report&
                     writeMember(json, "alpha", line.number("alpha"));
                     writeMember(json, "iterations", line.integer("iterations"));
                     writeMember(json, "repairRounds", report.fit.repairRounds);
+                    writeMember(json, "turnedFacets", report.fit.turnedFacets);
                     json.Key("quality");
                     json.StartObject();
                     writeQuality(json, "template", report.mesh);
@@ -224,6 +225,8 @@ void tell(CommandLine& line, const Report& report)
     text << summary.elements << " " << nameOf(shape) << ", " << summary.invalid << " invalid, scaled Jacobian at least "
          << summary.minimum << ", on average " << summary.mean << "; ";
   }
+  if (report.fit.turnedFacets > 0)
+    text << report.fit.turnedFacets << " facets of the surface are turned over after repair; ";
   text << "fitted to target " << report.ofFit.toTarget.mean << " mm on average, 95 % within "
        << report.ofFit.toTarget.percentile95 << " mm; target to fitted " << report.ofFit.fromTarget.mean << " and "
        << report.ofFit.fromTarget.percentile95 << " mm";

@@ -18,6 +18,8 @@ using Eigen::Vector3d;
 using Sparse = Eigen::SparseMatrix<double>;
 using Factor = Eigen::SimplicialLDLT<Sparse>;
 
+constexpr double kLeastFacing = 0.05; ///< asked of corners that are turned over before the fit
+
 Sparse graphLaplacian(const ElementMesh& mesh)
 {
   const auto edges = edgesOf(mesh.elements);
@@ -124,8 +126,44 @@ Vector3d Pull::position(const Points& points) const
   return p;
 }
 
+std::vector<FacetCorner> facetCorners(const std::vector<Element>& elements, const Points& points)
+{
+  std::vector<FacetCorner> corners;
+  for (std::size_t e = 0; e < elements.size(); ++e)
+  {
+    const Element& element = elements[e];
+    if (isVolume(element)) continue;
+    const int count = nodeCount(element.shape);
+    const auto& n = element.nodes;
+    Vector3d area = Vector3d::Zero();
+    for (int i = 1; i + 1 < count; ++i)
+      area += Vector3d(points.col(n[i]) - points.col(n[0])).cross(Vector3d(points.col(n[i + 1]) - points.col(n[0])));
+    for (int i = 0; i < count; ++i)
+    {
+      FacetCorner corner{
+        n[i], n[(i + 1) % count], n[(i + count - 1) % count], std::int32_t(e), {}, 0, count == 3 ? std::sqrt(0.75) : 1
+      };
+      const Vector3d own = Vector3d(points.col(corner.first) - points.col(corner.node))
+                             .cross(Vector3d(points.col(corner.second) - points.col(corner.node)));
+      corner.normal = (own.dot(area) > 0 ? own : area).normalized();
+      corner.before = facing(corner, points);
+      corners.push_back(corner);
+    }
+  }
+  return corners;
+}
+
+double facing(const FacetCorner& corner, const Points& points)
+{
+  const Vector3d a = points.col(corner.first) - points.col(corner.node),
+                 b = points.col(corner.second) - points.col(corner.node);
+  const double lengths = std::sqrt(a.squaredNorm() * b.squaredNorm());
+  return lengths > 0 ? corner.normal.dot(a.cross(b)) / lengths : 0;
+}
+
 FitEnergy::FitEnergy(const ElementMesh& mesh)
-  : reference(mesh.points), m_Corners(cornersOf(mesh.elements)), m_Laplacian(graphLaplacian(mesh)),
+  : reference(mesh.points), m_Corners(cornersOf(mesh.elements)),
+    m_FacetCorners(facetCorners(mesh.elements, mesh.points)), m_Laplacian(graphLaplacian(mesh)),
     m_LaplacianTransposed(m_Laplacian.transpose()), m_Squared(m_LaplacianTransposed * m_Laplacian)
 {
 }
@@ -133,7 +171,8 @@ FitEnergy::FitEnergy(const ElementMesh& mesh)
 double FitEnergy::evaluate(const Points& points, Points& gradient) const
 {
   gradient.setZero(3, points.cols());
-  return addQuality(points, gradient) + addSmoothness(points, gradient) + addPulls(points, gradient);
+  return addQuality(points, gradient) + addFacing(points, gradient) + addSmoothness(points, gradient) +
+         addPulls(points, gradient);
 }
 
 double FitEnergy::addQuality(const Points& points, Points& gradient) const
@@ -164,6 +203,31 @@ double FitEnergy::addQuality(const Points& points, Points& gradient) const
   return sum;
 }
 
+double FitEnergy::addFacing(const Points& points, Points& gradient) const
+{
+  const double t = weights.threshold;
+  double sum = 0;
+  for (const FacetCorner& corner : m_FacetCorners)
+  {
+    const double least = std::min(t * corner.best, std::max(0.5 * corner.before, kLeastFacing));
+    const Vector3d origin = points.col(corner.node);
+    const Vector3d a = points.col(corner.first) - origin, b = points.col(corner.second) - origin;
+    const double aa = a.squaredNorm(), bb = b.squaredNorm(), lengths = std::sqrt(aa * bb);
+    if (!(lengths > 0)) continue;
+    const double s = corner.normal.dot(a.cross(b)) / lengths;
+    if (s >= least) continue;
+    const double lack = (least - s) / t;
+    sum += weights.hinge * lack * lack;
+    const double slope = -2 * weights.hinge * lack / t;
+    const Vector3d toA = slope * (b.cross(corner.normal) / lengths - a * (s / aa)),
+                   toB = slope * (corner.normal.cross(a) / lengths - b * (s / bb));
+    gradient.col(corner.first) += toA;
+    gradient.col(corner.second) += toB;
+    gradient.col(corner.node) -= toA + toB;
+  }
+  return sum;
+}
+
 double FitEnergy::addSmoothness(const Points& points, Points& gradient) const
 {
   const Eigen::MatrixXd displacement = (points - reference).transpose();
@@ -188,6 +252,19 @@ double FitEnergy::addPulls(const Points& points, Points& gradient) const
     }
   }
   return sum;
+}
+
+std::size_t FitEnergy::turnedFacets(const Points& points) const
+{
+  std::size_t turned = 0;
+  std::int32_t last = -1; // corners of one element are neighbours
+  for (const FacetCorner& corner : m_FacetCorners)
+  {
+    if (corner.element == last || corner.before <= 0 || facing(corner, points) > 0) continue;
+    last = corner.element;
+    ++turned;
+  }
+  return turned;
 }
 
 Sparse FitEnergy::preconditioner() const

@@ -2,10 +2,10 @@
 #include "TargetSurface.h"
 
 #include <Eigen/Geometry>
+#include <unsupported/Eigen/BVH>
 
 #include <vtkCellArray.h>
 #include <vtkGenericCell.h>
-#include <vtkIdList.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkStaticCellLocator.h>
@@ -14,6 +14,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace surgicalmesher
 {
@@ -77,15 +78,16 @@ Vector3d closestWeights(const Vector3d& p, const Vector3d& a, const Vector3d& b,
   return Vector3d(va, vb, vc) / (va + vb + vc);
 }
 
-vtkSmartPointer<vtkPolyData> toVtk(const Points& points, const vtkSmartPointer<vtkCellArray>& cells, bool lines)
+vtkSmartPointer<vtkPolyData> linesOf(const Points& points, const std::vector<Edge>& edges)
 {
   vtkNew<vtkPoints> copy;
   copy->SetDataTypeToDouble();
   for (Eigen::Index i = 0; i < points.cols(); ++i) copy->InsertNextPoint(points.col(i).data());
+  vtkNew<vtkCellArray> cells;
+  for (const Edge& edge : edges) cells->InsertNextCell({ edge[0], edge[1] });
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(copy);
-  if (lines) data->SetLines(cells);
-  else data->SetPolys(cells);
+  data->SetLines(cells);
   data->BuildCells(); // on demand it is done by the first of several threads
   return data;
 }
@@ -195,6 +197,24 @@ std::vector<Edge> creasesOf(const TriangleSurface& surface, double creaseDegrees
   return creases;
 }
 
+/// Boxes around triangles, and boxes around those.
+class TargetSurface::Tree : public Eigen::KdBVH<double, 3, std::int32_t>
+{
+public:
+  explicit Tree(const TriangleSurface& surface)
+  {
+    std::vector<std::int32_t> ids(surface.triangles.size());
+    std::iota(ids.begin(), ids.end(), 0);
+    VolumeList boxes;
+    for (const Triangle& t : surface.triangles)
+    {
+      boxes.emplace_back(Vector3d(surface.points.col(t[0])));
+      for (const std::int32_t id : t) boxes.back().extend(Vector3d(surface.points.col(id)));
+    }
+    init(ids.begin(), ids.end(), boxes.begin(), boxes.end());
+  }
+};
+
 TargetSurface::TargetSurface(const TriangleSurface& surface) : m_Surface(surface)
 {
   m_Parts = windAlike(m_Surface.triangles);
@@ -204,12 +224,7 @@ TargetSurface::TargetSurface(const TriangleSurface& surface) : m_Surface(surface
   {
     if (at.size() == 1) m_Borders[at[0].first][at[0].second] = true;
   }
-  vtkNew<vtkCellArray> cells;
-  for (const Triangle& t : m_Surface.triangles) cells->InsertNextCell({ t[0], t[1], t[2] });
-  m_Data = toVtk(m_Surface.points, cells.GetPointer(), false);
-  m_Locator = vtkSmartPointer<vtkStaticCellLocator>::New();
-  m_Locator->SetDataSet(m_Data);
-  m_Locator->BuildLocator();
+  m_Tree = std::make_shared<const Tree>(m_Surface);
   buildCreases();
 }
 
@@ -217,9 +232,7 @@ void TargetSurface::buildCreases()
 {
   const std::vector<Edge> creases = creasesOf(m_Surface, kCreaseDegrees);
   if (creases.empty()) return;
-  vtkNew<vtkCellArray> cells;
-  for (const Edge& edge : creases) cells->InsertNextCell({ edge[0], edge[1] });
-  m_Creases = toVtk(m_Surface.points, cells.GetPointer(), true);
+  m_Creases = linesOf(m_Surface.points, creases);
   m_CreaseLocator = vtkSmartPointer<vtkStaticCellLocator>::New();
   m_CreaseLocator->SetDataSet(m_Creases);
   m_CreaseLocator->BuildLocator();
@@ -267,35 +280,33 @@ SurfacePoint TargetSurface::onTriangle(std::int32_t triangle, const Vector3d& po
 
 SurfacePoint TargetSurface::closest(const Vector3d& point, const Vector3d& normal, double normalScale) const
 {
-  thread_local vtkNew<vtkGenericCell> cell;
-  thread_local vtkNew<vtkIdList> candidates;
-  double position[3], squared = 0;
-  vtkIdType id = -1;
-  int subId = 0;
-  m_Locator->FindClosestPoint(point.data(), position, cell.GetPointer(), id, subId, squared);
-  if (id < 0) return {};
-  SurfacePoint best = onTriangle(std::int32_t(id), point);
-  if (normalScale <= 0) return best;
-  const auto costOf = [&](const SurfacePoint& q)
-  { return (q.position - point).squaredNorm() + normalScale * normalScale * (q.normal - normal).squaredNorm(); };
-  double least = costOf(best);
-  const double reach = std::sqrt(least);
-  double box[6];
-  for (int axis = 0; axis < 3; ++axis)
+  struct Query
   {
-    box[2 * axis] = point[axis] - reach;
-    box[2 * axis + 1] = point[axis] + reach;
-  }
-  m_Locator->FindCellsWithinBounds(box, candidates);
-  for (vtkIdType i = 0; i < candidates->GetNumberOfIds(); ++i)
-  {
-    const SurfacePoint other = onTriangle(std::int32_t(candidates->GetId(i)), point);
-    const double cost = costOf(other);
-    if (cost > least || (cost == least && other.triangle > best.triangle)) continue;
-    least = cost;
-    best = other;
-  }
-  return best;
+    using Scalar = double;
+
+    double minimumOnVolume(const Tree::Volume& box) const { return box.squaredExteriorDistance(point); }
+
+    double minimumOnObject(std::int32_t triangle)
+    {
+      const SurfacePoint found = surface.onTriangle(triangle, point);
+      const double cost =
+        (found.position - point).squaredNorm() + normalScale * normalScale * (found.normal - normal).squaredNorm();
+      if (cost < least || best.triangle < 0)
+      {
+        least = cost;
+        best = found;
+      }
+      return cost;
+    }
+
+    const TargetSurface& surface;
+    const Vector3d &point, &normal;
+    double normalScale;
+    double least = 0;
+    SurfacePoint best = {};
+  } query{ *this, point, normal, normalScale };
+  Eigen::BVMinimize(*m_Tree, query);
+  return query.best;
 }
 
 SurfacePoint TargetSurface::closestOnCrease(const Vector3d& point, double reach) const

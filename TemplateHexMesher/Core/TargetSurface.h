@@ -6,6 +6,8 @@
 
 #include <vtkSmartPointer.h>
 
+#include <memory>
+
 class vtkPolyData;
 class vtkStaticCellLocator;
 
@@ -47,8 +49,8 @@ public:
   /// nearest to it and within `reach`. Parts that attract none are turned by the sign of their enclosed volume.
   void orientLike(const Points& points, const Points& normals, double reach);
 
-  /// The point q with normal m that minimises |p - q|^2 + normalScale^2 |n - m|^2, exact for the triangles' own normals
-  /// interpolated as in SurfacePoint. `normalScale` in mm; 0 gives the closest point.
+  /// Of the points of each triangle that are closest to p, the one q with normal m that minimises
+  /// |p - q|^2 + normalScale^2 |n - m|^2. `normalScale` in mm; 0 gives the closest point.
   SurfacePoint closest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double normalScale) const;
 
   /// The closest point of the creases within `reach`; weights and onBorder are unset and `normal` is the crease's
@@ -60,6 +62,7 @@ public:
   const Points& normals() const { return m_Normals; }
 
 private:
+  class Tree;
   SurfacePoint onTriangle(std::int32_t triangle, const Eigen::Vector3d& point) const;
   void buildCreases();
 
@@ -67,8 +70,9 @@ private:
   std::vector<std::int32_t> m_Parts;          ///< per triangle
   std::vector<std::array<bool, 3>> m_Borders; ///< per triangle, of the edge opposite to each corner
   Points m_Normals;
-  vtkSmartPointer<vtkPolyData> m_Data, m_Creases; ///< none: no creases
-  vtkSmartPointer<vtkStaticCellLocator> m_Locator, m_CreaseLocator;
+  std::shared_ptr<const Tree> m_Tree;
+  vtkSmartPointer<vtkPolyData> m_Creases; ///< none: no creases
+  vtkSmartPointer<vtkStaticCellLocator> m_CreaseLocator;
 };
 
 } // namespace surgicalmesher

@@ -21,6 +21,7 @@ constexpr double kPlaneWeight = 1;       ///< of the squared distance (mm) to th
 constexpr double kPointWeight = 0.3;     ///< of that to the point itself
 constexpr double kCreaseWeight = 0.3;    ///< of that to the nearest crease
 constexpr double kCreaseReach = 8;       ///< mm
+constexpr double kMutualTolerance = 2;   ///< mm, see mutuality
 constexpr double kOrientationReach = 20; ///< mm
 
 /// What stays the same of the template while it moves.
@@ -82,13 +83,32 @@ void addPulls(const std::vector<std::int32_t>& nodes, const PullOf& pullOf, std:
   }
 }
 
+/// What `closest` minimises.
+double costOf(const SurfacePoint& q, const Vector3d& point, const Vector3d& normal)
+{
+  return (q.position - point).squaredNorm() + kNormalScale * kNormalScale * (q.normal - normal).squaredNorm();
+}
+
+/// 1 if nothing of the template is much closer to the goal than the node that it draws, 0 if something is: where sheets
+/// lie beside each other, as teeth in gums, none is drawn to what another one fits.
+double mutuality(const TargetSurface& moved, const SurfacePoint& goal, const Vector3d& point, const Vector3d& normal)
+{
+  const SurfacePoint back = moved.closest(goal.position, goal.normal, kNormalScale);
+  const double near = kMutualTolerance * kMutualTolerance;
+  const double ratio =
+    std::sqrt((costOf(back, goal.position, goal.normal) + near) / (costOf(goal, point, normal) + near));
+  return std::clamp((ratio - 0.3) / 0.4, 0.0, 1.0);
+}
+
 /// Nodes to the plane at the closest point that faces their way, and a little to the point itself.
-Pull pullToSurface(const TargetSurface& target, const Vector3d& point, const Vector3d& normal)
+Pull pullToSurface(const TargetSurface& target, const TargetSurface& moved, const Vector3d& point,
+                   const Vector3d& normal)
 {
   Pull pull;
   const SurfacePoint closest = target.closest(point, normal, kNormalScale);
   if (closest.triangle < 0 || closest.onBorder) return pull;
-  const double agreement = std::clamp((normal.dot(closest.normal) - 0.2) / 0.5, 0.0, 1.0);
+  const double agreement =
+    std::clamp((normal.dot(closest.normal) - 0.2) / 0.5, 0.0, 1.0) * mutuality(moved, closest, point, normal);
   pull.goal = closest.position;
   pull.direction = closest.normal;
   pull.along = kPlaneWeight * agreement;
@@ -152,11 +172,12 @@ class Fit
 {
 public:
   Fit(const ElementMesh& mesh, const LandmarkPairs& landmarks, TargetSurface target, const FitOptions& options)
-    : m_Mesh(mesh), m_Options(options), m_Target(std::move(target)), m_Outline(outlineOf(mesh)), m_Energy(mesh)
+    : m_Mesh(mesh), m_Options(options), m_Target(std::move(target)), m_Outline(outlineOf(mesh)),
+      m_Energy({ ThinPlateSpline(landmarks.source, landmarks.target)(mesh.points), mesh.elements })
   {
     const ThinPlateSpline spline(landmarks.source, landmarks.target);
-    m_Spline = spline(mesh.points);
-    m_Points = m_Energy.reference = m_Spline;
+    m_Spline = m_Energy.reference;
+    m_Points = m_Spline;
     m_Landmarks = attached(mesh, m_Outline, landmarks, spline, options.landmarkWeight);
     const Points normals = nodeNormals(m_Outline.faces, m_Points);
     Points places(3, Eigen::Index(m_Outline.nodes.size())), theirNormals = places;
@@ -178,9 +199,10 @@ public:
     m_Energy.pulls.clear();
     for (const Attachment& landmark : m_Landmarks) m_Energy.pulls.push_back(landmark.pull);
     const Points normals = nodeNormals(m_Outline.faces, m_Points);
+    const TargetSurface moved({ m_Points, trianglesOf(m_Outline.faces, m_Points) });
     addPulls(
       m_Outline.nodes,
-      [&](std::int32_t node) { return pullToSurface(m_Target, m_Points.col(node), normals.col(node)); },
+      [&](std::int32_t node) { return pullToSurface(m_Target, moved, m_Points.col(node), normals.col(node)); },
       m_Energy.pulls);
     addPulls(
       m_Outline.creases, [&](std::int32_t node) { return pullToCrease(m_Target, m_Points.col(node)); }, m_Energy.pulls);
@@ -188,10 +210,11 @@ public:
   }
 
   Validity validity() const { return validityOf(m_Mesh.elements, m_Points); }
+  std::size_t turnedFacets() const { return m_Energy.turnedFacets(m_Points); }
 
   FitResult result(int repairRounds) const
   {
-    FitResult result{ m_Points, m_Spline, Points(3, Eigen::Index(m_Landmarks.size())), repairRounds };
+    FitResult result{ m_Points, m_Spline, Points(3, Eigen::Index(m_Landmarks.size())), repairRounds, turnedFacets() };
     for (std::size_t i = 0; i < m_Landmarks.size(); ++i)
       result.landmarks.col(Eigen::Index(i)) = m_Landmarks[i].pull.position(m_Points) + m_Landmarks[i].offset;
     return result;
@@ -247,7 +270,7 @@ FitResult fitTemplate(const ElementMesh& mesh, const LandmarkPairs& landmarks, T
   }
   int repairRounds = 0;
   Validity validity = fit.validity();
-  for (; validity.invalid > 0 && repairRounds < options.repairRounds; ++repairRounds)
+  for (; (validity.invalid > 0 || fit.turnedFacets() > 0) && repairRounds < options.repairRounds; ++repairRounds)
   {
     report(progress, 0.95, "repairing elements");
     weights.hinge *= 2;

@@ -23,6 +23,7 @@ struct FitResult
   Points spline;    ///< the same by the spline of the landmarks alone
   Points landmarks; ///< where the template's landmarks have come to
   int repairRounds = 0;
+  std::size_t turnedFacets = 0; ///< surface elements turned over against the spline, after all repair
 };
 
 /// Fits `mesh` to `target`, both in mm. The template's surface is taken from its volume elements; a mesh of surface

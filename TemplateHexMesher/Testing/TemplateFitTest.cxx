@@ -44,6 +44,25 @@ void expectRefused(const LandmarkPairs& pairs, const std::string& expected)
   }
 }
 
+/// The outer faces as elements, with all points, those that no face uses too.
+ElementMesh sheetOf(const ElementMesh& mesh)
+{
+  ElementMesh sheet{ mesh.points, {} };
+  for (const Face& face : outerFaces(mesh.elements))
+    sheet.elements.push_back({ ElementShape::Quad, { face.nodes[0], face.nodes[1], face.nodes[2], face.nodes[3] } });
+  return sheet;
+}
+
+Pull pullTo(std::int32_t node, const Eigen::Vector3d& goal)
+{
+  Pull pull;
+  pull.nodes[0] = node;
+  pull.weights[0] = 1;
+  pull.goal = goal;
+  pull.all = 1;
+  return pull;
+}
+
 } // namespace
 
 TEST(ThinPlateSpline, TakesCentresToGoalsAndKeepsAffineMaps)
@@ -110,7 +129,9 @@ TEST(Landmarks, RefusesWhatASplineCanNotUse)
 
 TEST(FitEnergy, GradientIsThatOfTheEnergy)
 {
-  const ElementMesh mesh = slab(3, 2, 1);
+  ElementMesh mesh = slab(3, 2, 1);
+  const ElementMesh outside = sheetOf(mesh);
+  mesh.elements.insert(mesh.elements.end(), outside.elements.begin(), outside.elements.end());
   FitEnergy energy(mesh);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> noise(-6, 6); // enough to turn elements over
@@ -144,16 +165,29 @@ TEST(FitEnergy, UntanglesElementsThatAreTurnedOver)
   energy.reference = points; // smoothness alone would keep it there
   for (Eigen::Index i = 0; i < points.cols(); ++i)
   {
-    if (i == inner) continue;
-    Pull pull;
-    pull.nodes[0] = std::int32_t(i);
-    pull.weights[0] = 1;
-    pull.goal = mesh.points.col(i);
-    pull.all = 1;
-    energy.pulls.push_back(pull);
+    if (i != inner) energy.pulls.push_back(pullTo(std::int32_t(i), mesh.points.col(i)));
   }
   minimise(energy, points, 100);
   EXPECT_EQ(invalidIn(mesh, points), 0u);
+}
+
+TEST(FitEnergy, UnfoldsFacetsThatAreTurnedOver)
+{
+  const ElementMesh mesh = sheetOf(slab());
+  FitEnergy energy(mesh);
+  EXPECT_EQ(energy.turnedFacets(mesh.points), 0u);
+  Points points = mesh.points;
+  const int inside = 5 + 11 * (4 + 9 * 2); // of the outermost layer
+  points.col(inside) += Eigen::Vector3d(18, 12, 0);
+  ASSERT_GT(energy.turnedFacets(points), 0u);
+  energy.weights = { 0.01, 10, 0.25, 0 };
+  energy.reference = points;
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+  {
+    if (i != inside) energy.pulls.push_back(pullTo(std::int32_t(i), mesh.points.col(i)));
+  }
+  minimise(energy, points, 100);
+  EXPECT_EQ(energy.turnedFacets(points), 0u);
 }
 
 TEST(TemplateFit, FollowsABentTargetWithValidElements)
@@ -215,13 +249,34 @@ TEST(TemplateFit, LeavesNoInvalidElementWhereTheSplineDoes)
 TEST(TemplateFit, FitsASurfaceWithoutElementsInside)
 {
   const ElementMesh whole = slab();
-  ElementMesh sheet;
-  for (const Face& face : outerFaces(whole.elements))
-    sheet.elements.push_back({ ElementShape::Quad, { face.nodes[0], face.nodes[1], face.nodes[2], face.nodes[3] } });
-  sheet.points = whole.points; // with points that no face uses
+  const ElementMesh sheet = sheetOf(whole);
   const TriangleSurface target = outerSurface({ bent(whole.points), whole.elements });
   const FitResult fit = fitTemplate(sheet, everyNth(whole.points, bent(whole.points), 23), TargetSurface(target));
   EXPECT_LT(distanceTo(sheet, fit.points, target), 0.3);
+  EXPECT_EQ(fit.turnedFacets, 0u);
+}
+
+TEST(TemplateFit, DoesNotDrawASheetToWhatTheOneBesideItFits)
+{
+  ElementMesh both = sheetOf(slab());
+  const auto isInner = [](const Element& element)
+  { return *std::min_element(&element.nodes[0], &element.nodes[4]) < 198; };
+  both.elements.erase(std::remove_if(both.elements.begin(), both.elements.end(), isInner), both.elements.end());
+  const auto count = std::int32_t(both.points.cols());
+  const TriangleSurface target = outerSurface({ bent(both.points), both.elements });
+  const LandmarkPairs pairs = everyNth(both.points, bent(both.points), 23);
+  for (const Element& element : std::vector<Element>(both.elements))
+  {
+    Element beside = element;
+    for (int i = 0; i < 4; ++i) beside.nodes[i] += count;
+    both.elements.push_back(beside);
+  }
+  const Points alone = both.points;
+  both.points.resize(3, 2 * count);
+  both.points << alone, alone.colwise() + Eigen::Vector3d(0, 0, 10);
+  const FitResult fit = fitTemplate(both, pairs, TargetSurface(target));
+  const Points between = fit.points.rightCols(count) - fit.points.leftCols(count);
+  for (const Element& element : both.elements) EXPECT_GT(between.col(element.nodes[0] % count).norm(), 3);
 }
 
 TEST(TemplateFit, GivesTheSameBytesWhateverTheThreads)

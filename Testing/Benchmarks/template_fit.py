@@ -234,7 +234,9 @@ def ict_table(folder, source):
     result = read_points(fitted)
     for name in ("spline", "fitted"):
         print(f"{name + ' to target, mean':32}{report['distances'][name]['fittedToTarget']['mean']:8.3f}")
-    print(f"{'points to their true place':32}{10 * np.linalg.norm(result - truth, axis=1).mean():8.3f}")
+    error = 10 * np.linalg.norm(result - truth, axis=1)
+    print(f"{'points to their true place':32}{error.mean():8.3f}, 95 % {np.percentile(error, 95):.3f}, "
+          f"largest {error.max():.3f}")
     against = lambda a, b: np.count_nonzero((triangle_normals(a, triangles)  # noqa: E731
                                              * triangle_normals(b, triangles)).sum(axis=1) <= 0)
     print(f"{'triangles turned against truth':32}{against(result, truth):8d}")
