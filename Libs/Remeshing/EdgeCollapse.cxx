@@ -18,6 +18,13 @@
 namespace surgicalmesher
 {
 
+bool GuardedOperations::isWorthAngles(std::int32_t u)
+{
+  if (!m_Curves || m_Curves->isOn(u)) return true;
+  const auto& around = neighbours(u);
+  return std::any_of(around.begin(), around.end(), [&](const auto& n) { return m_Curves->isOn(n.vertex); });
+}
+
 bool GuardedOperations::mayCollapse(std::int32_t u, std::int32_t v, bool moves) const
 {
   const auto& c = m_Complex;

@@ -15,7 +15,8 @@ from vtk.util.numpy_support import vtk_to_numpy
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
 from maps import write_nrrd  # noqa: E402
-from measures import TETRAHEDRON_FACES, euler_numbers_of_map, euler_numbers_of_mesh, signed_volumes, unique_edges  # noqa: E402
+from measures import (TETRAHEDRON_FACES, dihedral_angles, euler_numbers_of_map, euler_numbers_of_mesh,  # noqa: E402
+                      signed_volumes, unique_edges)
 from meshfiles import cell_array, read_dataset, read_mesh, read_nrrd  # noqa: E402
 
 BIN, OUTDIR = sys.argv[1:3]
@@ -86,6 +87,7 @@ class HeadPhantomTest(unittest.TestCase):
     def test_tissues_are_those_of_the_map(self):
         mesh = read_mesh("out/mesh.vtu")
         self.assertGreater(signed_volumes(mesh).min(), 0)
+        self.assertGreater(dihedral_angles(mesh).min(), 25)
         prepared, _ = read_nrrd("out/prepared.nrrd")
         np.testing.assert_array_equal(euler_numbers_of_mesh(mesh), euler_numbers_of_map(prepared))
         self.assertLessEqual(set(NERVES), set(np.unique(mesh.tissue)))
