@@ -118,6 +118,17 @@ class Curves(unittest.TestCase):
         if os.path.exists(path("mesh.xdmf")):
             self.assertTrue(os.path.exists(path("mesh_curves.xdmf")))
 
+    def test_bytes_are_the_same_with_any_number_of_threads(self):
+        vessel = line("vessel.vtp", [(-7, 0, 1), (0, 1, 0), (7, 0, 1)], [0.4, 0.8, 0.4])
+        written = []
+        for threads in ("1", "3"):
+            run = self.run_module("--threads", threads, "--curves", vessel, "--curveMesh", path("curves.vtp"))
+            self.assertEqual(run.returncode, 0, run.stderr)
+            for name in ("mesh.vtu", "curves.vtp"):
+                with open(path(name), "rb") as file:
+                    written.append(file.read())
+        self.assertEqual(written[:2], written[2:])
+
     def test_refusals_leave_nothing(self):
         crossing = [(-5, 0, 0), (5, 0, 0), (5, 5, 0), (0, 5, 0), (0, -5, 0)]
         for arguments, status, expected in [

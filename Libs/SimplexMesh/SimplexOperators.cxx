@@ -578,6 +578,12 @@ int SimplexOperators::junctionOrder(std::int32_t a) const
   return turns ? 2 : 1;
 }
 
+bool SimplexOperators::isOnCrease(std::int32_t a) const
+{
+  const std::vector<std::int32_t> neighbours = faceNeighbours(a);
+  return std::any_of(neighbours.begin(), neighbours.end(), [&](std::int32_t b) { return isCrease(a, b); });
+}
+
 /// The faces around face a, counter-clockwise; none unless it lies inside one sheet.
 std::vector<std::int32_t> SimplexOperators::sheetRing(std::int32_t a) const
 {

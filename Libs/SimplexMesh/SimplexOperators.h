@@ -86,6 +86,7 @@ public:
   /// 0 inside a sheet, 1 on a curve between three or more tissues or on a crease, 2 where such curves meet, end or
   /// turn.
   int junctionOrder(std::int32_t a) const;
+  bool isOnCrease(std::int32_t a) const;
   std::vector<Label> tissuesAt(std::int32_t a) const;              ///< ascending
   std::vector<std::int32_t> curveNeighbours(std::int32_t a) const; ///< along such curves, ascending
   double faceQuality(std::int32_t a, const Vec3& p) const;         ///< of the worst dual triangle at a, were that at p

@@ -4,6 +4,7 @@
 #include "CurvatureScale.h"
 #include "SimplexDeformation.h"
 #include "SurfaceEdgeLength.h"
+#include "SurfaceVolumes.h"
 
 #include <memory>
 
@@ -17,6 +18,8 @@ constexpr double shortEdge = 0.8, longEdge = 4. / 3; ///< of L; between them edg
 constexpr int roundsOfLevel = 2, lastRounds = 10;
 constexpr int smoothingSteps = 3;      ///< a round
 constexpr int finishingRounds = 6;     ///< for the worst triangles
+constexpr int balancingRounds = 30;    ///< for the volumes
+constexpr double longestBalance = 0.1; ///< of L, of a point in a round
 constexpr double wantedQuality = 0.62; ///< of a triangle; at least 0.56 is no angle under 20 degrees
 
 double meanEdge(const SurfaceComplex& surface)
@@ -40,7 +43,7 @@ public:
   Remeshing(const SurfaceComplex& original, const std::vector<DualEdge>& sharp, const RemeshingOptions& options,
             std::function<double(const Vec3&)> length)
     : m_Length(std::move(length)), m_Bound(boundOf(options)), m_Boundary(original, reachOf(original, m_Bound)),
-      m_Curves(original, sharp)
+      m_Curves(original, sharp), m_Volumes(enclosedVolumes(original))
   {
     begin(original, sharp);
   }
@@ -67,6 +70,7 @@ public:
       swapEdges(*m_Mesh);
       smooth();
     }
+    balanceVolumes();
   }
 
   SurfaceComplex surface() const { return m_Mesh->surface(); }
@@ -205,6 +209,52 @@ private:
     return false;
   }
 
+  // ---- volumes ----
+
+  /// Gives every tissue the volume back that coarse triangles take from what is convex. Points that a guard has held
+  /// back move less in the next round, and the others more.
+  void balanceVolumes()
+  {
+    std::vector<std::int32_t> ids;
+    m_Mesh->surface(&ids);
+    std::vector<double> mobility;
+    for (const std::int32_t id : ids) mobility.push_back(m_Mesh->isOnCrease(id) ? 0 : 1);
+    for (int n = 0; n < balancingRounds; ++n)
+    {
+      const SurfaceComplex dual = m_Mesh->surface();
+      const std::map<Label, double> lacking = lackingVolumes(dual);
+      if (isBalanced(lacking)) return;
+      const std::vector<Vec3> ways = displacementsForVolumes(dual, lacking, mobility);
+      for (std::size_t v = 0; v < ids.size(); ++v)
+        if (!balance(ids[v], ways[v])) mobility[v] *= 0.3;
+    }
+  }
+
+  std::map<Label, double> lackingVolumes(const SurfaceComplex& dual) const
+  {
+    std::map<Label, double> lacking = m_Volumes;
+    for (const auto& [label, volume] : enclosedVolumes(dual)) lacking[label] -= volume;
+    return lacking;
+  }
+
+  bool isBalanced(const std::map<Label, double>& lacking) const
+  {
+    constexpr double enough = 1e-4; // of its volume
+    return std::all_of(lacking.begin(), lacking.end(),
+                       [&](const auto& tissue)
+                       { return std::abs(tissue.second) <= enough * m_Volumes.at(tissue.first); });
+  }
+
+  /// Returns whether the point went all of the way, or as far as one round may take it.
+  bool balance(std::int32_t a, const Vec3& way)
+  {
+    const Vec3 p = m_Mesh->points()[a];
+    const double longest = longestBalance * length(p), share = std::min(1., longest / std::max(norm(way), 1e-300));
+    if (norm(way) < 1e-3 * longest || m_Mesh->move(a, p + share * way)) return true;
+    moveTowards(a, p + 0.5 * share * way);
+    return false;
+  }
+
   // ---- the worst triangles ----
 
   /// By each operation in turn. Returns how many edges and faces have been changed.
@@ -233,12 +283,13 @@ private:
     return false;
   }
 
-  /// To the best of some places around it, or along its curve.
+  /// To the best of some places around it, or along its curve. Where curves between tissues meet, the bound alone says
+  /// how far.
   bool improveByMoves(std::int32_t a)
   {
     const int order = m_Mesh->junctionOrder(a);
-    if (order == 2) return false;
-    const std::vector<Vec3> ways = order == 0 ? axes() : waysAlong(a);
+    if (order == 2 && m_Mesh->isOnCrease(a)) return false;
+    const std::vector<Vec3> ways = order == 1 ? waysAlong(a) : axes();
     bool isBetter = false;
     for (double step = 0.3 * length(m_Mesh->points()[a]), least = 0.05 * step; step > least; step *= 0.5)
       for (const Vec3& way : ways)
@@ -270,6 +321,7 @@ private:
   std::function<double(const Vec3&)> m_Length, m_Bound;
   TissueBoundary m_Boundary;
   SurfaceCurves m_Curves;
+  std::map<Label, double> m_Volumes; ///< of the original
   double m_Level = std::numeric_limits<double>::infinity();
   double m_MinimumQuality = 0.3, m_EdgeAtBegin = 0;
   std::unique_ptr<SimplexOperators> m_Mesh;

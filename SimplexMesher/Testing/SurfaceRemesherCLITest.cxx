@@ -77,6 +77,13 @@ TEST_F(SurfaceRemesherCLI, MakesTissuesOfTheShellsOfAnObj)
   for (const auto& [label, tissue] : tissues) EXPECT_TRUE(tissue.manifold()) << label;
 }
 
+TEST_F(SurfaceRemesherCLI, GivesTheSameBytesWithAnyNumberOfThreads)
+{
+  expectDone("--edgeLength 3 --threads 1 ball.vtp a.vtp");
+  expectDone("--edgeLength 3 --threads 3 ball.vtp b.vtp");
+  EXPECT_EQ(readBytes(folder.file("a.vtp")), readBytes(folder.file("b.vtp")));
+}
+
 TEST_F(SurfaceRemesherCLI, RefusesWhatIsNoClosedSurface)
 {
   SurfaceComplex open = sphere({}, 8, 2);
