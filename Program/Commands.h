@@ -15,6 +15,7 @@ void meshCommand(CommandLine& line, const std::string& programs, const std::stri
 void estimateCommand(CommandLine& line, const std::string& programs, const std::string& xml);
 void qualityCommand(CommandLine& line);
 void convertCommand(CommandLine& line);
+void viewCommand(CommandLine& line);
 
 /// `arguments` of the mesh command with the options of its --config before them, if there is one, but for those that
 /// the command line has. A single argument without a flag then is the folder.

@@ -16,6 +16,7 @@ extern const char* const meshXML;
 extern const char* const estimateXML;
 extern const char* const qualityXML;
 extern const char* const convertXML;
+extern const char* const viewXML;
 extern const char* const pathScaleXML;
 extern const char* const simplexMesherXML;
 extern const char* const tetrahedralizerXML;

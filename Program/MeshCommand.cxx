@@ -6,6 +6,7 @@
 #include "Commands.h"
 #include "Configuration.h"
 #include "Errors.h"
+#include "HtmlReport.h"
 #include "OutputFiles.h"
 #include "Platform.h"
 #include "RunRecord.h"
@@ -256,7 +257,11 @@ void meshCommand(CommandLine& line, const std::string& programs, const std::stri
   RunOptions options = request.options;
   options["labelMap"] = { request.labelMap };
   options["folder"] = { request.folder };
-  writeBytes(configurationText(options, description), line.outputPath(request.folder + "/run.toml"));
+  const std::string configuration = configurationText(options, description);
+  report(progress, 0.96, "report");
+  writeBytes(configuration, line.outputPath(request.folder + "/run.toml"));
+  writeBytes(htmlReport(request.folder, configuration), line.outputPath(request.folder + "/report.html"));
+  line.message("report: " + request.folder + "/report.html");
   report(progress, 1, "done");
 }
 

@@ -83,7 +83,7 @@ bool marksFarTissue(const RunRequest& request)
 
 Stage surfaceStage(const RunRequest& request)
 {
-  Stage stage{ "surface", "SimplexMesherCLI", {}, {}, {}, 0.86 };
+  Stage stage{ "surface", "SimplexMesherCLI", {}, {}, {}, 0.83 };
   addOptions(stage, request, simplexMesherXML);
   addInput(stage, "--scale=", inFolder(request, "scale.nrrd"));
   addOutput(stage, "--preparedLabelMap=", inFolder(request, "prepared.nrrd"));
@@ -96,7 +96,7 @@ Stage surfaceStage(const RunRequest& request)
 
 Stage meshStage(const RunRequest& request)
 {
-  Stage stage{ "mesh", "FuchsTetrahedralizerCLI", {}, {}, {}, 0.12 };
+  Stage stage{ "mesh", "FuchsTetrahedralizerCLI", {}, {}, {}, 0.11 };
   addOptions(stage, request, tetrahedralizerXML);
   addInput(stage, "--scale=", inFolder(request, "scale.nrrd"));
   addInput(stage, "--ambient=", inFolder(request, "ambient.vtu"));

@@ -27,7 +27,7 @@ struct Command
 const std::vector<Command>& commands()
 {
   static const std::vector<Command> all{
-    { "mesh", "MAP FOLDER", "from label map to mesh and exports",
+    { "mesh", "MAP FOLDER", "from label map to mesh, exports and report",
       mergedDescription(meshXML, { pathScaleXML, simplexMesherXML, tetrahedralizerXML }), meshCommand },
     { "estimate", "MAP", "triangles, tetrahedra, memory and time, before anything is meshed",
       mergedDescription(estimateXML, { pathScaleXML }), estimateCommand },
@@ -35,6 +35,8 @@ const std::vector<Command>& commands()
       [](CommandLine& line, const std::string&, const std::string&) { qualityCommand(line); } },
     { "convert", "MESH FILE...", "a mesh in the formats of solvers", convertXML,
       [](CommandLine& line, const std::string&, const std::string&) { convertCommand(line); } },
+    { "view", "MESH PNG", "a picture of a surface or a mesh, without a display", viewXML,
+      [](CommandLine& line, const std::string&, const std::string&) { viewCommand(line); } },
   };
   return all;
 }

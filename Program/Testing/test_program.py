@@ -2,7 +2,10 @@
 
 usage: test_program.py BIN OUTDIR
 """
+import base64
 import glob
+import html.parser
+import io
 import json
 import os
 import shutil
@@ -13,6 +16,7 @@ import time
 import unittest
 
 import numpy as np
+from PIL import Image
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
@@ -65,9 +69,46 @@ def write_hexahedra(file):
         stream.write("CELL_TYPES 2\n12\n12\nCELL_DATA 2\nSCALARS TissueLabel int 1\nLOOKUP_TABLE default\n3\n7\n")
 
 
+def write_cube(file, length):
+    """Twelve triangles, as ASCII STL."""
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * length
+    squares = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
+    with open(file, "w", encoding="ascii") as stream:
+        stream.write("solid cube\n")
+        for a, b, c, d in squares:
+            for triangle in ((a, b, c), (a, c, d)):
+                stream.write("facet normal 0 0 0\nouter loop\n")
+                stream.writelines("vertex %g %g %g\n" % tuple(corners[n]) for n in triangle)
+                stream.write("endloop\nendfacet\n")
+        stream.write("endsolid cube\n")
+
+
+class Page(html.parser.HTMLParser):
+    """What a page links to, its table rows, and its text."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.links, self.rows, self.open, self.text = [], 0, [], ""
+        self.feed(text)
+
+    def handle_starttag(self, tag, attrs):
+        self.links += [value for name, value in attrs if name in ("href", "src")]
+        self.rows += tag == "tr"
+        if tag not in ("meta", "br", "image", "path", "i"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if tag not in ("image", "path", "i"):
+            assert self.open.pop() == tag, tag
+
+    def handle_data(self, data):
+        self.text += data
+
+
 class ProgramTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
+        os.environ.pop("DISPLAY", None)
         shutil.rmtree(OUTDIR, ignore_errors=True)
         os.makedirs(OUTDIR)
         os.chdir(OUTDIR)
@@ -124,6 +165,51 @@ class ProgramTest(unittest.TestCase):
         done = surgicalmesher("mesh", "--config=hand.toml", "--childRadius", "4")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_same_as_three_programs("by-hand")
+
+    def test_report_is_one_whole_page(self):
+        page = Page(bytes_of("out/report.html").decode())
+        self.assertEqual(page.open, [])
+        with open("out/mesh.json", encoding="utf-8") as file:
+            quality = json.load(file)["quality"]
+        with open("out/surface.json", encoding="utf-8") as file:
+            preparation = json.load(file)["preparation"]
+        self.assertEqual(page.rows, 2 + len(quality["tissues"]) + len(preparation["changes"]))
+        self.assertIn(f"{quality['whole']['tetrahedra']:,}tetrahedra", page.text)
+        self.assertEqual(len(page.links), 3)
+        for link in page.links:
+            kind, data = link.split(",")
+            self.assertEqual(kind, "data:image/png;base64")
+            opacity = np.asarray(Image.open(io.BytesIO(base64.b64decode(data))))[..., 3]
+            self.assertTrue(0.1 < (opacity == 255).mean() < 0.9)
+
+    def test_warnings_come_first_in_the_report(self):
+        done = surgicalmesher("mesh", "map.nrrd", "warned", "--target", "-4,12,70", *SIZES, "--preset", "draft")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        text = Page(bytes_of("warned/report.html").decode()).text
+        self.assertLess(text.index("lies outside the label map"), text.index("tetrahedra"))
+
+    def test_picture_of_a_cube(self):
+        write_cube("cube.stl", 10)
+        for name in ("cube.png", "again.png"):
+            done = surgicalmesher("view", "cube.stl", name, "--from", "0,0,1", "--withoutEdges", "--width", "400",
+                                  "--height", "400")
+            self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(bytes_of("cube.png"), bytes_of("again.png"))
+        pixels = np.asarray(Image.open("cube.png"))[..., :3]
+        rows, columns = np.nonzero(np.all(pixels == 204, axis=-1))  # the tissues' grey, 0.8, lit from the viewer
+        self.assertEqual((len(rows), np.ptp(rows), np.ptp(columns)), (360 * 360, 359, 359))
+        bar = np.nonzero(np.all(pixels[394] == 34, axis=-1))[0]
+        self.assertAlmostEqual(np.ptp(bar) + 1, 2 / 10 * 360, delta=3)  # 2 mm
+
+    def test_pictures_of_a_mesh(self):
+        shown = {}
+        for part in ("all", "cut"):
+            done = surgicalmesher("view", "out/mesh.vtu", part + ".png", "--part", part, "--width", "300", "--height", "300")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            shown[part] = np.asarray(Image.open(part + ".png"))
+        self.assertTrue(np.any(shown["all"] != shown["cut"]))
+        write_cube("cube.stl", 10)
+        self.assert_refused(2, ["cube.stl", "no mesh of tetrahedra"], "view", "cube.stl", "x.png", "--part", "cut")
 
     def test_refusals(self):
         for name, text in (("key.toml", "minimumEdgLength = 3\n"), ("value.toml", "childRadius = -1\n"),
