@@ -30,10 +30,34 @@ endif()
 function(surgicalmesher_add_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
-  target_include_directories(${name} PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+  target_include_directories(${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}> $<INSTALL_INTERFACE:include/surgicalmesher>)
   target_link_libraries(${name} PUBLIC ${ARG_LINK} PRIVATE SurgicalMesherFlags)
   if(Slicer_DIR)
     set_property(GLOBAL APPEND PROPERTY Slicer_TARGETS ${name}) # the host exports what its libraries link to
+  else()
+    surgicalmesher_install_library(${name})
+  endif()
+endfunction()
+
+# SurgicalMesherTetMesh becomes SurgicalMesher::TetMesh of find_package(SurgicalMesher), its headers one flat folder.
+function(surgicalmesher_install_library name)
+  string(REPLACE SurgicalMesher "" short ${name})
+  set_target_properties(${name} PROPERTIES EXPORT_NAME ${short})
+  install(TARGETS ${name} EXPORT SurgicalMesherTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT Development)
+  file(GLOB headers CONFIGURE_DEPENDS *.h Export/*.h)
+  install(FILES ${headers} DESTINATION include/surgicalmesher COMPONENT Development)
+endfunction()
+
+# Programs find what an archive brings in lib/surgicalmesher. An RPATH, not a RUNPATH: it has to serve the libraries'
+# own libraries, too.
+function(surgicalmesher_install_program name)
+  install(TARGETS ${name} RUNTIME DESTINATION ${SurgicalMesher_CLI_INSTALL_DIRECTORY} COMPONENT RuntimeLibraries)
+  set_property(GLOBAL APPEND PROPERTY SurgicalMesher_PROGRAMS ${name})
+  if(UNIX AND NOT APPLE AND NOT Slicer_DIR)
+    set_target_properties(${name} PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}/surgicalmesher")
+    target_link_options(${name} PRIVATE -Wl,--disable-new-dtags)
   endif()
 endfunction()
 
@@ -53,7 +77,7 @@ function(surgicalmesher_add_cli name)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${SurgicalMesher_CLI_OUTPUT_DIRECTORY})
   add_custom_command(TARGET ${name} POST_BUILD
     COMMAND ${CMAKE_COMMAND} -E copy_if_different ${xml} $<TARGET_FILE_DIR:${name}>/${name}.xml)
-  install(TARGETS ${name} RUNTIME DESTINATION ${SurgicalMesher_CLI_INSTALL_DIRECTORY} COMPONENT RuntimeLibraries)
+  surgicalmesher_install_program(${name})
   install(FILES ${xml} DESTINATION ${SurgicalMesher_CLI_INSTALL_DIRECTORY} COMPONENT RuntimeLibraries)
   if(SurgicalMesher_UNIT_TESTS AND SurgicalMesher_PYTHON)
     surgicalmesher_add_description_test(${name})
