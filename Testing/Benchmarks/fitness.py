@@ -274,6 +274,36 @@ def table_of(rows):
     return "\n".join(lines) + "\n"
 
 
+# Distances that meshes of other sizes are compared at.
+DISTANCES = {"hausdorff95": "95 % of the outer boundary", "hausdorffTissuesMean": "mean over tissues"}
+
+
+def at_distance(rows, distance, key, wanted):
+    """`key` of a mesh at `wanted` mm, between those of `rows` (power law); NaN where all are nearer or all farther."""
+    known = sorted((row[distance], row[key]) for row in rows if key in row)
+    if len(known) < 2 or not known[0][0] <= wanted <= known[-1][0]:
+        return float("nan")
+    return float(np.exp(np.interp(np.log(wanted), *np.log(np.transpose(known)))))
+
+
+def table_at_equal_distance(rows, other="CGAL Mesh_3"):
+    """What our meshes need over what the other's would at the same distance from the map."""
+    others = [row for row in rows if row["mesher"] == other]
+    titles = [f"D_H, {title} (mm) | iterations | scaled condition number" for title in DISTANCES.values()]
+    lines = ["| L (mm) | " + " | ".join(titles) + " |", "|---" * (1 + 3 * len(DISTANCES)) + "|"]
+    for row in rows:
+        if row["mesher"] != "SurgicalMesher" or "failed" in row:
+            continue
+        cells = [COLUMNS[0][1](row)]
+        for distance in DISTANCES:
+            cells.append(f"{row[distance]:.2f}")
+            for key in ("iterations", "scaledCondition"):
+                there = at_distance(others, distance, key, row[distance])
+                cells.append(f"{row[key] / there:.2f}" if there > 0 else "-")
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines) + "\n"
+
+
 PANELS = (
     ("tetrahedra", "tetrahedra", "log"),
     ("hausdorff", "D_H of the outer boundary (mm)", "linear"),
@@ -310,14 +340,17 @@ def draw(rows, file):
     figure.savefig(file)
 
 
-def write_document(table, picture):
-    """Between the page's two marks, and beside its other pictures."""
+def write_document(tables, picture):
+    """Each table between the page's two marks of its name; the picture beside the page's others."""
     page = os.path.join(ROOT, "Docs", "Fitness.md")
     with open(page, encoding="utf-8") as file:
-        before, _, rest = file.read().partition("<!-- table -->\n")
-        _, _, after = rest.partition("<!-- end of table -->\n")
+        text = file.read()
+    for name, table in tables.items():
+        before, _, rest = text.partition(f"<!-- {name} -->\n")
+        _, _, after = rest.partition(f"<!-- end of {name} -->\n")
+        text = f"{before}<!-- {name} -->\n{table}<!-- end of {name} -->\n{after}"
     with open(page, "w", encoding="utf-8") as file:
-        file.write(f"{before}<!-- table -->\n{table}<!-- end of table -->\n{after}")
+        file.write(text)
     with open(picture, "rb") as source, open(os.path.join(ROOT, "Docs", "images", "fitness.png"), "wb") as copy:
         copy.write(source.read())
 
@@ -331,7 +364,7 @@ def write_results(folder, rows):
         writer.writeheader()
         writer.writerows(rows)
     with open(os.path.join(folder, "fitness.md"), "w", encoding="utf-8") as file:
-        file.write(table_of(rows))
+        file.write(table_of(rows) + "\n" + table_at_equal_distance(rows))
     draw(rows, os.path.join(folder, "fitness.png"))
 
 
@@ -353,8 +386,10 @@ def main():
     rows = compare(runner, os.path.abspath(options.map), list(map(float, options.scales.split(","))))
     write_results(options.folder, rows)
     print(table_of(rows))
+    print(table_at_equal_distance(rows))
     if options.document:
-        write_document(table_of(rows), os.path.join(options.folder, "fitness.png"))
+        write_document({"table": table_of(rows), "table at equal distance": table_at_equal_distance(rows)},
+                       os.path.join(options.folder, "fitness.png"))
 
 
 if __name__ == "__main__":

@@ -36,6 +36,23 @@ def mesh_of(labels, spacing=1.0):
     return SimpleNamespace(points=spacing * points, tetrahedra=tetrahedra.reshape(-1, 4), tissue=np.array(tissue))
 
 
+class EqualDistanceTest(unittest.TestCase):
+    ROWS = [{"mesher": "CGAL Mesh_3", "minimumEdgeLength": 1, "hausdorff95": d, "hausdorffTissuesMean": 2 * d,
+             "iterations": 100 / d, "scaledCondition": 1000 / d**2} for d in (1, 2, 4)]
+
+    def test_measures_between_meshes_follow_their_power_law(self):
+        for wanted in (1, 1.5, 2.8, 4):
+            self.assertAlmostEqual(fitness.at_distance(self.ROWS, "hausdorff95", "iterations", wanted), 100 / wanted)
+        for beyond in (0.9, 4.1):
+            self.assertTrue(np.isnan(fitness.at_distance(self.ROWS, "hausdorff95", "iterations", beyond)))
+
+    def test_the_table_has_ratios_where_there_is_something_to_compare(self):
+        ours = {"mesher": "SurgicalMesher", "minimumEdgeLength": 1, "hausdorff95": 2, "hausdorffTissuesMean": 1,
+                "iterations": 100, "scaledCondition": 125}
+        row = fitness.table_at_equal_distance([ours, *self.ROWS]).splitlines()[-1]
+        self.assertEqual(row, "| 1..8 | 2.00 | 2.00 | 0.50 | 1.00 | - | - |")
+
+
 def two_tissues():
     labels = np.zeros((6, 4, 4), int)
     labels[:3, :3, :3], labels[3:5, :3, :3] = 1, 2
