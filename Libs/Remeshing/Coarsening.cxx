@@ -121,11 +121,11 @@ private:
   /// Collapses u onto a near neighbour: the nearest that leaves good angles, else the one that leaves the best.
   void visit(std::int32_t u)
   {
+    if (!m_Operations.mayCoarsen(u)) return;
     ++m_Tries[u];
     shortNeighbours(u);
     if (m_Complex.onInterface[u]) keepOnlyAlongInterface();
     const Vec3 from = m_Complex.points[u];
-    const double low = m_Operations.isWorthAngles(u) ? m_Low : m_Good;
     m_Candidates.clear();
     bool fits = false;
     for (double share : { 1.0, 0.5, 0.0, 0.75, 0.25 })
@@ -138,8 +138,8 @@ private:
         const Vec3 to = m_Complex.points[n.vertex];
         Vec3 p = share == 1 ? to : from + share * (to - from);
         if (share == 0.5 && fits) p = fitted(u, n.vertex, p);
-        const double q = m_Operations.qualityAfterCollapse(u, n.vertex, p, low, m_Options.longEdge);
-        if (q < low) continue;
+        const double q = m_Operations.qualityAfterCollapse(u, n.vertex, p, m_Low, m_Options.longEdge);
+        if (q < m_Low) continue;
         if (q >= m_Good && collapse(u, { q, n.vertex, p })) return;
         if (q < m_Good) m_Candidates.push_back({ q, n.vertex, p });
       }

@@ -18,7 +18,7 @@
 namespace surgicalmesher
 {
 
-bool GuardedOperations::isWorthAngles(std::int32_t u)
+bool GuardedOperations::mayCoarsen(std::int32_t u)
 {
   if (!m_Curves || m_Curves->isOn(u)) return true;
   const auto& around = neighbours(u);

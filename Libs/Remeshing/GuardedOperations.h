@@ -92,9 +92,9 @@ public:
   /// along it and wholly seen; one beside it, only without moving it.
   bool mayCollapse(std::int32_t u, std::int32_t v, bool moves) const;
 
-  /// Whether angles may suffer for an edge of u to go: where there are curves, only beside these, which have cut the
-  /// tetrahedra there; the lengths of the others were settled before.
-  bool isWorthAngles(std::int32_t u);
+  /// Whether coarsening may take u away: where there are curves, only beside these, which have cut the tetrahedra there;
+  /// the lengths of the others were settled before.
+  bool mayCoarsen(std::int32_t u);
 
   /// The worst quality that merging u into v at p would leave among the changed tetrahedra; some value below `atLeast`
   /// if it is less than that, or if an edge at v would become longer than maximumRatio times the target (one that is
