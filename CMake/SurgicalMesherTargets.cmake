@@ -78,6 +78,7 @@ function(surgicalmesher_add_cli name)
   add_custom_command(TARGET ${name} POST_BUILD
     COMMAND ${CMAKE_COMMAND} -E copy_if_different ${xml} $<TARGET_FILE_DIR:${name}>/${name}.xml)
   surgicalmesher_install_program(${name})
+  set_property(GLOBAL APPEND PROPERTY SurgicalMesher_DESCRIPTIONS ${name}=${xml}) # for manual pages
   install(FILES ${xml} DESTINATION ${SurgicalMesher_CLI_INSTALL_DIRECTORY} COMPONENT RuntimeLibraries)
   if(SurgicalMesher_UNIT_TESTS AND SurgicalMesher_PYTHON)
     surgicalmesher_add_description_test(${name})

@@ -1,6 +1,6 @@
 """surgicalmesher: the bytes of the three programs in a row, and what it adds to them.
 
-usage: test_program.py BIN OUTDIR
+usage: test_program.py BIN PAGES OUTDIR
 """
 import base64
 import glob
@@ -8,6 +8,7 @@ import html.parser
 import io
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -24,7 +25,7 @@ from maps import cut_out, write_nrrd  # noqa: E402
 from measures import signed_volumes  # noqa: E402
 from meshfiles import read_mesh  # noqa: E402
 
-BIN, OUTDIR = (os.path.abspath(path) for path in sys.argv[1:3])
+BIN, PAGES, OUTDIR = (os.path.abspath(path) for path in sys.argv[1:4])
 TARGET = "-4,12,-7"
 SIZES = ("--minimumEdgeLength", "3", "--maximumEdgeLength", "6", "--childRadius", "4")
 
@@ -165,6 +166,26 @@ class ProgramTest(unittest.TestCase):
         done = surgicalmesher("mesh", "--config=hand.toml", "--childRadius", "4")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_same_as_three_programs("by-hand")
+
+    def completed(self, *words):
+        script = (f"source {PAGES}/completions/surgicalmesher; COMP_WORDS=(surgicalmesher {' '.join(words)}); "
+                  f"COMP_CWORD={len(words)}; _surgicalmesher; echo ${{COMPREPLY[@]}}")
+        return subprocess.run(["bash", "-euc", script], check=True, stdout=subprocess.PIPE, text=True).stdout.split()
+
+    def test_completion(self):
+        self.assertEqual(self.completed("qua"), ["quality"])
+        self.assertEqual(self.completed("mesh", "--prese"), ["--preset"])
+        self.assertEqual(self.completed("mesh", "--preset", "dr"), ["draft"])
+        self.assertEqual(self.completed("view", "--part", "c"), ["cut", "child"])
+
+    def test_manual_pages_have_the_options_of_the_help(self):
+        for command in ("mesh", "estimate", "quality", "convert", "view"):
+            page = bytes_of(os.path.join(PAGES, "man1", f"surgicalmesher-{command}.1")).decode()
+            told = set(re.findall(r"^\.B \\-\\-(\w+)$", page, re.M))
+            common = {"help", "version", "xml", "returnparameterfile", "echo", "progress", "quiet",
+                      "processinformationaddress"}
+            options = set(re.findall(r"^  --(\w+)", surgicalmesher(command, "--help").stdout, re.M)) - common
+            self.assertEqual(told, options)
 
     def test_report_is_one_whole_page(self):
         page = Page(bytes_of("out/report.html").decode())
