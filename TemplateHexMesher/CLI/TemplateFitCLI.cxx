@@ -6,11 +6,13 @@
 #include "ElementMeshIO.h"
 #include "ElementQuality.h"
 #include "Errors.h"
+#include "Repair.h"
 #include "ReportMembers.h"
 #include "SolverExports.h"
 #include "TemplateFit.h"
 #include "TemplateFitCLIXML.h"
 #include "TissueMapIO.h"
+#include "Validity.h"
 
 #include <vtkSMPTools.h>
 
@@ -108,7 +110,13 @@ void writeCarried(CommandLine& line, const std::vector<Carried>& files, const Un
 {
   for (const Carried& file : files)
   {
-    const Points moved = carried(units.ofTemplate * file.content.mesh.points, from, to);
+    const std::vector<Element>& elements = file.content.mesh.elements;
+    const Points moved = repaired({ carried(units.ofTemplate * file.content.mesh.points, from, to), elements });
+    const std::size_t invalid = validityOf(elements, moved).invalid;
+    if (invalid > 0)
+      line.warning(file.destination + ": " + std::to_string(invalid) +
+                   " elements are invalid and could not be repaired, " +
+                   std::to_string(validityOf(elements, file.content.mesh.points).invalid) + " were before");
     writeElementMesh(file.content, moved / units.ofTarget, file.source, line.outputPath(file.destination));
   }
 }

@@ -5,6 +5,7 @@
 #include "ElementQuality.h"
 #include "Errors.h"
 #include "FitEnergy.h"
+#include "Repair.h"
 #include "Slab.h"
 #include "SurfaceDistance.h"
 #include "ThinPlateSpline.h"
@@ -318,4 +319,17 @@ TEST(Carrying, TakesPointsWhereTheNodesGo)
   EXPECT_LT((carried(mesh.points, mesh.points, truth, 50) - truth).cwiseAbs().maxCoeff(), 1e-6);
   const ElementMesh fine = slab(37, 29, 5);
   EXPECT_LT((carried(fine.points, mesh.points, truth) - bent(fine.points)).colwise().norm().maxCoeff(), 1.5);
+}
+
+TEST(Repair, MakesElementsValidAndLeavesTheOthersNearTheirPlace)
+{
+  const ElementMesh mesh = slab();
+  EXPECT_EQ(repaired(mesh), mesh.points);
+  ElementMesh tangled = mesh;
+  const int node = 5 + 11 * (4 + 9);
+  tangled.points.col(node) += Eigen::Vector3d(18, 12, 0);
+  ASSERT_GT(invalidIn(mesh, tangled.points), 0u);
+  const Points points = repaired(tangled);
+  EXPECT_EQ(invalidIn(mesh, points), 0u);
+  EXPECT_LT((points - tangled.points).col(0).norm(), 0.1); // a corner of the slab
 }

@@ -23,6 +23,7 @@ sys.path[:0] = [os.path.join(ROOT, "workflow", "hexahedra")]
 import face_shape  # noqa: E402
 
 LANDMARKS = 48
+ICT_SKIN = 11248  # vertices of face, head and neck come first; then those of mouth, eyes and teeth
 # The second person's vertices that are landmarks of ICT's faces (from 0).
 ICT_LANDMARKS = [int(word) for word in """
 1225 1888 1052 367 1719 1722 2199 1447 966 3661 4390 3927 3924 2608 3272 4088 3443 268 493 1914 2044 1401 3615 4240 4114
@@ -223,11 +224,13 @@ def ict_table(folder, source):
     points, faces = read_obj(os.path.join(source, "neutral.obj.gz"))
     truth, _ = read_obj(os.path.join(source, "identity003.obj.gz"))
     triangles = np.array([[face[0], face[i - 1], face[i]] for face in faces for i in range(2, len(face))])
-    shell(folder, points, faces)
-    report, seconds, fitted = fit(
-        folder, "ict", os.path.join(folder, "neutral.obj"), os.path.join(folder, "identity003.obj"),
-        (points[ICT_LANDMARKS], truth[ICT_LANDMARKS]), "--templateUnit", "cm", "--targetUnit", "cm", "--carry",
-        os.path.join(folder, "shell.vtu"))
+    at = lambda name: os.path.join(folder, name)  # noqa: E731
+    marks, units = points[ICT_LANDMARKS], ("--templateUnit", "cm", "--targetUnit", "cm", "--carry")
+    shell(at("offset.vtu"), points[:ICT_SKIN], [face for face in faces if max(face) < ICT_SKIN])
+    fit(folder, "itself", at("neutral.obj"), at("neutral.obj"), (marks, marks), *units, at("offset.vtu"))
+    os.replace(at("itself.fitted.offset.vtu"), at("shell.vtu"))
+    report, seconds, fitted = fit(folder, "ict", at("neutral.obj"), at("identity003.obj"),
+                                  (marks, truth[ICT_LANDMARKS]), *units, at("shell.vtu"))
     if report is None:
         print(fitted)
         return
@@ -241,23 +244,23 @@ def ict_table(folder, source):
                                              * triangle_normals(b, triangles)).sum(axis=1) <= 0)
     print(f"{'triangles turned against truth':32}{against(result, truth):8d}")
     print(f"{'the truth against the source':32}{against(truth, points):8d}")
-    carried = os.path.join(folder, "ict.fitted.shell.vtu")
-    before, after = invalid_hexahedra(os.path.join(folder, "shell.vtu")), invalid_hexahedra(carried)
-    print(f"{'hexahedra of the shell':32}{len(after):8d}, invalid before {before.sum()}, of the others after "
-          f"{(after & ~before).sum()}")
+    for name, file in (("the skin's shell, as offset", "offset.vtu"), ("  made valid where it lies", "shell.vtu"),
+                       ("  carried to identity003", "ict.fitted.shell.vtu")):
+        invalid = invalid_hexahedra(at(file))
+        print(f"{name:32}{invalid.sum():8d} invalid of {len(invalid)} hexahedra")
     print(f"{'seconds':32}{seconds:8.1f}", flush=True)
 
 
-def shell(folder, points, faces):
-    """Each face of the skin as an element 1 mm thick, inwards."""
+def shell(file, points, faces):
+    """Each face of the skin as an element 0.3 mm thick, inwards."""
     triangles = np.array([[face[0], face[i - 1], face[i]] for face in faces for i in range(2, len(face))])
     normals = np.zeros_like(points)
     for i in range(3):
         np.add.at(normals, triangles[:, i], triangle_normals(points, triangles))
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     count = len(points)
-    both = np.concatenate([points - 0.1 * normals, points])
-    write_grid(os.path.join(folder, "shell.vtu"), both, [[*face, *(i + count for i in face)] for face in faces])
+    both = np.concatenate([points - 0.03 * normals, points])
+    write_grid(file, both, [[*face, *(i + count for i in face)] for face in faces])
 
 
 def invalid_hexahedra(file):
