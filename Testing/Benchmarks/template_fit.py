@@ -227,7 +227,8 @@ def ict_table(folder, source):
     at = lambda name: os.path.join(folder, name)  # noqa: E731
     marks, units = points[ICT_LANDMARKS], ("--templateUnit", "cm", "--targetUnit", "cm", "--carry")
     shell(at("offset.vtu"), points[:ICT_SKIN], [face for face in faces if max(face) < ICT_SKIN])
-    fit(folder, "itself", at("neutral.obj"), at("neutral.obj"), (marks, marks), *units, at("offset.vtu"))
+    fit(folder, "itself", at("neutral.obj"), at("neutral.obj"), (marks, marks), "--iterations", "1", *units,
+        at("offset.vtu"))
     os.replace(at("itself.fitted.offset.vtu"), at("shell.vtu"))
     report, seconds, fitted = fit(folder, "ict", at("neutral.obj"), at("identity003.obj"),
                                   (marks, truth[ICT_LANDMARKS]), *units, at("shell.vtu"))
