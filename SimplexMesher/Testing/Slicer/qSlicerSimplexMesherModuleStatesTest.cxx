@@ -42,9 +42,9 @@ int testInputs(Panel& panel)
   CHECK_STD_STRING(panel.problem(), "");
   CHECK_INT(int(panel.table()->tissues().size()), 2);
   segments->GetSegmentation()->RemoveSegment(segments->GetSegmentation()->GetNthSegmentID(0));
-  CHECK_BOOL(panel.host.waitUntil([&] { return panel.table()->tissues().size() == 1; }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return panel.table()->tissues().size() == 1; }), true);
   segments->GetSegmentation()->RemoveAllSegments();
-  CHECK_BOOL(panel.host.waitUntil([&] { return says(panel, "no segments"); }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return says(panel, "no segments"); }), true);
   vtkMRMLNode* background = addLabelMap(scene, "Background", 8, 1, [](const Point&) { return 0; });
   panel.choose("TissueMapSelector", background);
   CHECK_BOOL(says(panel, "No voxel"), true);
@@ -71,14 +71,14 @@ int testScale(Panel& panel)
   auto* smallMap = vtkMRMLLabelMapVolumeNode::SafeDownCast(small);
   scale->SetAndObserveImageData(smallMap->GetImageData());
   scale->CopyOrientation(smallMap);
-  CHECK_BOOL(panel.host.waitUntil([&] { return says(panel, "doesn't cover"); }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return says(panel, "doesn't cover"); }), true);
   scale->SetSpacing(3, 3, 3);
   scale->SetOrigin(-13.5, -13.5, -13.5);
-  CHECK_BOOL(panel.host.waitUntil([&] { return panel.problem().empty(); }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return panel.problem().empty(); }), true);
   scale->SetAndObserveTransformNodeID(addTransform(scene)->GetID());
-  CHECK_BOOL(panel.host.waitUntil([&] { return says(panel, "doesn't cover"); }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return says(panel, "doesn't cover"); }), true);
   balls->SetAndObserveTransformNodeID(scale->GetTransformNodeID()); // both: as before
-  CHECK_BOOL(panel.host.waitUntil([&] { return panel.problem().empty(); }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return panel.problem().empty(); }), true);
   CHECK_BOOL(panel.apply(), true);
   CHECK_STD_STRING(panel.run->GetErrorText(), "");
   scene->RemoveNode(scale);

@@ -294,10 +294,10 @@ int checkPreview(const Panel& panel)
   CHECK_BOOL(saved.find(preview->GetName()) == std::string::npos, true);
   CHECK_BOOL(std::abs(preview->GetImageData()->GetScalarRange()[0] - 0.5) < 0.05, true);
   panel.slide("MinimumEdgeLengthSlider", 1.5); // followed, a moment later
-  CHECK_BOOL(panel.host.waitUntil([&] { return preview->GetImageData()->GetScalarRange()[0] >= 1.5; }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return preview->GetImageData()->GetScalarRange()[0] >= 1.5; }), true);
   inputs.targets->SetNthControlPointPosition(0, 100, 100, 100);
   panel.choose("PathSelector", nullptr);
-  CHECK_BOOL(panel.host.waitUntil([&] { return preview->GetImageData()->GetScalarRange()[0] > 2.9; }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return preview->GetImageData()->GetScalarRange()[0] > 2.9; }), true);
 
   box->setChecked(false);
   CHECK_STD_STRING(nodes.leftovers(), "");
@@ -309,9 +309,9 @@ int checkPreview(const Panel& panel)
   panel.host.leavePanel();
   CHECK_STD_STRING(nodes.leftovers(), "");
   panel.host.enterPanel("SurgicalPathScale");
-  CHECK_BOOL(panel.host.waitUntil([&] { return panel.logic->IsPreviewShown(); }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return panel.logic->IsPreviewShown(); }), true);
   inputs.labelMap->GetScene()->RemoveNode(inputs.labelMap); // its input goes: so does the preview
-  CHECK_BOOL(panel.host.waitUntil([&] { return !panel.logic->IsPreviewShown(); }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return !panel.logic->IsPreviewShown(); }), true);
   box->setChecked(false);
   clear(panel);
   return EXIT_SUCCESS;
@@ -321,7 +321,7 @@ int checkPlotAndEstimate(const Panel& panel)
 {
   fill(panel);
   auto* label = panel.child<QLabel>("EstimateLabel");
-  CHECK_BOOL(panel.host.waitUntil([&] { return label->text().contains("tetrahedra"); }, 5), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return label->text().contains("tetrahedra"); }), true);
   const vtkSlicerSurgicalPathScaleLogic::Estimate estimate = panel.logic->EstimateMesh(panel.node());
   const LeftoverCheck nodes(panel.host.scene());
   auto* box = panel.child<QCheckBox>("ProfileCheckBox");
