@@ -235,9 +235,8 @@ void requireImageData(const std::string& imageFile, std::uint64_t byteCount)
   const std::uint64_t expected = block.headerBytes + byteCount;
   if (block.compressed)
   {
-    requireCredibleCompression(block, size);
     stream.seekg(std::streamoff(block.offset));
-    if (inflatedSize(stream, expected) >= expected) return;
+    if (inflatedSize(stream, expected) >= expected) return requireCredibleCompression(block, size);
     throw InputError(block.file + ": the compressed voxels are truncated or damaged, expected " +
                      std::to_string(byteCount) + " bytes of them");
   }

@@ -73,7 +73,7 @@ TEST(VertexPlacement, LowersThePenaltyAndKeepsClear)
   for (const VertexPlacement placement : { VertexPlacement::NotWhole, VertexPlacement::All })
     for (const SizingFunction& length : { uniform, graded })
     {
-      const std::vector<Vec3> before = shaken(latticePoints(ball(), length, kClearance), 0.3);
+      const std::vector<Vec3> before = shaken(latticePoints(ball(), length, kClearance), 0.4);
       const std::vector<Vec3> after = placedPoints(ball(), before, length, placement, kClearance);
       const auto penaltyOf = [&](const std::vector<Vec3>& points)
       { return placementPenalty(together(ball().points, insideOf(points)), length) / double(points.size()); };

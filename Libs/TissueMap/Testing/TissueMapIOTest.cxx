@@ -645,11 +645,14 @@ TEST(Trial, B14_HeadersThatCrashTheirReaderAreRefused)
 // B14, found by CorruptedFilesFuzz: ITK's reader asks for the memory that the header claims.
 TEST(Trial, B14_CompressedSizesBeyondTheFileAreRefused)
 {
+  const std::string eightVoxels("\x78\x01\x01\x08\x00\xf7\xff"
+                                "12345678\x07\x40\x01\xa5",
+                                19); // as zlib stores them
   for (const char* size : { "42949672956", "1e308", "-1" })
     expectFileRefused("map.mha",
                       std::string("ObjectType = Image\nNDims = 3\nBinaryData = True\nCompressedData = True\n"
                                   "CompressedDataSize = ") +
-                        size + "\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n12345678",
+                        size + "\nDimSize = 2 2 2\nElementType = MET_UCHAR\nElementDataFile = LOCAL\n" + eightVoxels,
                       std::string("CompressedDataSize is \"") + size + "\", expected no more than");
 }
 
