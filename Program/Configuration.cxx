@@ -3,6 +3,7 @@
 
 #include "Arguments.h"
 #include "Errors.h"
+#include "PrintableText.h"
 #include "TextFile.h"
 
 #include <toml++/toml.h>
@@ -80,17 +81,6 @@ void requireAccepted(const Parameter& parameter, const std::vector<std::string>&
       throw InputError(file + ": " + error.what());
     }
   }
-}
-
-std::string quoted(const std::string& text)
-{
-  std::string result = "\"";
-  for (const char letter : text)
-  {
-    if (letter == '"' || letter == '\\') result += '\\';
-    result += letter;
-  }
-  return result + "\"";
 }
 
 std::string absolutePath(const std::string& file)

@@ -25,18 +25,6 @@ std::string escaped(const std::string& text)
   return result;
 }
 
-/// Of printable text without line ends.
-std::string quoted(const std::string& text)
-{
-  std::string result = "\"";
-  for (const char letter : text)
-  {
-    if (letter == '"' || letter == '\\') result += '\\';
-    result += letter;
-  }
-  return result + "\"";
-}
-
 /// Without line ends; blanks stay, as columns of tables need them.
 std::string unbroken(std::string text)
 {

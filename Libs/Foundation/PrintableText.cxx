@@ -69,4 +69,15 @@ std::string printable(const std::string& text)
   return result;
 }
 
+std::string quoted(const std::string& text)
+{
+  std::string result = "\"";
+  for (const char letter : text)
+  {
+    if (letter == '"' || letter == '\\') result += '\\';
+    result += letter;
+  }
+  return result + "\"";
+}
+
 } // namespace surgicalmesher

@@ -29,18 +29,6 @@ double smallestLength(const BackgroundMesh& background)
   return smallest;
 }
 
-std::map<Label, double> tissueVolumes(const TetMesh& mesh)
-{
-  std::map<Label, double> volumes;
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-  {
-    const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    if (mesh.labels[t] != 0)
-      volumes[mesh.labels[t]] += orient(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) / 6;
-  }
-  return volumes;
-}
-
 } // namespace
 
 void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const TetrahedraImprovementOptions& options,

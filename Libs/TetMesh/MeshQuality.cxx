@@ -380,6 +380,18 @@ Distribution distributionOf(std::vector<double> values)
   return result;
 }
 
+std::map<Label, double> tissueVolumes(const TetMesh& mesh)
+{
+  std::map<Label, double> volumes;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    const auto& [a, b, c, d] = mesh.tetrahedra[t];
+    if (mesh.labels[t] != 0)
+      volumes[mesh.labels[t]] += orient(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) / 6;
+  }
+  return volumes;
+}
+
 std::size_t countBelow(const TetMesh& mesh, double degrees)
 {
   const double least = sine2OfDegrees(degrees);

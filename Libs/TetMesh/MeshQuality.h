@@ -76,6 +76,9 @@ struct MeshQuality
 /// How many tetrahedra of tissues (label not 0) have a dihedral angle below `degrees` or above 180 minus it.
 std::size_t countBelow(const TetMesh& mesh, double degrees);
 
+/// Of the tissues (label not 0), mm^3.
+std::map<Label, double> tissueVolumes(const TetMesh& mesh);
+
 /// Assesses the tetrahedra (label 0 included, if there are any). `subMesh` per tetrahedron, or empty. `edgeLength` is
 /// L(x) in mm, asked at the middle of each edge, or empty.
 MeshQuality assessQuality(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh,

@@ -61,18 +61,6 @@ std::multiset<Centre> sampleCentres(const KuhnLattice& lattice, const Vec3& spac
   return centres;
 }
 
-std::map<Label, double> volumesOf(const TetMesh& mesh)
-{
-  std::map<Label, double> volumes;
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-  {
-    const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    if (mesh.labels[t] != 0)
-      volumes[mesh.labels[t]] += orient(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) / 6;
-  }
-  return volumes;
-}
-
 double worstAngle(const TetMesh& mesh)
 {
   double worst = 90;
@@ -162,7 +150,7 @@ void expectFaithful(const TissueMap& map, const ScaleField& scale, double angle,
   {
     if (label != 0) expected[label] += voxel;
   }
-  const auto volumes = volumesOf(mesh);
+  const auto volumes = tissueVolumes(mesh);
   ASSERT_EQ(volumes.size(), expected.size());
   for (const auto& [label, volume] : expected)
     EXPECT_NEAR(volumes.at(label), volume, 1e-9 * volume) << "label " << label;
