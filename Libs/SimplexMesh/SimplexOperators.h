@@ -44,6 +44,9 @@ struct OperatorLimits
 /// An edge of the dual, by its points.
 using DualEdge = std::array<std::int32_t, 2>;
 
+/// Its parts: operators (SimplexOperators.cxx), what refuses them by shape (OperatorGuards.cxx) and by topology
+/// (TopologyGuards.cxx), and queries of what is around a face (FaceNeighbourhood.cxx) and of lengths and angles
+/// (FaceMeasures.cxx).
 class SimplexOperators
 {
 public:
@@ -140,6 +143,8 @@ private:
                         const std::vector<std::int32_t>& old) const;
   bool keepsTissues(std::int32_t a, std::int32_t b) const;
   bool keepsCreases(std::int32_t a, std::int32_t b) const;
+  bool isChamfer(std::int32_t a, std::int32_t b) const;
+  std::vector<Vec3> creaseDirections(std::int32_t a) const;
   bool isCurve(std::int32_t a, std::int32_t b) const;
   bool isCrease(std::int32_t a, std::int32_t b) const
   {

@@ -136,6 +136,49 @@ TEST(SurfaceRemeshing, KeepsTheEdgesOfACube)
   EXPECT_EQ(remeshSurface(before, blunt).sharpEdges, 0u);
 }
 
+/// A column of height 10 on a square of side 9.5 whose corners are cut off by a quarter, as contours of voxels are.
+SurfaceComplex chamferedColumn()
+{
+  constexpr int sides = 40, layers = 10, rings = 4;
+  constexpr std::array<Vec3, 4> ways{ { { 1, 0, 0 }, { 0, 1, 0 }, { -1, 0, 0 }, { 0, -1, 0 } } };
+  std::vector<Vec3> outline;
+  for (int side = 0; side < 4; ++side)
+    for (int i = 0; i < sides / 4; ++i) outline.push_back((i - 4.5) * ways[side] - 4.75 * ways[(side + 1) % 4]);
+  SurfaceComplex surface;
+  const auto addRing = [&](double z, double size)
+  {
+    for (const Vec3& p : outline) surface.points.push_back(size * p + Vec3{ 0, 0, z });
+  };
+  for (int ring = 1; ring <= rings; ++ring) addRing(0, double(ring) / (rings + 1));
+  for (int layer = 0; layer <= layers; ++layer) addRing(layer, 1);
+  for (int ring = rings; ring >= 1; --ring) addRing(layers, double(ring) / (rings + 1));
+  const auto size = std::int32_t(surface.points.size());
+  surface.points.insert(surface.points.end(), { { 0, 0, 0 }, { 0, 0, layers } });
+  for (std::int32_t k = 0; k < sides; ++k)
+  {
+    const std::int32_t next = (k + 1) % sides;
+    surface.triangles.push_back({ size, next, k });
+    for (std::int32_t from = 0; from < size - sides; from += sides)
+    {
+      surface.triangles.push_back({ from + k, from + next, from + sides + next });
+      surface.triangles.push_back({ from + k, from + sides + next, from + sides + k });
+    }
+    surface.triangles.push_back({ size - sides + k, size - sides + next, size + 1 });
+  }
+  surface.labels.assign(surface.triangles.size(), { Label(1), Label(0) });
+  return surface;
+}
+
+TEST(SurfaceRemeshing, MakesOneEdgeOfAChamfer)
+{
+  const SurfaceComplex before = chamferedColumn();
+  EXPECT_EQ(checkSurface(before).at(1).euler, 2);
+  const RemeshedSurface result = remeshSurface(before, uniform(3));
+  expectSameTissues(before, result.surface, 0.001);
+  expectWithin(before, result.surface, 0.1, 0.6);
+  EXPECT_GE(triangleQuality(result.surface).smallestAngle.minimum, 20);
+}
+
 TEST(SurfaceRemeshing, KeepsTissuesAndTheCurvesBetweenThem)
 {
   const SurfaceComplex before = halvedBall();
