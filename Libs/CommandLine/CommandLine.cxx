@@ -349,6 +349,8 @@ void CommandLine::discardOutput(const std::string& name)
   for (const std::string& file : this->outputNames(name)) d->outputs.discard(file);
 }
 
+void CommandLine::commitPath(const std::string& finalPath) { d->outputs.commit(finalPath); }
+
 void CommandLine::returnValue(const std::string& name, const std::string& value)
 {
   d->parameter(

@@ -68,6 +68,8 @@ public:
   /// An output that only a refusal has, to show what is at fault: renamed into place at once, or not to be written.
   void commitOutput(const std::string& name);
   void discardOutput(const std::string& name);
+  /// A file of outputPath() that is of use while the run goes on: renamed into place at once.
+  void commitPath(const std::string& finalPath);
 
   /// A simple output parameter (channel output, no flag): written to --returnparameterfile as `name = value`.
   void returnValue(const std::string& name, const std::string& value);

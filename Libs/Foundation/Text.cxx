@@ -97,6 +97,20 @@ std::string legible(const std::string& text)
   return result;
 }
 
+std::string xmlEscaped(const std::string& text)
+{
+  std::string result;
+  for (const char c : text)
+  {
+    if (c == '&') result += "&amp;";
+    else if (c == '<') result += "&lt;";
+    else if (c == '>') result += "&gt;";
+    else if (c == '"') result += "&quot;";
+    else result += c;
+  }
+  return result;
+}
+
 std::string extensionOf(const std::string& file) { return lowerCase(std::filesystem::path(file).extension().string()); }
 
 std::vector<std::string> split(const std::string& text, char separator)

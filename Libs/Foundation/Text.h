@@ -19,6 +19,9 @@ std::string oneLine(const std::string& text); ///< every run of white space beco
 /// then do no harm in the files they go to.
 std::string legible(const std::string& text);
 
+/// For the text and the attributes of XML.
+std::string xmlEscaped(const std::string& text);
+
 /// Lower case, with its dot: ".vtp".
 std::string extensionOf(const std::string& file);
 

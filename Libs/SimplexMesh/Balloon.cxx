@@ -76,9 +76,10 @@ std::vector<char> meetsAnother(const SurfaceComplex& surface, const std::vector<
 class Growth
 {
 public:
-  Growth(const std::vector<BalloonSeed>& seeds, const StoppingField& field, const BalloonOptions& options)
-    : m_Field(field), m_Options(options), m_Pressure(options.pressure > 0 ? options.pressure : 0.075 * field.reach()),
-      m_None(SurfaceComplex{}, 1e-6)
+  Growth(const std::vector<BalloonSeed>& seeds, const StoppingField& field, const BalloonOptions& options,
+         const BalloonWatch& watch)
+    : m_Field(field), m_Options(options), m_Watch(watch),
+      m_Pressure(options.pressure > 0 ? options.pressure : 0.075 * field.reach()), m_None(SurfaceComplex{}, 1e-6)
   {
     for (const BalloonSeed& seed : seeds) m_Centres[seed.tissue] = seed.centre;
     m_Motion.internalForce.continuity = Continuity::C0; // along the surface; bending has a width of its own
@@ -88,14 +89,14 @@ public:
 
   /// Until the volume rests, or the motions run out: with L(x) or, while it grows, edges that are not shorter than the
   /// rigidity asks for.
-  bool run(bool grows, const Progress& progress, const BalloonWatch& watch)
+  bool run(bool grows, const Progress& progress)
   {
     m_ShortestEdge = grows && m_Options.continuity != Continuity::C0 ? lengthOfRigidity * m_Options.rigidity : 0;
     std::vector<double> volumes;
     while (m_Motions + motionsPerRound + lastMotions <= m_Options.mostMotions)
     {
       report(progress, double(m_Motions) / m_Options.mostMotions, "balloon");
-      round(watch);
+      round();
       volumes.push_back(m_Steps.back().volume);
       constexpr std::size_t span = 7; // rounds to look back
       if (volumes.size() <= span) continue;
@@ -143,7 +144,7 @@ private:
     return area;
   }
 
-  void round(const BalloonWatch& watch)
+  void round()
   {
     const AreaCounts counts = adaptAreas(
       *m_Mesh, [this](const Vec3& p) { return targetArea(p); }, m_Options.areaTolerance);
@@ -153,7 +154,6 @@ private:
     SimplexMotion motion(m_Motion);
     for (int n = 0; n < motionsPerRound; ++n) move(motion);
     measure(counts);
-    if (watch) watch(m_Motions, m_Mesh->surface());
   }
 
   void move(SimplexMotion& motion)
@@ -164,6 +164,7 @@ private:
     for (std::size_t p = 0; p < before.size(); ++p) sum += norm(m_Mesh->points()[p] - before[p]);
     m_MeanMove = sum / double(m_Mesh->faceCount());
     ++m_Motions;
+    if (m_Watch) m_Watch(m_Motions, *m_Mesh);
   }
 
   double wayToLimit(const Vec3& p, const Vec3& n, Label tissue) const
@@ -267,6 +268,7 @@ private:
 
   const StoppingField& m_Field;
   const BalloonOptions& m_Options;
+  const BalloonWatch& m_Watch;
   double m_Pressure;
   TissueBoundary m_None; ///< nothing attracts a balloon
   MotionOptions m_Motion;
@@ -319,9 +321,9 @@ BalloonResult growBalloons(const std::vector<BalloonSeed>& seeds, const Stopping
                            const BalloonOptions& options, const Progress& progress, const BalloonWatch& watch)
 {
   requirePlaces(seeds, field);
-  Growth growth(seeds, field, options);
-  bool isAtRest = growth.run(true, subProgress(progress, 0, 0.6), watch);
-  isAtRest = growth.run(false, subProgress(progress, 0.6, 0.9), watch) && isAtRest;
+  Growth growth(seeds, field, options, watch);
+  bool isAtRest = growth.run(true, subProgress(progress, 0, 0.6));
+  isAtRest = growth.run(false, subProgress(progress, 0.6, 0.9)) && isAtRest;
   growth.settle();
   report(progress, 1, "balloon");
   return growth.result(isAtRest);

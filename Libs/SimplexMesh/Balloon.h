@@ -78,8 +78,8 @@ struct BalloonResult
   bool isAtRest = false;              ///< or else the motions ran out
 };
 
-/// Called with the surface after some of the motions.
-using BalloonWatch = std::function<void(int motion, const SurfaceComplex& surface)>;
+/// Called after every motion, with the membranes as they are.
+using BalloonWatch = std::function<void(int motion, const SimplexOperators& membranes)>;
 
 /// Everything in the grid frame of the field. Throws InputError if a seed is in a stopping tissue or outside the map,
 /// or if two seeds are within a voxel of each other; UsageError for options without meaning.

@@ -2,6 +2,7 @@
 #include "TissueSurfaces.h"
 
 #include "Structures.h"
+#include "Text.h"
 
 #include <algorithm>
 #include <set>
@@ -34,20 +35,6 @@ private:
   std::vector<std::int32_t> m_Ids;
   std::vector<Label> m_Owner; ///< the tissue that m_Ids is of
 };
-
-std::string escaped(const std::string& text)
-{
-  std::string result;
-  for (const char c : text)
-  {
-    if (c == '&') result += "&amp;";
-    else if (c == '<') result += "&lt;";
-    else if (c == '>') result += "&gt;";
-    else if (c == '"') result += "&quot;";
-    else result += c;
-  }
-  return result;
-}
 
 /// Whether the triangles with this label in front close up around a volume.
 bool isWholeInFront(const SurfaceComplex& surface, Label label)
@@ -122,16 +109,16 @@ std::map<Label, SurfaceFile> tissueSurfaces(const SurfaceFile& content)
 
 std::string multiBlockIndex(const std::map<Label, std::string>& files, const TissueTable& tissues)
 {
-  std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                     "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-                     "  <vtkMultiBlockDataSet>\n";
+  std::string result = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                       "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+                       "  <vtkMultiBlockDataSet>\n";
   int index = 0;
   for (const auto& [label, file] : files)
   {
-    text += "    <DataSet index=\"" + std::to_string(index++) + "\" name=\"" + escaped(nameOf(label, tissues)) +
-            "\" file=\"" + escaped(file) + "\"/>\n";
+    result += "    <DataSet index=\"" + std::to_string(index++) + "\" name=\"" +
+              text::xmlEscaped(nameOf(label, tissues)) + "\" file=\"" + text::xmlEscaped(file) + "\"/>\n";
   }
-  return text + "  </vtkMultiBlockDataSet>\n</VTKFile>\n";
+  return result + "  </vtkMultiBlockDataSet>\n</VTKFile>\n";
 }
 
 } // namespace surgicalmesher

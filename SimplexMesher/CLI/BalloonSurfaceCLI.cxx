@@ -6,6 +6,7 @@
 #include "CommandLine.h"
 #include "EnclosedVoxels.h"
 #include "Errors.h"
+#include "GrowthSeries.h"
 #include "JsonReport.h"
 #include "MeshChecks.h"
 #include "MeshIO.h"
@@ -215,10 +216,10 @@ std::map<Label, std::size_t> fill(TissueMap& map, const BalloonResult& result, c
   return counts;
 }
 
-SurfaceFile surfaceFile(const BalloonResult& result, const TissueMap& map, const BalloonOptions& options)
+SurfaceFile surfaceFile(const SurfaceComplex& surface, const TissueMap& map, const BalloonOptions& options)
 {
   SurfaceFile content;
-  content.surface = result.surface;
+  content.surface = surface;
   for (Vec3& p : content.surface.points)
   {
     content.targetEdgeLength.push_back(options.edgeLength(p));
@@ -249,6 +250,7 @@ void run(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
+  GrowthSeries growth(line);
   BalloonOptions options = readOptions(line);
   const std::vector<Seed> seeds = readSeeds(line);
   TissueMap map = readTissueMap(line.text("map"));
@@ -261,12 +263,15 @@ void run(CommandLine& line)
   options.edgeLength = [&](const Vec3& p) { return double(scale(map.grid.gridToWorld(p))); };
 
   const StoppingField field(map, stops, options.rigidity / 2 + map.grid.largestSpacing());
-  BalloonResult result = growBalloons(placed, field, options, subProgress(progress, 0.1, 0.9));
+  const BalloonWatch watch =
+    growth.watch([&](const SurfaceComplex& surface) { return surfaceFile(surface, map, options); });
+  BalloonResult result = growBalloons(placed, field, options, subProgress(progress, 0.1, 0.9), watch);
   shareInterfaces(result, map, stops, options, subProgress(progress, 0.9, 0.95));
   warn(line, result, map, options);
 
   report(progress, 0.95, "writing");
-  writeSurface(surfaceFile(result, map, options), line.outputFile("surface"));
+  writeSurface(surfaceFile(result.surface, map, options), line.outputFile("surface"));
+  growth.writeIndex();
   const std::map<Label, std::size_t> voxels = fill(map, result, stops);
   const std::string labelMap = line.outputFile("labelMap"), evolution = line.outputFile("evolution"),
                     reportFile = line.outputFile("report");

@@ -7,6 +7,8 @@
 
 #include <rapidjson/document.h>
 
+#include <filesystem>
+
 using namespace surgicalmesher;
 using namespace surgicalmesher::test;
 
@@ -117,6 +119,31 @@ TEST_F(BalloonSurfaceCLI, GivesTwoThatMeetOneInterface)
   for (const Label label : { 4, 5 })
     EXPECT_NEAR(double(std::count(result.labels.begin(), result.labels.end(), label)), tissues.at(label).volume,
                 0.05 * tissues.at(label).volume);
+}
+
+TEST_F(BalloonSurfaceCLI, WritesItsGrowthEveryTenthMotion)
+{
+  expectDone("--seeds seeds.mrk.json --stop 2 --edgeLength 2 --rigidity 6 --growth g.pvd --evolution e.csv "
+             "map.nrrd s.vtp");
+  const std::string index = readBytes(folder.file("g.pvd"));
+  double before = 0;
+  int motion = 10;
+  for (; std::filesystem::exists(folder.file("g-" + std::to_string(motion) + ".vtp")); motion += 10)
+  {
+    const std::string name = "g-" + std::to_string(motion) + ".vtp";
+    EXPECT_NE(index.find("timestep=\"" + std::to_string(motion) + "\" file=\"" + name + "\""), std::string::npos);
+    const SurfaceFile surface = readSurface(folder.file(name));
+    EXPECT_EQ(surface.tissues.at(4).name, "cavity");
+    const double volume = checkSurface(surface.surface).at(4).volume;
+    if (motion <= 30)
+    {
+      EXPECT_GT(volume, before);
+    }
+    before = volume;
+  }
+  EXPECT_GT(motion, 40);
+  EXPECT_NEAR(before / checkSurface(readSurface(folder.file("s.vtp")).surface).at(4).volume, 1, 0.05);
+  expectRefused("--seeds seeds.mrk.json --stop 2 --edgeLength 2 --growth g.pvd map.nrrd g-10.vtp", 2, "g-10.vtp");
 }
 
 TEST_F(BalloonSurfaceCLI, SaysWhereTheMembraneLeaks)
