@@ -5,7 +5,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #ifdef __linux__
@@ -15,6 +14,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 
 namespace surgicalmesher
 {
@@ -22,6 +22,7 @@ namespace surgicalmesher
 namespace
 {
 
+constexpr std::array<int, 3> signals{ SIGINT, SIGTERM, SIGHUP };
 std::atomic<pid_t> runningChild{ 0 };
 std::atomic<int> caughtSignal{ 0 };
 
@@ -57,8 +58,37 @@ public:
   PassedOnSignals& operator=(const PassedOnSignals&) = delete;
 
 private:
-  static constexpr std::array<int, 3> signals{ SIGINT, SIGTERM, SIGHUP };
-  std::array<struct sigaction, 3> m_Before = {};
+  std::array<struct sigaction, signals.size()> m_Before = {};
+};
+
+/// While it lives, signals wait: a new process has the handlers of this one, which would swallow them there.
+class HeldSignals
+{
+public:
+  HeldSignals()
+  {
+    sigset_t held;
+    sigemptyset(&held);
+    for (const int signal : signals) sigaddset(&held, signal);
+    pthread_sigmask(SIG_BLOCK, &held, &m_Before);
+  }
+  ~HeldSignals() { pthread_sigmask(SIG_SETMASK, &m_Before, nullptr); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
+  /// In a new process: those that come, and those that came, end it.
+  void letGo() const
+  {
+    for (const int signal : signals)
+    {
+      struct sigaction action = {};
+      sigaction(signal, nullptr, &action);
+      if (action.sa_handler == passOn) std::signal(signal, SIG_DFL);
+    }
+    pthread_sigmask(SIG_SETMASK, &m_Before, nullptr);
+  }
+
+private:
+  sigset_t m_Before;
 };
 
 class Pipe
@@ -106,6 +136,22 @@ private:
   words.push_back(nullptr);
   execv(program.c_str(), words.data());
   _exit(127);
+}
+
+pid_t startChild(const std::string& program, const std::vector<std::string>& arguments, const Pipe& out,
+                 const Pipe& errors)
+{
+  const HeldSignals held;
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) throw EngineError(program + ": can't be started");
+  if (child == 0)
+  {
+    held.letGo();
+    becomeProgram(program, arguments, out, errors, parent);
+  }
+  runningChild = child;
+  return child;
 }
 
 /// Appends what there is to read; false at the end.
@@ -160,11 +206,7 @@ ChildOutcome runChild(const std::string& program, const std::vector<std::string>
     throw EngineError(program + ": not found, expected beside surgicalmesher, where it is installed");
   Pipe out, errors;
   const PassedOnSignals passedOn;
-  const pid_t parent = getpid();
-  const pid_t child = fork();
-  if (child < 0) throw EngineError(program + ": can't be started");
-  if (child == 0) becomeProgram(program, arguments, out, errors, parent);
-  runningChild = child;
+  const pid_t child = startChild(program, arguments, out, errors);
   if (caughtSignal) kill(child, caughtSignal); // it came before the child was known
   out.closeWriting();
   errors.closeWriting();

@@ -259,7 +259,9 @@ void meshCommand(CommandLine& line, const std::string& programs, const std::stri
   options["folder"] = { request.folder };
   const std::string configuration = configurationText(options, description);
   report(progress, 0.96, "report");
-  writeBytes(configuration, line.outputPath(request.folder + "/run.toml"));
+  OutputFiles record; // the configuration of this very run may be an input, too
+  writeBytes(configuration, record.temporary(request.folder + "/run.toml"));
+  record.commit();
   writeBytes(htmlReport(request.folder, configuration), line.outputPath(request.folder + "/report.html"));
   line.message("report: " + request.folder + "/report.html");
   report(progress, 1, "done");

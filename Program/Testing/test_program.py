@@ -158,6 +158,8 @@ class ProgramTest(unittest.TestCase):
         self.assert_same_as_three_programs("repeated")
         with open("repeated/run.toml", encoding="utf-8") as file:
             self.assertEqual(file.read().replace("/repeated", "/out"), bytes_of("out/run.toml").decode())
+        done = surgicalmesher("mesh", "--config", "repeated/run.toml")
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
 
     def test_configuration_by_hand(self):
         with open("hand.toml", "w", encoding="utf-8") as file:

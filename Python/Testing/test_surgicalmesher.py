@@ -1,0 +1,297 @@
+"""The installed package: meshes of arrays and images, bytes as the program's, cancelled and refused.
+
+usage: test_surgicalmesher.py SOURCE PROGRAMS OUTDIR, by the environment's Python
+"""
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import unittest
+import warnings
+
+import meshio
+import nibabel
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkImageData
+
+import surgicalmesher
+from surgicalmesher._label_map import label_map
+
+SOURCE, PROGRAMS, OUTDIR = (os.path.abspath(path) for path in sys.argv[1:4])
+sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python"))
+from maps import LPS_FROM_RAS, cut_out, write_nrrd  # noqa: E402
+
+TARGET = (-4.0, 12.0, -7.0)
+OPTIONS = {"minimumEdgeLength": 1.5, "maximumEdgeLength": 6, "minimumIslandVolume": np.float32(30)}
+FLAGS = ("--target=-4,12,-7", "--minimumEdgeLength=1.5", "--maximumEdgeLength=6", "--minimumIslandVolume=30")
+ROTATION = np.linalg.qr(np.array([[4.0, 1, 0.5], [-1, 3, 0.2], [0.3, -0.4, -2]]))[0]
+LEFT_HANDED = ROTATION * np.sign(np.linalg.det(ROTATION)) * [1, 1, -1]
+SPACING, ORIGIN = (1.0, 1.5, 2.0), (3.0, -40.0, 12.5)
+COMMAND = os.path.join(os.path.dirname(sys.executable), "surgicalmesher")
+
+
+def program(*arguments, command=os.path.join(PROGRAMS, "surgicalmesher")):
+    done = subprocess.run([command, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, check=False)
+    assert done.returncode == 0, done.stdout
+
+
+def bytes_of(file):
+    with open(file, "rb") as stream:
+        return stream.read()
+
+
+def ball(size=12):
+    """A ball of the label 2 in one of the label 5."""
+    distance = np.linalg.norm(np.indices((size,) * 3) - (size - 1) / 2, axis=0)
+    return np.where(distance < size / 4, 2, np.where(distance < size / 2.2, 5, 0)).astype(np.uint8)
+
+
+def oblique_affine():
+    affine = np.eye(4)
+    affine[:3, :3] = LEFT_HANDED * SPACING
+    affine[:3, 3] = ORIGIN
+    return affine
+
+
+def vtk_image(labels, in_cells=False):
+    image = vtkImageData()
+    image.SetDimensions(*(np.array(labels.shape) + in_cells))
+    image.SetSpacing(SPACING)
+    image.SetDirectionMatrix(*LEFT_HANDED.ravel())
+    image.SetOrigin(np.array(ORIGIN) - 0.5 * in_cells * (LEFT_HANDED @ SPACING))
+    data = image.GetCellData() if in_cells else image.GetPointData()
+    data.SetScalars(numpy_to_vtk(labels.ravel(order="F"), deep=True))
+    return image
+
+
+class LabelMapTest(unittest.TestCase):
+    def setUp(self):
+        self.labels = np.random.default_rng(4).integers(0, 300, (3, 4, 5))
+
+    def assert_map(self, image, affine=None, **grid):
+        found = label_map(image, *(grid.get(name) for name in ("spacing", "origin", "directions")))
+        np.testing.assert_array_equal(found.labels, self.labels)
+        np.testing.assert_allclose(found.affine, oblique_affine() if affine is None else affine, atol=1e-12)
+
+    def test_array(self):
+        self.assert_map(self.labels, np.eye(4))
+        self.assert_map(self.labels.astype(float), spacing=SPACING, origin=ORIGIN, directions=LEFT_HANDED)
+        self.assert_map(self.labels.tolist(), np.diag([2, 3, 4, 1]), spacing=[2, 3, 4])
+
+    def test_nibabel(self):
+        self.assert_map(nibabel.Nifti1Image(self.labels.astype(np.int16), LPS_FROM_RAS @ oblique_affine()))
+        self.assert_map(nibabel.Nifti1Image(self.labels[..., None].astype(np.int16), LPS_FROM_RAS @ oblique_affine()))
+
+    def test_vtk(self):
+        self.assert_map(vtk_image(self.labels))
+        self.assert_map(vtk_image(self.labels, in_cells=True))
+
+    def test_vtk_image_that_begins_elsewhere(self):
+        image = vtk_image(self.labels)
+        image.SetExtent(*np.array([(first, first + size - 1) for first, size in zip((2, -1, 7), self.labels.shape)]).ravel())
+        shift = np.eye(4)
+        shift[:3, 3] = 2, -1, 7
+        self.assert_map(image, oblique_affine() @ shift)
+
+    def test_simpleitk(self):
+        try:
+            import SimpleITK
+        except ImportError:
+            self.skipTest("no SimpleITK")
+        image = SimpleITK.GetImageFromArray(self.labels.T.astype(np.uint16))
+        image.SetSpacing(SPACING)
+        image.SetOrigin(ORIGIN)
+        image.SetDirection(LEFT_HANDED.ravel())
+        self.assert_map(image)
+
+    def test_pyvista(self):
+        try:
+            import pyvista
+        except ImportError:
+            self.skipTest("no pyvista")
+        self.assert_map(pyvista.wrap(vtk_image(self.labels)))
+
+    def test_refused(self):
+        for labels in (self.labels + 0.5, -self.labels, self.labels + 65500, self.labels[0], vtkImageData()):
+            with self.assertRaisesRegex(ValueError, "^labels: .*expected"):
+                label_map(labels, None, None, None)
+        with self.assertRaisesRegex(ValueError, "^origin: "):
+            label_map(vtk_image(self.labels), None, ORIGIN, None)
+
+
+class MeshingTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(OUTDIR, ignore_errors=True)
+        os.makedirs(OUTDIR)
+        os.chdir(OUTDIR)
+        cls.labels, cls.affine = cut_out(np.s_[58:90, 84:116, 30:56])
+        write_nrrd("map.nrrd", cls.labels, cls.affine)
+        program("mesh", "map.nrrd", "out", *FLAGS)
+        cls.events = []
+        cls.mesh = surgicalmesher.mesh(cls.image(), targets=TARGET, **OPTIONS,
+                                       progress=lambda share, stage: cls.events.append((share, stage)))
+
+    def setUp(self):
+        os.makedirs("scratch")
+        self.before = os.environ.get("TMPDIR")
+        self.set_scratch(os.path.abspath("scratch"))
+
+    def tearDown(self):
+        left = os.listdir("scratch")
+        os.rmdir("scratch") if not left else shutil.rmtree("scratch")
+        self.set_scratch(self.before)
+        self.assertEqual(left, [])
+
+    @staticmethod
+    def set_scratch(folder):
+        import tempfile
+
+        os.environ.pop("TMPDIR", None)
+        if folder:
+            os.environ["TMPDIR"] = folder
+        tempfile.tempdir = None
+
+    @classmethod
+    def image(cls):
+        return nibabel.Nifti1Image(cls.labels, LPS_FROM_RAS @ cls.affine)
+
+    def assert_programs_bytes(self, mesh):
+        mesh.save("saved.vtu")
+        self.assertEqual(bytes_of("saved.vtu"), bytes_of("out/mesh.vtu"))
+
+    def test_bytes_are_the_programs(self):
+        self.assert_programs_bytes(self.mesh)
+        self.assert_programs_bytes(surgicalmesher.mesh(
+            self.labels, origin=self.affine[:3, 3], directions=self.affine[:3, :3], targets=[TARGET], threads=1, **OPTIONS))
+        self.assert_programs_bytes(surgicalmesher.mesh("map.nrrd", targetPoint=[TARGET], **OPTIONS))
+
+    def test_arrays(self):
+        corners = self.mesh.points[self.mesh.tetrahedra]
+        volumes = np.linalg.det(corners[:, 1:] - corners[:, :1]) / 6
+        self.assertGreater(volumes.min(), 0)
+        self.assertEqual(np.unique(self.mesh.tetrahedra).tolist(), list(range(len(self.mesh.points))))
+        in_map = np.bincount(self.labels.ravel())
+        in_mesh = np.bincount(self.mesh.tissue_labels, volumes, len(in_map))
+        large = np.flatnonzero(in_map[1:] > 500) + 1
+        self.assertGreater(len(large), 5)
+        np.testing.assert_allclose(in_mesh[large], in_map[large], rtol=0.1)
+        self.assertEqual(set(np.unique(self.mesh.tissue_labels)), set(self.mesh.tissue_names))
+        self.assertEqual(set(self.mesh.tissue_names), set(self.mesh.tissue_colors))
+        self.assertEqual(len(self.mesh.target_edge_length), len(self.mesh.points))
+        child = self.mesh.points[self.mesh.tetrahedra[self.mesh.sub_mesh == 1]].mean(axis=(0, 1))
+        self.assertLess(np.linalg.norm(child - TARGET), 5)
+        np.testing.assert_array_equal(self.mesh.constitutive, self.mesh.sub_mesh > 0)
+
+    def test_progress(self):
+        shares = [share for share, _ in self.events]
+        self.assertEqual((shares, shares[0], shares[-1]), (sorted(shares), 0, 1))
+        self.assertTrue({"scale: reading", "surface: lattice", "mesh: checks"} <= {stage for _, stage in self.events})
+
+    def test_other_formats(self):
+        program("convert", "out/mesh.vtu", "theirs.inp")
+        self.mesh.save("ours.inp")
+        self.assertEqual(bytes_of("ours.inp"), bytes_of("theirs.inp"))
+        self.assertEqual(len(meshio.read("ours.inp").cells_dict["tetra"]), len(self.mesh.tetrahedra))
+        with self.assertRaisesRegex(surgicalmesher.MeshingError, "ours.xyz") as caught:
+            self.mesh.save("ours.xyz")
+        self.assertEqual((caught.exception.status, os.path.exists("ours.xyz")), (2, False))
+
+    def test_meshio(self):
+        self.mesh.to_meshio().write("meshio.vtu")
+        back = meshio.read("meshio.vtu")
+        np.testing.assert_array_equal(back.points, self.mesh.points)
+        np.testing.assert_array_equal(back.cells_dict["tetra"], self.mesh.tetrahedra)
+        np.testing.assert_array_equal(back.cell_data["TissueLabel"][0], self.mesh.tissue_labels)
+
+    def test_pyvista(self):
+        try:
+            import pyvista  # noqa: F401
+        except ImportError:
+            self.skipTest("no pyvista")
+        grid = self.mesh.to_pyvista()
+        np.testing.assert_array_equal(grid.cells_dict[10], self.mesh.tetrahedra)
+        np.testing.assert_array_equal(grid.cell_data["TissueLabel"], self.mesh.tissue_labels)
+
+    def test_folder_stays_and_is_gone_on_from(self):
+        arguments = dict(preset="draft", targets=[(5, 5, 5)], spacing=(1, 1, 1.5), folder="kept", export="ball.msh")
+        first = surgicalmesher.mesh(ball(), **arguments)
+        self.assertIn("report.html", os.listdir("kept"))
+        self.assertIn("ball.msh", os.listdir("kept"))
+        stamp = os.stat("kept/mesh.vtu").st_mtime_ns
+        surgicalmesher.mesh(ball(), **arguments)
+        self.assertEqual(os.stat("kept/mesh.vtu").st_mtime_ns, stamp)
+        program("mesh", "--config", "kept/run.toml", "--threads", "1", command=COMMAND)
+        self.assertEqual(bytes_of("kept/mesh.vtu"), first.vtu)
+        other = surgicalmesher.mesh(ball() // 5, **arguments)
+        self.assertEqual(set(other.tissue_labels), {1})
+
+    def test_estimate(self):
+        figures = surgicalmesher.estimate(self.image(), targets=TARGET, minimumEdgeLength=1.5, maximumEdgeLength=6)
+        self.assertLess(abs(figures["tetrahedra"] / len(self.mesh.tetrahedra) - 1), 0.5)
+        self.assertGreater(figures["memoryBytes"], 1e6)
+
+    def test_warning(self):
+        with self.assertWarnsRegex(surgicalmesher.MeshingWarning, "outside the label map") as caught:
+            surgicalmesher.mesh(ball(), targets=(500, 0, 0), preset="draft")
+        self.assertEqual(caught.filename, os.path.abspath(__file__))
+
+    def assert_refused(self, status, words, labels, **arguments):
+        with self.assertRaisesRegex(surgicalmesher.MeshingError, words) as caught:
+            surgicalmesher.mesh(labels, **arguments)
+        self.assertEqual((caught.exception.status, str(caught.exception).count("\n")), (status, 0))
+        self.assertFalse(str(caught.exception).startswith("surgicalmesher"))
+
+    def test_refused(self):
+        self.assert_refused(1, "no-such-file.nrrd: no such file", "no-such-file.nrrd")
+        self.assert_refused(2, "childRadius", ball(), childRadius=-1)
+        self.assert_refused(2, "noSuchOption", ball(), noSuchOption=3)
+        self.assert_refused(2, "preset", ball(), preset="finest")
+        self.assert_refused(1, "", np.zeros((4, 4, 4)), folder="refused")
+        self.assertFalse(os.path.exists("refused"))
+        with self.assertRaisesRegex(ValueError, "^targets: "):
+            surgicalmesher.mesh(ball(), targets=[1, 2])
+        with self.assertRaisesRegex(ValueError, "^export: "):
+            surgicalmesher.mesh(ball(), export="head.inp")
+        with self.assertRaisesRegex(ValueError, "^spacing"):
+            surgicalmesher.mesh("map.nrrd", spacing=(1, 1, 1))
+        with self.assertRaisesRegex(surgicalmesher.MeshingError, "map.nrrd: "), warnings.catch_warnings():
+            surgicalmesher.read_mesh("map.nrrd")
+
+    def test_callback_cancels(self):
+        def refuse(share, stage):
+            if stage.startswith("surface"):
+                raise InterruptedError(stage)
+
+        with self.assertRaises(InterruptedError):
+            surgicalmesher.mesh(self.image(), targets=TARGET, progress=refuse, folder="cancelled")
+        self.assertEqual(set(os.listdir("cancelled")), {"scale.nrrd", "scale.json", "stages.json"})
+
+    def test_interrupt_leaves_nothing(self):
+        script = ("import surgicalmesher\n"
+                  "surgicalmesher.mesh('map.nrrd', targets=(-4, 12, -7), minimumEdgeLength=0.4,"
+                  " progress=lambda share, stage: print(stage, flush=True))")
+        child = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                 start_new_session=True)
+        for line in child.stdout:
+            if "surface: coarsening" in line:
+                break
+        self.assertEqual(len(os.listdir("scratch")), 1)
+        child.send_signal(signal.SIGINT)
+        errors = child.communicate()[1]
+        self.assertIn("KeyboardInterrupt", errors)
+        self.assertEqual(child.returncode, -signal.SIGINT)
+        with self.assertRaises(ProcessLookupError):  # none of its processes is left
+            os.killpg(child.pid, 0)
+
+    def test_command(self):
+        for words in ([COMMAND], [sys.executable, "-m", "surgicalmesher"]):
+            version = subprocess.run([*words, "--version"], stdout=subprocess.PIPE, text=True, check=True).stdout
+            self.assertIn("0.1.0", version)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Label maps as other packages hold them, none of which is imported before one of its objects is handed in."""
+from dataclasses import dataclass
+from typing import Any, Optional, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
+
+
+@dataclass(frozen=True)
+class LabelMap:
+    """Labels by voxel [i, j, k], and the matrix that takes (i, j, k, 1) to LPS mm."""
+
+    labels: npt.NDArray[np.uint16]
+    affine: npt.NDArray[np.float64]
+
+
+def _is_nibabel(image: Any) -> bool:
+    return hasattr(image, "dataobj") and hasattr(image, "affine")
+
+
+def _is_simpleitk(image: Any) -> bool:
+    return hasattr(image, "GetPixelIDTypeAsString") and hasattr(image, "TransformContinuousIndexToPhysicalPoint")
+
+
+def _is_vtk(image: Any) -> bool:
+    return hasattr(image, "GetIndexToPhysicalMatrix") and hasattr(image, "GetPointData")
+
+
+def _affine(spacing: Any, origin: Any, directions: Any) -> npt.NDArray[np.float64]:
+    affine = np.eye(4)
+    affine[:3, :3] = np.asarray(directions, float).reshape(3, 3) * np.asarray(spacing, float).reshape(3)
+    affine[:3, 3] = np.asarray(origin, float).reshape(3)
+    return affine
+
+
+def _shift(offset: Any) -> npt.NDArray[np.float64]:
+    return _affine((1, 1, 1), offset, np.eye(3))
+
+
+def _from_simpleitk(image: Any) -> "tuple[Any, npt.NDArray[np.float64]]":
+    import SimpleITK
+
+    labels = SimpleITK.GetArrayViewFromImage(image).T
+    return labels, _affine(image.GetSpacing(), image.GetOrigin(), image.GetDirection())
+
+
+def _from_vtk(image: Any) -> "tuple[Any, npt.NDArray[np.float64]]":
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    at_points, in_cells = image.GetPointData().GetScalars(), image.GetCellData().GetScalars()
+    if (at_points is None) == (in_cells is None):
+        raise ValueError("labels: an image with one active scalar array, of points or of cells, expected")
+    matrix = image.GetIndexToPhysicalMatrix()
+    affine = np.array([[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])
+    first, sizes = np.array(image.GetExtent()[::2], float), np.array(image.GetDimensions())
+    if at_points is None:
+        first, sizes = first + 0.5, np.maximum(sizes - 1, 1)
+    values = vtk_to_numpy(in_cells if at_points is None else at_points)
+    if values.ndim != 1:
+        raise ValueError("labels: one number per voxel expected")
+    return values.reshape(sizes, order="F"), affine @ _shift(first)
+
+
+def _as_labels(values: Any) -> npt.NDArray[np.uint16]:
+    values = np.asanyarray(values)
+    if values.ndim == 4 and values.shape[3] == 1:
+        values = values[..., 0]
+    if values.ndim != 3:
+        raise ValueError(f"labels: three dimensions expected, found {values.ndim}")
+    labels = values.astype(np.uint16)
+    if not np.array_equal(labels, values):
+        raise ValueError("labels: integers from 0 to 65535 expected")
+    return labels
+
+
+def label_map(image: Any, spacing: Optional[Sequence[float]], origin: Optional[Sequence[float]],
+              directions: Any) -> LabelMap:
+    """Of a numpy array with the grid given, or of an image that has its own: nibabel, SimpleITK, VTK (pyvista).
+
+    Raises ValueError for what is no map of labels, and for a grid given beside an image."""
+    given = [name for name, value in (("spacing", spacing), ("origin", origin), ("directions", directions))
+             if value is not None]
+    if not (_is_nibabel(image) or _is_simpleitk(image) or _is_vtk(image)):
+        return LabelMap(_as_labels(image), _affine((1, 1, 1) if spacing is None else spacing,
+                                                   (0, 0, 0) if origin is None else origin,
+                                                   np.eye(3) if directions is None else directions))
+    if given:
+        raise ValueError(f"{given[0]}: the image has its own, expected with numpy arrays only")
+    if _is_nibabel(image):
+        return LabelMap(_as_labels(image.dataobj), LPS_FROM_RAS @ image.affine)
+    values, affine = _from_simpleitk(image) if _is_simpleitk(image) else _from_vtk(image)
+    return LabelMap(_as_labels(values), affine)
+
+
+def write_nrrd(map_: LabelMap, file: str) -> None:
+    """Uncompressed, by the format's own definition; numbers in full."""
+    vectors = ["(%s)" % ",".join("%.17g" % x for x in map_.affine[:3, column]) for column in range(4)]
+    header = ("NRRD0005\ntype: uint16\ndimension: 3\nspace: left-posterior-superior\nsizes: %d %d %d\n"
+              "space directions: %s %s %s\nspace origin: %s\nendian: little\nencoding: raw\n\n")
+    with open(file, "wb") as stream:
+        stream.write((header % (*map_.labels.shape, *vectors)).encode("ascii"))
+        stream.write(map_.labels.astype("<u2", copy=False).tobytes(order="F"))

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From labels to a mesh."""
+import contextlib
+import json
+import os
+import tempfile
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence
+
+import numpy as np
+
+from ._label_map import label_map, write_nrrd
+from ._programs import Progress, run
+from ._tetrahedra import Mesh, read_mesh
+
+
+def _word(value: Any) -> str:
+    """A value as the programs read it; a point as x,y,z."""
+    if isinstance(value, (str, os.PathLike)):
+        return os.fspath(value)
+    if isinstance(value, (int, np.integer)):
+        return str(int(value))
+    if isinstance(value, (float, np.floating)):
+        digits = repr(float(value))
+        return digits[:-2] if digits.endswith(".0") else digits
+    return ",".join(_word(part) for part in value)
+
+
+def option_arguments(options: Mapping[str, Any]) -> List[str]:
+    """`--name=value` of every option that is not None; a sequence repeats its flag, True is a flag alone."""
+    words = []
+    for name, value in options.items():
+        if isinstance(value, (bool, np.bool_)):
+            words += [f"--{name}"] if value else []
+        elif value is not None:
+            single = isinstance(value, (str, os.PathLike)) or not hasattr(value, "__iter__")
+            words += [f"--{name}={_word(part)}" for part in ([value] if single else value)]
+    return words
+
+
+def _place_arguments(flag: str, point_flag: str, places: Any) -> List[str]:
+    """Of files of markups, or of points."""
+    if places is None:
+        return []
+    if isinstance(places, (str, os.PathLike)):
+        places = [places]
+    if len(places) and all(isinstance(place, (str, os.PathLike)) for place in places):
+        return option_arguments({flag: places})
+    points = np.asarray(places, dtype=float)
+    if points.ndim == 0 or points.size == 0 or points.shape[-1] != 3 or points.ndim > 2:
+        raise ValueError(f"{flag}: points of three numbers (mm, LPS) or files expected, found {places!r}")
+    return option_arguments({point_flag: points.reshape(-1, 3)})
+
+
+@contextlib.contextmanager
+def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
+    """The map's file: its own, or one that is written into the folder."""
+    if isinstance(labels, (str, os.PathLike)):
+        if any(value is not None for value in grid):
+            raise ValueError("spacing, origin and directions are the file's own, expected with numpy arrays only")
+        yield os.path.abspath(labels)
+        return
+    file = os.path.join(folder, "map.nrrd")
+    content = label_map(labels, *grid)
+    made = not os.path.isdir(folder)
+    os.makedirs(folder, exist_ok=True)
+    try:
+        write_nrrd(content, file)
+        yield file
+    except BaseException:
+        os.remove(file)
+        if made:
+            with contextlib.suppress(OSError):  # stages that were complete stay in it
+                os.rmdir(folder)
+        raise
+
+
+def _arguments(targets: Any, path: Any, options: Mapping[str, Any]) -> List[str]:
+    return [*_place_arguments("targets", "targetPoint", targets), *_place_arguments("path", "pathPoint", path),
+            *option_arguments(options)]
+
+
+def mesh(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Optional[Sequence[float]] = None,
+         directions: Any = None, targets: Any = None, path: Any = None, preset: Optional[str] = None,
+         folder: "str | os.PathLike[str] | None" = None, progress: Optional[Progress] = None, **options: Any) -> Mesh:
+    """Tetrahedra of all tissues of a label map, fine around targets and paths, as `surgicalmesher mesh` makes them.
+
+    labels      numpy array of labels [i, j, k] (0 is background), nibabel, SimpleITK, VTK or pyvista image, or a file
+    spacing     of an array: mm between voxels along i, j, k; 1 without
+    origin      of an array: centre of the first voxel (mm, LPS)
+    directions  of an array: 3 x 3, whose columns are the axes i, j, k in LPS
+    targets     points (mm, LPS), or files of markups
+    path        points from entry to target (mm, LPS), or files of markups
+    preset      draft, default, fine or simulation
+    folder      where the files and the report of the run stay; without it they go with a temporary folder
+    progress    called with the share done, from 0 to 1, and the name of the stage; what it raises cancels the run
+    options     those of `surgicalmesher mesh --help`, by name: minimumEdgeLength=0.5, export=["head.inp"], ...
+
+    VTK's and pyvista's images are taken as LPS. Ctrl-C ends the run; without `folder`, nothing stays of it. Raises
+    MeshingError with the program's sentence, ValueError for what is no map; warns by MeshingWarning.
+    """
+    if folder is None and "export" in options:
+        raise ValueError("export: its files lie in the folder of the results, expected with folder=")
+    with tempfile.TemporaryDirectory(prefix="surgicalmesher-") as scratch:
+        results = os.path.join(scratch, "results") if folder is None else os.path.abspath(folder)
+        words = _arguments(targets, path, {"preset": preset, **options})
+        with _map_file(labels, (spacing, origin, directions), results) as file:
+            run("mesh", [*words, file, results], progress)
+        return read_mesh(os.path.join(results, "mesh.vtu"))
+
+
+def estimate(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Optional[Sequence[float]] = None,
+             directions: Any = None, targets: Any = None, path: Any = None, preset: Optional[str] = None,
+             **options: Any) -> Dict[str, Any]:
+    """What `mesh` with the same arguments will take: the figures of `surgicalmesher estimate --estimate`, `triangles`,
+    `tetrahedra`, `memoryBytes` and `processorSeconds`. Options are those of `surgicalmesher estimate --help`, which
+    set lengths. Raises as `mesh` does."""
+    with tempfile.TemporaryDirectory(prefix="surgicalmesher-") as scratch:
+        figures = os.path.join(scratch, "estimate.json")
+        words = _arguments(targets, path, {"preset": preset, **options})
+        with _map_file(labels, (spacing, origin, directions), scratch) as file:
+            run("estimate", [*words, f"--estimate={figures}", file])
+        with open(figures, encoding="utf-8") as stream:
+            return dict(json.load(stream))

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The program surgicalmesher, run to its end."""
+import json
+import os
+import subprocess
+import tempfile
+import warnings
+from typing import Callable, Optional, Sequence
+
+Progress = Callable[[float, str], None]
+
+
+class MeshingError(RuntimeError):
+    """A program's refusal, in its own sentence; `status` is its exit status: 1 for the input, 2 for options, 3 for a
+    failure of the engine."""
+
+    def __init__(self, reason: str, status: int) -> None:
+        super().__init__(reason)
+        self.status = status
+
+
+class MeshingWarning(UserWarning):
+    """What a program warns of, as a target outside of the map."""
+
+
+def program() -> str:
+    """Path of the program: in the package, or in the folder that SURGICALMESHER_PROGRAMS names."""
+    package = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bin")
+    return os.path.join(os.environ.get("SURGICALMESHER_PROGRAMS", package), "surgicalmesher")
+
+
+def _hand_on(line: bytes, progress: Optional[Progress]) -> None:
+    """A line of --progress json."""
+    event = json.loads(line)
+    if progress is not None and "progress" in event:
+        progress(event["progress"], event["stage"])
+    if "warning" in event:
+        warnings.warn(event["warning"], MeshingWarning, stacklevel=4)  # where the package's function was called
+
+
+def _reason_in(errors: str, command: str) -> str:
+    """The last line that is no warning, without the program's name."""
+    lines = [line for line in errors.splitlines() if line and ": warning: " not in line]
+    reason = lines[-1] if lines else ""
+    prefix = f"surgicalmesher {command}: "
+    return reason[len(prefix):] if reason.startswith(prefix) else reason
+
+
+def run(command: str, arguments: Sequence[str], progress: Optional[Progress] = None) -> None:
+    """Runs `surgicalmesher command arguments...`. Ctrl-C and whatever `progress` raises end the program, which takes its
+    half-written files with it. Raises MeshingError."""
+    words = [program(), command, "--progress=json", *arguments]
+    with tempfile.TemporaryFile() as errors:
+        try:
+            child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors)
+        except OSError as error:
+            raise MeshingError(f"{words[0]}: {error.strerror}, expected the program surgicalmesher", 3) from None
+        with child:
+            try:
+                assert child.stdout is not None
+                for line in child.stdout:
+                    _hand_on(line, progress)
+            except BaseException:
+                child.terminate()
+                child.communicate()  # it still has its files to take away, and a place for its last words
+                raise
+        errors.seek(0)
+        reason = _reason_in(errors.read().decode(errors="replace"), command)
+    if child.returncode:
+        raise MeshingError(reason or f"surgicalmesher {command} ended with status {child.returncode}", child.returncode)
