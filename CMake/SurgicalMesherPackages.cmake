@@ -15,6 +15,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/SurgicalMesherConfigVersi
 install(FILES
   ${PROJECT_BINARY_DIR}/SurgicalMesherConfig.cmake
   ${PROJECT_BINARY_DIR}/SurgicalMesherConfigVersion.cmake
+  ${PROJECT_SOURCE_DIR}/CMake/FindCHOLMOD.cmake
   ${PROJECT_SOURCE_DIR}/CMake/FindTetGen.cmake
   DESTINATION ${cmake_folder} COMPONENT Development)
 install(FILES LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT RuntimeLibraries)
@@ -51,7 +52,7 @@ set(CPACK_DEBIAN_RUNTIMELIBRARIES_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libsurgicalmesher-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libvtk9-dev, libinsighttoolkit5-dev, libtet1.5-dev, libcgal-dev, libeigen3-dev, rapidjson-dev")
+  "libvtk9-dev, libinsighttoolkit5-dev, libtet1.5-dev, libcgal-dev, libeigen3-dev, libsuitesparse-dev, rapidjson-dev")
 include(CPack)
 
 if(SurgicalMesher_UNIT_TESTS)

@@ -13,13 +13,14 @@ MODULES = ("SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer")
 # Programs without a panel of their own: their folder, whose name their page has, too.
 PROGRAMS = {"BalloonSurface": "SimplexMesher",
             "LocalRegistration": "TissueMapper",
+            "MultirateSolver": "MultirateSolver",
             "SurfaceRemesher": "SimplexMesher",
             "TemplateFit": "TemplateHexMesher",
             "TissueMapper": "TissueMapper",
             "TubePath": "TissueMapper",
             "VolumetricHex": "TemplateHexMesher"}
 PAGES = (["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{module}.md" for module in MODULES]
-         + ["Docs/TemplateHexMesher.md", "Docs/TissueMapper.md", "Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/Multirate.md", "Docs/Fitness.md",
+         + ["Docs/TemplateHexMesher.md", "Docs/TissueMapper.md", "Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/MultirateSolver.md", "Docs/Fitness.md",
             "Docs/Solvers.md", "Docs/Slicer.md", "Docs/Tutorial.md", "Docs/HeadPhantom.md", "Docs/surgicalmesher.md", "Docs/Packages.md", "Docs/Python.md"])
 
 
