@@ -88,10 +88,13 @@ vtkMRMLLabelMapVolumeNode* addLabelMap(vtkMRMLScene* scene, const char* name, in
       }
     }
   }
-  auto* labelMap = vtkMRMLLabelMapVolumeNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLLabelMapVolumeNode", name));
+  // With its voxels before it enters the scene: a slice view that has to draw a label map without any may crash.
+  vtkNew<vtkMRMLLabelMapVolumeNode> labelMap;
+  labelMap->SetName(scene->GenerateUniqueName(name).c_str());
   labelMap->SetSpacing(spacing, spacing, spacing);
   labelMap->SetOrigin(first, first, first);
   labelMap->SetAndObserveImageData(image);
+  scene->AddNode(labelMap);
   labelMap->CreateDefaultDisplayNodes();
   return labelMap;
 }
