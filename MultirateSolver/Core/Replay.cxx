@@ -212,7 +212,10 @@ std::vector<Vec3> displacementsOf(const CoupledMesh& mesh, const std::vector<Dom
 {
   std::vector<Vec3> whole(mesh.whole.mesh.points.size(), Vec3{ 0, 0, 0 });
   domains.front().addDisplacementsAround(whole);
-  for (const Domain& domain : domains) domain.addDisplacements(whole);
+  // Where children touch, what a tool does to one is worth more than how the other follows.
+  for (const bool hasTool : { false, true })
+    for (const Domain& domain : domains)
+      if (domain.hasTool() == hasTool) domain.addDisplacements(whole);
   return whole;
 }
 
