@@ -4,6 +4,9 @@
 
 #include <rapidjson/document.h>
 
+#include <algorithm>
+#include <cmath>
+
 using namespace surgicalmesher;
 using namespace surgicalmesher::test;
 
@@ -66,6 +69,19 @@ TEST_F(SurgicalPathScaleCLI, TakesAreasInPlaceOfLengths)
   const ScaleField a = readScale(folder.file("a.nrrd")), b = readScale(folder.file("b.nrrd"));
   ASSERT_EQ(a.lengths.size(), b.lengths.size());
   for (std::size_t n = 0; n < a.lengths.size(); ++n) EXPECT_NEAR(a.lengths[n], b.lengths[n], 1e-6);
+
+  // Between them one exponential rises, of the length or of the area.
+  const std::string decay = "--targetPoint 10,0,40 --childRadius 1 --decayLength 2 ";
+  expectDone(decay + "--minimumEdgeLength 1 --maximumEdgeLength 2 map.nrrd c.nrrd");
+  expectDone(decay + "--minimumArea 0.8660254037844386 --maximumArea 3.4641016151377544 map.nrrd d.nrrd");
+  const ScaleField c = readScale(folder.file("c.nrrd")), d = readScale(folder.file("d.nrrd"));
+  double longest = 0;
+  for (std::size_t n = 0; n < c.lengths.size(); ++n)
+  {
+    EXPECT_NEAR(d.lengths[n], std::sqrt(1 + 3 * (c.lengths[n] - 1)), 1e-5);
+    longest = std::max(longest, double(c.lengths[n]));
+  }
+  EXPECT_GT(longest, 1.5);
   const std::string end = " --targetPoint 10,0,40 map.nrrd scale.nrrd";
   expectRefused("--minimumArea 1" + end, 2, "expected both or none");
   expectRefused("--minimumArea 2 --maximumArea 1" + end, 2, "above the maximum");
