@@ -51,7 +51,7 @@ public:
   void showReports();
   void showObstacle();
 
-  PanelObstacle obstacle();
+  PanelObstacle obstacle(const vtkSlicerSimplexMesherLogic::Check& check);
   PanelObstacle scaleObstacle(Problem problem);
   PanelObstacle tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check);
 };
@@ -62,6 +62,7 @@ void qSlicerSimplexMesherModuleWidgetPrivate::setParameterNode(vtkMRMLSimplexMes
   q->qvtkReconnect(this->Parameters, node, vtkCommand::ModifiedEvent, q, SLOT(updateFromNode()));
   this->Parameters = node;
   this->TissueTable->setParameterNode(node);
+  this->BalloonSection->setParameterNode(node);
   q->updateFromNode();
 }
 
@@ -90,7 +91,7 @@ void qSlicerSimplexMesherModuleWidgetPrivate::observeScale(vtkMRMLNode* node)
        { (unsigned long)vtkCommand::ModifiedEvent, (unsigned long)vtkMRMLTransformableNode::TransformModifiedEvent,
          (unsigned long)vtkMRMLVolumeNode::ImageDataModifiedEvent })
   {
-    q->qvtkReconnect(this->Scale, node, event, q, SLOT(onScaleChanged()));
+    q->qvtkReconnect(this->Scale, node, event, q, SLOT(onObstacleChanged()));
   }
   this->Scale = node;
 }
@@ -146,15 +147,21 @@ void qSlicerSimplexMesherModuleWidgetPrivate::showReports()
 
 void qSlicerSimplexMesherModuleWidgetPrivate::showObstacle()
 {
-  const PanelObstacle found = this->obstacle();
+  const PanelObstacle busy{
+    qSlicerSimplexMesherModuleWidget::tr("One run at a time: wait for the other, or cancel it."), {}, {}
+  };
+  const PanelObstacle inputs = this->obstacle(this->logic()->FindProblem(this->Parameters, {}));
+  this->BalloonSection->setInputObstacle(this->logic()->GetRun()->IsBusy() ? busy : inputs);
+  const PanelObstacle found =
+    this->logic()->GetBalloons().run()->IsBusy()
+      ? busy
+      : this->obstacle(this->logic()->FindProblem(this->Parameters, this->TissueTable->tissues()));
   if (found.sentence.isEmpty()) this->RunWidget->clearProblem();
   else this->RunWidget->setProblem(found.sentence, found.fixText, found.fix);
 }
 
-PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::obstacle()
+PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::obstacle(const vtkSlicerSimplexMesherLogic::Check& check)
 {
-  const vtkSlicerSimplexMesherLogic::Check check =
-    this->logic()->FindProblem(this->Parameters, this->TissueTable->tissues());
   switch (check.problem)
   {
   case Problem::None: return {};
@@ -237,6 +244,9 @@ void qSlicerSimplexMesherModuleWidget::setup()
   connect(d->ReportTableComboBox, SIGNAL(currentIndexChanged(int)), this, SLOT(showReport()));
   connect(d->ShowPlotButton, SIGNAL(clicked()), this, SLOT(showPlot()));
   d->RunWidget->setRun(d->logic()->GetRun());
+  d->BalloonSection->setLogic(d->logic());
+  connect(d->BalloonSection, SIGNAL(runStarted()), this, SLOT(onObstacleChanged()));
+  connect(d->BalloonSection, SIGNAL(runEnded()), this, SLOT(onObstacleChanged()));
 }
 
 void qSlicerSimplexMesherModuleWidget::enter()
@@ -305,6 +315,7 @@ void qSlicerSimplexMesherModuleWidget::updateFromNode()
   if (!d->Parameters)
   {
     d->TissueTable->setTissues({});
+    d->BalloonSection->setTissues({});
     return;
   }
   d->show();
@@ -323,7 +334,7 @@ void qSlicerSimplexMesherModuleWidget::onTissueMapChanged()
   d->ListTimer.start();
 }
 
-void qSlicerSimplexMesherModuleWidget::onScaleChanged()
+void qSlicerSimplexMesherModuleWidget::onObstacleChanged()
 {
   Q_D(qSlicerSimplexMesherModuleWidget);
   if (d->Parameters) d->showObstacle();
@@ -334,6 +345,7 @@ void qSlicerSimplexMesherModuleWidget::listTissues()
   Q_D(qSlicerSimplexMesherModuleWidget);
   if (!d->Parameters || !this->isEntered()) return; // the voxels are looked at when the panel is opened
   d->TissueTable->setTissues(surgicalmesher::listTissues(d->TissueMap));
+  d->BalloonSection->setTissues(d->TissueTable->tissues());
   d->showObstacle();
 }
 
@@ -343,12 +355,13 @@ void qSlicerSimplexMesherModuleWidget::apply()
   if (!d->Parameters) return;
   d->ListTimer.stop();
   this->listTissues(); // what was painted a moment ago
-  if (d->RunWidget->problem().isEmpty()) d->logic()->Start(d->Parameters);
+  if (d->RunWidget->problem().isEmpty() && d->logic()->Start(d->Parameters)) d->showObstacle();
 }
 
 void qSlicerSimplexMesherModuleWidget::onRunEnded()
 {
   Q_D(qSlicerSimplexMesherModuleWidget);
+  this->onObstacleChanged();
   vtkSurgicalMesherRun* run = d->logic()->GetRun();
   vtkMRMLModelNode* surface = d->Parameters ? d->Parameters->GetModelNode(Node::SurfaceRole()) : nullptr;
   if (run->GetStatus() != vtkSurgicalMesherRun::Completed || !surface || !surface->GetPolyData()) return;

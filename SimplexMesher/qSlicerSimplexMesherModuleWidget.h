@@ -33,7 +33,8 @@ protected slots:
   void onSceneChanged();
   /// The map or its voxels changed: its tissues are listed again, once it is quiet.
   void onTissueMapChanged();
-  void onScaleChanged();
+  /// Scale or runs changed: what is in the way is said again.
+  void onObstacleChanged();
   void listTissues();
   void apply();
   void onRunEnded();

@@ -4,6 +4,7 @@
 #include "Errors.h"
 #include "HostDifferences.h"
 #include "ReportTables.h"
+#include "RunNodes.h"
 #include "Text.h"
 #include "TissueColors.h"
 #include "TissueModels.h"
@@ -39,26 +40,6 @@ namespace
 using Node = vtkMRMLSimplexMesherNode;
 using Problem = vtkSlicerSimplexMesherLogic::Problem;
 using Check = vtkSlicerSimplexMesherLogic::Check;
-
-bool isUnderWarp(vtkMRMLTransformableNode* node)
-{
-  vtkMRMLTransformNode* transform = node->GetParentTransformNode();
-  return transform && !transform->IsTransformToWorldLinear();
-}
-
-/// From voxel indices to world, RAS; the parent transform has to be linear.
-vtkSmartPointer<vtkMatrix4x4> voxelsToWorld(vtkMRMLVolumeNode* volume)
-{
-  auto matrix = vtkSmartPointer<vtkMatrix4x4>::New();
-  volume->GetIJKToRASMatrix(matrix);
-  if (vtkMRMLTransformNode* transform = volume->GetParentTransformNode())
-  {
-    vtkNew<vtkMatrix4x4> toWorld;
-    transform->GetMatrixTransformToWorld(toWorld);
-    vtkMatrix4x4::Multiply4x4(toWorld, matrix, matrix);
-  }
-  return matrix;
-}
 
 /// Whether the volume of `scale`, with the outer halves of its voxels, holds that of `map`, as requireCover() asks.
 bool covers(vtkMRMLVolumeNode* scale, vtkMRMLVolumeNode* map)
@@ -173,36 +154,6 @@ vtkSmartPointer<vtkMRMLTableNode> settingsTable(Node* parameters, const std::vec
     columns[i]->SetName(names[i]);
     node->GetTable()->AddColumn(columns[i]);
   }
-  return node;
-}
-
-/// A hidden copy that shares its voxels and lies where the user sees the volume.
-vtkSmartPointer<vtkMRMLScalarVolumeNode> copyForRun(vtkMRMLScalarVolumeNode* volume)
-{
-  auto copy = vtkSmartPointer<vtkMRMLScalarVolumeNode>::New();
-  copy->SetName(volume->GetName());
-  copy->SetAndObserveImageData(volume->GetImageData());
-  copy->SetIJKToRASMatrix(voxelsToWorld(volume));
-  return copy;
-}
-
-/// The host's own unique names count those of nodes that are gone, as after a cancelled run.
-std::string unusedName(vtkMRMLScene* scene, const std::string& name)
-{
-  return scene->GetFirstNodeByName(name.c_str()) ? scene->GenerateUniqueName(name) : name;
-}
-
-/// `chosen`, or a new node in its place, as an output of `run`, in the world's frame.
-vtkMRMLModelNode* outputModel(vtkMRMLModelNode* chosen, vtkMRMLScene* scene, const std::string& name,
-                              vtkSurgicalMesherRun* run)
-{
-  vtkMRMLModelNode* node = chosen;
-  if (!node)
-  {
-    node = vtkMRMLModelNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLModelNode", unusedName(scene, name)));
-  }
-  run->AddOutputNode(node, !chosen);
-  node->SetAndObserveTransformNodeID(nullptr);
   return node;
 }
 

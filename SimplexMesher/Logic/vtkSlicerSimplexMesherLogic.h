@@ -2,6 +2,7 @@
 #pragma once
 /// Runs SimplexMesherCLI for a parameter node, and turns what it leaves into nodes that can be seen, read and plotted.
 
+#include "BalloonRun.h"
 #include "TissueMapInput.h"
 #include "TissueRows.h"
 #include "vtkSlicerSimplexMesherModuleLogicExport.h"
@@ -64,6 +65,9 @@ public:
   /// observe it with the default priority, the results have been finished.
   vtkSurgicalMesherRun* GetRun() const { return this->Run; }
 
+  /// What runs BalloonSurfaceCLI for the same parameter nodes.
+  surgicalmesher::BalloonRun& GetBalloons() { return this->Balloons; }
+
 protected:
   vtkSlicerSimplexMesherLogic();
   ~vtkSlicerSimplexMesherLogic() override;
@@ -86,4 +90,5 @@ private:
   vtkWeakPointer<vtkMRMLSimplexMesherNode> Parameters; ///< of the run
   vtkWeakPointer<vtkMRMLModelNode> Surface;            ///< of the run
   std::string ReportFile;                              ///< of the run; empty if none is wanted
+  surgicalmesher::BalloonRun Balloons{ this };
 };

@@ -83,13 +83,15 @@ vtkMRMLNodeNewMacro(vtkMRMLSimplexMesherNode);
 vtkMRMLSimplexMesherNode::vtkMRMLSimplexMesherNode()
 {
   this->AddRoles({ TissueMapRole(), ScaleRole(), SurfaceRole(), PreparedLabelMapRole(), SimplexMeshRole(),
-                   FollowedScaleRole(), TissueTableRole(), EvolutionTableRole(), EvolutionChartRole() },
+                   FollowedScaleRole(), TissueTableRole(), EvolutionTableRole(), EvolutionChartRole(),
+                   BalloonSeedsRole(), BalloonSurfaceRole(), BalloonLabelMapRole() },
                  "NodeRef");
 }
 
 std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLSimplexMesherNode::GetValues()
 {
   const Text tissues{ [this] { return this->GetTissues(); }, [this](const std::string& t) { this->SetTissues(t); } };
+  const Text stops{ [this] { return this->GetStops(); }, [this](const std::string& t) { this->SetStops(t); } };
   return { { "useScale", &this->UseScale },
            { "edgeLength", &this->EdgeLength },
            { "minimumIslandVolume", &this->MinimumIslandVolume },
@@ -102,7 +104,31 @@ std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLSimplexMesherNode:
            { "tissueModels", &this->TissueModels },
            { "keepAmbient", &this->KeepAmbient },
            { "report", &this->Report },
-           { "tissues", tissues } };
+           { "tissues", tissues },
+           { "balloonStops", stops },
+           { "balloonLimit", &this->BalloonLimit },
+           { "balloonRigidity", &this->BalloonRigidity } };
+}
+
+void vtkMRMLSimplexMesherNode::SetBalloonStops(const std::set<std::string>& ids)
+{
+  if (ids == this->BalloonStops) return;
+  this->BalloonStops = ids;
+  this->Modified();
+}
+
+std::string vtkMRMLSimplexMesherNode::GetStops() const
+{
+  std::string text;
+  for (const std::string& id : this->BalloonStops) text += escaped(id) + ';';
+  return text;
+}
+
+void vtkMRMLSimplexMesherNode::SetStops(const std::string& text)
+{
+  std::set<std::string> ids;
+  for (const std::string& id : split(text, ';')) ids.insert(unescaped(id));
+  this->SetBalloonStops(ids);
 }
 
 void vtkMRMLSimplexMesherNode::SetTissueSettings(const Settings& settings)

@@ -9,6 +9,7 @@
 #include "vtkSlicerSimplexMesherModuleMRMLExport.h"
 
 #include <map>
+#include <set>
 #include <string>
 
 class VTK_SLICER_SIMPLEXMESHER_MODULE_MRML_EXPORT vtkMRMLSimplexMesherNode : public vtkMRMLSurgicalMesherParameterNode
@@ -30,6 +31,9 @@ public:
   static const char* TissueTableRole() { return "tissueTable"; }           ///< table: the report by tissue
   static const char* EvolutionTableRole() { return "evolutionTable"; }     ///< table: the report step by step
   static const char* EvolutionChartRole() { return "evolutionChart"; }     ///< plot of the latter
+  static const char* BalloonSeedsRole() { return "balloonSeeds"; }         ///< list of points
+  static const char* BalloonSurfaceRole() { return "balloonSurface"; }     ///< model; a new one where there is none
+  static const char* BalloonLabelMapRole() { return "balloonLabelMap"; }   ///< label map; a new one where there is none
   /// Of the *surface* node: model of the tetrahedra around it.
   static const char* AmbientTetrahedraRole() { return "ambientTetrahedra"; }
 
@@ -69,6 +73,15 @@ public:
   vtkSetMacro(Report, bool);
   vtkBooleanMacro(Report, bool);
 
+  /// Balloons: the tissues that stop them, by segment ID or, in a label map, by the label's digits; the largest distance
+  /// from their seeds; the width of the openings that they close over.
+  const std::set<std::string>& GetBalloonStops() const { return this->BalloonStops; }
+  void SetBalloonStops(const std::set<std::string>& ids);
+  vtkGetMacro(BalloonLimit, double);
+  vtkSetMacro(BalloonLimit, double);
+  vtkGetMacro(BalloonRigidity, double);
+  vtkSetMacro(BalloonRigidity, double);
+
   /// What is asked of tissues, by segment ID or, in a label map, by the label's digits. Tissues that aren't listed are
   /// meshed as they are.
   using Settings = std::map<std::string, surgicalmesher::TissueSetting>;
@@ -89,6 +102,10 @@ protected:
   std::string GetTissues() const;
   void SetTissues(const std::string& text);
 
+  /// The IDs, as in GetTissues.
+  std::string GetStops() const;
+  void SetStops(const std::string& text);
+
   bool UseScale = true;
   double EdgeLength = 2;
   double MinimumIslandVolume = 0;
@@ -102,4 +119,7 @@ protected:
   bool KeepAmbient = true;
   bool Report = true;
   Settings TissueSettings;
+  std::set<std::string> BalloonStops;
+  double BalloonLimit = 0;
+  double BalloonRigidity = 8;
 };

@@ -2,6 +2,7 @@
 #include "MarkupsInput.h"
 
 #include "Errors.h"
+#include "Text.h"
 
 #include <vtkMRMLMarkupsCurveNode.h>
 #include <vtkMRMLMarkupsNode.h>
@@ -19,6 +20,18 @@ namespace
 
 Vec3 fromRAS(const double p[3]) { return { -p[0], -p[1], p[2] }; }
 
+/// As a string of JSON.
+std::string jsonString(const std::string& words)
+{
+  std::string result = "\"";
+  for (const char c : text::legible(words))
+  {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
 bool isSmooth(vtkMRMLMarkupsNode* node)
 {
   auto* curve = vtkMRMLMarkupsCurveNode::SafeDownCast(node);
@@ -27,17 +40,20 @@ bool isSmooth(vtkMRMLMarkupsNode* node)
 
 } // namespace
 
-std::vector<Vec3> markupsPoints(vtkMRMLMarkupsNode* node)
+std::vector<Vec3> markupsPoints(vtkMRMLMarkupsNode* node) { return labelledPoints(node).points; }
+
+Markup labelledPoints(vtkMRMLMarkupsNode* node)
 {
-  std::vector<Vec3> points;
+  Markup markup;
   for (int n = 0; node && n < node->GetNumberOfControlPoints(); ++n)
   {
     if (node->GetNthControlPointPositionStatus(n) != vtkMRMLMarkupsNode::PositionDefined) continue;
     double p[3];
     node->GetNthControlPointPositionWorld(n, p);
-    points.push_back(fromRAS(p));
+    markup.points.push_back(fromRAS(p));
+    markup.labels.push_back(node->GetNthControlPointLabel(n));
   }
-  return points;
+  return markup;
 }
 
 std::vector<Vec3> markupsPath(vtkMRMLMarkupsNode* node)
@@ -56,18 +72,28 @@ std::vector<Vec3> markupsPath(vtkMRMLMarkupsNode* node)
 
 void writeMarkups(const std::vector<std::vector<Vec3>>& markups, const std::string& file)
 {
+  std::vector<Markup> unlabelled;
+  for (const std::vector<Vec3>& points : markups) unlabelled.push_back({ points, {}, {} });
+  writeLabelledMarkups(unlabelled, file);
+}
+
+void writeLabelledMarkups(const std::vector<Markup>& markups, const std::string& file)
+{
   std::ofstream stream(file);
   stream.imbue(std::locale::classic());
   stream.precision(17);
   stream << "{\"markups\": [";
   const char* betweenLists = "";
-  for (const std::vector<Vec3>& points : markups)
+  for (const Markup& markup : markups)
   {
     stream << betweenLists << "\n{\"type\": \"Fiducial\", \"coordinateSystem\": \"LPS\", \"controlPoints\": [";
     const char* betweenPoints = "";
-    for (const Vec3& p : points)
+    for (std::size_t n = 0; n < markup.points.size(); ++n)
     {
-      stream << betweenPoints << "\n{\"position\": [" << p.x << ", " << p.y << ", " << p.z << "]}";
+      const Vec3& p = markup.points[n];
+      stream << betweenPoints << "\n{";
+      if (n < markup.labels.size()) stream << "\"label\": " << jsonString(markup.labels[n]) << ", ";
+      stream << "\"position\": [" << p.x << ", " << p.y << ", " << p.z << "]}";
       betweenPoints = ",";
     }
     stream << "]}";

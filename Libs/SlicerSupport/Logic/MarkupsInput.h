@@ -2,7 +2,7 @@
 #pragma once
 /// Points and paths of markups nodes, in LPS mm as the project's files have them, with parent transforms applied.
 
-#include "Vec3.h"
+#include "TissueMapIO.h"
 #include "vtkSurgicalMesherSupportLogicExport.h"
 
 #include <string>
@@ -16,6 +16,9 @@ namespace surgicalmesher
 /// The placed control points; none for null.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT std::vector<Vec3> markupsPoints(vtkMRMLMarkupsNode* node);
 
+/// The same with their labels.
+VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT Markup labelledPoints(vtkMRMLMarkupsNode* node);
+
 /// A polyline from entry to target: the control points of a line, of a list of points or of a curve of straight pieces;
 /// of a smooth curve the points between which the host draws it. A closed curve ends with its first point again. Empty
 /// with fewer than two points.
@@ -25,5 +28,9 @@ VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT std::vector<Vec3> markupsPath(vtkMRMLMar
 /// Throws InputError if the file cannot be written.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void writeMarkups(const std::vector<std::vector<Vec3>>& markups,
                                                           const std::string& file);
+
+/// The same with the points' labels, for readLabelledMarkups.
+VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void writeLabelledMarkups(const std::vector<Markup>& markups,
+                                                                  const std::string& file);
 
 } // namespace surgicalmesher

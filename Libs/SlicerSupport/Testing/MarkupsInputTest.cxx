@@ -58,6 +58,8 @@ int checkPoints(vtkMRMLScene* scene)
   std::vector<Vec3> points = markupsPoints(node);
   CHECK_INT(int(points.size()), 2); // those that are placed
   CHECK_BOOL((points[1] == Vec3{ -7, -8, 9 }), true);
+  node->SetNthControlPointLabel(2, "third");
+  CHECK_STD_STRING(labelledPoints(node).labels[1], "third");
 
   auto* transform = vtkMRMLTransformNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLTransformNode"));
   vtkNew<vtkTransform> shift;
@@ -93,6 +95,10 @@ int checkFile()
   const std::string file = std::string(SURGICALMESHER_TEST_FOLDER) + "/MarkupsInputTest.mrk.json";
   writeMarkups(lists, file);
   CHECK_BOOL(readMarkups(file) == lists, true); // to the last bit
+  writeLabelledMarkups({ { lists[0], { "a \"b\" \\", "ö" }, {} } }, file);
+  CHECK_BOOL(readLabelledMarkups(file)[0].points == lists[0], true);
+  CHECK_STD_STRING(readLabelledMarkups(file)[0].labels[0], "a \"b\" \\");
+  CHECK_STD_STRING(readLabelledMarkups(file)[0].labels[1], "ö");
   return EXIT_SUCCESS;
 }
 

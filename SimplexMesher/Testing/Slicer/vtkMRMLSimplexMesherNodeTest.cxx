@@ -50,6 +50,9 @@ void fill(vtkMRMLSimplexMesherNode* node)
   TissueSetting left;
   left.role = TissueRole::Leave;
   node->SetTissueSetting("17", left);
+  node->SetBalloonStops({ awkwardId, "5" });
+  node->SetBalloonLimit(26.5);
+  node->SetBalloonRigidity(3);
 }
 
 /// Whether everything is as fill() made it.
@@ -77,6 +80,9 @@ int checkFilled(vtkMRMLSimplexMesherNode* node)
   CHECK_DOUBLE(setting.islandVolume, 0);
   CHECK_DOUBLE(setting.cavityVolume, 12);
   CHECK_BOOL(node->GetTissueSetting("17").role == TissueRole::Leave, true);
+  CHECK_BOOL(node->GetBalloonStops() == (std::set<std::string>{ awkwardId, "5" }), true);
+  CHECK_DOUBLE(node->GetBalloonLimit(), 26.5);
+  CHECK_DOUBLE(node->GetBalloonRigidity(), 3);
   return EXIT_SUCCESS;
 }
 
@@ -141,7 +147,9 @@ int checkSavedScene()
  minimumCavityVolume="5" featureScale="0.5" maximumDistance="1.25" followThickness="true" gradation="0.4" threads="3"
  tissueModels="true" keepAmbient="false" report="false"
  tissues="17|leave||0|0|no|-1|-1;Segment_1%7C50%25%3B7C%2525 &amp; &quot;&lt;ä&gt;&quot;|)"
-    R"(group|vessels%3B 'left' %7C 100 %25|0.5|3.25|yes|0|12;"></SimplexMesher></MRML>)");
+    R"(group|vessels%3B 'left' %7C 100 %25|0.5|3.25|yes|0|12;"
+ balloonStops="5;Segment_1%7C50%25%3B7C%2525 &amp; &quot;&lt;ä&gt;&quot;;" balloonLimit="26.5"
+ balloonRigidity="3"></SimplexMesher></MRML>)");
   scene->Import();
   auto* node = Node::SafeDownCast(scene->GetFirstNodeByClass("vtkMRMLSimplexMesherNode"));
   CHECK_NOT_NULL(node);
