@@ -221,7 +221,7 @@ def draw(options, motions):
         view = View([actor_of(surface, 0.5, (0.93, 0.82, 0.7))], (-1, 1, 0.24), size, extent)
         put(figure, view, n * size[0], 0)
         title = "{:,} motions".format(motion) + (" (at rest since {})".format(motions) if rests else "")
-        figure.text((n + 0.5) / len(motions_shown), 1, title, ha="center", va="top", fontsize=16, color=INK)
+        figure.text((n + 0.5) / len(motions_shown), 0.985, title, ha="center", va="top", fontsize=16, color=INK)
     figure.canvas.draw()
     picture = os.path.join(folder, "balloon.png")
     save_image(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())), picture, palette=True)
