@@ -5,6 +5,7 @@
 #include "Errors.h"
 #include "Export.h"
 #include "MaterialTable.h"
+#include "SecondOrder.h"
 #include "ShellChoices.h"
 
 #include <set>
@@ -32,7 +33,7 @@ void convertCommand(CommandLine& line)
   const std::vector<std::string> files = line.outputNames("models");
   for (const std::string& file : files)
   {
-    exportFormatOf(file);
+    requireOrder(file, line.integer("elementOrder"));
     for (const ExportSidecar& sidecar : exportSidecars(file))
     {
       if (sidecar.isMany) line.alsoWritesMany("models", sidecar.before, sidecar.after);
@@ -47,7 +48,8 @@ void convertCommand(CommandLine& line)
     if (label == 0)
       throw InputError(line.text("mesh") + ": tetrahedra of label 0 found, those of tissues alone expected");
   }
-  const FiniteElementModel model = finiteElementModel(content, readOptions(line, content));
+  FiniteElementModel model = finiteElementModel(content, readOptions(line, content));
+  if (line.integer("elementOrder") == 2) model = withMidSideNodes(std::move(model));
   double done = 0;
   for (const std::string& file : files)
   {

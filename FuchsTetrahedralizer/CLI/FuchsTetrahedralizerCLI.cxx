@@ -10,6 +10,7 @@
 #include "FuchsTetrahedralizerCLIXML.h"
 #include "MaterialTable.h"
 #include "Report.h"
+#include "SecondOrder.h"
 #include "ShellChoices.h"
 #include "SubMeshExport.h"
 #include "SurfaceEdgeLength.h"
@@ -139,8 +140,12 @@ void requireUsableOptions(CommandLine& line)
     throw UsageError("--conditioning is given, but no --report, expected both");
   if (line.given("curveMesh") && line.texts("curves").empty())
     throw UsageError("--curveMesh is given, but no --curves, expected both");
+  if (line.integer("elementOrder") == 2 && !line.texts("curves").empty())
+    throw UsageError(
+      "--elementOrder 2 is given, and --curves, whose beams and trusses have two nodes; expected one of them");
   for (const std::string& file : line.outputNames("export"))
   {
+    requireOrder(file, line.integer("elementOrder"));
     for (const ExportSidecar& sidecar : exportSidecars(file, !line.texts("curves").empty()))
     {
       if (sidecar.isMany) line.alsoWritesMany("export", sidecar.before, sidecar.after);
@@ -174,8 +179,9 @@ void writeExports(CommandLine& line, const MeshFile& content, const FiniteElemen
   const std::vector<std::string> files = line.outputNames("export");
   const std::string shells = line.outputFile("shells");
   if (files.empty() && shells.empty()) return;
-  const FiniteElementModel model = finiteElementModel(content, options);
+  FiniteElementModel model = finiteElementModel(content, options);
   if (!shells.empty()) writeShells(model, shells);
+  if (line.integer("elementOrder") == 2) model = withMidSideNodes(std::move(model));
   for (const std::string& file : files)
   {
     exportModel(model, file, [&](const std::string& finalPath) { return line.outputPath(finalPath); });

@@ -3,6 +3,8 @@
 
 #include "FaceAdjacency.h"
 
+#include <utility>
+
 namespace surgicalmesher
 {
 namespace
@@ -15,6 +17,13 @@ constexpr int kWedgeFaces[5][4] = {
 };
 constexpr int kHexahedronFaces[6][4] = { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 },
                                          { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 0, 4, 7 } };
+
+std::vector<std::int32_t> sortedUnique(std::vector<std::int32_t> ids)
+{
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
 
 } // namespace
 
@@ -52,6 +61,28 @@ Cell sorted(Cell cell)
 {
   std::sort(cell.begin(), cell.end());
   return cell;
+}
+
+std::vector<std::int32_t> nodesOf(const std::vector<Cell>& cells)
+{
+  std::vector<std::int32_t> ids;
+  for (const Cell& cell : cells) ids.insert(ids.end(), cell.begin(), cell.end());
+  return sortedUnique(std::move(ids));
+}
+
+std::vector<std::int32_t> nodesOfSeveral(const std::vector<Cell>& cells, std::size_t count,
+                                         const std::vector<std::int32_t>& group)
+{
+  std::vector<std::int32_t> first(count, -1), result;
+  for (std::size_t c = 0; c < group.size(); ++c)
+  {
+    for (const std::int32_t id : cells[c])
+    {
+      if (first[id] < 0) first[id] = group[c];
+      else if (first[id] != group[c]) result.push_back(id);
+    }
+  }
+  return sortedUnique(std::move(result));
 }
 
 } // namespace surgicalmesher

@@ -7,13 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <vector>
 
 namespace surgicalmesher
 {
 
 /// Node ids. An element of four is a tetrahedron, of six a wedge, of eight a hexahedron: the base counter-clockwise seen
-/// from inside, then the opposite side (or corner) in the same order, as in Abaqus. A face of three or four is
-/// counter-clockwise seen from outside.
+/// from inside, then the opposite side (or corner) in the same order, as in Abaqus; ten are a tetrahedron of second order
+/// (see SecondOrder.h). A face of three or four is counter-clockwise seen from outside; six are a triangle of second order.
 class Cell
 {
 public:
@@ -25,7 +26,7 @@ public:
   template <std::size_t N>
   Cell(const std::array<std::int32_t, N>& ids) : m_Size(N)
   {
-    static_assert(N <= 8);
+    static_assert(N <= kMost);
     std::copy(ids.begin(), ids.end(), m_Ids.begin());
   }
 
@@ -42,7 +43,8 @@ public:
   friend bool operator<(const Cell& a, const Cell& b) { return a.m_Ids < b.m_Ids; }
 
 private:
-  std::array<std::int32_t, 8> m_Ids{}; ///< 0 beyond the size
+  static constexpr std::size_t kMost = 10;
+  std::array<std::int32_t, kMost> m_Ids{}; ///< 0 beyond the size
   std::size_t m_Size = 0;
 };
 
@@ -65,5 +67,12 @@ Cell inOrderOfVtk(const Cell& cell);
 
 /// Ids in ascending order: equal for all windings.
 Cell sorted(Cell cell);
+
+/// Nodes of cells, ascending.
+std::vector<std::int32_t> nodesOf(const std::vector<Cell>& cells);
+
+/// Nodes, of `count`, where cells of several groups meet, ascending.
+std::vector<std::int32_t> nodesOfSeveral(const std::vector<Cell>& cells, std::size_t count,
+                                         const std::vector<std::int32_t>& group);
 
 } // namespace surgicalmesher

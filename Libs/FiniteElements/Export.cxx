@@ -6,6 +6,7 @@
 #include "FebioExport.h"
 #include "GmshExport.h"
 #include "MeditExport.h"
+#include "NastranExport.h"
 #include "TissueSurfaceExport.h"
 #include "VtkExport.h"
 #ifdef SURGICALMESHER_HDF5
@@ -21,13 +22,14 @@ namespace surgicalmesher
 const std::vector<ExportFormat>& exportFormats()
 {
   static const std::vector<ExportFormat> formats{
+    { ".bdf", "Nastran", writeNastran },
     { ".feb", "FEBio 4.0", writeFebio },
     { ".inp", "Abaqus, CalculiX", writeAbaqus },
-    { ".mesh", "Medit, FreeFEM", writeMedit },
+    { ".mesh", "Medit, FreeFEM", writeMedit, false },
     { ".msh", "Gmsh 4.1", writeGmsh41 },
     { ".msh2", "Gmsh 2.2, GetFEM", writeGmsh22 },
-    { ".ply", "closed surfaces, one file per tissue", writeTissueSurfaces },
-    { ".stl", "closed surfaces, one file per tissue", writeTissueSurfaces },
+    { ".ply", "closed surfaces, one file per tissue", writeTissueSurfaces, false },
+    { ".stl", "closed surfaces, one file per tissue", writeTissueSurfaces, false },
     { ".vtk", "legacy VTK, SOFA", writeVtk },
     { ".vtu", "VTK", writeVtk },
 #ifdef SURGICALMESHER_HDF5
@@ -47,6 +49,18 @@ const ExportFormat& exportFormatOf(const std::string& file)
     known += (known.empty() ? "" : ", ") + format.extension;
   }
   throw UsageError(file + ": extension \"" + extension + "\" found, one of " + known + " expected");
+}
+
+void requireOrder(const std::string& file, int order)
+{
+  const ExportFormat& format = exportFormatOf(file);
+  if (order == 1 || format.hasSecondOrder) return;
+  std::string known;
+  for (const ExportFormat& other : exportFormats())
+  {
+    if (other.hasSecondOrder) known += (known.empty() ? "" : ", ") + other.extension;
+  }
+  throw UsageError(file + ": the format has no elements of second order, one of " + known + " expected");
 }
 
 std::vector<ExportSidecar> exportSidecars(const std::string& file, bool withCurves)
@@ -73,6 +87,7 @@ std::vector<ExportSidecar> exportSidecars(const std::string& file, bool withCurv
 void exportModel(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
   const Destination place = destination ? destination : [](const std::string& finalPath) { return finalPath; };
+  requireOrder(file, !model.elements.empty() && model.elements[0].size() == 10 ? 2 : 1);
   exportFormatOf(file).write(model, file, place);
   writeBytes(setNamesJSON(model), place(file + ".names.json"));
 }

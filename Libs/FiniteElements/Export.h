@@ -18,6 +18,7 @@ struct ExportFormat
   std::string extension;   ///< lower case, with its dot
   std::string description; ///< for messages and help: "Abaqus, CalculiX"
   void (*write)(const FiniteElementModel& model, const std::string& file, const Destination& destination);
+  bool hasSecondOrder = true; ///< knows tetrahedra of ten nodes
 };
 
 /// All formats, ascending by extension.
@@ -25,6 +26,9 @@ const std::vector<ExportFormat>& exportFormats();
 
 /// Throws UsageError, with the known extensions, unless the extension of `file` (upper or lower case) is one of them.
 const ExportFormat& exportFormatOf(const std::string& file);
+
+/// Throws UsageError for an unknown extension, and if elements are of second order (`order` 2) and the format has none.
+void requireOrder(const std::string& file, int order);
 
 /// A file, or one for each tissue, that is written beside an exported one: `before`, the tissue's set name if there are
 /// many, `after`.
@@ -38,7 +42,7 @@ struct ExportSidecar
 std::vector<ExportSidecar> exportSidecars(const std::string& file, bool withCurves = false);
 
 /// Writes the model, and beside it `<file>.names.json`, the map from set names to tissues (see setNamesJSON). Throws
-/// UsageError for an unknown extension, InputError if a file can't be written to its end.
+/// UsageError for an unknown extension, or elements that the format does not know, InputError if a file can't be written to its end.
 void exportModel(const FiniteElementModel& model, const std::string& file, const Destination& destination = {});
 
 } // namespace surgicalmesher

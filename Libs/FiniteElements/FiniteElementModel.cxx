@@ -83,35 +83,6 @@ std::map<std::int32_t, Ids> membersOf(const std::vector<Group>& group)
   return result;
 }
 
-Ids sortedUnique(Ids ids)
-{
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  return ids;
-}
-
-Ids pointsOf(const std::vector<Cell>& cells)
-{
-  Ids ids;
-  for (const Cell& cell : cells) ids.insert(ids.end(), cell.begin(), cell.end());
-  return sortedUnique(std::move(ids));
-}
-
-/// Points where elements of several groups meet, ascending.
-Ids pointsOfSeveral(const std::vector<Cell>& elements, std::size_t points, const Ids& group)
-{
-  Ids first(points, -1), result;
-  for (std::size_t e = 0; e < group.size(); ++e)
-  {
-    for (const std::int32_t id : elements[e])
-    {
-      if (first[id] < 0) first[id] = group[e];
-      else if (first[id] != group[e]) result.push_back(id);
-    }
-  }
-  return sortedUnique(std::move(result));
-}
-
 const char* nameOfLaw(MaterialLaw law) { return law == MaterialLaw::NeoHookean ? "neo_hookean" : "linear_elastic"; }
 
 std::string tissueTitle(std::int32_t label, const TissueTable& tissues)
@@ -243,7 +214,7 @@ private:
     addSurface(info("outer_boundary", "outer boundary", SetKind::OuterBoundary, {}), whole.begin()->second.high,
                "outer_boundary_nodes");
     addNodeSet(info("outer_boundary_nodes", "outer boundary", SetKind::OuterBoundary, {}),
-               pointsOf(m_Model.surfaces.back().cells));
+               nodesOf(m_Model.surfaces.back().cells));
   }
 
   /// Two surfaces and the set of the nodes that both have.
@@ -253,7 +224,7 @@ private:
     const std::string high = validName(names[ids[0]], kHalfName), low = validName(names[ids[1]], kHalfName);
     const std::string nodes = m_Names.unique(high + "_and_" + low);
     addSurface(info(m_Names.unique(high + "_to_" + low), original, kind, { ids[0], ids[1] }), interface.high, nodes);
-    addNodeSet(info(nodes, original, kind, { ids[0], ids[1] }), pointsOf(m_Model.surfaces.back().cells));
+    addNodeSet(info(nodes, original, kind, { ids[0], ids[1] }), nodesOf(m_Model.surfaces.back().cells));
     if (interface.low.empty()) return;
     const SurfaceSet side = m_Model.surfaces.back();
     addSurface(info(m_Names.unique(low + "_to_" + high), original, kind, { ids[1], ids[0] }), interface.low, nodes,
@@ -278,19 +249,17 @@ private:
                    subMeshTitle(ids[0]) + " | " + subMeshTitle(ids[1]));
     }
     addNodeSet(info("submesh_interface_nodes", "all sub-mesh interfaces", SetKind::SubMeshInterface, {}),
-               pointsOfSeveral(m_Elements, m_Model.content.mesh.points.size(), m_Model.content.subMesh));
+               nodesOfSeveral(m_Elements, m_Model.content.mesh.points.size(), m_Model.content.subMesh));
   }
 
   void addNullDisplacement()
   {
-    Ids points;
+    std::vector<Cell> still;
     for (std::size_t e = 0; e < m_Elements.size(); ++e)
     {
-      const Cell& ids = m_Elements[e];
-      if (m_Model.content.constitutive[e] == kNullDisplacement) points.insert(points.end(), ids.begin(), ids.end());
+      if (m_Model.content.constitutive[e] == kNullDisplacement) still.push_back(m_Elements[e]);
     }
-    addNodeSet(info("null_displacement_nodes", "null displacement", SetKind::NullDisplacement, {}),
-               sortedUnique(std::move(points)));
+    addNodeSet(info("null_displacement_nodes", "null displacement", SetKind::NullDisplacement, {}), nodesOf(still));
   }
 
   void addNamedNodes(const std::string& name, const Ids& points)

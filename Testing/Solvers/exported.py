@@ -160,5 +160,19 @@ def read_xdmf(file):
     return result
 
 
-READERS = {"feb": read_feb, "inp": read_inp, "mesh": read_medit, "msh": read_msh, "msh2": read_msh2, "vtk": read_vtk,
+def read_bdf(file):
+    """An element's property is the number of its section."""
+    sidecar = Sidecar(file)
+    mesh = meshio_read(file)
+    tetrahedra, properties = blocks(mesh, "tetra", mesh.cell_data["nastran:ref"])
+    parts, cells = by_number(properties), {}
+    for number, section in enumerate(sidecar.sections, 1):
+        entry = sidecar.sets[section["elements"]]
+        name = next(name for name, other in sidecar.sets.items()
+                    if other["kind"] == "tissue" and other["ids"] == entry["ids"][:1])
+        cells[name] = np.union1d(cells.get(name, []), parts[number]).astype(int)
+    return SimpleNamespace(points=mesh.points, tetrahedra=tetrahedra, cells=cells, nodes={}, faces={})
+
+
+READERS = {"bdf": read_bdf, "feb": read_feb, "inp": read_inp, "mesh": read_medit, "msh": read_msh, "msh2": read_msh2, "vtk": read_vtk,
            "vtu": read_vtk, "xdmf": read_xdmf}

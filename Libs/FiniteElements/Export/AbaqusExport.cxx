@@ -20,7 +20,10 @@ constexpr double kPi = 3.14159265358979323846;
 /// Abaqus's number of the face opposite to each corner: S1 has the corners 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1.
 constexpr int kFaceNumber[4] = { 3, 4, 2, 1 };
 
-int faceNumber(const Cell& element, int face) { return element.size() == 4 ? kFaceNumber[face] : face + 1; }
+int faceNumber(const Cell& element, int face)
+{
+  return element.size() == 4 || element.size() == 10 ? kFaceNumber[face] : face + 1;
+}
 
 std::string number(double value) { return textOf(value, kNumberLength); }
 
@@ -55,11 +58,12 @@ void appendNodes(std::string& text, const std::vector<Vec3>& points)
 
 void appendElements(std::string& text, const FiniteElementModel& model)
 {
-  appendCells(text, model.elements, 1, "all_elements", { { 4, "C3D4" }, { 6, "C3D6" }, { 8, "C3D8" } });
+  appendCells(text, model.elements, 1, "all_elements",
+              { { 4, "C3D4" }, { 6, "C3D6" }, { 8, "C3D8" }, { 10, "C3D10" } });
   std::size_t first = model.elements.size() + 1;
   for (const Shell& shell : model.shells)
   {
-    appendCells(text, shell.cells, first, shell.name, { { 3, "S3" }, { 4, "S4" } });
+    appendCells(text, shell.cells, first, shell.name, { { 3, "S3" }, { 4, "S4" }, { 6, "S6" } });
     first += shell.cells.size();
   }
   for (const Beam& beam : model.beams)

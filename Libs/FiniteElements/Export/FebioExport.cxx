@@ -30,9 +30,10 @@ void appendRow(std::string& text, const std::string& tag, const Cell& cell, std:
 
 std::string typeOf(const Cell& element)
 {
+  if (element.size() == 10) return "tet10";
   return element.size() == 4 ? "tet4" : element.size() == 6 ? "penta6" : "hex8";
 }
-std::string typeOfFace(const Cell& face) { return face.size() == 3 ? "tri3" : "quad4"; }
+std::string typeOfFace(const Cell& face) { return face.size() == 3 ? "tri3" : face.size() == 6 ? "tri6" : "quad4"; }
 
 /// A set's elements of one type, and what they are called.
 struct Portion

@@ -16,8 +16,19 @@ namespace
 
 // Gmsh's element types.
 constexpr int kLine = 1, kPoint = 15;
-int typeOf(const Cell& element) { return element.size() == 4 ? 4 : element.size() == 6 ? 6 : 5; }
-int typeOfFace(const Cell& face) { return face.size() == 3 ? 2 : 3; }
+int typeOf(const Cell& element)
+{
+  if (element.size() == 10) return 11;
+  return element.size() == 4 ? 4 : element.size() == 6 ? 6 : 5;
+}
+int typeOfFace(const Cell& face) { return face.size() == 3 ? 2 : face.size() == 6 ? 9 : 3; }
+
+/// Gmsh has the middle of the edge 23 before that of 13.
+Cell inOrderOfGmsh(Cell element)
+{
+  if (element.size() == 10) std::swap(element.begin()[8], element.begin()[9]);
+  return element;
+}
 
 struct PhysicalName
 {
@@ -216,7 +227,7 @@ private:
     {
       rows.clear();
       for (const std::int32_t e : m_Tags.elementPieces[p].elements)
-        rows.push_back({ std::size_t(e) + 1, m_Model.elements[e] });
+        rows.push_back({ std::size_t(e) + 1, inOrderOfGmsh(m_Model.elements[e]) });
       addBlocks(blocks, 3, p + 1, rows);
     }
     return blocks;
@@ -273,8 +284,8 @@ std::string gmsh22(const FiniteElementModel& model)
   for (std::size_t e = 0; e < model.elements.size(); ++e)
   {
     const Cell& element = model.elements[e];
-    out << e + 1 << ' ' << typeOf(element) << " 2 " << mesh.labels[e] << ' ' << mesh.labels[e] << FromOne{ element }
-        << '\n';
+    out << e + 1 << ' ' << typeOf(element) << " 2 " << mesh.labels[e] << ' ' << mesh.labels[e]
+        << FromOne{ inOrderOfGmsh(element) } << '\n';
   }
   for (const FacePiece& piece : tags.facePieces)
   {

@@ -100,6 +100,7 @@ void addTissues(vtkPolyData* data, const FiniteElementModel& model)
 
 int typeOf(const Cell& element)
 {
+  if (element.size() == 10) return VTK_QUADRATIC_TETRA;
   return element.size() == 4 ? VTK_TETRA : element.size() == 6 ? VTK_WEDGE : VTK_HEXAHEDRON;
 }
 
@@ -127,7 +128,7 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOf(const FiniteElementModel& model)
   for (std::size_t e = 0; e < model.elements.size(); ++e)
   {
     const Cell cell = inOrderOfVtk(model.elements[e]);
-    vtkIdType ids[8];
+    vtkIdType ids[10];
     std::copy(cell.begin(), cell.end(), ids);
     grid->InsertNextCell(typeOf(cell), static_cast<vtkIdType>(cell.size()), ids);
     label->InsertNextValue(content.mesh.labels[e]);
@@ -137,6 +138,9 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOf(const FiniteElementModel& model)
   named(label, "TissueLabel", grid->GetCellData());
   named(subMesh, "SubMesh", grid->GetCellData());
   named(constitutive, "Constitutive", grid->GetCellData());
+  vtkNew<vtkDoubleArray> length;
+  for (const double value : content.targetEdgeLength) length->InsertNextValue(value);
+  if (!content.targetEdgeLength.empty()) named(length, "TargetEdgeLength", grid->GetPointData());
   for (const ElementSet& set : model.elementSets)
   {
     if (set.kind == SetKind::Named) addMembership(set.name, set.elements, model.elements.size(), grid->GetCellData());
@@ -153,7 +157,8 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOf(const FiniteElementModel& model)
 
 void writeVtk(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
-  if (model.content.mesh.tetrahedra.empty()) return writeGrid(gridOf(model), destination(file), FieldTexts::LeftOut);
+  const bool areCorners = !model.content.mesh.tetrahedra.empty() && model.elements[0].size() == 4;
+  if (!areCorners) return writeGrid(gridOf(model), destination(file), FieldTexts::LeftOut);
   writeMesh(model.content, destination(file), FieldTexts::LeftOut);
 }
 

@@ -107,7 +107,8 @@ XdmfType typeOf(const Cell& cell, int dimension)
   case 2: return { "Polyline", 2 };
   case 3: return { "Triangle", 4 };
   case 4: return dimension == 2 ? XdmfType{ "Quadrilateral", 5 } : XdmfType{ "Tetrahedron", 6 };
-  case 6: return { "Wedge", 8 };
+  case 6: return dimension == 2 ? XdmfType{ "Triangle_6", 36 } : XdmfType{ "Wedge", 8 };
+  case 10: return { "Tetrahedron_10", 38 };
   default: return { "Hexahedron", 9 };
   }
 }
@@ -133,7 +134,7 @@ public:
     for (const Cell& cell : cells)
     {
       if (isMixed) numbers.push_back(typeOf(cell, dimension).number);
-      const Cell ordered = inOrderOfVtk(cell);
+      const Cell ordered = dimension == 3 ? inOrderOfVtk(cell) : cell;
       numbers.insert(numbers.end(), ordered.begin(), ordered.end());
     }
     const std::size_t columns = isMixed || cells.empty() ? 1 : cells[0].size();

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "NastranExport.h"
+
+#include "TextFile.h"
+#include "TextNumbers.h"
+
+#include <locale>
+#include <map>
+#include <sstream>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+constexpr std::size_t kWide = 16; ///< columns of a field of a card with an asterisk
+constexpr std::size_t kNarrow = 8;
+constexpr std::size_t kFieldsPerLine = 8;
+
+/// Solids and faces by their number of nodes.
+const std::map<std::size_t, std::string> kSolids{ { 4, "CTETRA" }, { 6, "CPENTA" }, { 8, "CHEXA" }, { 10, "CTETRA" } };
+const std::map<std::size_t, std::string> kFaces{ { 3, "CTRIA3" }, { 4, "CQUAD4" }, { 6, "CTRIA6" } };
+
+std::string field(const std::string& text, std::size_t width)
+{
+  return text + std::string(width > text.size() ? width - text.size() : 0, ' ');
+}
+
+/// The most digits that a wide field takes; a real number has a point.
+std::string wide(double value)
+{
+  std::string text = textOf(value);
+  for (int digits = 15; text.size() > kWide; --digits)
+  {
+    std::ostringstream rounded;
+    rounded.imbue(std::locale::classic());
+    rounded.precision(digits);
+    rounded << value;
+    text = rounded.str();
+  }
+  const std::size_t exponent = text.find('e');
+  if (text.find('.') == std::string::npos) text.insert(exponent == std::string::npos ? text.size() : exponent, ".");
+  return field(text, kWide);
+}
+
+/// A card of whole numbers, on as many lines as it needs.
+void appendCard(std::string& text, const std::string& name, const std::vector<std::string>& fields)
+{
+  text += field(name, kNarrow);
+  for (std::size_t i = 0; i < fields.size(); ++i)
+  {
+    if (i > 0 && i % kFieldsPerLine == 0) text += "+\n" + field("+", kNarrow); // the mark at the line's end is for Gmsh
+    text += field(fields[i], kNarrow);
+  }
+  text += "\n";
+}
+
+void appendNodes(std::string& text, const std::vector<Vec3>& points)
+{
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    const Vec3& p = points[i];
+    text += "GRID*   " + field(std::to_string(i + 1), kWide) + field("", kWide) + wide(p.x) + wide(p.y) + "\n*       " +
+            wide(p.z) + "\n";
+  }
+}
+
+void appendElement(std::string& text, const std::string& name, std::size_t number, std::size_t property,
+                   const Cell& cell)
+{
+  std::vector<std::string> fields{ std::to_string(number), std::to_string(property) };
+  for (const std::int32_t id : cell) fields.push_back(std::to_string(id + 1));
+  appendCard(text, name, fields);
+}
+
+/// Properties have the numbers of sections, those of shells follow.
+void appendElements(std::string& text, const FiniteElementModel& model)
+{
+  std::vector<std::size_t> property(model.elements.size());
+  for (std::size_t s = 0; s < model.sections.size(); ++s)
+  {
+    for (const std::int32_t e : model.elementSets[model.sections[s].elementSet].elements) property[e] = s + 1;
+  }
+  for (std::size_t e = 0; e < model.elements.size(); ++e)
+    appendElement(text, kSolids.at(model.elements[e].size()), e + 1, property[e], model.elements[e]);
+  std::size_t next = model.elements.size();
+  for (std::size_t s = 0; s < model.shells.size(); ++s)
+  {
+    for (const Cell& cell : model.shells[s].cells)
+      appendElement(text, kFaces.at(cell.size()), ++next, model.sections.size() + s + 1, cell);
+  }
+}
+
+void appendProperties(std::string& text, const FiniteElementModel& model)
+{
+  std::size_t next = 0;
+  for (const Section& section : model.sections)
+  {
+    text += "$ " + model.elementSets[section.elementSet].name + "\n";
+    appendCard(text, "PSOLID", { std::to_string(++next), std::to_string(section.material + 1) });
+  }
+  for (const Shell& shell : model.shells)
+  {
+    const std::string material = field(std::to_string(shell.material + 1), kWide);
+    text += "$ " + shell.name + "\nPSHELL* " + field(std::to_string(++next), kWide) + material + wide(shell.thickness) +
+            material + "\n*       " + field("", kWide) + material + "\n";
+  }
+  for (std::size_t m = 0; m < model.materials.size(); ++m)
+  {
+    const Material& material = model.materials[m];
+    text += "$ " + material.name + "\nMAT1*   " + field(std::to_string(m + 1), kWide) + wide(material.youngsModulus) +
+            field("", kWide) + wide(material.poissonsRatio) + "\n*       " + wide(material.density) + "\n";
+  }
+}
+
+void appendNodeSets(std::string& text, const FiniteElementModel& model)
+{
+  for (std::size_t s = 0; s < model.nodeSets.size(); ++s)
+  {
+    std::vector<std::string> ids;
+    for (const std::int32_t id : model.nodeSets[s].points) ids.push_back(std::to_string(id + 1));
+    text += "$ " + model.nodeSets[s].name + "\n";
+    if (model.nodeSets[s].kind == SetKind::NullDisplacement)
+    {
+      std::vector<std::string> clamp{ "1", "123" };
+      clamp.insert(clamp.end(), ids.begin(), ids.end());
+      appendCard(text, "SPC1", clamp);
+    }
+    ids.insert(ids.begin(), std::to_string(s + 1));
+    appendCard(text, "SET1", ids);
+  }
+}
+
+} // namespace
+
+void writeNastran(const FiniteElementModel& model, const std::string& file, const Destination& destination)
+{
+  std::string text = "$ LPS; mm, N, MPa, tonne, s\nSOL 101\nCEND\nSPC = 1\nBEGIN BULK\n";
+  appendNodes(text, model.content.mesh.points);
+  appendElements(text, model);
+  appendProperties(text, model);
+  appendNodeSets(text, model);
+  writeBytes(text + "ENDDATA\n", destination(file));
+}
+
+} // namespace surgicalmesher

@@ -1,0 +1,198 @@
+"""Tetrahedra of ten nodes as other programs read them, and a bar in bending against the beam's closed form.
+
+usage: test_second_order.py MODULES FOLDER. Without CalculiX or gmsh the status is 77.
+"""
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+
+import numpy as np
+import vtk
+
+from exported import meshio_read
+from sidecar import Sidecar
+
+MODULES, FOLDER = sys.argv[1:3]
+SKIPPED = 77
+LENGTH, SIDE = 60.0, 6.0  # mm
+YOUNGS_MODULUS, POISSONS_RATIO = 2.0, 0.3  # MPa
+FORCE = 1e-4  # N
+FORMATS = ("bdf", "feb", "inp", "msh", "msh2", "vtk", "vtu", "xdmf")
+EDGES = np.array([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)])
+
+DECK = """*INCLUDE, INPUT={mesh}
+*NSET, NSET=root
+{root}
+*BOUNDARY
+root, 1, 3
+*STEP
+*STATIC
+*CLOAD
+{loads}
+*NODE PRINT, NSET=all_nodes
+U
+*END STEP
+"""
+
+
+def path(name):
+    return os.path.join(FOLDER, name)
+
+
+def box():
+    source = vtk.vtkCubeSource()
+    source.SetBounds(0, LENGTH, -SIDE / 2, SIDE / 2, -SIDE / 2, SIDE / 2)
+    triangles, clean = vtk.vtkTriangleFilter(), vtk.vtkCleanPolyData()
+    triangles.SetInputConnection(source.GetOutputPort())
+    clean.SetInputConnection(triangles.GetOutputPort())
+    writer = vtk.vtkXMLPolyDataWriter()
+    writer.SetInputConnection(clean.GetOutputPort())
+    writer.SetFileName(path("box.vtp"))
+    writer.Write()
+
+
+def run_module(*arguments):
+    return subprocess.run([os.path.join(MODULES, arguments[0]), *arguments[1:]], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, text=True, cwd=FOLDER)
+
+
+def deflection(order):
+    """Of the free end in CalculiX, per that of a beam that bends and shears."""
+    mesh = f"bar{order}.inp"
+    points = meshio_read(path(mesh)).points
+    root, tip = np.flatnonzero(points[:, 0] < 1e-9), np.flatnonzero(points[:, 0] > LENGTH - 1e-9)
+    name = f"load{order}"
+    with open(path(name + ".inp"), "w", encoding="ascii") as deck:
+        deck.write(DECK.format(mesh=mesh, root=",\n".join(str(i + 1) for i in root),
+                               loads="\n".join(f"{i + 1}, 2, {FORCE / len(tip):.8g}" for i in tip)))
+    run = subprocess.run(["ccx", name], cwd=FOLDER, stdout=subprocess.PIPE, text=True)
+    if run.returncode or "*ERROR" in run.stdout:
+        raise AssertionError(run.stdout[-3000:])
+    with open(path(name + ".dat"), encoding="ascii") as results:
+        rows = [line.split() for line in results]
+    moved = {int(row[0]): float(row[2]) for row in rows if len(row) == 4 and row[0].isdigit()}
+    bending = FORCE * LENGTH ** 3 / (3 * YOUNGS_MODULUS * SIDE ** 4 / 12)
+    shear = FORCE * LENGTH / (5 / 6 * YOUNGS_MODULUS / (2 + 2 * POISSONS_RATIO) * SIDE ** 2)
+    return np.mean([moved[i + 1] for i in tip]) / (bending + shear)
+
+
+def read_tetrahedra(extension):
+    """Points, tetrahedra of ten nodes and triangles of six."""
+    file = path("bar2." + extension)
+    if extension == "feb":
+        return read_feb_of_second_order(file)
+    mesh = meshio_read(file, **({"file_format": "gmsh"} if extension == "msh2" else {}))
+    tetrahedra = np.concatenate([block.data for block in mesh.cells if block.type == "tetra10"])
+    triangles = [block.data for block in mesh.cells if block.type == "triangle6"]
+    return mesh.points, tetrahedra.astype(int), np.concatenate(triangles).astype(int) if triangles else None
+
+
+def read_feb_of_second_order(file):
+    """By the published structure, as read_feb."""
+    import xml.etree.ElementTree as xml
+
+    mesh = xml.parse(file).getroot().find("Mesh")
+    points = np.array([[float(x) for x in node.text.split(",")] for node in mesh.find("Nodes")])
+    parts = [part for part in mesh.iterfind("Elements") if part.get("type") == "tet10"]
+    faces = [face.text for face in mesh.iterfind("Surface[@name='outer_boundary']/tri6")]
+    rows = [element.text for part in parts for element in part]
+    return (points, *(np.array([np.array(row.split(","), int) - 1 for row in some]) for some in (rows, faces)))
+
+
+class SecondOrder(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(FOLDER, ignore_errors=True)
+        os.makedirs(FOLDER)
+        box()
+        with open(path("materials.csv"), "w", encoding="ascii") as table:
+            table.write("tissue, model, youngsModulus, poissonsRatio, density\n"
+                        f"1, linear, {1000 * YOUNGS_MODULUS}, {POISSONS_RATIO}, 1000\n")
+        for order in (1, 2):
+            exports = [word for extension in FORMATS for word in ("--export", f"bar{order}.{extension}")]
+            done = run_module("FuchsTetrahedralizerCLI", "--edgeLength", "3", "--elementOrder", str(order), "--materials",
+                              "materials.csv", *exports, "box.vtp", f"mesh{order}.vtu")
+            assert done.returncode == 0, done.stderr
+
+    def test_a_bar_bends_as_the_beam(self):
+        first, second = deflection(1), deflection(2)
+        print("deflection over the beam's", first, second)
+        self.assertAlmostEqual(second, 1, delta=0.02)  # the held end cannot widen
+        self.assertLess(first, 0.95)  # of first order, it is too stiff
+        self.assertGreater(first, 0.6)
+
+    def test_nodes_are_in_the_middle_of_edges(self):
+        corners = meshio_read(path("bar1.vtu"))
+        for extension in FORMATS:
+            points, tetrahedra, triangles = read_tetrahedra(extension)
+            np.testing.assert_array_equal(np.unique(tetrahedra), np.arange(len(points)), extension)
+            places = points[tetrahedra]
+            np.testing.assert_allclose(places[:, 4:], places[:, EDGES].mean(axis=2), atol=1e-8, err_msg=extension)
+            if triangles is not None:
+                sides = points[triangles]
+                middles = (sides[:, :3] + sides[:, [1, 2, 0]]) / 2
+                np.testing.assert_allclose(sides[:, 3:], middles, atol=1e-8, err_msg=extension)
+            volumes = np.einsum("ij,ij->i", np.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]),
+                                places[:, 3] - places[:, 0]) / 6
+            self.assertGreater(volumes.min(), 0)
+            self.assertAlmostEqual(volumes.sum() / (LENGTH * SIDE ** 2), 1, delta=1e-9)
+            if extension not in ("feb", "msh"):  # both have an order of their own
+                np.testing.assert_array_equal(tetrahedra[:, :4], corners.cells[0].data, extension)
+
+    def test_sets_of_nodes_have_those_of_their_edges(self):
+        mesh = meshio_read(path("bar2.inp"))
+        outside = (np.abs(np.abs(mesh.points[:, 1:]) - SIDE / 2) < 1e-9).any(axis=1)
+        outside |= (mesh.points[:, 0] < 1e-9) | (mesh.points[:, 0] > LENGTH - 1e-9)
+        np.testing.assert_array_equal(np.sort(mesh.point_sets["outer_boundary_nodes"]), np.flatnonzero(outside))
+        sets = Sidecar(path("bar2.inp")).sets
+        self.assertEqual(sets["outer_boundary_nodes"]["size"], outside.sum())
+
+    def test_nastran_has_the_numbers_of_the_others(self):
+        for order in (1, 2):
+            theirs, ours = meshio_read(path(f"bar{order}.bdf")), meshio_read(path(f"bar{order}.vtu"))
+            np.testing.assert_allclose(theirs.points, ours.points, rtol=1e-9, atol=1e-9)
+            np.testing.assert_array_equal(theirs.cells[0].data, ours.cells[0].data)
+            self.assertEqual(set(theirs.cell_data["nastran:ref"][0]), {1})
+
+    def test_gmsh_reads_it(self):
+        import gmsh
+
+        gmsh.initialize()
+        gmsh.option.setNumber("General.Terminal", 0)
+        shutil.copy(path("bar2.msh2"), path("version2.msh"))
+        for name in ("bar2.bdf", "bar2.msh", "version2.msh"):
+            gmsh.open(path(name))
+            types = gmsh.model.mesh.getElementTypes(3)
+            self.assertEqual([gmsh.model.mesh.getElementProperties(kind)[2] for kind in types], [2], name)
+            jacobians = gmsh.model.mesh.getJacobians(types[0], gmsh.model.mesh.getIntegrationPoints(types[0], "Gauss2")[0])
+            self.assertGreater(np.min(jacobians[1]), 0, name)
+        gmsh.finalize()
+
+    def test_refused(self):
+        for name in ("a.mesh", "a.stl", "a.ply"):
+            done = run_module("surgicalmesher", "convert", "--elementOrder", "2", "mesh1.vtu", name)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertIn("no elements of second order", done.stderr)
+            self.assertFalse(os.path.exists(path(name)))
+
+    def test_converted_files_are_the_exported_ones(self):
+        done = run_module("surgicalmesher", "convert", "--elementOrder", "2", "--materials", "materials.csv", "mesh1.vtu",
+                          "other.inp", "other.bdf")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for extension in ("inp", "bdf", "inp.names.json"):
+            with open(path("other." + extension), "rb") as theirs, open(path("bar2." + extension), "rb") as ours:
+                self.assertEqual(theirs.read(), ours.read(), extension)
+
+
+if __name__ == "__main__":
+    try:
+        import gmsh  # noqa: F401
+    except ImportError:
+        print("not installed: gmsh")
+        sys.exit(SKIPPED)
+    if not shutil.which("ccx"):
+        print("not installed: ccx")
+        sys.exit(SKIPPED)
+    unittest.main(argv=sys.argv[:1])
