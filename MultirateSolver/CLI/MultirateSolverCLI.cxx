@@ -3,6 +3,7 @@
 
 #include "CommandLine.h"
 #include "Errors.h"
+#include "FileSeries.h"
 #include "JsonReport.h"
 #include "MaterialTable.h"
 #include "MultirateSolverCLIXML.h"
@@ -101,26 +102,22 @@ public:
   void add(double seconds, const CoupledMesh& mesh, const std::vector<Vec3>& displacements, DisplacedPart& child)
   {
     if (m_Name.empty()) return;
-    const std::string number = std::to_string(m_Count++);
+    const std::string number = std::to_string(m_Files.size());
     const std::string file = m_Prefix + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number + ".vtu";
     child.write(mesh, displacements, m_Line.outputPath(file));
-    m_Lines += "    <DataSet timestep=\"" + text::rounded(seconds, 9) + "\" file=\"" +
-               std::filesystem::path(file).filename().string() + "\"/>\n";
+    m_Files.push_back({ text::rounded(seconds, 9), std::filesystem::path(file).filename().string() });
   }
 
   void finish()
   {
-    if (m_Name.empty()) return;
-    writeBytes("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n" + m_Lines +
-                 "  </Collection>\n</VTKFile>\n",
-               m_Line.outputFile("motion"));
+    if (!m_Name.empty()) writeFileSeries(m_Files, m_Line.outputFile("motion"));
   }
 
 private:
   CommandLine& m_Line;
   std::filesystem::path m_Name;
-  std::string m_Prefix, m_Lines;
-  int m_Count = 0;
+  std::string m_Prefix;
+  std::vector<SeriesFile> m_Files;
 };
 
 void writeForces(const std::vector<ReplayStep>& steps, const std::string& file)

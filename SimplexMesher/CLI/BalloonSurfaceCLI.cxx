@@ -250,7 +250,7 @@ void run(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
-  GrowthSeries growth(line);
+  GrowthSeries growth(line, line.outputNames("growth"));
   BalloonOptions options = readOptions(line);
   const std::vector<Seed> seeds = readSeeds(line);
   TissueMap map = readTissueMap(line.text("map"));
@@ -271,7 +271,7 @@ void run(CommandLine& line)
 
   report(progress, 0.95, "writing");
   writeSurface(surfaceFile(result.surface, map, options), line.outputFile("surface"));
-  growth.writeIndex();
+  growth.writeIndex(line.outputFile("growth"));
   const std::map<Label, std::size_t> voxels = fill(map, result, stops);
   const std::string labelMap = line.outputFile("labelMap"), evolution = line.outputFile("evolution"),
                     reportFile = line.outputFile("report");

@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GrowthSeries.h"
 
-#include "Text.h"
-#include "TextFile.h"
+#include "FileSeries.h"
 
 #include <filesystem>
-#include <sstream>
 #include <utility>
 
 namespace surgicalmesher
 {
 
-GrowthSeries::GrowthSeries(CommandLine& line) : m_Line(line)
+GrowthSeries::GrowthSeries(CommandLine& line, const std::vector<std::string>& index) : m_Line(line)
 {
-  for (const std::string& index : line.outputNames("growth"))
+  for (const std::filesystem::path name : index)
   {
-    const std::filesystem::path name = index;
     m_Folder = name.parent_path().string();
     m_Stem = name.stem().string();
     line.alsoWritesMany("growth", (name.parent_path() / m_Stem).string() + "-", ".vtp");
@@ -36,15 +33,12 @@ BalloonWatch GrowthSeries::watch(std::function<SurfaceFile(const SurfaceComplex&
   };
 }
 
-void GrowthSeries::writeIndex()
+void GrowthSeries::writeIndex(const std::string& file) const
 {
   if (m_Stem.empty()) return;
-  std::ostringstream out;
-  out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
-  for (const int motion : m_Motions)
-    out << "    <DataSet timestep=\"" << motion << "\" file=\"" << text::xmlEscaped(fileAfter(motion)) << "\"/>\n";
-  out << "  </Collection>\n</VTKFile>\n";
-  writeBytes(out.str(), m_Line.outputFile("growth"));
+  std::vector<SeriesFile> files;
+  for (const int motion : m_Motions) files.push_back({ std::to_string(motion), fileAfter(motion) });
+  writeFileSeries(files, file);
 }
 
 std::string GrowthSeries::fileAfter(int motion) const { return m_Stem + "-" + std::to_string(motion) + ".vtp"; }

@@ -18,13 +18,14 @@ namespace surgicalmesher
 class GrowthSeries
 {
 public:
-  /// Claims the files' names (CommandLine::alsoWritesMany). Nothing is written unless `--growth` was given.
-  explicit GrowthSeries(CommandLine& line);
+  /// `index`: the final name of `--growth`, if it was given; nothing is written without. Claims the files' names
+  /// (CommandLine::alsoWritesMany).
+  GrowthSeries(CommandLine& line, const std::vector<std::string>& index);
 
   /// `content` puts a surface of the map's grid frame into the form of the files. Null unless `--growth` was given.
   BalloonWatch watch(std::function<SurfaceFile(const SurfaceComplex&)> content);
 
-  void writeIndex();
+  void writeIndex(const std::string& file) const;
 
 private:
   std::string fileAfter(int motion) const; ///< without folder
