@@ -114,7 +114,7 @@ class ReadmeTest(unittest.TestCase):
         sections = re.split(r"^# \[(\w+)\].*\n", text_of("CMake", "debian-packages.txt"), flags=re.M)
         packages = {name: set(re.findall(r"^[\w.+-]+", text, re.M))
                     for name, text in zip(sections[1::2], sections[2::2])}
-        self.assertEqual(set(packages), {"build", "example", "python", "cohorts", "style", "tests"})
+        self.assertEqual(set(packages), {"build", "example", "python", "site", "cohorts", "style", "tests"})
         self.assertFalse((packages["build"] | packages["example"]) & (packages["cohorts"] | packages["tests"]))
         self.assertTrue({"slurmctld", "freefem++", "libgtest-dev"} <= packages["tests"])
 
@@ -122,7 +122,7 @@ class ReadmeTest(unittest.TestCase):
         done = subprocess.run([os.path.join(ROOT, "CMake", "build.sh"), "--for", "everything"], stderr=subprocess.PIPE,
                               stdout=subprocess.PIPE, text=True, check=False)
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
-        self.assertIn("build example python cohorts style tests", done.stderr)
+        self.assertIn("build example python site cohorts style tests", done.stderr)
 
     def test_scripts_are_executable_bash(self):
         for script in ("example.sh", "test.sh", "CMake/build.sh", ".ci/run"):

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# The documentation as a site, in FOLDER/html; ends with status 1 if a page or a link to one is missing.
+# usage: Docs/build.sh [FOLDER]   (default build-site)
+set -euo pipefail
+folder=$(realpath -m "${1:-$(dirname "$0")/../build-site}")
+cd "$(dirname "$0")/.."
+command -v mkdocs >/dev/null || { echo "build.sh: mkdocs not found; on Debian: apt-get install mkdocs mkdocs-material" >&2; exit 1; }
+
+rm -rf "$folder/pages" "$folder/html"
+mkdir -p "$folder/pages"
+cp -r Docs/images "$folder/pages/"
+cp Docs/mkdocs.yml "$folder/"
+source=$(sed -n 's|^repo_url: ||p' Docs/mkdocs.yml)/blob/main
+
+# Links from the top to pages, to other files of the project; then those of pages likewise.
+for page in README CONTRIBUTING CHANGELOG; do
+  sed -E -e 's#\]\(Docs/#](#g' -e 's#\]\(([A-Za-z]+/[^):]*|LICENSE|NOTICE|[a-z.]+\.sh)\)#](@\1)#g' \
+    -e 's#\]\(@(images/[^)]*)\)#](\1)#g' -e "s#\]\(@#]($source/#g" "$page.md" >"$folder/pages/$page.md"
+done
+mv "$folder/pages/README.md" "$folder/pages/index.md"
+for page in Docs/*.md; do
+  sed -E -e 's#\]\(\.\./README\.md#](index.md#g' -e 's#\]\(\.\./((CONTRIBUTING|CHANGELOG)\.md)#](\1#g' \
+    -e "s#\]\(\.\./#]($source/#g" "$page" >"$folder/pages/${page##*/}"
+done
+mkdocs build --quiet --strict --config-file "$folder/mkdocs.yml"
