@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""CalculiX: a head sags under its weight in its fluid. usage: run_calculix.py mesh.inp CLAMPED_SURFACE...
+"""CalculiX: a head sags under its weight in its fluid. usage: run_calculix.py mesh.inp [CLAMPED_SURFACE]...
 
-The materials are those of mesh.inp; the analysis is nonlinear where they are. Leaves gravity.inp, the deck, and
+Null displacement is clamped in any case: mesh.inp says so. The materials are those of mesh.inp; the analysis is nonlinear where they are. Leaves gravity.inp, the deck, and
 CalculiX's results beside the mesh.
 """
 import os
@@ -12,9 +12,7 @@ import numpy as np
 
 from sidecar import GRAVITY, Sidecar
 
-DECK = """*INCLUDE, INPUT={mesh}
-*BOUNDARY
-{clamped}
+DECK = """*INCLUDE, INPUT={mesh}{clamped}
 *STEP
 *STATIC, SOLVER=ITERATIVE CHOLESKY
 *DLOAD
@@ -26,7 +24,7 @@ U
 
 folder, file = os.path.split(os.path.abspath(sys.argv[1]))
 sets = Sidecar(sys.argv[1]).sets
-clamped = "\n".join(sets[surface]["nodes"] + ", 1, 3" for surface in sys.argv[2:])
+clamped = "".join("\n*BOUNDARY\n%s, 1, 3" % sets[surface]["nodes"] for surface in sys.argv[2:])
 with open(os.path.join(folder, "gravity.inp"), "w", encoding="ascii") as deck:
     deck.write(DECK.format(mesh=file, clamped=clamped, gravity=GRAVITY))
 
