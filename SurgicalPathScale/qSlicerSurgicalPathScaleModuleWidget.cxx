@@ -278,13 +278,12 @@ void qSlicerSurgicalPathScaleModuleWidget::enter()
 void qSlicerSurgicalPathScaleModuleWidget::exit()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
-  d->PreviewTimer.stop();
   d->EstimateTimer.stop();
-  d->logic()->HidePreview();
   d->logic()->ReleaseTissueMap();
   d->TargetsPlaceWidget->setPlaceModeEnabled(false);
   d->PathPlaceWidget->setPlaceModeEnabled(false);
   this->Superclass::exit();
+  this->updatePreview(); // hides it, as soon as no run is starting
 }
 
 bool qSlicerSurgicalPathScaleModuleWidget::setEditedNode(vtkMRMLNode* node, QString role, QString context)
@@ -354,7 +353,7 @@ void qSlicerSurgicalPathScaleModuleWidget::updatePreview()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
   d->PreviewTimer.stop();
-  if (d->logic()->GetRun()->IsStarting()) // the preview's nodes would come and go
+  if (d->logic()->GetRun()->IsStarting()) // the host's thread looks for the run's nodes; none may come or go
   {
     d->PreviewTimer.start();
     return;

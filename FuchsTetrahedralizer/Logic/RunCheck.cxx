@@ -6,6 +6,7 @@
 #include "MaterialTable.h"
 #include "ModelMesh.h"
 #include "RunInputs.h"
+#include "SceneNodes.h"
 #include "ShellChoices.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 
@@ -48,7 +49,7 @@ Check checkLengths(Parameters* parameters, const std::vector<vtkMRMLModelNode*>&
   case Parameters::FromSurface:
     return { hasTargetLengths(surfaces) ? Problem::None : Problem::NoTargetLengths, nullptr, {} };
   case Parameters::FromScale:
-    if (!scale || !scale->GetImageData()) return { Problem::NoScale, scale, {} };
+    if (!hasVoxels(scale)) return { Problem::NoScale, scale, {} };
     if (scale->GetParentTransformNode() && !scale->GetParentTransformNode()->IsTransformToWorldLinear())
       return { Problem::ScaleWarped, scale, {} };
     return {};

@@ -2,6 +2,7 @@
 #include "TissueModels.h"
 
 #include "HostDifferences.h"
+#include "SceneNodes.h"
 #include "TissueSurfaces.h"
 
 #include <vtkMRMLModelDisplayNode.h>
@@ -151,7 +152,7 @@ void makeTissueModels(vtkMRMLModelNode* surface)
     model->GetDisplayNode()->SetColor(tissue.color[0], tissue.color[1], tissue.color[2]);
     if (isNew) hierarchy->CreateItem(folder, model);
   }
-  for (const auto& [label, model] : earlier) surface->GetScene()->RemoveNode(model);
+  for (const auto& [label, model] : earlier) removeFromScene(model);
 }
 
 void removeTissueModels(vtkMRMLModelNode* surface)
@@ -160,7 +161,7 @@ void removeTissueModels(vtkMRMLModelNode* surface)
   if (models.empty()) return;
   vtkMRMLSubjectHierarchyNode* hierarchy = vtkMRMLSubjectHierarchyNode::GetSubjectHierarchyNode(surface->GetScene());
   const vtkIdType folder = earlierFolder(hierarchy, models);
-  for (const auto& [label, model] : models) surface->GetScene()->RemoveNode(model);
+  for (const auto& [label, model] : models) removeFromScene(model);
   const bool exists = folder != vtkMRMLSubjectHierarchyNode::INVALID_ITEM_ID;
   if (exists && hierarchy->GetNumberOfItemChildren(folder) == 0) hierarchy->RemoveItem(folder, false, false);
 }

@@ -5,6 +5,7 @@
 #include "HostDifferences.h"
 #include "ReportTables.h"
 #include "RunNodes.h"
+#include "SceneNodes.h"
 #include "Text.h"
 #include "TissueColors.h"
 #include "TissueModels.h"
@@ -73,7 +74,7 @@ Problem scaleProblem(Node* parameters)
 {
   if (!parameters->GetUseScale()) return parameters->GetEdgeLength() > 0 ? Problem::None : Problem::NoEdgeLength;
   vtkMRMLScalarVolumeNode* scale = parameters->GetScalarVolumeNode(Node::ScaleRole());
-  if (!scale || !scale->GetImageData()) return Problem::NoScale;
+  if (!hasVoxels(scale)) return Problem::NoScale;
   if (isUnderWarp(scale)) return Problem::ScaleWarped;
   auto* map = vtkMRMLLabelMapVolumeNode::SafeDownCast(parameters->GetNodeReference(Node::TissueMapRole()));
   return !map || isUnderWarp(map) || covers(scale, map) ? Problem::None : Problem::ScaleTooSmall;
@@ -170,11 +171,6 @@ vtkMRMLModelNode* ambientNode(vtkMRMLModelNode* surface, vtkSurgicalMesherRun* r
   return node;
 }
 
-void removeNode(vtkMRMLNode* node)
-{
-  if (node && node->GetScene()) node->GetScene()->RemoveNode(node);
-}
-
 /// A node that the parameter node refers to, made on first use.
 template <class Wanted>
 Wanted* ownNode(Node* parameters, const char* role, const std::string& name)
@@ -246,7 +242,7 @@ void vtkSlicerSimplexMesherLogic::OnMRMLSceneNodeRemoved(vtkMRMLNode* node)
   if (node == this->Parameters) this->Run->Cancel();
   if (!node->IsA("vtkMRMLModelNode") || this->GetMRMLScene()->IsClosing()) return;
   const char* ambient = node->GetNodeReferenceID(Node::AmbientTetrahedraRole());
-  removeNode(ambient ? this->GetMRMLScene()->GetNodeByID(ambient) : nullptr);
+  removeFromScene(ambient ? this->GetMRMLScene()->GetNodeByID(ambient) : nullptr);
 }
 
 bool vtkSlicerSimplexMesherLogic::Start(vtkMRMLSimplexMesherNode* parameters)
@@ -302,18 +298,25 @@ void vtkSlicerSimplexMesherLogic::PrepareOutputs(vtkMRMLSimplexMesherNode* param
   this->Surface = surface;
   this->Run->SetParameterNode("surface", surface);
   if (parameters->GetKeepAmbient()) this->Run->SetParameterNode("ambient", ambientNode(surface, this->Run));
-  const auto setChosen = [&](const char* parameter, vtkMRMLTransformableNode* node)
-  {
-    if (!node) return;
-    node->SetAndObserveTransformNodeID(nullptr);
-    this->Run->AddOutputNode(node, false);
-    this->Run->SetParameterNode(parameter, node);
-  };
-  setChosen("preparedLabelMap", parameters->GetLabelMapNode(Node::PreparedLabelMapRole()));
-  setChosen("simplexMesh", parameters->GetModelNode(Node::SimplexMeshRole()));
-  setChosen("followedScale", parameters->GetScalarVolumeNode(Node::FollowedScaleRole()));
+  if (vtkMRMLModelNode* mesh = parameters->GetModelNode(Node::SimplexMeshRole()))
+    this->Run->SetParameterNode("simplexMesh", outputModel(mesh, parameters->GetScene(), {}, this->Run));
+  this->Volumes.clear();
+  this->PrepareVolume("preparedLabelMap", parameters->GetLabelMapNode(Node::PreparedLabelMapRole()));
+  this->PrepareVolume("followedScale", parameters->GetScalarVolumeNode(Node::FollowedScaleRole()));
   this->ReportFile = parameters->GetReport() ? this->Run->NewTemporaryFile(".json") : std::string();
   if (!this->ReportFile.empty()) this->Run->SetParameter("report", this->ReportFile);
+}
+
+void vtkSlicerSimplexMesherLogic::PrepareVolume(const char* parameter, vtkMRMLVolumeNode* chosen)
+{
+  if (!chosen) return;
+  const auto result =
+    vtkSmartPointer<vtkMRMLVolumeNode>::Take(vtkMRMLVolumeNode::SafeDownCast(chosen->CreateNodeInstance()));
+  result->SetName(chosen->GetName());
+  giveOneVoxel(result);
+  this->Run->AddTemporaryNode(result);
+  this->Run->SetParameterNode(parameter, result);
+  this->Volumes.emplace_back(chosen, result);
 }
 
 void vtkSlicerSimplexMesherLogic::FinishRun()
@@ -325,6 +328,7 @@ void vtkSlicerSimplexMesherLogic::FinishRun()
   {
     const int wasModifying = parameters->StartModify();
     parameters->SetNode(Node::SurfaceRole(), surface);
+    this->FinishVolumes();
     this->FinishSurface(surface);
     if (!this->ReportFile.empty()) this->FinishReport(surface);
     parameters->EndModify(wasModifying);
@@ -335,6 +339,17 @@ void vtkSlicerSimplexMesherLogic::FinishRun()
   }
 }
 
+void vtkSlicerSimplexMesherLogic::FinishVolumes()
+{
+  for (const auto& [chosen, result] : this->Volumes)
+  {
+    if (!chosen || !chosen->GetScene() || !hasVoxels(result)) continue;
+    takeVoxels(chosen, result);
+    chosen->CreateDefaultDisplayNodes();
+  }
+  this->Volumes.clear();
+}
+
 void vtkSlicerSimplexMesherLogic::FinishSurface(vtkMRMLModelNode* surface)
 {
   vtkMRMLColorTableNode* colors = showTissueColors(surface, "BoundaryLabels"); // by the higher label of the two
@@ -343,7 +358,7 @@ void vtkSlicerSimplexMesherLogic::FinishSurface(vtkMRMLModelNode* surface)
   if (vtkMRMLModelNode* mesh = this->Parameters->GetModelNode(Node::SimplexMeshRole()))
     showTissueColors(mesh, "TissueLabel");
   // Tetrahedra of an earlier surface would mislead the volume stage.
-  if (!this->Parameters->GetKeepAmbient()) removeNode(surface->GetNodeReference(Node::AmbientTetrahedraRole()));
+  if (!this->Parameters->GetKeepAmbient()) removeFromScene(surface->GetNodeReference(Node::AmbientTetrahedraRole()));
   if (this->Parameters->GetTissueModels()) makeTissueModels(surface);
   else removeTissueModels(surface);
   surface->SetDisplayVisibility(!this->Parameters->GetTissueModels()); // the same triangles twice would flicker

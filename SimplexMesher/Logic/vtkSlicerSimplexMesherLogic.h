@@ -10,14 +10,17 @@
 #include <vtkSlicerModuleLogic.h>
 
 #include <vtkNew.h>
+#include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 class vtkCallbackCommand;
 class vtkMRMLModelNode;
 class vtkMRMLSimplexMesherNode;
+class vtkMRMLVolumeNode;
 class vtkSurgicalMesherRun;
 
 class VTK_SLICER_SIMPLEXMESHER_MODULE_LOGIC_EXPORT vtkSlicerSimplexMesherLogic : public vtkSlicerModuleLogic
@@ -81,7 +84,9 @@ protected:
 private:
   bool Prepare(vtkMRMLSimplexMesherNode* parameters);
   void PrepareOutputs(vtkMRMLSimplexMesherNode* parameters);
+  void PrepareVolume(const char* parameter, vtkMRMLVolumeNode* chosen);
   void FinishRun();
+  void FinishVolumes();
   void FinishSurface(vtkMRMLModelNode* surface);
   void FinishReport(vtkMRMLModelNode* surface);
 
@@ -91,4 +96,6 @@ private:
   vtkWeakPointer<vtkMRMLModelNode> Surface;            ///< of the run
   std::string ReportFile;                              ///< of the run; empty if none is wanted
   surgicalmesher::BalloonRun Balloons{ this };
+  /// Volumes that the run is to fill, each with the hidden one that the host reads into.
+  std::vector<std::pair<vtkWeakPointer<vtkMRMLVolumeNode>, vtkSmartPointer<vtkMRMLVolumeNode>>> Volumes;
 };

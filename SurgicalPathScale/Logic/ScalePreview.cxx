@@ -3,6 +3,7 @@
 
 #include "HostDifferences.h"
 #include "ScaleInputs.h"
+#include "SceneNodes.h"
 #include "TissueColors.h"
 #include "TissueMapInput.h"
 #include "vtkMRMLSurgicalPathScaleNode.h"
@@ -75,13 +76,6 @@ TissueMap thinned(const TissueMap& map, double voxels)
   return thin;
 }
 
-void addHidden(vtkMRMLScene* scene, vtkMRMLNode* node)
-{
-  node->SetHideFromEditors(true);
-  node->SetSaveWithScene(false);
-  scene->AddNode(node);
-}
-
 /// A volume node with its display node, both hidden. It has its voxels before anything in the scene can ask for them.
 template <typename Volume, typename Display>
 vtkSmartPointer<Volume> addHiddenVolume(vtkMRMLScene* scene, const char* name, const Grid& grid, vtkImageData* image)
@@ -103,19 +97,6 @@ void setVoxels(vtkMRMLVolumeNode* volume, const Grid& grid, vtkImageData* image)
   setGrid(volume, grid);
   volume->SetAndObserveImageData(image);
   volume->EndModify(wasModifying);
-}
-
-void removeVolume(vtkMRMLVolumeNode* node)
-{
-  vtkMRMLScene* scene = node->GetScene();
-  if (!scene) return;
-  std::vector<vtkSmartPointer<vtkMRMLNode>> displays;
-  for (int n = 0; n < node->GetNumberOfDisplayNodes(); ++n) displays.push_back(node->GetNthDisplayNode(n));
-  scene->RemoveNode(node);
-  for (vtkMRMLNode* display : displays)
-  {
-    if (display && display->GetScene()) scene->RemoveNode(display);
-  }
 }
 
 template <typename Array, typename T>
@@ -295,8 +276,8 @@ void ScalePreview::hideNullDisplacement()
   }
   vtkMRMLDisplayNode* display = m_NullDisplacement->GetDisplayNode();
   const vtkSmartPointer<vtkMRMLNode> colors = display ? display->GetColorNode() : nullptr;
-  removeVolume(m_NullDisplacement);
-  if (scene && colors && colors->GetScene()) scene->RemoveNode(colors);
+  removeFromScene(m_NullDisplacement);
+  removeFromScene(colors);
   m_NullDisplacement = nullptr;
 }
 
@@ -312,7 +293,7 @@ void ScalePreview::hide()
     view->SetForegroundVolumeID(idInScene(scene, before->second.foreground));
     view->SetForegroundOpacity(before->second.foregroundOpacity);
   }
-  removeVolume(m_Scale);
+  removeFromScene(m_Scale);
   m_Scale = nullptr;
   m_Before.clear();
 }

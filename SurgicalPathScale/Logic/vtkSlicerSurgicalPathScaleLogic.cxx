@@ -6,6 +6,7 @@
 #include "MarkupsInput.h"
 #include "ScaleInputs.h"
 #include "ScalePreview.h"
+#include "SceneNodes.h"
 #include "TissueColors.h"
 #include "vtkMRMLSurgicalPathScaleNode.h"
 #include "vtkSurgicalMesherRun.h"
@@ -18,12 +19,9 @@
 #include <vtkMRMLScene.h>
 
 #include <vtkCallbackCommand.h>
-#include <vtkDataArray.h>
 #include <vtkImageData.h>
 #include <vtkIntArray.h>
-#include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
-#include <vtkPointData.h>
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
@@ -51,18 +49,6 @@ vtkMRMLColorTableNode* colorTableOf(vtkMRMLLabelMapVolumeNode* volume)
   return colors;
 }
 
-/// Voxels and where they lie, in the world.
-void takeVoxels(vtkMRMLVolumeNode* to, vtkMRMLVolumeNode* from)
-{
-  vtkNew<vtkMatrix4x4> matrix;
-  from->GetIJKToRASMatrix(matrix);
-  const int wasModifying = to->StartModify();
-  to->SetAndObserveTransformNodeID(nullptr);
-  to->SetIJKToRASMatrix(matrix);
-  to->SetAndObserveImageData(from->GetImageData());
-  to->EndModify(wasModifying);
-}
-
 /// A node for the user, which has its voxels before it enters the scene, where others look at it.
 vtkMRMLVolumeNode* addOutput(vtkMRMLSurgicalPathScaleNode* parameters, const char* role, vtkMRMLVolumeNode* result,
                              const std::string& what)
@@ -77,16 +63,6 @@ vtkMRMLVolumeNode* addOutput(vtkMRMLSurgicalPathScaleNode* parameters, const cha
   scene->AddNode(node);
   parameters->SetNode(role, node);
   return node;
-}
-
-/// What a hidden node holds until the host reads the module's output into it: without any, its display complains.
-vtkSmartPointer<vtkImageData> oneVoxel()
-{
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(1, 1, 1);
-  image->AllocateScalars(VTK_SHORT, 1);
-  image->GetPointData()->GetScalars()->Fill(0);
-  return image;
 }
 
 double countOf(const std::string& text) { return text.empty() ? -1 : std::strtod(text.c_str(), nullptr); }
@@ -258,15 +234,14 @@ void vtkSlicerSurgicalPathScaleLogic::PrepareFocus(vtkMRMLSurgicalPathScaleNode*
 
 void vtkSlicerSurgicalPathScaleLogic::PrepareOutputs(vtkMRMLSurgicalPathScaleNode* parameters)
 {
-  this->NotRead = oneVoxel();
   this->ScaleResult = vtkSmartPointer<vtkMRMLScalarVolumeNode>::New();
-  this->ScaleResult->SetAndObserveImageData(this->NotRead);
+  giveOneVoxel(this->ScaleResult);
   this->Run->AddTemporaryNode(this->ScaleResult);
   this->Run->SetParameterNode("scale", this->ScaleResult);
   this->LabelMapResult = nullptr;
   if (!parameters->WantsNullDisplacement()) return;
   this->LabelMapResult = vtkSmartPointer<vtkMRMLLabelMapVolumeNode>::New();
-  this->LabelMapResult->SetAndObserveImageData(this->NotRead);
+  giveOneVoxel(this->LabelMapResult);
   this->Run->AddTemporaryNode(this->LabelMapResult);
   this->Run->SetParameterNode("outputLabelMap", this->LabelMapResult);
   this->Run->SetParameter("nullDisplacementRadius", parameters->GetNullDisplacementRadius());
@@ -281,14 +256,11 @@ void vtkSlicerSurgicalPathScaleLogic::FinishRun()
   vtkMRMLSurgicalPathScaleNode* parameters = this->Parameters;
   if (parameters && parameters->GetScene() && this->Run->GetStatus() == vtkSurgicalMesherRun::Completed)
   {
-    const auto isRead = [this](vtkMRMLVolumeNode* node)
-    { return node && node->GetImageData() && node->GetImageData() != this->NotRead; };
-    if (isRead(this->ScaleResult)) this->FinishScale(parameters);
-    if (isRead(this->LabelMapResult)) this->FinishLabelMap(parameters);
+    if (hasVoxels(this->ScaleResult)) this->FinishScale(parameters);
+    if (hasVoxels(this->LabelMapResult)) this->FinishLabelMap(parameters);
   }
   this->ScaleResult = nullptr;
   this->LabelMapResult = nullptr;
-  this->NotRead = nullptr;
 }
 
 void vtkSlicerSurgicalPathScaleLogic::FinishScale(vtkMRMLSurgicalPathScaleNode* parameters)

@@ -16,7 +16,6 @@
 #include <string>
 
 class vtkCallbackCommand;
-class vtkImageData;
 class vtkMRMLLabelMapVolumeNode;
 class vtkMRMLScalarVolumeNode;
 class vtkMRMLSurgicalPathScaleNode;
@@ -127,6 +126,5 @@ private:
   // hidden ones.
   vtkSmartPointer<vtkMRMLScalarVolumeNode> ScaleResult;
   vtkSmartPointer<vtkMRMLLabelMapVolumeNode> LabelMapResult; ///< null if it isn't wanted
-  vtkSmartPointer<vtkImageData> NotRead;                     ///< of both, until the host has read into them
   std::unique_ptr<surgicalmesher::ScalePreview> Preview;
 };

@@ -15,6 +15,7 @@
 #include <vtkMRMLScalarVolumeNode.h>
 #include <vtkMRMLScene.h>
 #include <vtkMRMLSegmentationNode.h>
+#include <vtkMRMLSelectionNode.h>
 #include <vtkSlicerApplicationLogic.h>
 #include <vtkSlicerSegmentationsModuleLogic.h>
 #include <vtkSlicerVolumesLogic.h>
@@ -90,7 +91,7 @@ vtkMRMLLabelMapVolumeNode* addLabelMap(vtkMRMLScene* scene, const char* name, in
   }
   // With its voxels before it enters the scene: a slice view that has to draw a label map without any may crash.
   vtkNew<vtkMRMLLabelMapVolumeNode> labelMap;
-  labelMap->SetName(scene->GenerateUniqueName(name).c_str());
+  labelMap->SetName(name);
   labelMap->SetSpacing(spacing, spacing, spacing);
   labelMap->SetOrigin(first, first, first);
   labelMap->SetAndObserveImageData(image);
@@ -152,6 +153,15 @@ vtkMRMLLabelMapVolumeNode* loadJhuAtlas(vtkMRMLScene* scene)
   voxelsToWorld->DeepCopy(sform);
   atlas->SetIJKToRASMatrix(voxelsToWorld);
   return atlas;
+}
+
+void showInSliceViews(vtkMRMLVolumeNode* volume)
+{
+  vtkSlicerApplicationLogic* application = qSlicerApplication::application()->applicationLogic();
+  vtkMRMLSelectionNode* selection = application->GetSelectionNode();
+  if (volume->IsA("vtkMRMLLabelMapVolumeNode")) selection->SetActiveLabelVolumeID(volume->GetID());
+  else selection->SetActiveVolumeID(volume->GetID());
+  application->PropagateVolumeSelection();
 }
 
 vtkMRMLMarkupsNode* addMarkups(vtkMRMLScene* scene, const char* className, const std::vector<Point>& points)

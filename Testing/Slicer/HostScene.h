@@ -17,6 +17,7 @@ class vtkMRMLScalarVolumeNode;
 class vtkMRMLSegmentationNode;
 class vtkMRMLTransformableNode;
 class vtkMRMLTransformNode;
+class vtkMRMLVolumeNode;
 
 namespace surgicalmesher::test
 {
@@ -51,6 +52,9 @@ std::string brainImageFile();
 
 /// The atlas in its place. Of the two places that its file gives, the host takes the wrong one.
 vtkMRMLLabelMapVolumeNode* loadJhuAtlas(vtkMRMLScene* scene);
+
+/// As the label map of all slice views, or as their background; fits them to it.
+void showInSliceViews(vtkMRMLVolumeNode* volume);
 
 /// A markups node of a class such as "vtkMRMLMarkupsFiducialNode" or "vtkMRMLMarkupsCurveNode".
 vtkMRMLMarkupsNode* addMarkups(vtkMRMLScene* scene, const char* className, const std::vector<Point>& points);

@@ -4,6 +4,7 @@
 #include "CanonicalGrid.h"
 #include "Errors.h"
 #include "HostDifferences.h"
+#include "SceneNodes.h"
 #include "TissueColors.h"
 
 #include <vtkMRMLColorTableNode.h>
@@ -304,13 +305,6 @@ vtkSmartPointer<vtkMRMLColorTableNode> makeColorTable(const TissueTable& table, 
   colors->SetTypeToUser();
   fillColorTable(table, colors);
   return colors;
-}
-
-void addHidden(vtkMRMLScene* scene, vtkMRMLNode* node)
-{
-  node->SetHideFromEditors(true);
-  node->SetSaveWithScene(false);
-  scene->AddNode(node);
 }
 
 const char* sentence(TissueMapProblem problem)

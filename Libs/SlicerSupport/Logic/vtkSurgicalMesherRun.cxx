@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vtkSurgicalMesherRun.h"
 
+#include "SceneNodes.h"
+
 #include <ModuleDescription.h>
 #include <ModuleProcessInformation.h>
 #include <vtkMRMLCommandLineModuleNode.h>
-#include <vtkMRMLDisplayNode.h>
-#include <vtkMRMLDisplayableNode.h>
 #include <vtkMRMLScene.h>
-#include <vtkMRMLStorableNode.h>
-#include <vtkMRMLStorageNode.h>
 #include <vtkSlicerApplicationLogic.h>
 #include <vtkSlicerCLIModuleLogic.h>
 #include <vtkSlicerTask.h>
@@ -169,27 +167,6 @@ std::string makeFolder(const std::string& parent)
 void removeFolder(const std::string& folder)
 {
   if (!folder.empty()) vtksys::SystemTools::RemoveADirectory(folder);
-}
-
-/// With the display and storage nodes that only it refers to.
-void removeFromScene(vtkMRMLNode* node)
-{
-  vtkMRMLScene* scene = node->GetScene();
-  if (!scene) return;
-  std::vector<vtkSmartPointer<vtkMRMLNode>> nodes;
-  if (auto* displayable = vtkMRMLDisplayableNode::SafeDownCast(node))
-  {
-    for (int n = 0; n < displayable->GetNumberOfDisplayNodes(); ++n) nodes.push_back(displayable->GetNthDisplayNode(n));
-  }
-  if (auto* storable = vtkMRMLStorableNode::SafeDownCast(node))
-  {
-    for (int n = 0; n < storable->GetNumberOfStorageNodes(); ++n) nodes.push_back(storable->GetNthStorageNode(n));
-  }
-  nodes.insert(nodes.begin(), node);
-  for (vtkMRMLNode* each : nodes)
-  {
-    if (each && each->GetScene()) scene->RemoveNode(each);
-  }
 }
 
 } // namespace
@@ -415,11 +392,11 @@ vtkMRMLCommandLineModuleNode* vtkSurgicalMesherRun::GetCommandLineNode() const
 void vtkSurgicalMesherRun::Internal::Forget()
 {
   this->StopObserving();
-  for (vtkMRMLNode* node : this->Temporaries) removeFromScene(node);
+  for (vtkMRMLNode* node : this->Temporaries) surgicalmesher::removeFromScene(node);
   this->Temporaries.clear();
   this->Outputs.clear();
   this->Parameters.clear();
-  if (this->CommandLineNode) removeFromScene(this->CommandLineNode);
+  if (this->CommandLineNode) surgicalmesher::removeFromScene(this->CommandLineNode);
   this->CommandLineNode = nullptr;
   this->Fence = nullptr;
   removeFolder(this->Folder);
@@ -471,7 +448,8 @@ void vtkSurgicalMesherRun::Internal::Observe()
 {
   this->CommandLineNode->AddObserver(vtkCommand::ModifiedEvent, this->Callback);
   this->Fence->AddObserver(vtkCommand::ModifiedEvent, this->Callback);
-  this->Scene->AddObserver(vtkMRMLScene::StartCloseEvent, this->Callback);
+  constexpr float beforeOthers = 10; // which may remove nodes, that the host's thread still looks for
+  this->Scene->AddObserver(vtkMRMLScene::StartCloseEvent, this->Callback, beforeOthers);
   this->Scene->AddObserver(vtkMRMLScene::NodeAboutToBeRemovedEvent, this->Callback);
   this->ApplicationLogic->AddObserver(vtkSlicerApplicationLogic::RequestProcessedEvent, this->Callback);
 }
@@ -605,6 +583,6 @@ void vtkSurgicalMesherRun::Internal::CleanUp(Status outcome, vtkMRMLNode* leavin
   this->Outputs.clear();
   for (vtkMRMLNode* node : nodes)
   {
-    if (node != leaving) removeFromScene(node);
+    if (node != leaving) surgicalmesher::removeFromScene(node);
   }
 }

@@ -8,10 +8,13 @@
 ///
 /// bind() is called once for each control, after setupUi(); show() whenever the node has been modified.
 
+#include "SceneNodes.h"
+
 #include <ctkPathLineEdit.h>
 #include <ctkSliderWidget.h>
 #include <qMRMLCheckableNodeComboBox.h>
 #include <qMRMLNodeComboBox.h>
+#include <qMRMLNodeFactory.h>
 
 #include <vtkWeakPointer.h>
 
@@ -101,6 +104,8 @@ public:
                      {
                        if (box->currentNode() == node) box->setCurrentNode(nullptr);
                      });
+    // What the user makes by the box is shown, empty, before a run fills it.
+    QObject::connect(box->nodeFactory(), &qMRMLNodeFactory::nodeInitialized, box, giveOneVoxel);
     this->onShow([this, box, role] { box->setCurrentNode(this->Parameters->GetNodeReference(role)); });
   }
   /// All nodes of a role.

@@ -29,7 +29,45 @@ vtkMRMLLabelMapVolumeNode* addSlowMap(vtkMRMLScene* scene)
   return addLabelMap(scene, "Slow", 90, 1, [](const Point& p) { return 1 + (p[0] > 5) + 2 * (p[1] * p[2] > 0); });
 }
 
+/// A segmentation, in a scene without any label map.
+vtkMRMLSegmentationNode* addSegmentsAlone(vtkMRMLScene* scene)
+{
+  vtkMRMLLabelMapVolumeNode* balls = addNestedBalls(scene);
+  vtkMRMLSegmentationNode* segments = addSegmentation(scene, balls);
+  scene->RemoveNode(balls);
+  return segments;
+}
+
 bool says(const Panel& panel, const char* words) { return panel.problem().find(words) != std::string::npos; }
+
+/// The host may show a label map in the slice views as soon as it is in the scene: one that the panel makes for the
+/// result is drawn before there is a result, and while a second run replaces it.
+int testResultInSliceViews(Panel& panel)
+{
+  vtkMRMLScene* scene = panel.host.scene();
+  panel.choose("TissueMapSelector", addSegmentsAlone(scene));
+  panel.child<QRadioButton>("EdgeLengthRadioButton")->setChecked(true);
+  for (const char* selector : { "PreparedLabelMapSelector", "FollowedScaleSelector" })
+  {
+    vtkMRMLNode* result = panel.child<qMRMLNodeComboBox>(selector)->addNode();
+    CHECK_NOT_NULL(result);
+    showInSliceViews(vtkMRMLVolumeNode::SafeDownCast(result));
+    panel.host.waitFor(0.2);
+  }
+  for (int run = 0; run < 2; ++run)
+  {
+    CHECK_BOOL(panel.apply(), true);
+    CHECK_STD_STRING(panel.run->GetErrorText(), "");
+    CHECK_BOOL(panel.node()->GetLabelMapNode(Node::PreparedLabelMapRole())->GetImageData()->GetScalarRange()[1] == 2,
+               true);
+    panel.host.waitFor(0.2);
+  }
+  CHECK_STD_STRING(panel.host.complaints(), "");
+  scene->Clear(0);
+  panel.host.waitFor(0.2);
+  CHECK_STD_STRING(panel.host.complaints(), "");
+  return EXIT_SUCCESS;
+}
 
 int testInputs(Panel& panel)
 {
@@ -195,6 +233,7 @@ int qSlicerSimplexMesherModuleStatesTest(int, char*[])
 {
   HostApplication host;
   Panel panel{ host };
+  CHECK_EXIT_SUCCESS(testResultInSliceViews(panel));
   CHECK_EXIT_SUCCESS(testInputs(panel));
   CHECK_EXIT_SUCCESS(testScale(panel));
   CHECK_EXIT_SUCCESS(testCancel(panel));

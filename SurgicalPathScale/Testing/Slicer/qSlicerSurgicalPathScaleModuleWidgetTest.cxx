@@ -310,6 +310,16 @@ int checkPreview(const Panel& panel)
   CHECK_STD_STRING(nodes.leftovers(), "");
   panel.host.enterPanel("SurgicalPathScale");
   CHECK_BOOL(panel.host.waitUntil([&] { return panel.logic->IsPreviewShown(); }), true);
+  panel.applyButton()->click();
+  panel.host.leavePanel(); // while the host's thread still looks for the run's nodes in the scene
+  if (panel.run->IsStarting()) CHECK_BOOL(panel.logic->IsPreviewShown(), true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return !panel.logic->IsPreviewShown(); }), true);
+  CHECK_BOOL(panel.waitForEnd(), true);
+  CHECK_INT(panel.run->GetStatus(), Run::Completed);
+  CHECK_BOOL(panel.logic->IsPreviewShown(), false);
+  panel.host.enterPanel("SurgicalPathScale");
+  box->setChecked(true);
+  CHECK_BOOL(panel.host.waitUntil([&] { return panel.logic->IsPreviewShown(); }), true);
   inputs.labelMap->GetScene()->RemoveNode(inputs.labelMap); // its input goes: so does the preview
   CHECK_BOOL(panel.host.waitUntil([&] { return !panel.logic->IsPreviewShown(); }), true);
   box->setChecked(false);
@@ -519,11 +529,14 @@ int checkSceneClosed(const Panel& panel)
   for (const double delay : { 0.0, 0.15, 0.3, 0.7, 1.2 })
   {
     fill(panel);
+    panel.child<QCheckBox>("PreviewCheckBox")->setChecked(true);
+    CHECK_BOOL(panel.host.waitUntil([&] { return panel.logic->IsPreviewShown(); }), true);
     makeSlow(panel);
     panel.applyButton()->click();
     panel.host.waitFor(delay);
     panel.host.scene()->Clear(0);
     CHECK_BOOL(panel.run->IsBusy(), false);
+    CHECK_BOOL(panel.logic->IsPreviewShown(), false);
     panel.host.waitFor(0.6);
     CHECK_NULL(panel.host.scene()->GetFirstNodeByClass("vtkMRMLCommandLineModuleNode"));
     CHECK_NULL(panel.host.scene()->GetFirstNodeByClass("vtkMRMLScalarVolumeNode"));
