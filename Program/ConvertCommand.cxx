@@ -5,6 +5,7 @@
 #include "Errors.h"
 #include "Export.h"
 #include "MaterialTable.h"
+#include "NodeChoices.h"
 #include "SecondOrder.h"
 #include "ShellChoices.h"
 
@@ -23,6 +24,7 @@ FiniteElementOptions readOptions(const CommandLine& line, const MeshFile& conten
   const std::string materials = line.text("materials");
   if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present);
   options.shells = shellChoices(line.texts("shell"), content.tissues, present, line.number("shellThickness"));
+  options.nodes = nodeChoices(line.texts("nodeSet"));
   return options;
 }
 

@@ -9,6 +9,7 @@
 #include "Export.h"
 #include "FuchsTetrahedralizerCLIXML.h"
 #include "MaterialTable.h"
+#include "NodeChoices.h"
 #include "Report.h"
 #include "SecondOrder.h"
 #include "ShellChoices.h"
@@ -155,6 +156,8 @@ void requireUsableOptions(CommandLine& line)
   const bool chosen = !line.texts("shell").empty();
   if (chosen && !line.given("shells") && !line.given("export"))
     throw UsageError("--shell is given, but neither --shells nor --export");
+  if (!nodeChoices(line.texts("nodeSet")).empty() && !line.given("export"))
+    throw UsageError("--nodeSet is given, but no --export, expected both");
 }
 
 FiniteElementOptions readFiniteElementOptions(CommandLine& line, const TetrahedralizerInput& content)
@@ -169,6 +172,7 @@ FiniteElementOptions readFiniteElementOptions(CommandLine& line, const Tetrahedr
     materials.empty() ? std::string() : warningOfMaterials(options, present, content.tissues, materials);
   if (!missing.empty()) line.warning(missing);
   options.shells = readShells(line, content.tissues, present);
+  options.nodes = nodeChoices(line.texts("nodeSet"));
   options.beams.areTrusses = line.text("curveElements") == "truss";
   options.beams.material.youngsModulus = 1e-3 * line.number("curveYoungsModulus");
   return options;

@@ -3,6 +3,7 @@
 
 #include "ConstitutiveTags.h"
 #include "Errors.h"
+#include "NodeChoices.h"
 #include "SetNames.h"
 
 #include <algorithm>
@@ -439,7 +440,8 @@ std::string nameOf(SetKind kind)
 FiniteElementModel finiteElementModel(const MeshFile& content, const FiniteElementOptions& options)
 {
   const auto& tetrahedra = content.mesh.tetrahedra;
-  return Builder(content, { tetrahedra.begin(), tetrahedra.end() }, options).build();
+  return Builder(content, { tetrahedra.begin(), tetrahedra.end() }, options)
+    .build({}, chosenNodes(options.nodes, content.mesh.points));
 }
 
 FiniteElementModel finiteElementModel(const SolidMesh& mesh, const FiniteElementOptions& options)

@@ -141,6 +141,22 @@ struct ShellChoice
   double thickness = 1;        ///< mm
 };
 
+enum class NodeShape
+{
+  Box,
+  Sphere,
+  HalfSpace
+};
+
+/// A set of the nodes in some place, lengths in mm.
+struct NodeChoice
+{
+  std::string name;
+  NodeShape shape = NodeShape::Box;
+  Vec3 a, b;         ///< corners of a box; centre of a sphere; a point of a half-space's plane and its normal, inwards
+  double radius = 0; ///< of a sphere
+};
+
 /// What curves are made of.
 struct BeamOptions
 {
@@ -152,6 +168,7 @@ struct FiniteElementOptions
 {
   std::map<Label, TissueMaterial> materials; ///< tissues not listed share the material `default_material`
   std::vector<ShellChoice> shells;           ///< a face that several ask for belongs to the first
+  std::vector<NodeChoice> nodes;             ///< sets of kind Named; those of one name are joined
   BeamOptions beams;                         ///< of the curves that the mesh has
 };
 
@@ -166,8 +183,8 @@ struct SolidMesh
 };
 
 /// Sets, sections and shells of a mesh without label 0, as requireSound() wants it. An empty `subMesh` or
-/// `constitutive` stands for zeros. Throws InputError for a shell of a tissue that isn't there, or without a single
-/// face.
+/// `constitutive` stands for zeros. A set of nodes by place becomes a surface, too, as below. Throws InputError for a shell of
+/// a tissue that isn't there, or without a single face, and for a set of nodes without a node.
 FiniteElementModel finiteElementModel(const MeshFile& content, const FiniteElementOptions& options = {});
 
 /// The same with the mesh's own sets, kind Named. A set of nodes becomes a surface, too: the faces of the outer boundary

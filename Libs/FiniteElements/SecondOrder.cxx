@@ -49,6 +49,18 @@ public:
     }
   }
 
+  /// The middle nodes of edges whose ends are both among `corners`, which is ascending.
+  std::vector<std::int32_t> among(const std::vector<std::int32_t>& corners) const
+  {
+    const auto isIn = [&](std::int32_t id) { return std::binary_search(corners.begin(), corners.end(), id); };
+    std::vector<std::int32_t> ids;
+    for (std::size_t e = 0; e < m_Edges.size(); ++e)
+    {
+      if (isIn(m_Edges[e].first) && isIn(m_Edges[e].second)) ids.push_back(m_First + static_cast<std::int32_t>(e));
+    }
+    return ids;
+  }
+
 private:
   std::int32_t between(std::int32_t a, std::int32_t b) const
   {
@@ -76,8 +88,15 @@ void addPoints(MeshFile& content, const std::vector<Edge>& edges)
 }
 
 /// What the set is of a model whose elements and surfaces have their middle nodes.
-std::vector<std::int32_t> membersOf(const NodeSet& set, const FiniteElementModel& model)
+std::vector<std::int32_t> membersOf(const NodeSet& set, const FiniteElementModel& model, const MidSideNodes& nodes)
 {
+  if (set.kind == SetKind::Named)
+  {
+    std::vector<std::int32_t> ids = set.points;
+    const std::vector<std::int32_t> middles = nodes.among(set.points);
+    ids.insert(ids.end(), middles.begin(), middles.end());
+    return ids;
+  }
   const MeshFile& content = model.content;
   if (set.kind == SetKind::SubMeshInterface && set.ids.empty())
     return nodesOfSeveral(model.elements, content.mesh.points.size(), content.subMesh);
@@ -101,7 +120,7 @@ FiniteElementModel withMidSideNodes(FiniteElementModel model)
   nodes.addTo(model.elements);
   for (SurfaceSet& surface : model.surfaces) nodes.addTo(surface.cells);
   for (Shell& shell : model.shells) nodes.addTo(shell.cells);
-  for (NodeSet& set : model.nodeSets) set.points = membersOf(set, model);
+  for (NodeSet& set : model.nodeSets) set.points = membersOf(set, model, nodes);
   return model;
 }
 

@@ -20,11 +20,11 @@ LENGTH, SIDE = 60.0, 6.0  # mm
 YOUNGS_MODULUS, POISSONS_RATIO = 2.0, 0.3  # MPa
 FORCE = 1e-4  # N
 FORMATS = ("bdf", "feb", "inp", "msh", "msh2", "vtk", "vtu", "xdmf")
+SETS = ("--nodeSet", "root: plane 0 0 0 -1 0 0", "--nodeSet", f"edge: box 20 {-SIDE / 2} {-SIDE / 2} 40 {-SIDE / 2} {-SIDE / 2}",
+        "--nodeSet", "ball: sphere 30 0 0 4", "--nodeSet", "ball: sphere 45 0 0 4")
 EDGES = np.array([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)])
 
 DECK = """*INCLUDE, INPUT={mesh}
-*NSET, NSET=root
-{root}
 *BOUNDARY
 root, 1, 3
 *STEP
@@ -62,11 +62,10 @@ def deflection(order):
     """Of the free end in CalculiX, per that of a beam that bends and shears."""
     mesh = f"bar{order}.inp"
     points = meshio_read(path(mesh)).points
-    root, tip = np.flatnonzero(points[:, 0] < 1e-9), np.flatnonzero(points[:, 0] > LENGTH - 1e-9)
+    tip = np.flatnonzero(points[:, 0] > LENGTH - 1e-9)
     name = f"load{order}"
     with open(path(name + ".inp"), "w", encoding="ascii") as deck:
-        deck.write(DECK.format(mesh=mesh, root=",\n".join(str(i + 1) for i in root),
-                               loads="\n".join(f"{i + 1}, 2, {FORCE / len(tip):.8g}" for i in tip)))
+        deck.write(DECK.format(mesh=mesh, loads="\n".join(f"{i + 1}, 2, {FORCE / len(tip):.8g}" for i in tip)))
     run = subprocess.run(["ccx", name], cwd=FOLDER, stdout=subprocess.PIPE, text=True)
     if run.returncode or "*ERROR" in run.stdout:
         raise AssertionError(run.stdout[-3000:])
@@ -113,7 +112,7 @@ class SecondOrder(unittest.TestCase):
         for order in (1, 2):
             exports = [word for extension in FORMATS for word in ("--export", f"bar{order}.{extension}")]
             done = run_module("FuchsTetrahedralizerCLI", "--edgeLength", "3", "--elementOrder", str(order), "--materials",
-                              "materials.csv", *exports, "box.vtp", f"mesh{order}.vtu")
+                              "materials.csv", *SETS, *exports, "box.vtp", f"mesh{order}.vtu")
             assert done.returncode == 0, done.stderr
 
     def test_a_bar_bends_as_the_beam(self):
@@ -146,7 +145,18 @@ class SecondOrder(unittest.TestCase):
         outside = (np.abs(np.abs(mesh.points[:, 1:]) - SIDE / 2) < 1e-9).any(axis=1)
         outside |= (mesh.points[:, 0] < 1e-9) | (mesh.points[:, 0] > LENGTH - 1e-9)
         np.testing.assert_array_equal(np.sort(mesh.point_sets["outer_boundary_nodes"]), np.flatnonzero(outside))
+        x, y, z = mesh.points.T
+        np.testing.assert_array_equal(np.sort(mesh.point_sets["root"]), np.flatnonzero(x < 1e-9))
+        edge = (x > 20 - 1e-6) & (x < 40 + 1e-6) & (np.abs(y + SIDE / 2) < 1e-6) & (np.abs(z + SIDE / 2) < 1e-6)
+        self.assertTrue(set(mesh.point_sets["edge"]) <= set(np.flatnonzero(edge)))
+        self.assertGreater(len(mesh.point_sets["edge"]), 6)
+        corners = len(meshio_read(path("bar1.inp")).points)
+        within = np.minimum(np.hypot(np.hypot(x - 30, y), z), np.hypot(np.hypot(x - 45, y), z)) < 4
+        found = mesh.point_sets["ball"]
+        np.testing.assert_array_equal(np.sort(found[found < corners]), np.flatnonzero(within[:corners]))
+        self.assertTrue((found >= corners).any() and within[found].all())
         sets = Sidecar(path("bar2.inp")).sets
+        self.assertEqual((sets["root"]["kind"], sets["root_faces"]["nodes"]), ("named", "root"))
         self.assertEqual(sets["outer_boundary_nodes"]["size"], outside.sum())
 
     def test_nastran_has_the_numbers_of_the_others(self):
@@ -176,9 +186,15 @@ class SecondOrder(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
             self.assertIn("no elements of second order", done.stderr)
             self.assertFalse(os.path.exists(path(name)))
+        for words, status in (("far: sphere 500 0 0 4", 1), ("a: sphere 0 0 0", 2), ("a: box 1 2 3 4 5 x", 2), ("a", 2),
+                              ("a: plane 0 0 0 0 0 0", 2), (": box 0 0 0 9 9 9", 2), ("a: cone 0 0 0 1 1 1", 2)):
+            done = run_module("surgicalmesher", "convert", "--nodeSet", words, "mesh1.vtu", "a.inp")
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (status, 1), done.stderr)
+            self.assertIn("--nodeSet", done.stderr)
+            self.assertFalse(os.path.exists(path("a.inp")))
 
     def test_converted_files_are_the_exported_ones(self):
-        done = run_module("surgicalmesher", "convert", "--elementOrder", "2", "--materials", "materials.csv", "mesh1.vtu",
+        done = run_module("surgicalmesher", "convert", "--elementOrder", "2", "--materials", "materials.csv", *SETS, "mesh1.vtu",
                           "other.inp", "other.bdf")
         self.assertEqual(done.returncode, 0, done.stderr)
         for extension in ("inp", "bdf", "inp.names.json"):

@@ -158,7 +158,9 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOf(const FiniteElementModel& model)
 void writeVtk(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
   const bool areCorners = !model.content.mesh.tetrahedra.empty() && model.elements[0].size() == 4;
-  if (!areCorners) return writeGrid(gridOf(model), destination(file), FieldTexts::LeftOut);
+  const bool areNamed = std::any_of(model.nodeSets.begin(), model.nodeSets.end(),
+                                    [](const NodeSet& set) { return set.kind == SetKind::Named; });
+  if (!areCorners || areNamed) return writeGrid(gridOf(model), destination(file), FieldTexts::LeftOut);
   writeMesh(model.content, destination(file), FieldTexts::LeftOut);
 }
 

@@ -8,7 +8,7 @@ namespace surgicalmesher
 {
 
 /// The arrays of writeMesh(), without texts; sets are in the cell arrays TissueLabel, SubMesh and Constitutive;
-/// those of kind Named, which a SolidMesh has, are arrays of 0 and 1 of their own.
+/// those of kind Named are arrays of 0 and 1 of their own.
 void writeVtk(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 
 /// The shells as a .vtp: triangles whose point array VolumePointId says which point of the mesh each of theirs is; cell
