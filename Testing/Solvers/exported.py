@@ -161,7 +161,7 @@ def read_xdmf(file):
 
 
 def read_bdf(file):
-    """An element's property is the number of its section."""
+    """An element's property is the number of its section; those of shells follow."""
     sidecar = Sidecar(file)
     mesh = meshio_read(file)
     tetrahedra, properties = blocks(mesh, "tetra", mesh.cell_data["nastran:ref"])
@@ -171,7 +171,13 @@ def read_bdf(file):
         name = next(name for name, other in sidecar.sets.items()
                     if other["kind"] == "tissue" and other["ids"] == entry["ids"][:1])
         cells[name] = np.union1d(cells.get(name, []), parts[number]).astype(int)
-    return SimpleNamespace(points=mesh.points, tetrahedra=tetrahedra, cells=cells, nodes={}, faces={})
+    shells = [name for name, entry in sidecar.sets.items() if entry["type"] == "shell"]
+    faces = {}
+    if shells:
+        triangles, properties = blocks(mesh, "triangle", mesh.cell_data["nastran:ref"])
+        parts = by_number(properties)
+        faces = {name: triangles[parts[number]] for number, name in enumerate(shells, len(sidecar.sections) + 1)}
+    return SimpleNamespace(points=mesh.points, tetrahedra=tetrahedra, cells=cells, nodes={}, faces=faces)
 
 
 READERS = {"bdf": read_bdf, "feb": read_feb, "inp": read_inp, "mesh": read_medit, "msh": read_msh, "msh2": read_msh2, "vtk": read_vtk,
