@@ -5,6 +5,7 @@
 #include "MarkupsInput.h"
 #include "MeshIO.h"
 #include "RunNodes.h"
+#include "SceneNodes.h"
 #include "TissueColors.h"
 #include "TissueMapInput.h"
 #include "TissueRows.h"
@@ -55,14 +56,19 @@ std::string nameAfterMap(Node* parameters, const std::string& what)
   return parameters->GetNodeReference(Node::TissueMapRole())->GetName() + (" " + what);
 }
 
-/// A new node with the voxels of `map` until a run fills it: slice views may crash over one without any.
-vtkMRMLLabelMapVolumeNode* labelMapLike(vtkMRMLLabelMapVolumeNode* map, vtkMRMLScene* scene, const std::string& name)
+/// What the run left in a hidden label map, in the one that is chosen, or in a new one.
+vtkMRMLLabelMapVolumeNode* handOver(vtkMRMLLabelMapVolumeNode* result, Node* parameters)
 {
-  vtkNew<vtkMRMLLabelMapVolumeNode> node;
-  node->SetName(unusedName(scene, name).c_str());
-  node->CopyOrientation(map);
-  node->SetAndObserveImageData(map->GetImageData());
-  return vtkMRMLLabelMapVolumeNode::SafeDownCast(scene->AddNode(node));
+  if (vtkMRMLLabelMapVolumeNode* chosen = parameters->GetLabelMapNode(Node::BalloonLabelMapRole()))
+  {
+    takeVoxels(chosen, result);
+    return chosen;
+  }
+  vtkNew<vtkMRMLLabelMapVolumeNode> made;
+  made->SetName(unusedName(parameters->GetScene(), result->GetName()).c_str());
+  takeVoxels(made, result);
+  parameters->SetNode(Node::BalloonLabelMapRole(), parameters->GetScene()->AddNode(made));
+  return made;
 }
 
 /// Files are in LPS, the scene is in RAS.
@@ -121,22 +127,21 @@ bool BalloonRun::prepare(vtkMRMLSimplexMesherNode* parameters)
   m_Run->SetParameter("limit", parameters->GetBalloonLimit());
   m_Run->SetParameter("rigidity", parameters->GetBalloonRigidity());
   m_Run->SetParameter("threads", parameters->GetThreads());
-  this->prepareOutputs(parameters, map.labelMap);
+  this->prepareOutputs(parameters);
   m_Parameters = parameters;
   return true;
 }
 
-void BalloonRun::prepareOutputs(vtkMRMLSimplexMesherNode* parameters, vtkMRMLLabelMapVolumeNode* map)
+void BalloonRun::prepareOutputs(vtkMRMLSimplexMesherNode* parameters)
 {
   vtkMRMLScene* scene = parameters->GetScene();
   m_Surface = outputModel(parameters->GetModelNode(Node::BalloonSurfaceRole()), scene,
                           nameAfterMap(parameters, vtkMRMLTr("SimplexMesher", "balloons")), m_Run);
   m_Run->SetParameterNode("surface", m_Surface);
-  vtkMRMLLabelMapVolumeNode* chosen = parameters->GetLabelMapNode(Node::BalloonLabelMapRole());
-  m_LabelMap =
-    chosen ? chosen : labelMapLike(map, scene, nameAfterMap(parameters, vtkMRMLTr("SimplexMesher", "with balloons")));
-  m_LabelMap->SetAndObserveTransformNodeID(nullptr);
-  m_Run->AddOutputNode(m_LabelMap, !chosen);
+  m_LabelMap = vtkSmartPointer<vtkMRMLLabelMapVolumeNode>::New();
+  m_LabelMap->SetName(nameAfterMap(parameters, vtkMRMLTr("SimplexMesher", "with balloons")).c_str());
+  giveOneVoxel(m_LabelMap);
+  m_Run->AddTemporaryNode(m_LabelMap);
   m_Run->SetParameterNode("labelMap", m_LabelMap);
 
   vtkNew<vtkMRMLModelNode> growth;
@@ -175,17 +180,17 @@ void BalloonRun::finish()
 {
   vtkMRMLSimplexMesherNode* parameters = m_Parameters;
   if (m_Run->GetStatus() != vtkSurgicalMesherRun::Completed || !parameters || !parameters->GetScene()) return;
-  if (!m_Surface || !m_Surface->GetScene() || !m_LabelMap || !m_LabelMap->GetScene()) return;
+  if (!m_Surface || !m_Surface->GetScene() || !hasVoxels(m_LabelMap)) return;
   const int wasModifying = parameters->StartModify();
   parameters->SetNode(Node::BalloonSurfaceRole(), m_Surface);
-  parameters->SetNode(Node::BalloonLabelMapRole(), m_LabelMap);
+  vtkMRMLLabelMapVolumeNode* labelMap = handOver(m_LabelMap, parameters);
   vtkMRMLColorTableNode* colors = showTissueColors(m_Surface, "BoundaryLabels");
   TissueTable tissues = tissueTable(parameters->GetNodeReference(Node::TissueMapRole()));
   for (const auto& [label, tissue] : tissuesOf(m_Surface->GetMesh()->GetFieldData())) tissues[label] = tissue;
   fillColorTable(withDistinctColors(tissues), colors);
-  m_LabelMap->CreateDefaultDisplayNodes();
-  m_LabelMap->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
-  keepNullDisplacement(m_LabelMap, tissues);
+  labelMap->CreateDefaultDisplayNodes();
+  labelMap->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
+  keepNullDisplacement(labelMap, tissues);
   parameters->EndModify(wasModifying);
 }
 

@@ -7,6 +7,7 @@
 #include "vtkSlicerSimplexMesherModuleLogicExport.h"
 
 #include <vtkNew.h>
+#include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
 
 #include <string>
@@ -55,7 +56,7 @@ public:
 
 private:
   bool prepare(vtkMRMLSimplexMesherNode* parameters);
-  void prepareOutputs(vtkMRMLSimplexMesherNode* parameters, vtkMRMLLabelMapVolumeNode* map);
+  void prepareOutputs(vtkMRMLSimplexMesherNode* parameters);
   void finish();
 
   vtkSlicerModuleLogic* m_Logic;
@@ -63,8 +64,8 @@ private:
   vtkNew<vtkCallbackCommand> m_RunEnded;
   vtkWeakPointer<vtkMRMLSimplexMesherNode> m_Parameters;
   vtkWeakPointer<vtkMRMLModelNode> m_Surface, m_Growth;
-  vtkWeakPointer<vtkMRMLLabelMapVolumeNode> m_LabelMap;
-  std::string m_GrowthIndex; ///< what `--growth` is given
+  vtkSmartPointer<vtkMRMLLabelMapVolumeNode> m_LabelMap; ///< hidden, for the host to read into
+  std::string m_GrowthIndex;                             ///< what `--growth` is given
   int m_ShownMotion = 0;
 };
 

@@ -126,6 +126,22 @@ int testResults(Balloons& b)
   return EXIT_SUCCESS;
 }
 
+/// The same nodes once more, while the slice views show the label map.
+int testSecondRun(Balloons& b)
+{
+  vtkMRMLLabelMapVolumeNode* map = b.panel.node()->GetLabelMapNode(Node::BalloonLabelMapRole());
+  vtkImageData* before = map->GetImageData();
+  showInSliceViews(map);
+  b.panel.node()->SetEdgeLength(3);
+  b.press("ApplyButton");
+  CHECK_BOOL(b.waitForEnd(), true);
+  CHECK_INT(b.run->GetStatus(), vtkSurgicalMesherRun::Completed);
+  CHECK_POINTER(b.panel.node()->GetLabelMapNode(Node::BalloonLabelMapRole()), map);
+  CHECK_BOOL(map->GetImageData() != before, true);
+  CHECK_STD_STRING(b.panel.host.complaints(), "");
+  return EXIT_SUCCESS;
+}
+
 int testCancel(Balloons& b)
 {
   const LeftoverCheck before(b.panel.host.scene());
@@ -150,6 +166,7 @@ int qSlicerSimplexMesherBalloonTest(int, char*[])
   CHECK_EXIT_SUCCESS(testProblems(balloons));
   CHECK_EXIT_SUCCESS(testGrowth(balloons));
   CHECK_EXIT_SUCCESS(testResults(balloons));
+  CHECK_EXIT_SUCCESS(testSecondRun(balloons));
   CHECK_EXIT_SUCCESS(testCancel(balloons));
   CHECK_STD_STRING(host.complaints(), "");
   return EXIT_SUCCESS;
