@@ -19,6 +19,12 @@ target_compile_options(SurgicalMesherFlags INTERFACE
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>
   $<$<AND:$<BOOL:${SurgicalMesher_WARNINGS_AS_ERRORS}>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-Werror>)
 
+# Debian's ITK takes no other compiler than GCC.
+if(CMAKE_CXX_COMPILER_ID STREQUAL Clang AND NOT Slicer_DIR)
+  target_compile_options(SurgicalMesherFlags INTERFACE
+    $<BUILD_INTERFACE:-include${PROJECT_SOURCE_DIR}/CMake/ItkWithClang.h>)
+endif()
+
 # Every executable ends at the first error that the address or undefined behaviour sanitizer finds.
 option(SurgicalMesher_SANITIZE "Build with the address and undefined behaviour sanitizers" OFF)
 if(SurgicalMesher_SANITIZE)

@@ -7,6 +7,7 @@
 // FOLDER receives surfaces, simplex meshes, the evolution of each and table.csv; TEMPLATES holds mricron's atlases.
 // NAMEs choose among cube, brain, tubes and path.
 
+#include "Distance.h"
 #include "Errors.h"
 #include "MapPreparation.h"
 #include "MeshChecks.h"
@@ -272,12 +273,6 @@ TissueMap prepared(TissueMap map, double volume = 0)
   prepareMap(map, options);
   map.grid = inOwnFrame(map.grid);
   return map;
-}
-
-double distanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b)
-{
-  const double along = dot(p - a, b - a) / squaredNorm(b - a);
-  return norm(p - a - std::min(1., std::max(0., along)) * (b - a));
 }
 
 /// Every n-th voxel along each axis.

@@ -352,8 +352,9 @@ TEST(ReadTissueMap, FindsTheVoxelsOfADetachedHeaderAndMissesThemInTime)
 {
   const TemporaryFolder folder;
   const TissueMap map = noisyMap();
-  for (const auto& [header, data] : { std::pair("map.mhd", "map.zraw"), std::pair("map.nhdr", "map.raw.gz") })
+  for (const auto& names : { std::pair("map.mhd", "map.zraw"), std::pair("map.nhdr", "map.raw.gz") })
   {
+    const char *const header = names.first, *const data = names.second; // lambdas cannot have structured bindings
     writeTissueMap(map, folder.file(header));
     EXPECT_EQ(readTissueMap(folder.file(header)).labels, map.labels);
     const std::string whole = readBytes(folder.file(data));
