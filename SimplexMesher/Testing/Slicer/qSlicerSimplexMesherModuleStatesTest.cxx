@@ -45,8 +45,7 @@ bool says(const Panel& panel, const char* words) { return panel.problem().find(w
 int testResultInSliceViews(Panel& panel)
 {
   vtkMRMLScene* scene = panel.host.scene();
-  panel.choose("TissueMapSelector", addSegmentsAlone(scene));
-  panel.child<QRadioButton>("EdgeLengthRadioButton")->setChecked(true);
+  CHECK_INT(scene->GetNumberOfNodesByClass("vtkMRMLVolumeNode"), 0); // nothing has been drawn before
   for (const char* selector : { "PreparedLabelMapSelector", "FollowedScaleSelector" })
   {
     vtkMRMLNode* result = panel.child<qMRMLNodeComboBox>(selector)->addNode();
@@ -54,6 +53,8 @@ int testResultInSliceViews(Panel& panel)
     showInSliceViews(vtkMRMLVolumeNode::SafeDownCast(result));
     panel.host.waitFor(0.2);
   }
+  panel.choose("TissueMapSelector", addSegmentsAlone(scene));
+  panel.child<QRadioButton>("EdgeLengthRadioButton")->setChecked(true);
   for (int run = 0; run < 2; ++run)
   {
     CHECK_BOOL(panel.apply(), true);
