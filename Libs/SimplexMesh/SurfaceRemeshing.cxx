@@ -20,7 +20,8 @@ constexpr int smoothingSteps = 3;      ///< a round
 constexpr int finishingRounds = 6;     ///< for the worst triangles
 constexpr int balancingRounds = 30;    ///< for the volumes
 constexpr double longestBalance = 0.1; ///< of L, of a point in a round
-constexpr double wantedQuality = 0.62; ///< of a triangle; at least 0.56 is no angle under 20 degrees
+constexpr double wantedQuality = 0.62; ///< of a triangle
+constexpr double poorQuality = 0.56;   ///< at least that is no angle under 20 degrees
 
 double meanEdge(const SurfaceComplex& surface)
 {
@@ -280,6 +281,23 @@ private:
     if (improveByMoves(a)) return true;
     for (const std::int32_t b : m_Mesh->faceNeighbours(a))
       if (ratio(a, b) < 1 && staysShort(a, b) && staysShort(b, a) && m_Mesh->fuse(a, b)) return true;
+    return m_Mesh->faceQuality(a, m_Mesh->points()[a]) < poorQuality && mendPoor(a);
+  }
+
+  /// Where curves between tissues leave no other way: moves within the bound alone, and what makes edges too long or
+  /// too short.
+  bool mendPoor(std::int32_t a)
+  {
+    if (!m_Mesh->isOnCrease(a) && improveByMoves(a, axes(), false)) return true;
+    const std::vector<std::int32_t> neighbours = m_Mesh->faceNeighbours(a);
+    for (const std::int32_t b : neighbours)
+      if (ratio(a, b) < 0.5 && m_Mesh->fuse(a, b)) return true;
+    for (const std::int32_t b : neighbours)
+    {
+      if (ratio(a, b) <= 1 || m_Mesh->edgeQuality(a, b) >= poorQuality || !m_Mesh->cutEdge(a, b)) continue;
+      improveByMoves(std::int32_t(m_Mesh->points().size()) - 1); // the new one
+      return true;
+    }
     return false;
   }
 
@@ -289,14 +307,18 @@ private:
   {
     const int order = m_Mesh->junctionOrder(a);
     if (order == 2 && m_Mesh->isOnCrease(a)) return false;
-    const std::vector<Vec3> ways = order == 1 ? waysAlong(a) : axes();
+    return order == 1 ? improveByMoves(a, waysAlong(a), true) : improveByMoves(a, axes(), false);
+  }
+
+  bool improveByMoves(std::int32_t a, const std::vector<Vec3>& ways, bool staysOnCurve)
+  {
     bool isBetter = false;
     for (double step = 0.3 * length(m_Mesh->points()[a]), least = 0.05 * step; step > least; step *= 0.5)
       for (const Vec3& way : ways)
       {
         const Vec3 p = m_Mesh->points()[a];
         Vec3 to = p + step * way;
-        if (order == 1) to = m_Curves.nearest(to, m_Mesh->tissuesAt(a), m_Boundary.reach()).value_or(p);
+        if (staysOnCurve) to = m_Curves.nearest(to, m_Mesh->tissuesAt(a), m_Boundary.reach()).value_or(p);
         if (m_Mesh->faceQuality(a, to) > 1.01 * m_Mesh->faceQuality(a, p)) isBetter |= m_Mesh->move(a, to);
       }
     return isBetter;

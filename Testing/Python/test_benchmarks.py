@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -12,6 +13,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Benchmarks")]
 import inputs  # noqa: E402
 import page  # noqa: E402
+import remeshing  # noqa: E402
 from maps import cut_out, write_nrrd  # noqa: E402
 from measures import signed_volumes  # noqa: E402
 from meshfiles import read_mesh  # noqa: E402
@@ -84,6 +86,17 @@ class RunTest(unittest.TestCase):
         mesh = read_mesh("records/mesh.vtu")
         self.assertEqual(record["quality"]["tetrahedra"], len(mesh.tetrahedra))
         self.assertEqual(record["quality"]["wrongTissues"], 0)
+
+    def test_remeshed_tissues_have_no_angle_under_20_degrees(self):
+        labels, affine = cut_out(np.s_[60:78, 90:108, 60:78])
+        write_nrrd("box.nrrd", labels, affine)
+        run("SimplexMesherCLI", "--edgeLength", "1", "--minimumIslandVolume", "30", "box.nrrd", "box.vtp")
+        report = remeshing.remesh(SimpleNamespace(bin=BIN, outdir="."), "box.vtp", 2.5)
+        self.assertLess(3 * report["remeshed"]["triangles"], report["original"]["triangles"])
+        self.assertGreaterEqual(report["remeshed"]["smallestAngle"], 20)
+        self.assertLessEqual(max(report[way]["maximum"] for way in ("toOriginal", "fromOriginal")), 1)
+        for tissue in report["tissues"]:
+            self.assertAlmostEqual(tissue["volume"] / tissue["volumeBefore"], 1, delta=0.005)
 
     def test_other_meshers_fill_the_same_tissues(self):
         labels, affine = cut_out(np.s_[58:90, 84:116, 30:56])
