@@ -13,6 +13,7 @@
 #include "RunCheck.h"
 #include "RunInputs.h"
 #include "ShellChoices.h"
+#include "VolumeNodes.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 #include "vtkSurgicalMesherRun.h"
 
@@ -23,11 +24,9 @@
 #include <vtkMRMLScene.h>
 #include <vtkMRMLSliceNode.h>
 #include <vtkMRMLTableNode.h>
-#include <vtkMRMLTransformNode.h>
 
 #include <vtkCallbackCommand.h>
 #include <vtkFieldData.h>
-#include <vtkImageData.h>
 #include <vtkMatrix4x4.h>
 #include <vtkObjectFactory.h>
 #include <vtkPolyData.h>
@@ -57,26 +56,6 @@ FiniteElementOptions optionsOf(Parameters* parameters, const TissueTable& tissue
 }
 
 // ---- nodes for a run ------------------------------------------------------------------------------------------------
-
-/// Shares its voxels; a linear parent transform moves its grid.
-vtkSmartPointer<vtkMRMLScalarVolumeNode> scaleInWorld(vtkMRMLScalarVolumeNode* scale)
-{
-  auto copy = vtkSmartPointer<vtkMRMLScalarVolumeNode>::New();
-  copy->SetName(scale->GetName());
-  vtkNew<vtkImageData> image; // the host's writer, in its own thread, has an object of its own
-  image->ShallowCopy(scale->GetImageData());
-  copy->SetAndObserveImageData(image);
-  vtkNew<vtkMatrix4x4> ijkToWorld;
-  scale->GetIJKToRASMatrix(ijkToWorld);
-  if (vtkMRMLTransformNode* parent = scale->GetParentTransformNode())
-  {
-    vtkNew<vtkMatrix4x4> toWorld;
-    parent->GetMatrixTransformToWorld(toWorld);
-    vtkMatrix4x4::Multiply4x4(toWorld, ijkToWorld, ijkToWorld);
-  }
-  copy->SetIJKToRASMatrix(ijkToWorld);
-  return copy;
-}
 
 vtkSmartPointer<vtkMRMLModelNode> hiddenModel(vtkPointSet* mesh, const std::string& name)
 {
@@ -256,7 +235,7 @@ void vtkSlicerFuchsTetrahedralizerLogic::PrepareLengths(vtkMRMLFuchsTetrahedrali
   if (parameters->GetEdgeLengthSource() == Parameters::Uniform)
     this->Run->SetParameter("edgeLength", parameters->GetEdgeLength());
   if (parameters->GetEdgeLengthSource() != Parameters::FromScale) return;
-  const auto scale = scaleInWorld(scaleOf(parameters));
+  const auto scale = copyForRun(scaleOf(parameters));
   this->Run->AddTemporaryNode(scale);
   this->Run->SetParameterNode("scale", scale);
 }

@@ -9,6 +9,7 @@
 #include "TissueColors.h"
 #include "TissueMapInput.h"
 #include "TissueRows.h"
+#include "VolumeNodes.h"
 #include "vtkMRMLSimplexMesherNode.h"
 #include "vtkSurgicalMesherRun.h"
 

@@ -9,6 +9,7 @@
 #include "Text.h"
 #include "TissueColors.h"
 #include "TissueModels.h"
+#include "VolumeNodes.h"
 #include "vtkMRMLSimplexMesherNode.h"
 #include "vtkSurgicalMesherRun.h"
 

@@ -33,22 +33,6 @@ using Node = vtkMRMLSurgicalPathScaleNode;
 namespace
 {
 
-constexpr const char* colorOwner =
-  "SurgicalMesher.ColorsOf"; // attribute of a colour table: id of the volume it belongs to
-
-vtkMRMLColorTableNode* colorTableOf(vtkMRMLLabelMapVolumeNode* volume)
-{
-  vtkMRMLScene* scene = volume->GetScene();
-  volume->CreateDefaultDisplayNodes();
-  auto* colors = vtkMRMLColorTableNode::SafeDownCast(volume->GetDisplayNode()->GetColorNode());
-  const char* owner = colors ? colors->GetAttribute(colorOwner) : nullptr;
-  if (owner && std::string(owner) == volume->GetID()) return colors;
-  const std::string name = scene->GenerateUniqueName(std::string(volume->GetName()) + " tissues");
-  colors = vtkMRMLColorTableNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLColorTableNode", name));
-  colors->SetAttribute(colorOwner, volume->GetID());
-  return colors;
-}
-
 /// A node for the user, which has its voxels before it enters the scene, where others look at it.
 vtkMRMLVolumeNode* addOutput(vtkMRMLSurgicalPathScaleNode* parameters, const char* role, vtkMRMLVolumeNode* result,
                              const std::string& what)
@@ -303,9 +287,7 @@ void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNod
     // The input has gone or changed meanwhile: the names that are known will do.
   }
   keepNullDisplacement(labelMap, table);
-  vtkMRMLColorTableNode* colors = colorTableOf(labelMap);
-  fillColorTable(table, colors);
-  labelMap->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
+  showTissueColors(labelMap, table);
 }
 
 void vtkSlicerSurgicalPathScaleLogic::ShowResult(vtkMRMLSurgicalPathScaleNode* parameters)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The host's own application, started with our module paths as a user adds them: it finds and loads three loadable and
-/// three command-line modules, and its log holds no warning or error that it would not hold without us.
+/// The host's own application, started with our module paths as a user adds them: it finds and loads the loadable
+/// modules and the command-line module of each, and its log holds no warning or error that it would not hold without us.
 
 #include <vtkMRMLCoreTestingMacros.h>
 
@@ -68,7 +68,8 @@ int HostStartTest(int argc, char* argv[])
   QCoreApplication application(argc, argv);
   const QStringList log = logOfStart({ SURGICALMESHER_LOADABLE_MODULES, SURGICALMESHER_CLI_MODULES });
   CHECK_BOOL(log.isEmpty(), false);
-  for (const QString& name : QStringList{ "SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer" })
+  for (const QString& name :
+       QStringList{ "SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer", "TissueMapper" })
   {
     std::cout << name.toStdString() << "\n";
     CHECK_BOOL(isRecognized(log, "libqSlicer" + name + "Module", "qSlicerLoadableModuleFactory"), true);

@@ -55,6 +55,16 @@ std::pair<std::string, std::string> besideProbability(const std::filesystem::pat
   return { (name.parent_path() / file.substr(0, end)).string() + "-", file.substr(end) };
 }
 
+std::vector<std::string> channelFiles(const CommandLine& line)
+{
+  std::vector<std::string> files = line.texts("channel");
+  for (const std::string& file : { line.text("channel2"), line.text("channel3") })
+  {
+    if (!file.empty()) files.push_back(file);
+  }
+  return files;
+}
+
 void writeReport(const std::string& file, const CommandLine& line, const std::vector<TissueClass>& classes,
                  const Classification& found)
 {
@@ -64,7 +74,7 @@ void writeReport(const std::string& file, const CommandLine& line, const std::ve
     writeMember(json, "image", line.text("image"));
     json.Key("channels");
     json.StartArray();
-    for (const std::string& channel : line.texts("channel")) writeValue(json, printable(channel));
+    for (const std::string& channel : channelFiles(line)) writeValue(json, printable(channel));
     json.EndArray();
     writeMember(json, "biasCorrected", line.flag("correctBias"));
     writeMember(json, "denoised", line.flag("denoise"));
@@ -121,7 +131,7 @@ void writeProbabilities(CommandLine& line, const std::vector<TissueClass>& class
 
 HeadImages readImages(const CommandLine& line)
 {
-  std::vector<std::string> files = line.texts("channel");
+  std::vector<std::string> files = channelFiles(line);
   files.insert(files.begin(), line.text("image"));
   std::vector<ScalarImage> channels;
   for (const std::string& file : files)

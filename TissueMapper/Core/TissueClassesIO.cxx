@@ -4,7 +4,6 @@
 #include "Errors.h"
 #include "TextFile.h"
 #include "TextTable.h"
-#include "TissueMapIO.h"
 
 #include <algorithm>
 #include <array>
@@ -74,38 +73,9 @@ std::vector<TissueClass>::iterator findClass(std::vector<TissueClass>& classes, 
                       [&](const TissueClass& tissue) { return text::lowerCase(tissue.name) == text::lowerCase(name); });
 }
 
-std::vector<TissueClass> readTraining(const std::string& file)
+/// `source` is where the training points come from.
+void applyTable(std::vector<TissueClass>& classes, const std::string& classesFile, const std::string& source)
 {
-  std::vector<TissueClass> classes;
-  for (const Markup& markup : readLabelledMarkups(file))
-  {
-    for (std::size_t n = 0; n < markup.points.size(); ++n)
-    {
-      const std::string name = text::legible(text::trimmed(markup.labels[n]));
-      if (name.empty()) throw InputError(file + ": a training point without a label, expected the name of its class");
-      auto found = findClass(classes, name);
-      if (found == classes.end())
-      {
-        TissueClass tissue;
-        tissue.name = name;
-        tissue.label = Label(classes.size() + 1);
-        tissue.admission = usualAdmission(name);
-        found = classes.insert(classes.end(), tissue);
-      }
-      found->points.push_back(markup.points[n]);
-    }
-  }
-  if (classes.size() < 2)
-    throw InputError(file + ": one class, " + classes.front().name + ", is trained, expected two or more");
-  return classes;
-}
-
-} // namespace
-
-std::vector<TissueClass> readTissueClasses(const std::string& trainingFile, const std::string& classesFile)
-{
-  std::vector<TissueClass> classes = readTraining(trainingFile);
-  if (classesFile.empty()) return classes;
   const TextTable table =
     readTextTable(classesFile, ColumnCount, columnOf, "label, name, compartment, contiguity and limit");
   std::vector<bool> isListed(classes.size(), false);
@@ -114,7 +84,7 @@ std::vector<TissueClass> readTissueClasses(const std::string& trainingFile, cons
     const std::string name = row.fields[ColumnName];
     if (name.empty()) row.fail("no name, expected that of a class");
     const auto found = findClass(classes, name);
-    if (found == classes.end()) row.fail("class " + name + " has no training point in " + trainingFile);
+    if (found == classes.end()) row.fail("class " + name + " has no training point in " + source);
     const std::size_t number = std::size_t(found - classes.begin());
     if (isListed[number]) row.fail("class " + name + " is there twice");
     isListed[number] = true;
@@ -130,7 +100,48 @@ std::vector<TissueClass> readTissueClasses(const std::string& trainingFile, cons
     if (!isListed[n])
       throw InputError(classesFile + ": class " + classes[n].name + " is trained, but not in the table");
   }
+}
+
+} // namespace
+
+std::vector<TissueClass> trainedClasses(const std::vector<Markup>& training, const std::string& source)
+{
+  std::vector<TissueClass> classes;
+  for (const Markup& markup : training)
+  {
+    for (std::size_t n = 0; n < markup.points.size(); ++n)
+    {
+      const std::string name = text::legible(text::trimmed(markup.labels[n]));
+      if (name.empty()) throw InputError(source + ": a training point without a label, expected the name of its class");
+      auto found = findClass(classes, name);
+      if (found == classes.end())
+      {
+        TissueClass tissue;
+        tissue.name = name;
+        tissue.label = Label(classes.size() + 1);
+        tissue.admission = usualAdmission(name);
+        found = classes.insert(classes.end(), tissue);
+      }
+      found->points.push_back(markup.points[n]);
+    }
+  }
   return classes;
+}
+
+std::vector<TissueClass> tissueClasses(const std::vector<Markup>& training, const std::string& source,
+                                       const std::string& classesFile)
+{
+  std::vector<TissueClass> classes = trainedClasses(training, source);
+  if (classes.empty()) throw InputError(source + ": no training point, expected some of two classes or more");
+  if (classes.size() < 2)
+    throw InputError(source + ": one class, " + classes.front().name + ", is trained, expected two or more");
+  if (!classesFile.empty()) applyTable(classes, classesFile, source);
+  return classes;
+}
+
+std::vector<TissueClass> readTissueClasses(const std::string& trainingFile, const std::string& classesFile)
+{
+  return tissueClasses(readLabelledMarkups(trainingFile), trainingFile, classesFile);
 }
 
 void writeTissueNames(const TissueTable& table, const std::string& file)

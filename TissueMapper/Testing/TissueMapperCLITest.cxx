@@ -64,6 +64,9 @@ TEST_F(TissueMapperCLI, TakesSeveralImagesAndWritesProbabilities)
     EXPECT_EQ(skull.values[n] == 1, map.labels[n] == 7);
     EXPECT_EQ(sure.values[n] > 0, map.labels[n] != 0);
   }
+  expectDone("--training points.fcsv --channel2 ct.nrrd t1.nrrd second.nrrd");
+  expectDone("--training points.fcsv --channel ct.nrrd t1.nrrd first.nrrd");
+  EXPECT_EQ(readBytes(folder.file("second.nrrd")), readBytes(folder.file("first.nrrd")));
   ScalarImage moved = head.image;
   moved.grid.origin.x += 1;
   writeImage(moved, folder.file("moved.nrrd"));

@@ -102,6 +102,22 @@ def fuchs_tetrahedralizer():
     canvas.save("FuchsTetrahedralizer/Resources/Icons/FuchsTetrahedralizer.png")
 
 
+def tissue_mapper():
+    """A head, one half as an image has it, the other as tissues, with points placed in them."""
+    canvas = Canvas()
+    canvas.disc((64, 64), 62, INK)
+    greys, tissues = ((150,) * 3, (70,) * 3, (205,) * 3), (SAND, PALE, BLUES[1])
+    for radius, grey, tissue in zip((55, 43, 33), greys, tissues):
+        canvas.disc((64, 64), radius, grey)
+        box = [(64 - radius) * SUPERSAMPLING, (64 + radius) * SUPERSAMPLING]
+        canvas.draw.pieslice([box[0], box[0], box[1], box[1]], -90, 90, fill=tissue)
+    canvas.line([(64, 9), (64, 119)], 6)
+    for place, color in (((84, 54), BLUES[2]), ((82, 84), BLUES[2]), ((110, 78), RED), ((98, 30), RED)):
+        canvas.disc(place, 9, (255, 255, 255))
+        canvas.disc(place, 6, color)
+    canvas.save("TissueMapper/Resources/Icons/TissueMapper.png")
+
+
 def extension():
     """Triangles that shrink towards a target, in a disc."""
     canvas = Canvas()
@@ -129,4 +145,5 @@ if __name__ == "__main__":
     surgical_path_scale()
     simplex_mesher()
     fuchs_tetrahedralizer()
+    tissue_mapper()
     extension()

@@ -5,6 +5,7 @@
 #include "MeshIO.h"
 
 #include <vtkMRMLColorTableNode.h>
+#include <vtkMRMLLabelMapVolumeNode.h>
 #include <vtkMRMLModelDisplayNode.h>
 #include <vtkMRMLModelNode.h>
 #include <vtkMRMLScene.h>
@@ -24,6 +25,8 @@ namespace
 {
 
 constexpr const char* kColorsRole = "tissueColors"; // of the model; its display may show other colours meanwhile
+constexpr const char* kColorOwner =
+  "SurgicalMesher.ColorsOf"; // attribute of a table: id of the label map it belongs to
 
 vtkMRMLColorTableNode* colorsOf(vtkMRMLModelNode* model)
 {
@@ -32,6 +35,19 @@ vtkMRMLColorTableNode* colorsOf(vtkMRMLModelNode* model)
   colors = vtkMRMLColorTableNode::SafeDownCast(model->GetScene()->AddNewNodeByClass(
     "vtkMRMLColorTableNode", model->GetScene()->GenerateUniqueName(std::string(model->GetName()) + " tissues")));
   model->SetNodeReferenceID(kColorsRole, colors->GetID());
+  return colors;
+}
+
+vtkMRMLColorTableNode* colorsOf(vtkMRMLLabelMapVolumeNode* labelMap)
+{
+  vtkMRMLScene* scene = labelMap->GetScene();
+  labelMap->CreateDefaultDisplayNodes();
+  auto* colors = vtkMRMLColorTableNode::SafeDownCast(labelMap->GetDisplayNode()->GetColorNode());
+  const char* owner = colors ? colors->GetAttribute(kColorOwner) : nullptr;
+  if (owner && std::string(owner) == labelMap->GetID()) return colors;
+  const std::string name = scene->GenerateUniqueName(std::string(labelMap->GetName()) + " tissues");
+  colors = vtkMRMLColorTableNode::SafeDownCast(scene->AddNewNodeByClass("vtkMRMLColorTableNode", name));
+  colors->SetAttribute(kColorOwner, labelMap->GetID());
   return colors;
 }
 
@@ -85,6 +101,13 @@ vtkMRMLColorTableNode* showTissueColors(vtkMRMLModelNode* model, const char* arr
   display->ScalarVisibilityOn();
   display->EndModify(wasModifying);
   return colors;
+}
+
+void showTissueColors(vtkMRMLLabelMapVolumeNode* labelMap, const TissueTable& tissues)
+{
+  vtkMRMLColorTableNode* colors = colorsOf(labelMap);
+  fillColorTable(tissues, colors);
+  labelMap->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
 }
 
 } // namespace surgicalmesher

@@ -6,6 +6,7 @@
 #include "vtkSurgicalMesherSupportLogicExport.h"
 
 class vtkMRMLColorTableNode;
+class vtkMRMLLabelMapVolumeNode;
 class vtkMRMLModelNode;
 
 namespace surgicalmesher
@@ -23,5 +24,10 @@ VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void fillColorTable(const TissueTable& t
 /// in its field data, made distinct. The colour table is the model's own; later calls fill the same again.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT vtkMRMLColorTableNode* showTissueColors(vtkMRMLModelNode* model,
                                                                                 const char* array);
+
+/// Shows a label map in the tissues' names and colours. The colour table is the label map's own; later calls fill the
+/// same again.
+VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void showTissueColors(vtkMRMLLabelMapVolumeNode* labelMap,
+                                                              const TissueTable& tissues);
 
 } // namespace surgicalmesher

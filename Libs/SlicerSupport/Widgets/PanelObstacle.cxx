@@ -4,6 +4,8 @@
 #include "qSurgicalMesherRunWidget.h"
 
 #include <qMRMLNodeComboBox.h>
+#include <qSlicerAbstractCoreModule.h>
+#include <qSlicerAbstractModuleWidget.h>
 #include <qSlicerApplication.h>
 #include <qSlicerIOManager.h>
 #include <qSlicerLayoutManager.h>
@@ -78,11 +80,14 @@ PanelObstacle tissueMapObstacle(TissueMapProblem problem, vtkMRMLNode* map, qMRM
            {} };
 }
 
-void openModule(const QString& name)
+void openModule(const QString& name, vtkMRMLNode* input)
 {
   qSlicerApplication* application = qSlicerApplication::application();
-  if (application->moduleManager()->module(name) && application->layoutManager())
-    application->layoutManager()->setCurrentModule(name);
+  qSlicerAbstractCoreModule* module = application->moduleManager()->module(name);
+  if (!module) return;
+  auto* panel = input ? dynamic_cast<qSlicerAbstractModuleWidget*>(module->widgetRepresentation()) : nullptr;
+  if (panel) panel->setEditedNode(input);
+  if (application->layoutManager()) application->layoutManager()->setCurrentModule(name);
 }
 
 } // namespace surgicalmesher

@@ -26,7 +26,7 @@ struct PanelObstacle
 Q_SURGICALMESHER_SUPPORT_WIDGETS_EXPORT PanelObstacle tissueMapObstacle(TissueMapProblem problem, vtkMRMLNode* map,
                                                                         qMRMLNodeComboBox* selector);
 
-/// Goes to another module of the host, if it is there.
-Q_SURGICALMESHER_SUPPORT_WIDGETS_EXPORT void openModule(const QString& name);
+/// Goes to another module of the host, if it is there; `input`, if there is one, is what it shows then.
+Q_SURGICALMESHER_SUPPORT_WIDGETS_EXPORT void openModule(const QString& name, vtkMRMLNode* input = nullptr);
 
 } // namespace surgicalmesher

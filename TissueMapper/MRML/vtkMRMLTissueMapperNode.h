@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// What the panel of Tissue Mapper shows. It lives in the scene and is saved with it.
+
+#include "vtkMRMLSurgicalMesherParameterNode.h"
+#include "vtkSlicerTissueMapperModuleMRMLExport.h"
+
+#include <vtkCommand.h>
+
+#include <string>
+#include <vector>
+
+class vtkMRMLMarkupsNode;
+
+class VTK_SLICER_TISSUEMAPPER_MODULE_MRML_EXPORT vtkMRMLTissueMapperNode : public vtkMRMLSurgicalMesherParameterNode
+{
+public:
+  static vtkMRMLTissueMapperNode* New();
+  vtkTypeMacro(vtkMRMLTissueMapperNode, vtkMRMLSurgicalMesherParameterNode);
+
+  vtkMRMLNode* CreateNodeInstance() override;
+  const char* GetNodeTagName() override { return "TissueMapper"; }
+  /// Markups tell of their points by events of their own; all of them arrive here as InputModifiedEvent.
+  void ProcessMRMLEvents(vtkObject* caller, unsigned long event, void* callData) override;
+
+  enum Events
+  {
+    InputModifiedEvent = vtkCommand::UserEvent + 20 ///< an input's points, voxels or transform changed
+  };
+
+  /// Roles of the nodes referred to.
+  static const char* ImageRole() { return "image"; }        ///< scalar volume: MR of a head, or a CT
+  static const char* SecondImageRole() { return "image2"; } ///< further ones on the same grid
+  static const char* ThirdImageRole() { return "image3"; }
+  static const char* FourthImageRole() { return "image4"; }
+  static const char* TrainingRole() { return "training"; } ///< markups; each point's label is the name of its class
+  static const char* LabelMapRole() { return "labelMap"; } ///< the tissues; a new one where there is none
+
+  static const char* TubeImageRole() { return "tubeImage"; }   ///< where a tube is followed; none: the first image
+  static const char* TubePointsRole() { return "tubePoints"; } ///< markups: points on the tube, in its order
+  static const char* TubePathRole() { return "tubePath"; }     ///< curve along its axis; a new one where there is none
+
+  /// Those that are chosen, the first one first.
+  std::vector<vtkMRMLScalarVolumeNode*> GetImages();
+  vtkMRMLMarkupsNode* GetMarkupsNode(const char* role);
+
+  /// The class of which points are placed.
+  vtkGetMacro(TrainingClass, std::string);
+  vtkSetMacro(TrainingClass, std::string);
+  /// CSV file with the table of classes; empty for none.
+  vtkGetMacro(Classes, std::string);
+  vtkSetMacro(Classes, std::string);
+  vtkGetMacro(CorrectBias, bool);
+  vtkSetMacro(CorrectBias, bool);
+  vtkGetMacro(Denoise, bool);
+  vtkSetMacro(Denoise, bool);
+  /// Whether each class is admitted in its compartment only.
+  vtkGetMacro(UseCompartments, bool);
+  vtkSetMacro(UseCompartments, bool);
+  /// Whether contiguity and limits of the table count.
+  vtkGetMacro(UseContiguity, bool);
+  vtkSetMacro(UseContiguity, bool);
+
+  /// The image that a tube is followed in; null if there is none.
+  vtkMRMLScalarVolumeNode* GetTubeImage();
+  /// Of the tube, as a tissue and as a curve.
+  vtkGetMacro(TubeName, std::string);
+  vtkSetMacro(TubeName, std::string);
+  /// mm; 0 for both: half a voxel to three and a half voxels.
+  vtkGetMacro(MinimumRadius, double);
+  vtkSetMacro(MinimumRadius, double);
+  vtkGetMacro(MaximumRadius, double);
+  vtkSetMacro(MaximumRadius, double);
+  /// "auto", "bright" or "dark".
+  vtkGetMacro(Polarity, std::string);
+  vtkSetMacro(Polarity, std::string);
+  /// Whether the path follows the points at once.
+  vtkGetMacro(TraceAtOnce, bool);
+  vtkSetMacro(TraceAtOnce, bool);
+
+protected:
+  vtkMRMLTissueMapperNode();
+  ~vtkMRMLTissueMapperNode() override = default;
+  vtkMRMLTissueMapperNode(const vtkMRMLTissueMapperNode&) = delete;
+  void operator=(const vtkMRMLTissueMapperNode&) = delete;
+
+  std::vector<Value> GetValues() override;
+
+  std::string TrainingClass = "CSF";
+  std::string Classes;
+  bool CorrectBias = false;
+  bool Denoise = false;
+  bool UseCompartments = true;
+  bool UseContiguity = true;
+  std::string TubeName = "vessel";
+  double MinimumRadius = 0;
+  double MaximumRadius = 0;
+  std::string Polarity = "auto";
+  bool TraceAtOnce = true;
+};
