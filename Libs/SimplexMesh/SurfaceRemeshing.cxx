@@ -281,24 +281,8 @@ private:
     if (improveByMoves(a)) return true;
     for (const std::int32_t b : m_Mesh->faceNeighbours(a))
       if (ratio(a, b) < 1 && staysShort(a, b) && staysShort(b, a) && m_Mesh->fuse(a, b)) return true;
-    return m_Mesh->faceQuality(a, m_Mesh->points()[a]) < poorQuality && mendPoor(a);
-  }
-
-  /// Where curves between tissues leave no other way: moves within the bound alone, and what makes edges too long or
-  /// too short.
-  bool mendPoor(std::int32_t a)
-  {
-    if (!m_Mesh->isOnCrease(a) && improveByMoves(a, axes(), false)) return true;
-    const std::vector<std::int32_t> neighbours = m_Mesh->faceNeighbours(a);
-    for (const std::int32_t b : neighbours)
-      if (ratio(a, b) < 0.5 && m_Mesh->fuse(a, b)) return true;
-    for (const std::int32_t b : neighbours)
-    {
-      if (ratio(a, b) <= 1 || m_Mesh->edgeQuality(a, b) >= poorQuality || !m_Mesh->cutEdge(a, b)) continue;
-      improveByMoves(std::int32_t(m_Mesh->points().size()) - 1); // the new one
-      return true;
-    }
-    return false;
+    const bool isPoor = m_Mesh->faceQuality(a, m_Mesh->points()[a]) < poorQuality;
+    return isPoor && !m_Mesh->isOnCrease(a) && improveBesideCurve(a);
   }
 
   /// To the best of some places around it, or along its curve. Where curves between tissues meet, the bound alone says
@@ -307,18 +291,37 @@ private:
   {
     const int order = m_Mesh->junctionOrder(a);
     if (order == 2 && m_Mesh->isOnCrease(a)) return false;
-    return order == 1 ? improveByMoves(a, waysAlong(a), true) : improveByMoves(a, axes(), false);
+    if (order != 1) return improveByMoves(a, axes(), {});
+    const std::vector<Label> tissues = m_Mesh->tissuesAt(a);
+    const Vec3 home = m_Mesh->points()[a];
+    return improveByMoves(
+      a, waysAlong(a), [&](const Vec3& p) { return m_Curves.nearest(p, tissues, m_Boundary.reach()).value_or(home); });
   }
 
-  bool improveByMoves(std::int32_t a, const std::vector<Vec3>& ways, bool staysOnCurve)
+  /// Where curves between tissues leave no other way: no farther than a share of L from its curve.
+  bool improveBesideCurve(std::int32_t a)
+  {
+    constexpr double farthest = 0.1;
+    if (m_Mesh->junctionOrder(a) != 1) return improveByMoves(a, axes(), {});
+    const std::vector<Label> tissues = m_Mesh->tissuesAt(a);
+    return improveByMoves(a, axes(),
+                          [&](const Vec3& p)
+                          {
+                            const std::optional<Vec3> onCurve = m_Curves.nearest(p, tissues, m_Boundary.reach());
+                            const double way = onCurve ? norm(p - *onCurve) : 0, most = farthest * length(p);
+                            return way > most ? *onCurve + most / way * (p - *onCurve) : p;
+                          });
+  }
+
+  /// `place` says where a point goes instead of a place beside it.
+  bool improveByMoves(std::int32_t a, const std::vector<Vec3>& ways, const std::function<Vec3(const Vec3&)>& place)
   {
     bool isBetter = false;
     for (double step = 0.3 * length(m_Mesh->points()[a]), least = 0.05 * step; step > least; step *= 0.5)
       for (const Vec3& way : ways)
       {
         const Vec3 p = m_Mesh->points()[a];
-        Vec3 to = p + step * way;
-        if (staysOnCurve) to = m_Curves.nearest(to, m_Mesh->tissuesAt(a), m_Boundary.reach()).value_or(p);
+        const Vec3 beside = p + step * way, to = place ? place(beside) : beside;
         if (m_Mesh->faceQuality(a, to) > 1.01 * m_Mesh->faceQuality(a, p)) isBetter |= m_Mesh->move(a, to);
       }
     return isBetter;
