@@ -35,19 +35,6 @@ void parse(rapidjson::Document& json, const std::string& file)
   if (json.HasParseError() || !json.IsObject()) throw InputError(file + ": no JSON object, a stage's report expected");
 }
 
-std::string escaped(const std::string& text)
-{
-  std::string result;
-  for (const char letter : text)
-  {
-    if (letter == '<') result += "&lt;";
-    else if (letter == '&') result += "&amp;";
-    else if (letter == '"') result += "&quot;";
-    else result += letter;
-  }
-  return result;
-}
-
 std::string fixed(double value, int decimals)
 {
   char text[64];
@@ -77,7 +64,8 @@ std::string warnings(const Results& results)
   std::string items;
   for (const auto* report : { &results.scale, &results.surface, &results.mesh })
   {
-    for (const Json& warning : (*report)["warnings"].GetArray()) items += element("li", escaped(warning.GetString()));
+    for (const Json& warning : (*report)["warnings"].GetArray())
+      items += element("li", text::xmlEscaped(warning.GetString()));
   }
   if (items.empty()) return "<p class=soft>No warnings.</p>\n";
   return "<section class=warnings><strong>Warnings</strong><ul>" + items + "</ul></section>\n";
@@ -252,7 +240,7 @@ std::string row(const std::vector<std::string>& cells, const char* kind)
 std::string tissueName(const Results& results, const Json& tissue)
 {
   const unsigned label = tissue["label"].GetUint();
-  return swatch(results, label) + std::to_string(label) + " " + escaped(tissue["name"].GetString());
+  return swatch(results, label) + std::to_string(label) + " " + text::xmlEscaped(tissue["name"].GetString());
 }
 
 std::vector<std::string> distanceCells(const Json& tissue)
@@ -319,7 +307,7 @@ std::string kindsOfSimplification(const Results& results)
   }
   std::string items;
   for (const auto& [kind, sum] : kinds)
-    items += element("li", escaped(kind) + ": " + grouped(sum[0]) + " places, " + grouped(sum[1]) + " voxels");
+    items += element("li", text::xmlEscaped(kind) + ": " + grouped(sum[0]) + " places, " + grouped(sum[1]) + " voxels");
   return items.empty() ? "" : element("ul", items) + "\n";
 }
 
@@ -358,14 +346,14 @@ std::string htmlReport(const std::string& folder, const std::string& configurati
   results.surfaceFile = readSurface(folder + "/surface.vtp");
   results.meshFile = readMesh(folder + "/mesh.vtu");
   results.colors = colorsOf(results.meshFile.mesh.labels, results.meshFile.tissues);
-  const std::string map = escaped(results.scale["labelMap"].GetString());
+  const std::string map = text::xmlEscaped(results.scale["labelMap"].GetString());
   return "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
          "<meta name=viewport content='width=device-width,initial-scale=1'>\n<title>SurgicalMesher: " +
          map + "</title>\n<style>\n" + std::string(reportStyle) +
          "</style></head><body>\n<h1>Finite element mesh</h1>\n" + "<p class=soft>of " + map + "</p>\n" +
          warnings(results) + figures(results) + pictures(results) + histograms(results) + tissues(results) +
          changes(results) + "<h2>The run</h2>\n<details><summary>All options (run.toml)</summary>\n<pre>" +
-         escaped(configuration) + "</pre></details>\n</body></html>\n";
+         text::xmlEscaped(configuration) + "</pre></details>\n</body></html>\n";
 }
 
 } // namespace surgicalmesher

@@ -147,7 +147,7 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::Ref<const Eigen::MatrixXd>& r
   cholmod_dense view = viewOf(rightSides);
   cholmod_dense* solution = cholmod_solve(CHOLMOD_A, d->factor, &view, &d->common);
   d->requireMemory();
-  const Eigen::MatrixXd result =
+  Eigen::MatrixXd result =
     Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), rightSides.rows(), rightSides.cols());
   cholmod_free_dense(&solution, &d->common);
   return result;

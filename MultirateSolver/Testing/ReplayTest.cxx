@@ -50,6 +50,30 @@ void addSprings(const CoupledMesh& mesh, const WholeSolution& atRest, const Vec3
     springs.push_back({ p, options.toolStiffness / double(held.size()), motion + atRest.at(std::size_t(p)) });
 }
 
+struct Pull
+{
+  Vec3 tip, motion;
+};
+
+/// How far two linear children, drawn at so, end from where they are in the whole mesh.
+double errorOfTwoChildren(const std::vector<Pull>& pulls)
+{
+  const DividedBox box = dividedBox(2);
+  const CoupledMesh mesh = coupledMesh(box.parent, box.child, {});
+  const ReplayOptions setting = options(ChildLaw::Linear);
+  WholeSolution whole(mesh, setting.weight, 0);
+  whole.solve({});
+  std::vector<ToolPath> tools;
+  std::vector<PointSpring> springs;
+  for (const auto& [tip, motion] : pulls)
+  {
+    tools.push_back(tool(tip, motion));
+    addSprings(mesh, whole, tip, motion, setting, springs);
+  }
+  whole.solve(springs);
+  return whole.errorOf(replay(mesh, tools, setting).displacements);
+}
+
 std::string refusalOf(const std::vector<ToolPath>& tools, const ReplayOptions& options, int children = 1)
 {
   const DividedBox box = dividedBox(children);
@@ -109,33 +133,12 @@ TEST(Replay, ANeoHookeanChildMovesAsInTheWholeMesh)
 
 TEST(Replay, TwoChildrenWithAToolEachMoveAsInTheWholeMesh)
 {
-  const DividedBox box = dividedBox(2);
-  const CoupledMesh mesh = coupledMesh(box.parent, box.child, {});
-  const ReplayOptions setting = options(ChildLaw::Linear);
-  const Vec3 first{ 2, 1, -1 }, second{ -3, 0, 1 };
-  const ReplayResult result = replay(mesh, { tool(kSecondTip, second), tool(kFirstTip, first) }, setting);
-  WholeSolution whole(mesh, setting.weight, 0);
-  whole.solve({});
-  std::vector<PointSpring> springs;
-  addSprings(mesh, whole, kFirstTip, first, setting, springs);
-  addSprings(mesh, whole, kSecondTip, second, setting, springs);
-  whole.solve(springs);
-  EXPECT_LT(whole.errorOf(result.displacements), 1e-8);
+  EXPECT_LT(errorOfTwoChildren({ { kSecondTip, { -3, 0, 1 } }, { kFirstTip, { 2, 1, -1 } } }), 1e-8);
 }
 
 TEST(Replay, AChildWithoutAToolFollowsTheOther)
 {
-  const DividedBox box = dividedBox(2);
-  const CoupledMesh mesh = coupledMesh(box.parent, box.child, {});
-  const ReplayOptions setting = options(ChildLaw::Linear);
-  const Vec3 motion{ 2, 1, -1 };
-  const ReplayResult result = replay(mesh, { tool(kFirstTip, motion) }, setting);
-  WholeSolution whole(mesh, setting.weight, 0);
-  whole.solve({});
-  std::vector<PointSpring> springs;
-  addSprings(mesh, whole, kFirstTip, motion, setting, springs);
-  whole.solve(springs);
-  EXPECT_LT(whole.errorOf(result.displacements), 1e-8);
+  EXPECT_LT(errorOfTwoChildren({ { kFirstTip, { 2, 1, -1 } } }), 1e-8);
 }
 
 TEST(Replay, WithoutAToolTheMeshHangsAtRest)
