@@ -2,13 +2,18 @@
 #include "Export.h"
 
 #include "AbaqusExport.h"
+#include "AnsysExport.h"
 #include "Errors.h"
 #include "FebioExport.h"
 #include "GmshExport.h"
+#include "LsDynaExport.h"
 #include "MeditExport.h"
 #include "NastranExport.h"
 #include "TissueSurfaceExport.h"
 #include "VtkExport.h"
+#ifdef SURGICALMESHER_EXODUS
+#include "ExodusExport.h"
+#endif
 #ifdef SURGICALMESHER_HDF5
 #include "TextFile.h"
 #include "XdmfExport.h"
@@ -23,8 +28,13 @@ const std::vector<ExportFormat>& exportFormats()
 {
   static const std::vector<ExportFormat> formats{
     { ".bdf", "Nastran", writeNastran },
+    { ".cdb", "Ansys Mechanical APDL", writeAnsys },
+#ifdef SURGICALMESHER_EXODUS
+    { ".exo", "Exodus II", writeExodus },
+#endif
     { ".feb", "FEBio 4.0", writeFebio },
     { ".inp", "Abaqus, CalculiX", writeAbaqus },
+    { ".k", "LS-DYNA", writeLsDyna },
     { ".mesh", "Medit, FreeFEM", writeMedit, false },
     { ".msh", "Gmsh 4.1", writeGmsh41 },
     { ".msh2", "Gmsh 2.2, GetFEM", writeGmsh22 },

@@ -91,13 +91,13 @@ std::string validName(const std::string& text, std::size_t length)
 
 std::string SetNames::unique(const std::string& text, const std::string& fallback)
 {
-  std::string name = validName(text);
-  if (name.empty()) name = validName(fallback);
+  std::string name = validName(text, m_Longest);
+  if (name.empty()) name = validName(fallback, m_Longest);
   std::string result = name;
   for (int n = 2; !m_Taken.insert(upperCase(result)).second; ++n)
   {
     const std::string suffix = "_" + std::to_string(n);
-    result = shortened(name, kLongestName - suffix.size()) + suffix;
+    result = shortened(name, m_Longest - suffix.size()) + suffix;
   }
   return result;
 }

@@ -26,10 +26,13 @@ std::string validUtf8(const std::string& text);
 class SetNames
 {
 public:
+  explicit SetNames(std::size_t longest = kLongestName) : m_Longest(longest) {}
+
   /// The valid name of `text`, or of `fallback` if none is left, with _2, _3 ... at its end if it is taken.
   std::string unique(const std::string& text, const std::string& fallback = "unnamed");
 
 private:
+  std::size_t m_Longest;
   std::set<std::string> m_Taken; ///< upper case
 };
 

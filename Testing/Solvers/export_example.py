@@ -11,7 +11,7 @@ import sys
 from sagging_head import materials
 
 BIN, EXAMPLE, OUTDIR = map(os.path.abspath, sys.argv[1:4])
-FORMATS = ("bdf", "feb", "inp", "mesh", "msh", "msh2", "ply", "stl", "vtk", "vtu", "xdmf")
+FORMATS = ("bdf", "cdb", "exo", "feb", "inp", "k", "mesh", "msh", "msh2", "ply", "stl", "vtk", "vtu", "xdmf")
 
 shutil.rmtree(OUTDIR, ignore_errors=True)
 os.makedirs(OUTDIR)

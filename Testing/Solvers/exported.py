@@ -12,9 +12,12 @@ from types import SimpleNamespace
 
 import meshio
 import numpy as np
+from scipy.io import netcdf_file
 
 from sidecar import Sidecar
 
+# Exodus's manual: side 1 has corners 1-2-4, 2 2-3-4, 3 1-4-3, 4 1-3-2, wound out of the tetrahedron.
+EXODUS_FACES = np.array([[0, 1, 3], [1, 2, 3], [0, 3, 2], [0, 2, 1]])
 # CalculiX's manual: S1 has corners 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1; here wound out of the tetrahedron.
 ABAQUS_FACES = {"S1": [0, 2, 1], "S2": [0, 1, 3], "S3": [1, 2, 3], "S4": [0, 3, 2]}
 
@@ -180,5 +183,121 @@ def read_bdf(file):
     return SimpleNamespace(points=mesh.points, tetrahedra=tetrahedra, cells=cells, nodes={}, faces=faces)
 
 
-READERS = {"bdf": read_bdf, "feb": read_feb, "inp": read_inp, "mesh": read_medit, "msh": read_msh, "msh2": read_msh2, "vtk": read_vtk,
-           "vtu": read_vtk, "xdmf": read_xdmf}
+def columns(line, *widths):
+    """The fields of a line, each of the last width once more as long as there are any."""
+    fields, at = [], 0
+    for width in widths + widths[-1:] * len(line):
+        if at >= len(line.rstrip()):
+            return fields
+        fields.append(line[at:at + width].strip())
+        at += width
+
+
+def cards(file):
+    """Of a keyword file: keyword and data lines, by LS-DYNA's manual."""
+    with open(file, encoding="ascii") as stream:
+        lines = [line.rstrip("\n") for line in stream if not line.startswith("$")]
+    starts = [i for i, line in enumerate(lines) if line.startswith("*")]
+    assert lines[0] == "*KEYWORD" and lines[-1] == "*END"
+    return [(lines[i][1:], lines[i + 1:j]) for i, j in zip(starts, starts[1:])]
+
+
+def read_k_mesh(file):
+    """Points, solids by number of different nodes (part, nodes), and all cards."""
+    found = cards(file)
+    nodes = [columns(line, 8, 16, 16, 16) for line in next(lines for name, lines in found if name == "NODE")]
+    assert [int(row[0]) for row in nodes] == list(range(1, len(nodes) + 1))
+    solids, pending = [], None
+    for line in next(lines for name, lines in found if name == "ELEMENT_SOLID"):
+        row = [int(field) for field in columns(line, 8)]
+        if len(row) == 2:  # its nodes are in a line of their own
+            pending = row
+        else:
+            solids.append(pending + row if pending else row)
+            pending = None
+    solids = np.array(solids)
+    np.testing.assert_array_equal(solids[:, 0], np.arange(1, len(solids) + 1))
+    if solids.shape[1] == 10:
+        assert (solids[:, 5:] == solids[:, 5:6]).all()  # a tetrahedron is a hexahedron whose upper corners are one
+        solids = solids[:, :6]
+    return np.array([row[1:] for row in nodes], float), solids[:, 1], solids[:, 2:] - 1, found
+
+
+def read_k(file):
+    points, parts, tetrahedra, found = read_k_mesh(file)
+    result = SimpleNamespace(points=points, tetrahedra=tetrahedra, cells={}, nodes={}, faces={})
+    for keyword, lines in found:
+        if keyword.startswith("SET_"):
+            rows = [[int(field) - 1 for field in columns(line, 10)] for line in lines[2:]]
+            kind = {"SET_SOLID_TITLE": result.cells, "SET_NODE_LIST_TITLE": result.nodes,
+                    "SET_SEGMENT_TITLE": result.faces}[keyword]
+            kind[lines[0]] = np.array(rows)[:, :3] if kind is result.faces else np.concatenate(rows)
+    titles = {int(columns(lines[1], 10)[0]): lines[0] for keyword, lines in found if keyword == "PART"}
+    for number, name in titles.items():
+        if number in parts:
+            np.testing.assert_array_equal(np.flatnonzero(parts == number), result.cells[name])
+    return result
+
+
+def read_cdb_mesh(file):
+    """By Ansys's description of archives: points, element types, rows of EBLOCK (19 fields), components."""
+    with open(file, encoding="ascii") as stream:
+        text = stream.read()
+    block = re.search(r"^NBLOCK,6,SOLID,(\d+),(\d+)\n\(3i9,6e21\.13e3\)\n(.*?)^N,R5\.3,LOC, +-1,$", text, re.M | re.S)
+    rows = [columns(line, 9, 9, 9, 21) for line in block.group(3).splitlines()]
+    assert [int(row[0]) for row in rows] == list(range(1, int(block.group(2)) + 1))
+    assert all("." in number for row in rows for number in row[3:])
+    points = np.array([row[3:] for row in rows], float)
+    block = re.search(r"^EBLOCK,19,SOLID,(\d+),(\d+)\n\(19i9\)\n(.*?)^ +-1$", text, re.M | re.S)
+    elements = []
+    for line in block.group(3).splitlines():
+        row = [int(field) for field in columns(line, 9)]
+        if elements and len(elements[-1]) < 11 + elements[-1][8]:
+            elements[-1] += row
+        else:
+            elements.append(row)
+    assert [row[10] for row in elements] == list(range(1, int(block.group(2)) + 1))
+    sets = re.findall(r"^CMBLOCK,(\w+),(NODE|ELEM), *(\d+)\n\(8i10\)\n([ \d\n]+)", text, re.M)
+    sets = {kind: {name: (int(count), np.array(ids.split(), int) - 1) for name, other, count, ids in sets if other == kind}
+            for kind in ("ELEM", "NODE")}
+    assert all(count == len(ids) and len(name) <= 32 for some in sets.values() for name, (count, ids) in some.items())
+    types = {int(a): int(b) for a, b in re.findall(r"^ET,(\d+),(\d+)$", text, re.M)}
+    return points, types, elements, {kind: {name: ids for name, (_, ids) in some.items()} for kind, some in sets.items()}
+
+
+def read_cdb(file):
+    points, types, elements, sets = read_cdb_mesh(file)
+    tetrahedra = np.array([row[11:] for row in elements if types[row[1]] == 285]) - 1
+    return SimpleNamespace(points=points, tetrahedra=tetrahedra, cells=sets["ELEM"], nodes=sets["NODE"], faces={})
+
+
+def read_exo_mesh(file):
+    """By the manual of Exodus II: points, blocks (name, type, nodes), numbers of elements, and all else in the file."""
+    with netcdf_file(file, mmap=False) as content:
+        found = {name: np.array(variable.data) for name, variable in content.variables.items()}
+        types = [content.variables[f"connect{i + 1}"].elem_type.decode() for i in range(content.dimensions["num_el_blk"])]
+    names = {name[:-6]: [b"".join(row).split(b"\0")[0].decode() for row in rows]
+             for name, rows in found.items() if name.endswith("_names")}
+    blocks = [(name, kind, found[f"connect{i}"] - 1) for i, (name, kind) in enumerate(zip(names["eb"], types), 1)]
+    return np.column_stack([found["coord" + axis] for axis in "xyz"]), blocks, found["elem_num_map"] - 1, names, found
+
+
+def read_exo(file):
+    points, blocks, numbers, names, found = read_exo_mesh(file)
+    kinds = np.repeat([kind == "TETRA" for _, kind, _ in blocks], [len(nodes) for _, _, nodes in blocks])
+    tetrahedra = np.empty((np.count_nonzero(kinds), 4), int)
+    tetrahedra[numbers[kinds]] = np.concatenate([nodes for _, kind, nodes in blocks if kind == "TETRA"])
+    result = SimpleNamespace(points=points, tetrahedra=tetrahedra, faces={})
+    result.cells = {name: numbers[found[f"elem_els{i}"] - 1] for i, name in enumerate(names["els"], 1)}
+    result.nodes = {name: found[f"node_ns{i}"] - 1 for i, name in enumerate(names["ns"], 1)}
+    for i, name in enumerate(names["ss"], 1):
+        owners = tetrahedra[numbers[found[f"elem_ss{i}"] - 1]]
+        result.faces[name] = np.take_along_axis(owners, EXODUS_FACES[found[f"side_ss{i}"] - 1], axis=1)
+    for name, kind, nodes in blocks:
+        if kind == "TETRA":
+            np.testing.assert_array_equal(np.sort(tetrahedra[result.cells[name]], axis=0), np.sort(nodes, axis=0))
+    return result
+
+
+READERS = {"bdf": read_bdf, "cdb": read_cdb, "exo": read_exo, "feb": read_feb, "inp": read_inp, "k": read_k, "mesh": read_medit,
+           "msh": read_msh, "msh2": read_msh2, "vtk": read_vtk, "vtu": read_vtk, "xdmf": read_xdmf}

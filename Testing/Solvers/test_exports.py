@@ -16,8 +16,8 @@ from meshfiles import cell_array, read_dataset, read_mesh  # noqa: E402
 from sidecar import Sidecar  # noqa: E402
 
 EXPORTS = sys.argv[1]
-WITH_FACES = ("feb", "inp", "mesh", "msh", "msh2", "xdmf")
-WITH_BOTH_SIDES = ("feb", "inp")
+WITH_FACES = ("exo", "feb", "inp", "k", "mesh", "msh", "msh2", "xdmf")
+WITH_BOTH_SIDES = ("exo", "feb", "inp", "k")
 
 
 def path(name):

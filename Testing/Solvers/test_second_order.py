@@ -11,7 +11,7 @@ import unittest
 import numpy as np
 import vtk
 
-from exported import meshio_read
+from exported import meshio_read, read_cdb_mesh, read_exo_mesh, read_k_mesh
 from sidecar import Sidecar
 
 MODULES, FOLDER = sys.argv[1:3]
@@ -19,7 +19,7 @@ SKIPPED = 77
 LENGTH, SIDE = 60.0, 6.0  # mm
 YOUNGS_MODULUS, POISSONS_RATIO = 2.0, 0.3  # MPa
 FORCE = 1e-4  # N
-FORMATS = ("bdf", "feb", "inp", "msh", "msh2", "vtk", "vtu", "xdmf")
+FORMATS = ("bdf", "cdb", "exo", "feb", "inp", "k", "msh", "msh2", "vtk", "vtu", "xdmf")
 SETS = ("--nodeSet", "root: plane 0 0 0 -1 0 0", "--nodeSet", f"edge: box 20 {-SIDE / 2} {-SIDE / 2} 40 {-SIDE / 2} {-SIDE / 2}",
         "--nodeSet", "ball: sphere 30 0 0 4", "--nodeSet", "ball: sphere 45 0 0 4")
 EDGES = np.array([(0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)])
@@ -82,6 +82,17 @@ def read_tetrahedra(extension):
     file = path("bar2." + extension)
     if extension == "feb":
         return read_feb_of_second_order(file)
+    if extension == "k":
+        points, _, tetrahedra, _ = read_k_mesh(file)
+        return points, tetrahedra, None
+    if extension == "cdb":
+        points, types, elements, _ = read_cdb_mesh(file)
+        assert set(types.values()) == {187}
+        return points, np.array([row[11:] for row in elements]) - 1, None
+    if extension == "exo":
+        points, [(_, kind, tetrahedra)], _, _, _ = read_exo_mesh(file)
+        assert kind == "TETRA10"
+        return points, tetrahedra, None
     mesh = meshio_read(file, **({"file_format": "gmsh"} if extension == "msh2" else {}))
     tetrahedra = np.concatenate([block.data for block in mesh.cells if block.type == "tetra10"])
     triangles = [block.data for block in mesh.cells if block.type == "triangle6"]
@@ -165,6 +176,19 @@ class SecondOrder(unittest.TestCase):
             np.testing.assert_allclose(theirs.points, ours.points, rtol=1e-9, atol=1e-9)
             np.testing.assert_array_equal(theirs.cells[0].data, ours.cells[0].data)
             self.assertEqual(set(theirs.cell_data["nastran:ref"][0]), {1})
+
+    def test_vtk_reads_exodus(self):
+        for order, kind in ((1, vtk.VTK_TETRA), (2, vtk.VTK_QUADRATIC_TETRA)):
+            reader = vtk.vtkExodusIIReader()
+            reader.SetFileName(path(f"bar{order}.exo"))
+            reader.Update()
+            grid = reader.GetOutput().GetBlock(0).GetBlock(0)
+            ours = meshio_read(path(f"bar{order}.vtu"))
+            self.assertEqual({grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}, {kind})
+            self.assertEqual((grid.GetNumberOfPoints(), grid.GetNumberOfCells()), (len(ours.points), len(ours.cells[0].data)))
+            names = [reader.GetObjectName(vtk.vtkExodusIIReader.NODE_SET, i)
+                     for i in range(reader.GetNumberOfObjects(vtk.vtkExodusIIReader.NODE_SET))]
+            self.assertTrue({"root", "edge", "ball", "outer_boundary_nodes"} <= {name.split(" ")[0] for name in names}, names)
 
     def test_gmsh_reads_it(self):
         import gmsh

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FebioExport.h"
 
+#include "Portions.h"
 #include "TextFile.h"
 #include "TextNumbers.h"
 
@@ -28,30 +29,7 @@ void appendRow(std::string& text, const std::string& tag, const Cell& cell, std:
   text += "</" + tag + ">\n";
 }
 
-std::string typeOf(const Cell& element)
-{
-  if (element.size() == 10) return "tet10";
-  return element.size() == 4 ? "tet4" : element.size() == 6 ? "penta6" : "hex8";
-}
 std::string typeOfFace(const Cell& face) { return face.size() == 3 ? "tri3" : face.size() == 6 ? "tri6" : "quad4"; }
-
-/// A set's elements of one type, and what they are called.
-struct Portion
-{
-  std::string name, type;
-  std::vector<std::int32_t> elements;
-};
-
-/// A part has elements of one type: a set of several becomes several parts, with the types in their names.
-std::vector<Portion> portionsOf(const FiniteElementModel& model, const ElementSet& set)
-{
-  std::map<std::string, std::vector<std::int32_t>> byType;
-  for (const std::int32_t e : set.elements) byType[typeOf(model.elements[e])].push_back(e);
-  std::vector<Portion> portions;
-  for (const auto& [type, elements] : byType)
-    portions.push_back({ set.name + (byType.size() == 1 ? "" : "_" + type), type, elements });
-  return portions;
-}
 
 std::string beamMaterialName(const Beam& beam) { return beam.name + "_material"; }
 
@@ -115,7 +93,7 @@ void appendParts(std::string& text, const FiniteElementModel& model)
   {
     for (const Portion& part : portionsOf(model, model.elementSets[section.elementSet]))
     {
-      text += "    <Elements type=\"" + part.type + "\" name=\"" + part.name + "\">\n";
+      text += "    <Elements type=\"" + part.shape + "\" name=\"" + part.name + "\">\n";
       for (const std::int32_t e : part.elements) appendRow(text, "elem", model.elements[e], e + 1);
       text += "    </Elements>\n";
     }

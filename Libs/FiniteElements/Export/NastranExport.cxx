@@ -4,9 +4,7 @@
 #include "TextFile.h"
 #include "TextNumbers.h"
 
-#include <locale>
 #include <map>
-#include <sstream>
 
 namespace surgicalmesher
 {
@@ -26,22 +24,7 @@ std::string field(const std::string& text, std::size_t width)
   return text + std::string(width > text.size() ? width - text.size() : 0, ' ');
 }
 
-/// The most digits that a wide field takes; a real number has a point.
-std::string wide(double value)
-{
-  std::string text = textOf(value);
-  for (int digits = 15; text.size() > kWide; --digits)
-  {
-    std::ostringstream rounded;
-    rounded.imbue(std::locale::classic());
-    rounded.precision(digits);
-    rounded << value;
-    text = rounded.str();
-  }
-  const std::size_t exponent = text.find('e');
-  if (text.find('.') == std::string::npos) text.insert(exponent == std::string::npos ? text.size() : exponent, ".");
-  return field(text, kWide);
-}
+std::string wide(double value) { return field(textWithin(value, kWide), kWide); }
 
 /// A card of whole numbers, on as many lines as it needs.
 void appendCard(std::string& text, const std::string& name, const std::vector<std::string>& fields)

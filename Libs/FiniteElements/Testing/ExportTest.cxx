@@ -17,6 +17,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace surgicalmesher
@@ -455,6 +456,49 @@ TEST(Export, ShellFilesShareThePointsOfTheVolume)
     }
   }
   EXPECT_EQ(cell, data->GetNumberOfPolys());
+}
+
+/// The numbers between `head`, which is there once, and the end of so many lines.
+Numbers numbersAfter(const std::string& text, const std::string& head, int lines = 1)
+{
+  const std::size_t at = text.find(head);
+  EXPECT_NE(at, std::string::npos) << head;
+  EXPECT_EQ(text.find(head, at + 1), std::string::npos) << head;
+  std::size_t end = at + head.size();
+  for (int i = 0; i < lines; ++i) end = text.find('\n', end) + 1;
+  return numbersIn(text.substr(at + head.size(), end - at - head.size()));
+}
+
+TEST(Export, LsDynaAndAnsysHaveTheMaterials)
+{
+  const FiniteElementModel model = richModel();
+  const std::string deck = written(model, "m.k"), archive = written(model, "m.cdb");
+  std::set<MaterialLaw> laws;
+  for (std::size_t m = 0; m < model.materials.size(); ++m)
+  {
+    const Material& material = model.materials[m];
+    const double E = material.youngsModulus, nu = material.poissonsRatio;
+    const std::string number = std::to_string(m + 1);
+    EXPECT_EQ(numbersAfter(archive, "MP,DENS," + number), Numbers{ material.density });
+    laws.insert(material.law);
+    if (material.law == MaterialLaw::LinearElastic)
+    {
+      EXPECT_EQ(numbersAfter(deck, "*MAT_ELASTIC_TITLE\n" + material.name + "\n"),
+                (Numbers{ m + 1.0, material.density, E, nu }));
+      EXPECT_EQ(numbersAfter(archive, "MP,EX," + number), Numbers{ E });
+      EXPECT_EQ(numbersAfter(archive, "MP,PRXY," + number), Numbers{ nu });
+      continue;
+    }
+    const Numbers ogden = numbersAfter(deck, "*MAT_OGDEN_RUBBER_TITLE\n" + material.name + "\n", 3);
+    ASSERT_EQ(ogden.size(), 6u); // number, density, Poisson's ratio, no fit; coefficient; exponent
+    EXPECT_EQ(ogden[2], nu);
+    EXPECT_NEAR(ogden[4] * ogden[5] / 2, E / (2 + 2 * nu), 1e-5 * E); // the shear modulus, in ten columns
+    const Numbers neoHooke = numbersAfter(archive, "TB,HYPER," + number + ",1,2,NEO\nTBDATA");
+    ASSERT_EQ(neoHooke.size(), 3u);
+    EXPECT_DOUBLE_EQ(neoHooke[1], E / (2 + 2 * nu));
+    EXPECT_DOUBLE_EQ(2 / neoHooke[2], E / (3 - 6 * nu)); // the bulk modulus
+  }
+  EXPECT_EQ(laws.size(), 2u);
 }
 
 TEST(Export, EveryFormatGivesTheSameBytesTwiceAndASidecar)

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -163,6 +164,36 @@ TEST(SolidExport, GmshAndMeditHaveAllShapes)
   EXPECT_EQ(between(medit, "Hexahedra\n", "\n\n"), "2\n 1 2 3 4 5 6 7 8 1\n 5 6 7 8 9 10 11 12 2");
   EXPECT_EQ(between(medit, "Triangles\n", "\n"), "4");
   EXPECT_EQ(between(medit, "Quadrilaterals\n", "\n"), "13");
+}
+
+TEST(SolidExport, LsDynaHasPartsOfOneShape)
+{
+  const std::string deck = written("m.k");
+  // A wedge: a quadrilateral, then the edge opposite to it, each of its nodes twice (LS-DYNA's manual).
+  EXPECT_EQ(between(deck, "*ELEMENT_SOLID\n", "*"),
+            "       1       1       1       2       3       4       5       6       7       8\n"
+            "       2       2       5       6       7       8       9      10      11      12\n"
+            "       3       3      14       9      12      15      10      10      11      11\n"
+            "       4       3      13       9      12      16      14      14      15      15\n");
+  EXPECT_EQ(between(deck, "*PART\nmuscle_penta6\n", "*MAT"),
+            "         3         3         1\n*SECTION_SOLID\n         3        15\n");
+  EXPECT_EQ(between(deck, "*SET_SEGMENT_TITLE\nend_faces\n         6\n", "*"),
+            "         1         4         3         2\n");
+}
+
+TEST(SolidExport, AnsysRepeatsNodesOfWedges)
+{
+  const std::string archive = written("m.cdb");
+  EXPECT_NE(archive.find("ET,1,185\n"), std::string::npos);
+  const std::string elements = between(archive, "EBLOCK,19,SOLID,4,4\n(19i9)\n", "       -1\n");
+  std::istringstream numbers(elements);
+  const std::vector<int> found{ std::istream_iterator<int>(numbers), {} };
+  ASSERT_EQ(found.size(), 4u * 19);
+  EXPECT_EQ(std::vector<int>(found.begin() + 2 * 19 + 11, found.begin() + 3 * 19),
+            (std::vector<int>{ 9, 14, 10, 10, 12, 15, 11, 11 }));
+  EXPECT_EQ(found[8], 8);
+  EXPECT_EQ(between(archive, "CMBLOCK,end,NODE,         4\n(8i10)\n", "FINISH"),
+            "         1         2         3         4\n");
 }
 
 TEST(SolidExport, SurfacesAreClosedTriangles)
