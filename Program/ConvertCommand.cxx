@@ -8,6 +8,7 @@
 #include "NodeChoices.h"
 #include "SecondOrder.h"
 #include "ShellChoices.h"
+#include "Units.h"
 
 #include <set>
 
@@ -52,6 +53,7 @@ void convertCommand(CommandLine& line)
   }
   FiniteElementModel model = finiteElementModel(content, readOptions(line, content));
   if (line.integer("elementOrder") == 2) model = withMidSideNodes(std::move(model));
+  model = inUnits(std::move(model), unitsNamed(line.text("units")));
   double done = 0;
   for (const std::string& file : files)
   {

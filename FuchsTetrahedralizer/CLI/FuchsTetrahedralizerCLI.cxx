@@ -20,6 +20,7 @@
 #include "Tetrahedralizer.h"
 #include "TextFile.h"
 #include "TissueMapIO.h"
+#include "Units.h"
 #include "VtkExport.h"
 #include "Warnings.h"
 
@@ -186,6 +187,7 @@ void writeExports(CommandLine& line, const MeshFile& content, const FiniteElemen
   FiniteElementModel model = finiteElementModel(content, options);
   if (!shells.empty()) writeShells(model, shells);
   if (line.integer("elementOrder") == 2) model = withMidSideNodes(std::move(model));
+  model = inUnits(std::move(model), unitsNamed(line.text("units")));
   for (const std::string& file : files)
   {
     exportModel(model, file, [&](const std::string& finalPath) { return line.outputPath(finalPath); });

@@ -4,7 +4,7 @@
 /// this and from nothing else.
 ///
 /// Ids of points and elements count from 0, as in the mesh; formats that count from 1 add 1. Lengths in mm, LPS.
-/// Units of materials are consistent with that: N, tonne, s, hence MPa and tonne/mm^3.
+/// Units of materials are consistent with that: N, tonne, s, hence MPa and tonne/mm^3. Units.h makes SI units of them.
 
 #include "Cell.h"
 #include "MeshIO.h"
@@ -108,8 +108,16 @@ struct Beam : SetInfo
   std::int32_t material = 0; ///< index into FiniteElementModel::materials
 };
 
+/// What all numbers of a model are in.
+enum class Units
+{
+  Millimetres, ///< mm, N, MPa, tonne, s
+  SI           ///< m, N, Pa, kg, s
+};
+
 struct FiniteElementModel
 {
+  Units units = Units::Millimetres;
   /// Points, labels and the arrays that travel with them; subMesh and constitutive filled. Of a SolidMesh without its
   /// elements.
   MeshFile content;

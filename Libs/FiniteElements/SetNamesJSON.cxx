@@ -108,9 +108,10 @@ std::string setNamesJSON(const FiniteElementModel& model)
     writeObject(json, "units",
                 [&]
                 {
-                  writeMember(json, "length", "mm");
-                  writeMember(json, "stress", "MPa");
-                  writeMember(json, "density", "tonne/mm^3");
+                  const bool si = model.units == Units::SI;
+                  writeMember(json, "length", si ? "m" : "mm");
+                  writeMember(json, "stress", si ? "Pa" : "MPa");
+                  writeMember(json, "density", si ? "kg/m^3" : "tonne/mm^3");
                 });
     writeSets(json, model);
     writeMaterials(json, model);

@@ -2,6 +2,7 @@
 
 usage: test_second_order.py MODULES FOLDER. Without CalculiX or gmsh the status is 77.
 """
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -12,7 +13,7 @@ import numpy as np
 import vtk
 
 from exported import meshio_read, read_cdb_mesh, read_exo_mesh, read_k_mesh
-from sidecar import Sidecar
+from sidecar import Sidecar, lame
 
 MODULES, FOLDER = sys.argv[1:3]
 SKIPPED = 77
@@ -58,23 +59,49 @@ def run_module(*arguments):
                           stderr=subprocess.PIPE, text=True, cwd=FOLDER)
 
 
-def deflection(order):
-    """Of the free end in CalculiX, per that of a beam that bends and shears."""
-    mesh = f"bar{order}.inp"
-    points = meshio_read(path(mesh)).points
-    tip = np.flatnonzero(points[:, 0] > LENGTH - 1e-9)
-    name = f"load{order}"
-    with open(path(name + ".inp"), "w", encoding="ascii") as deck:
-        deck.write(DECK.format(mesh=mesh, loads="\n".join(f"{i + 1}, 2, {FORCE / len(tip):.8g}" for i in tip)))
-    run = subprocess.run(["ccx", name], cwd=FOLDER, stdout=subprocess.PIPE, text=True)
-    if run.returncode or "*ERROR" in run.stdout:
-        raise AssertionError(run.stdout[-3000:])
-    with open(path(name + ".dat"), encoding="ascii") as results:
-        rows = [line.split() for line in results]
-    moved = {int(row[0]): float(row[2]) for row in rows if len(row) == 4 and row[0].isdigit()}
+def over_the_beams(deflection):
+    """A deflection (mm) of the free end per that of a beam that bends and shears."""
     bending = FORCE * LENGTH ** 3 / (3 * YOUNGS_MODULUS * SIDE ** 4 / 12)
     shear = FORCE * LENGTH / (5 / 6 * YOUNGS_MODULUS / (2 + 2 * POISSONS_RATIO) * SIDE ** 2)
-    return np.mean([moved[i + 1] for i in tip]) / (bending + shear)
+    return deflection / (bending + shear)
+
+
+def calculix(name, millimetre=1.0):
+    """Deflection of a bar by the deck that it is."""
+    points = meshio_read(path(name + ".inp")).points
+    tip = np.flatnonzero(points[:, 0] > (LENGTH - 1e-9) * millimetre)
+    with open(path(f"load_{name}.inp"), "w", encoding="ascii") as deck:
+        deck.write(DECK.format(mesh=name + ".inp", loads="\n".join(f"{i + 1}, 2, {FORCE / len(tip):.8g}" for i in tip)))
+    run = subprocess.run(["ccx", "load_" + name], cwd=FOLDER, stdout=subprocess.PIPE, text=True)
+    if run.returncode or "*ERROR" in run.stdout:
+        raise AssertionError(run.stdout[-3000:])
+    with open(path(f"load_{name}.dat"), encoding="ascii") as results:
+        rows = [line.split() for line in results]
+    moved = {int(row[0]): float(row[2]) for row in rows if len(row) == 4 and row[0].isdigit()}
+    return over_the_beams(np.mean([moved[i + 1] for i in tip]) / millimetre)
+
+
+def in_getfem(order):
+    """The same by GetFEM, whose own elements have the mesh's order; the load is spread over the end's area."""
+    import getfem
+
+    mesh = getfem.Mesh("import", "gmsh", path(f"bar{order}.msh2"))
+    assert f"PK(3,{order})" in mesh.geotrans()[0].char()
+    for region, side in ((1001, 0), (1002, LENGTH)):
+        at_end = np.flatnonzero(np.abs(mesh.pts()[0] - side) < 1e-9)
+        mesh.set_region(region, mesh.faces_from_pid(at_end))
+    space, rule = getfem.MeshFem(mesh, 3), getfem.MeshIm(mesh, getfem.Integ("IM_TETRAHEDRON(5)"))
+    space.set_fem(getfem.Fem(f"FEM_PK(3,{order})"))
+    model = getfem.Model("real")
+    model.add_fem_variable("u", space)
+    first, shear = lame({"youngsModulus": YOUNGS_MODULUS, "poissonsRatio": POISSONS_RATIO})
+    model.add_initialized_data("first", first)
+    model.add_initialized_data("shear", shear)
+    model.add_isotropic_linearized_elasticity_brick(rule, "u", "first", "shear")
+    model.add_linear_term(rule, f"{-FORCE / SIDE ** 2:.17g}*Test_u(2)", 1002)
+    model.add_Dirichlet_condition_with_simplification("u", 1001)
+    model.solve("lsolver", "mumps")
+    return over_the_beams(getfem.asm_generic(rule, 0, "u(2)", 1002, model) / SIDE ** 2)
 
 
 def read_tetrahedra(extension):
@@ -126,12 +153,24 @@ class SecondOrder(unittest.TestCase):
                               "materials.csv", *SETS, *exports, "box.vtp", f"mesh{order}.vtu")
             assert done.returncode == 0, done.stderr
 
-    def test_a_bar_bends_as_the_beam(self):
-        first, second = deflection(1), deflection(2)
+    def expect_bending(self, first, second):
         print("deflection over the beam's", first, second)
         self.assertAlmostEqual(second, 1, delta=0.02)  # the held end cannot widen
         self.assertLess(first, 0.95)  # of first order, it is too stiff
         self.assertGreater(first, 0.6)
+
+    def test_a_bar_bends_as_the_beam(self):
+        self.expect_bending(calculix("bar1"), calculix("bar2"))
+
+    @unittest.skipUnless(importlib.util.find_spec("getfem"), "getfem is not installed")
+    def test_a_bar_bends_in_getfem(self):
+        self.expect_bending(in_getfem(1), in_getfem(2))
+
+    def test_a_bar_bends_in_metres(self):
+        done = run_module("surgicalmesher", "convert", "--units", "si", "--elementOrder", "2", "--materials", "materials.csv",
+                          *SETS, "mesh1.vtu", "metres.inp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertAlmostEqual(calculix("metres", 1e-3) / calculix("bar2"), 1, delta=1e-4)
 
     def test_nodes_are_in_the_middle_of_edges(self):
         corners = meshio_read(path("bar1.vtu"))

@@ -3,6 +3,7 @@
 
 #include "TextFile.h"
 #include "TextNumbers.h"
+#include "Units.h"
 
 #include <algorithm>
 #include <cmath>
@@ -170,7 +171,7 @@ void appendClamps(std::string& text, const FiniteElementModel& model)
 
 void writeAbaqus(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
-  std::string text = "*HEADING\nLPS; mm, N, MPa, tonne, s\n";
+  std::string text = "*HEADING\n" + frameAndUnits(model) + "\n";
   appendNodes(text, model.content.mesh.points);
   appendElements(text, model);
   appendSets(text, model);

@@ -4,6 +4,7 @@
 #include "SetNames.h"
 #include "TextFile.h"
 #include "TextNumbers.h"
+#include "Units.h"
 
 #include <map>
 
@@ -183,7 +184,7 @@ void appendComponents(std::string& text, const FiniteElementModel& model)
 void writeAnsys(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
   const Types types = typesOf(model);
-  std::string text = "/COM, LPS; mm, N, MPa, tonne, s\n/PREP7\n";
+  std::string text = "/COM, " + frameAndUnits(model) + "\n/PREP7\n";
   appendTypes(text, types);
   appendMaterials(text, model.materials);
   appendShellSections(text, model);

@@ -3,6 +3,7 @@
 
 #include "Errors.h"
 #include "Portions.h"
+#include "Units.h"
 
 #include <vtk_exodusII.h>
 
@@ -134,7 +135,7 @@ public:
     sizes.num_node_sets = static_cast<std::int64_t>(model.nodeSets.size());
     sizes.num_side_sets = static_cast<std::int64_t>(model.surfaces.size());
     require(ex_put_init_ext(m_Id, &sizes));
-    std::string units = "LPS; mm, N, MPa, tonne, s";
+    std::string units = frameAndUnits(model);
     char* lines[] = { units.data() };
     require(ex_put_info(m_Id, 1, lines));
   }

@@ -4,6 +4,7 @@
 #include "Portions.h"
 #include "TextFile.h"
 #include "TextNumbers.h"
+#include "Units.h"
 
 #include <map>
 #include <set>
@@ -185,7 +186,9 @@ void appendClamps(std::string& text, const FiniteElementModel& model)
 void writeFebio(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
   std::string text = "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\n<febio_spec version=\"4.0\">\n"
-                     "  <!-- LPS; mm, N, MPa, tonne, s -->\n  <Module type=\"solid\"/>\n"
+                     "  <!-- " +
+                     frameAndUnits(model) +
+                     " -->\n  <Module type=\"solid\"/>\n"
                      "  <Control>\n    <analysis>STATIC</analysis>\n    <time_steps>1</time_steps>\n"
                      "    <step_size>1</step_size>\n    <solver type=\"solid\"/>\n  </Control>\n";
   appendMaterials(text, model);

@@ -4,6 +4,7 @@
 #include "Portions.h"
 #include "TextFile.h"
 #include "TextNumbers.h"
+#include "Units.h"
 
 #include <algorithm>
 #include <map>
@@ -197,7 +198,7 @@ void appendSets(std::string& text, const FiniteElementModel& model)
 void writeLsDyna(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
   const std::vector<Part> parts = partsOf(model);
-  std::string text = "*KEYWORD\n$ LPS; mm, N, MPa, tonne, s\n";
+  std::string text = "*KEYWORD\n$ " + frameAndUnits(model) + "\n";
   appendNodes(text, model.content.mesh.points);
   appendSolids(text, model, parts);
   appendShells(text, model, parts.size() + 1);

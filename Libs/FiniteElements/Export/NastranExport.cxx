@@ -3,6 +3,7 @@
 
 #include "TextFile.h"
 #include "TextNumbers.h"
+#include "Units.h"
 
 #include <map>
 
@@ -118,7 +119,7 @@ void appendNodeSets(std::string& text, const FiniteElementModel& model)
 
 void writeNastran(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
-  std::string text = "$ LPS; mm, N, MPa, tonne, s\nSOL 101\nCEND\nSPC = 1\nBEGIN BULK\n";
+  std::string text = "$ " + frameAndUnits(model) + "\nSOL 101\nCEND\nSPC = 1\nBEGIN BULK\n";
   appendNodes(text, model.content.mesh.points);
   appendElements(text, model);
   appendProperties(text, model);
