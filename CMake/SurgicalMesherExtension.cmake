@@ -1,18 +1,6 @@
-# The project as an extension of 3D Slicer: its metadata, the host's settings, and where the host looks for executables.
+# The project as an extension of 3D Slicer: the host's settings, and where the host looks for executables.
 
 set(EXTENSION_NAME ${PROJECT_NAME})
-set(EXTENSION_CATEGORY "Surgical Meshing")
-set(EXTENSION_CONTRIBUTORS "The SurgicalMesher contributors")
-string(CONCAT EXTENSION_DESCRIPTION
-  "Turns a label map and surgical targets or paths into graded multi-tissue finite element meshes: dense where the "
-  "surgeon works, sparse elsewhere, every tissue with the topology of the map.")
-set(EXTENSION_HOMEPAGE "https://github.com/SurgicalMesher/SurgicalMesher")
-set(published_files "https://raw.githubusercontent.com/SurgicalMesher/SurgicalMesher/main")
-set(EXTENSION_ICONURL "${published_files}/SurgicalMesher.png")
-string(CONCAT EXTENSION_SCREENSHOTURLS # one space between two
-  "${published_files}/Docs/images/tutorial-2-scale.png "
-  "${published_files}/Docs/images/tutorial-6-surface.png "
-  "${published_files}/Docs/images/tutorial-8-tetrahedra.png")
 set(EXTENSION_DEPENDS "NA")
 set(EXTENSION_README_FILE ${PROJECT_SOURCE_DIR}/README.md)
 set(EXTENSION_LICENSE_FILE ${PROJECT_SOURCE_DIR}/LICENSE)
