@@ -39,6 +39,7 @@ const std::vector<ExportFormat>& exportFormats()
     { ".msh", "Gmsh 4.1", writeGmsh41 },
     { ".msh2", "Gmsh 2.2, GetFEM", writeGmsh22 },
     { ".ply", "closed surfaces, one file per tissue", writeTissueSurfaces, false },
+    { ".simnibs.msh", "SimNIBS", writeSimnibs, false },
     { ".stl", "closed surfaces, one file per tissue", writeTissueSurfaces, false },
     { ".vtk", "legacy VTK, SOFA", writeVtk },
     { ".vtu", "VTK", writeVtk },
@@ -52,12 +53,15 @@ const std::vector<ExportFormat>& exportFormats()
 const ExportFormat& exportFormatOf(const std::string& file)
 {
   const std::string extension = text::extensionOf(file);
+  const std::string ofTwo = text::extensionOf(std::filesystem::path(file).stem().string()) + extension;
+  const ExportFormat* found = nullptr;
   std::string known;
   for (const ExportFormat& format : exportFormats())
   {
-    if (format.extension == extension) return format;
+    if (format.extension == ofTwo || (!found && format.extension == extension)) found = &format;
     known += (known.empty() ? "" : ", ") + format.extension;
   }
+  if (found) return *found;
   throw UsageError(file + ": extension \"" + extension + "\" found, one of " + known + " expected");
 }
 

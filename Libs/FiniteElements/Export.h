@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Finite-element models into the files of solvers: one format per file extension.
+/// Finite-element models into the files of solvers: one format per file extension, of which .simnibs.msh is one.
 
 #include "FiniteElementModel.h"
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GmshExport.h"
 
+#include "Errors.h"
 #include "ExportText.h"
 #include "SetTags.h"
 #include "TextFile.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -303,7 +305,73 @@ std::string gmsh22(const FiniteElementModel& model)
   return out.str();
 }
 
+// ---- SimNIBS --------------------------------------------------------------------------------------------------------
+
+constexpr std::int32_t kFirstElectrode = 100, kFacesOfTissue = 1000;
+
+/// The lower the number, the more a face between two tissues belongs to this one; 0 is outside.
+std::int32_t rankInSimnibs(std::int32_t label)
+{
+  constexpr std::int32_t kRanked[] = { 1, 2, 9, 3, 4, 8, 7, 6, 10, 5 };
+  const auto* found = std::find(std::begin(kRanked), std::end(kRanked), label);
+  if (label == 0) return kFirstElectrode + kFacesOfTissue;
+  return found != std::end(kRanked) ? static_cast<std::int32_t>(found - std::begin(kRanked)) : kFirstElectrode + label;
+}
+
+void requireSimnibs(const FiniteElementModel& model, const std::string& file)
+{
+  for (const Cell& element : model.elements)
+    if (element.size() != 4) throw UsageError(file + ": SimNIBS knows tetrahedra of four nodes alone");
+  for (const Label label : model.content.mesh.labels)
+  {
+    if (label >= kFirstElectrode)
+      throw InputError(file + ": label " + std::to_string(label) + " found, SimNIBS's tissues are 1 to 99 and its " +
+                       "electrodes the others");
+  }
+}
+
+std::string simnibs(const FiniteElementModel& model)
+{
+  const TetMesh& mesh = model.content.mesh;
+  std::vector<PhysicalName> names;
+  for (const ElementSet& set : model.elementSets)
+  {
+    if (set.kind != SetKind::Tissue) continue;
+    names.push_back({ 3, set.ids[0], set.name });
+    names.push_back({ 2, set.ids[0] + kFacesOfTissue, set.name });
+  }
+  std::vector<std::pair<std::int32_t, Cell>> faces; // after their tags
+  for (const SurfaceSet& surface : model.surfaces)
+  {
+    if (surface.kind != SetKind::TissueInterface || rankInSimnibs(surface.ids[0]) > rankInSimnibs(surface.ids[1]))
+      continue;
+    for (const Cell& face : surface.cells) faces.push_back({ surface.ids[0] + kFacesOfTissue, face });
+  }
+  std::stable_sort(faces.begin(), faces.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  ExportText out;
+  writeHeader(out, "2.2", names);
+  out << "$Nodes\n" << mesh.points.size() << '\n';
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+  {
+    const Vec3& p = mesh.points[i];
+    out << i + 1 << ' ' << Vec3{ -p.x, -p.y, p.z } << '\n';
+  }
+  out << "$EndNodes\n$Elements\n" << faces.size() + model.elements.size() << '\n';
+  std::size_t next = 0;
+  for (const auto& [tag, face] : faces) out << ++next << " 2 2 " << tag << ' ' << tag << FromOne{ face } << '\n';
+  for (std::size_t e = 0; e < model.elements.size(); ++e)
+    out << ++next << " 4 2 " << mesh.labels[e] << ' ' << mesh.labels[e] << FromOne{ model.elements[e] } << '\n';
+  out << "$EndElements\n";
+  return out.str();
+}
+
 } // namespace
+
+void writeSimnibs(const FiniteElementModel& model, const std::string& file, const Destination& destination)
+{
+  requireSimnibs(model, file);
+  writeBytes(simnibs(model), destination(file));
+}
 
 void writeGmsh41(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {

@@ -18,4 +18,10 @@ void writeGmsh41(const FiniteElementModel& model, const std::string& file, const
 /// SetTags.h).
 void writeGmsh22(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 
+/// Version 2.2 as SimNIBS 4 reads it: in RAS, the tag of a tetrahedron its label, those of a tissue's faces 1000 more. A
+/// face between two tissues is listed once, wound out of that of its two that SimNIBS ranks first (white matter, gray
+/// matter, blood, cerebrospinal fluid, bone, spongy and compact bone, eyes, muscle, skin, others). Throws InputError for
+/// labels from 100 on, which are electrodes to it, and UsageError for other elements than tetrahedra; no shells and curves.
+void writeSimnibs(const FiniteElementModel& model, const std::string& file, const Destination& destination);
+
 } // namespace surgicalmesher

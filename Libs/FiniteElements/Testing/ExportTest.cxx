@@ -2,6 +2,7 @@
 #include "Export.h"
 
 #include "../../Libs/TissueMap/Testing/TestFiles.h"
+#include "Errors.h"
 #include "LabelledBlocks.h"
 #include "VtkExport.h"
 
@@ -537,6 +538,20 @@ TEST(Export, RefusesUnknownExtensionsWithTheKnownOnes)
     }
   }
   EXPECT_EQ(exportFormatOf("folder.vtu/M.INP").extension, ".inp");
+  EXPECT_EQ(exportFormatOf("a.b.Simnibs.MSH").extension, ".simnibs.msh");
+  EXPECT_EQ(exportFormatOf("simnibs.msh").extension, ".msh");
+}
+
+TEST(Export, SimnibsRefusesLabelsOfElectrodes)
+{
+  MeshFile content = test::randomBlocks(2);
+  for (const Label label : { 99, 100 })
+  {
+    for (Label& some : content.mesh.labels) some = some == 1 ? 1 : label;
+    const FiniteElementModel model = finiteElementModel(content);
+    if (label < 100) EXPECT_GT(written(model, "m.simnibs.msh").size(), 100u);
+    else EXPECT_THROW(written(model, "m.simnibs.msh"), InputError);
+  }
 }
 
 /// Two curves along edges of the mesh, one of two radii.
