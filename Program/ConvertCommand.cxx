@@ -2,6 +2,7 @@
 // surgicalmesher convert: a mesh of tetrahedra in the formats of solvers.
 
 #include "Commands.h"
+#include "CurvedSides.h"
 #include "Errors.h"
 #include "Export.h"
 #include "MaterialTable.h"
@@ -34,6 +35,8 @@ FiniteElementOptions readOptions(const CommandLine& line, const MeshFile& conten
 void convertCommand(CommandLine& line)
 {
   const std::vector<std::string> files = line.outputNames("models");
+  if (line.flag("curvedSides") && line.integer("elementOrder") != 2)
+    throw UsageError("--curvedSides is given, but not --elementOrder 2, expected both");
   for (const std::string& file : files)
   {
     requireOrder(file, line.integer("elementOrder"));
@@ -53,6 +56,7 @@ void convertCommand(CommandLine& line)
   }
   FiniteElementModel model = finiteElementModel(content, readOptions(line, content));
   if (line.integer("elementOrder") == 2) model = withMidSideNodes(std::move(model));
+  if (line.flag("curvedSides")) model = withCurvedSides(std::move(model));
   model = inUnits(std::move(model), unitsNamed(line.text("units")));
   double done = 0;
   for (const std::string& file : files)

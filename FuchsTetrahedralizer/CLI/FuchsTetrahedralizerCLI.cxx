@@ -5,6 +5,7 @@
 #include "AmbientMatch.h"
 #include "CommandLine.h"
 #include "CurveFiles.h"
+#include "CurvedSides.h"
 #include "Errors.h"
 #include "Export.h"
 #include "FuchsTetrahedralizerCLIXML.h"
@@ -145,6 +146,8 @@ void requireUsableOptions(CommandLine& line)
   if (line.integer("elementOrder") == 2 && !line.texts("curves").empty())
     throw UsageError(
       "--elementOrder 2 is given, and --curves, whose beams and trusses have two nodes; expected one of them");
+  if (line.flag("curvedSides") && line.integer("elementOrder") != 2)
+    throw UsageError("--curvedSides is given, but not --elementOrder 2, expected both");
   for (const std::string& file : line.outputNames("export"))
   {
     requireOrder(file, line.integer("elementOrder"));
@@ -187,6 +190,7 @@ void writeExports(CommandLine& line, const MeshFile& content, const FiniteElemen
   FiniteElementModel model = finiteElementModel(content, options);
   if (!shells.empty()) writeShells(model, shells);
   if (line.integer("elementOrder") == 2) model = withMidSideNodes(std::move(model));
+  if (line.flag("curvedSides")) model = withCurvedSides(std::move(model));
   model = inUnits(std::move(model), unitsNamed(line.text("units")));
   for (const std::string& file : files)
   {

@@ -11,7 +11,8 @@ FiniteElementModel inUnits(FiniteElementModel model, Units units)
   if (units == Units::Millimetres) return model;
   constexpr double kMillimetresPerMetre = 1e3, kPascalsPerMegapascal = 1e6, kDensity = 1e12; // kg/m^3 per tonne/mm^3
   model.units = units;
-  for (Vec3& p : model.content.mesh.points) p = p / kMillimetresPerMetre;
+  for (Vec3& p : model.content.mesh.points)
+    p = { p.x / kMillimetresPerMetre, p.y / kMillimetresPerMetre, p.z / kMillimetresPerMetre };
   for (double& length : model.content.targetEdgeLength) length /= kMillimetresPerMetre;
   for (Shell& shell : model.shells) shell.thickness /= kMillimetresPerMetre;
   for (Beam& beam : model.beams) beam.radius /= kMillimetresPerMetre;

@@ -243,12 +243,43 @@ class SecondOrder(unittest.TestCase):
             self.assertGreater(np.min(jacobians[1]), 0, name)
         gmsh.finalize()
 
+    def test_curved_sides_follow_a_ball(self):
+        import gmsh
+
+        source, writer = vtk.vtkSphereSource(), vtk.vtkXMLPolyDataWriter()
+        source.SetRadius(10)
+        source.SetThetaResolution(16)
+        source.SetPhiResolution(10)
+        writer.SetInputConnection(source.GetOutputPort())
+        writer.SetFileName(path("ball.vtp"))
+        writer.Write()
+        done = run_module("FuchsTetrahedralizerCLI", "--edgeLength", "4", "ball.vtp", "ball.vtu")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        gmsh.initialize()
+        gmsh.option.setNumber("General.Terminal", 0)
+        off = {}
+        for name, words in (("straight", ()), ("curved", ("--curvedSides",))):
+            done = run_module("surgicalmesher", "convert", "--elementOrder", "2", *words, "ball.vtu", name + ".msh2", name + ".inp")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            shutil.copy(path(name + ".msh2"), path(name + ".msh"))
+            gmsh.open(path(name + ".msh"))
+            integration = gmsh.model.mesh.getIntegrationPoints(11, "Gauss4")[0]
+            self.assertGreater(np.min(gmsh.model.mesh.getJacobians(11, integration)[1]), 0)
+            mesh = meshio_read(path(name + ".inp"))
+            middles = np.setdiff1d(mesh.point_sets["outer_boundary_nodes"], mesh.cells[0].data[:, :4])
+            off[name] = np.abs(np.linalg.norm(mesh.points[middles], axis=1) - 10).mean()
+        gmsh.finalize()
+        print("middle nodes off the sphere of 10 mm, in the mean", off)
+        self.assertLess(off["curved"], 0.4 * off["straight"])
+
     def test_refused(self):
         for name in ("a.mesh", "a.stl", "a.ply"):
             done = run_module("surgicalmesher", "convert", "--elementOrder", "2", "mesh1.vtu", name)
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
             self.assertIn("no elements of second order", done.stderr)
             self.assertFalse(os.path.exists(path(name)))
+        done = run_module("surgicalmesher", "convert", "--curvedSides", "mesh1.vtu", "a.inp")
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
         for words, status in (("far: sphere 500 0 0 4", 1), ("a: sphere 0 0 0", 2), ("a: box 1 2 3 4 5 x", 2), ("a", 2),
                               ("a: plane 0 0 0 0 0 0", 2), (": box 0 0 0 9 9 9", 2), ("a: cone 0 0 0 1 1 1", 2)):
             done = run_module("surgicalmesher", "convert", "--nodeSet", words, "mesh1.vtu", "a.inp")
