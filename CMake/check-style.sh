@@ -22,5 +22,5 @@ fi
 
 # Debian 12's ITK headers accept GCC only, and the host's are not here.
 sources | grep -E '^(Libs|Program|[A-Za-z]+/(Core|CLI))/.*\.cxx$' | grep -vE '/Testing/|^Libs/SlicerSupport/' \
-  | xargs grep -L 'itk' | xargs -P "$(nproc)" -n 4 nice clang-tidy --quiet -p "$build" 2>/dev/null
+  | xargs grep -LE 'itk|ItkImage' | xargs -P "$(nproc)" -n 4 nice clang-tidy --quiet -p "$build" 2>/dev/null
 echo "check-style.sh: formatting, licence lines and clang-tidy are in order"

@@ -3,14 +3,12 @@
 /// Mutual information of two images at samples of the fixed one, and its maximum over linear maps.
 
 #include "ItkImage.h"
-#include "Vec3.h"
+#include "LinearParameters.h"
 
 #include <itkMattesMutualInformationImageToImageMetricv4.h>
 #include <itkMultiThreaderBase.h>
 
-#include <array>
-#include <functional>
-#include <vector>
+#include <cstddef>
 
 namespace surgicalmesher
 {
@@ -30,12 +28,6 @@ public:
 private:
   itk::ThreadIdType m_Before;
 };
-
-/// Twelve parameters of a linear map about a centre: the matrix, row by row, and where the centre goes, less the centre.
-using LinearParameters = std::array<double, 12>;
-
-/// Linear maps as a function of a few steps, each of which moves points of interest by about its length (mm).
-using LinearChart = std::function<LinearParameters(const std::vector<double>&)>;
 
 class MutualInformation
 {
