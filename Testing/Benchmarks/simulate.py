@@ -2,11 +2,14 @@
 """The images that scanners might give of a known map of tissues.
 
     simulate.py TRUTH CT.nii.gz [--spacing X,Y,Z] [--crop MM] [--headrest] [--noise HU] [--seed N]
+    simulate.py TRUTH T1.nii.gz --t1 [--seed N]
     simulate.py TRUTH T1.nii.gz --of T1_AS_IT_IS.nii.gz [--seed N]
 
-TRUTH has BrainWeb's labels of Colin27. Hounsfield units by class (below), blurred by a Gaussian of 0.6 mm, white noise
-of 20 HU. --crop leaves that many mm away at the top and at the bottom; --headrest adds a curved plate of 8 mm behind
-the head. With --of, the T1 with a smooth drift from 0.9 to 1.1 and Rician noise of 3 % of white matter's mean.
+TRUTH has BrainWeb's labels of Colin27, or, if any is over 9, those of FreeSurfer and SimNIBS. Hounsfield units by label
+(below), blurred by a Gaussian of 0.6 mm, white noise of 20 HU. --crop leaves that many mm away at the top and at the
+bottom; --headrest adds a curved plate of 8 mm behind the head. With --t1, brightness of a T1 by label of SimNIBS (below)
+is blurred likewise; it, or with --of a T1 as it is, gets a smooth drift from 0.9 to 1.1 and Rician noise of 3 % of white
+matter's mean.
 """
 import argparse
 
@@ -16,6 +19,43 @@ from scipy import ndimage
 
 HOUNSFIELD = [-1000, 10, 38, 30, -90, 55, 25, 900, 33, -30]
 """By label: air, CSF, grey matter, white matter, fat, muscle, skin, skull, glial matter, connective tissue."""
+
+HEAD = {
+    "CSF": (30, 10, [4, 5, 14, 15, 24, 43, 44]),
+    "grey matter": (80, 38, [3, 8, 10, 11, 12, 13, 17, 18, 26, 42, 47, 49, 50, 51, 52, 53, 54, 58, 136, 137, 163, 164]),
+    "white matter": (110, 30, [2, 7, 16, 25, 28, 41, 46, 57, 60, 85, 512]),
+    "other tissue": (135, -40, [507]),
+    "muscle": (60, 55, [508]),
+    "skin": (75, 25, [511]),
+    "skull": (12, 900, [515]),
+    "marrow": (50, 400, [516]),
+    "eye": (28, 8, [506]),
+    "artery": (150, 50, [30, 62, 502]),
+    "vein": (42, 60, [514]),
+    "optic nerve": (98, 34, [530]),
+    "mucosa": (92, 45, [509]),
+}
+"""By tissue of a SimNIBS head: brightness in a T1 (arteries bright by inflow, veins dark), HU, labels."""
+
+
+def is_brainweb(labels):
+    return labels.max() < len(HOUNSFIELD)
+
+
+def values_by_label(labels, column):
+    """Brightness in a T1 (column 0) or HU (1) of every voxel."""
+    if is_brainweb(labels):
+        if column == 0:
+            raise SystemExit("--t1 needs a head of SimNIBS; of Colin27 there is a T1 (--of)")
+        return np.array(HOUNSFIELD, np.float32)[labels]
+    table = np.full(labels.max() + 1, (0, -1000)[column], np.float32)
+    for tissue in HEAD.values():
+        table[[label for label in tissue[2] if label < len(table)]] = tissue[column]
+    return table[labels]
+
+
+def white_matter(labels):
+    return labels == 3 if is_brainweb(labels) else np.isin(labels, HEAD["white matter"][2])
 
 
 def resample(values, affine, spacing):
@@ -47,12 +87,16 @@ def crop(values, affine, mm):
     return values[tuple(kept)], moved
 
 
+def blurred(values, affine):
+    return ndimage.gaussian_filter(values, 0.6 / nibabel.affines.voxel_sizes(affine))
+
+
 def noisy(values, truth, seed):
     x, y, z = np.meshgrid(*[np.linspace(-1, 1, n) for n in values.shape], indexing="ij")
     drift = 0.6 * x + 0.5 * y - 0.7 * z + 0.5 * x * y + 0.4 * z * z - 0.3 * y * y
     drift = 0.9 + 0.2 * (drift - drift.min()) / (drift.max() - drift.min())
     random = np.random.default_rng(seed)
-    noise = 0.03 * values[truth == 3].mean()
+    noise = 0.03 * values[white_matter(truth)].mean()
     return np.abs(values * drift + random.normal(0, noise, values.shape) + 1j * random.normal(0, noise, values.shape))
 
 
@@ -66,18 +110,23 @@ def main():
     parser.add_argument("--noise", type=float, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--of")
+    parser.add_argument("--t1", action="store_true")
     arguments = parser.parse_args()
     truth = nibabel.load(arguments.truth)
     affine = truth.affine
-    if arguments.of:
-        values = np.asarray(nibabel.load(arguments.of).dataobj, np.float32).squeeze()
-        values = noisy(values, np.asarray(truth.dataobj).squeeze(), arguments.seed).astype(np.float32)
+    labels = np.asarray(truth.dataobj).squeeze().astype(int)
+    if arguments.of or arguments.t1:
+        if arguments.of:
+            values = np.asarray(nibabel.load(arguments.of).dataobj, np.float32).squeeze()
+        else:
+            values = blurred(values_by_label(labels, 0), affine)
+        values = noisy(values, labels, arguments.seed).astype(np.float32)
         nibabel.save(nibabel.Nifti1Image(values, affine), arguments.image)
         return
-    values = np.array(HOUNSFIELD, np.float32)[np.asarray(truth.dataobj).squeeze().astype(int)]
+    values = values_by_label(labels, 1)
     if arguments.headrest:
         values = headrest(values, affine)
-    values = ndimage.gaussian_filter(values, 0.6 / nibabel.affines.voxel_sizes(affine))
+    values = blurred(values, affine)
     if arguments.spacing:
         values, affine = resample(values, affine, arguments.spacing)
     values, affine = crop(values, affine, arguments.crop)

@@ -5,6 +5,7 @@
 #include "HeadImages.h"
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace surgicalmesher
@@ -31,8 +32,8 @@ public:
   BrightnessModel(std::vector<int> classes, const std::vector<TrainingValues>& training);
 
   int classOf(const HeadImages& images, std::size_t voxel) const;
-  /// The next in brightness; -1 if there is no other.
-  int classOfOtherThan(int excluded, const HeadImages& images, std::size_t voxel) const;
+  /// The nearest in brightness of those that may be there; -1 if none may.
+  int nearestClass(const HeadImages& images, std::size_t voxel, const std::function<bool(int)>& mayBe) const;
   /// Of the classes admitted here, in the order of classes(); they add up to 1.
   std::vector<float> probabilities(const HeadImages& images, std::size_t voxel) const;
   const std::vector<int>& classes() const { return m_Classes; }

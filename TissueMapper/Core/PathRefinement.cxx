@@ -158,6 +158,10 @@ double modelFlux(double tubeRadius, double radius, double sigma)
   return radius * sum * (pi / 2) / steps;
 }
 
+/// What a flux into the sphere for a radius counts. Small spheres hold few voxels: what noise, and interpolation between
+/// voxels, do to their flux would make thick tubes too thin.
+double certainty(double radius) { return radius; }
+
 /// Fluxes by radius of sphere, for tubes of a row of radii.
 struct ProfileTable
 {
@@ -176,7 +180,7 @@ ProfileTable makeProfiles(const std::vector<double>& radii, double voxel)
     for (const double radius : radii)
     {
       const double sphere = sphereRadius(radius);
-      profile.push_back(modelFlux(r, sphere, std::hypot(std::sqrt(variance), sphereBlur(sphere))));
+      profile.push_back(certainty(radius) * modelFlux(r, sphere, std::hypot(std::sqrt(variance), sphereBlur(sphere))));
     }
     table.profiles.push_back(profile);
   }
@@ -381,7 +385,7 @@ std::vector<double> radiiAlong(const FluxField& field, int sign, const std::vect
   for (int n = 0; n < count; ++n)
   {
     for (std::size_t r = 0; r < field.radii.size(); ++r)
-      found[n][r] = sign * cubicValue(field.grid, field.flux[r], path[n]);
+      found[n][r] = sign * certainty(field.radii[r]) * cubicValue(field.grid, field.flux[r], path[n]);
   }
   std::vector<double> radii(count);
   for (int n = 0; n < count; ++n)

@@ -134,20 +134,30 @@ const BrightnessModel& modelOf(const ModelPair& models, Compartment compartment)
   return models[compartment == Compartment::Intracranial ? 0 : 1];
 }
 
-/// Takes away what contiguity and limits forbid, class by class, and gives it to the class next in brightness.
+/// Takes away what contiguity and limits forbid, and gives it to the class next in brightness, until all that each class
+/// has is reached. Where every class has been refused, the last one stays.
 void enforceContiguity(const HeadImages& images, const std::vector<TissueClass>& classes, const ModelPair& models,
                        std::vector<int>& classOf, Classification& result)
 {
-  for (std::size_t c = 0; c < classes.size(); ++c)
+  std::vector<std::vector<bool>> isRefused(classes.size(), std::vector<bool>(classOf.size(), false));
+  for (bool hasChanged = true; hasChanged;)
   {
-    if (!classes[c].isContiguous && !(classes[c].limit > 0)) continue;
-    const std::vector<bool> reached = reachedFrom(images.grid(), classes[c], classOf, int(c));
-    for (std::size_t n = 0; n < classOf.size(); ++n)
+    hasChanged = false;
+    for (std::size_t c = 0; c < classes.size(); ++c)
     {
-      if (classOf[n] != int(c) || reached[n]) continue;
-      ++result.invalidated[c];
-      const int other = modelOf(models, result.compartments[n]).classOfOtherThan(int(c), images, n);
-      if (other >= 0) classOf[n] = other;
+      if (!classes[c].isContiguous && !(classes[c].limit > 0)) continue;
+      const std::vector<bool> reached = reachedFrom(images.grid(), classes[c], classOf, int(c));
+      for (std::size_t n = 0; n < classOf.size(); ++n)
+      {
+        if (classOf[n] != int(c) || reached[n] || isRefused[c][n]) continue;
+        isRefused[c][n] = true;
+        const auto mayBe = [&](int other) { return !isRefused[std::size_t(other)][n]; };
+        const int other = modelOf(models, result.compartments[n]).nearestClass(images, n, mayBe);
+        if (other < 0) continue;
+        classOf[n] = other;
+        ++result.invalidated[c];
+        hasChanged = true;
+      }
     }
   }
 }

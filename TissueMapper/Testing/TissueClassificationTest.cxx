@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueClassification.h"
 
+#include "ClassContiguity.h"
 #include "Errors.h"
 #include "HeadPhantom.h"
 
@@ -114,6 +115,23 @@ TEST(TissueClassification, LimitsAndContiguityTakeAwayWhatIsNotReached)
         if (near.map.labels[grid.index(i, j, k)] != 4) continue;
         EXPECT_LE(norm(grid.gridToWorld({ double(i), double(j), double(k) }) - classes[3].points[0]), 5.01);
       }
+}
+
+TEST(TissueClassification, WhatOneClassLosesNoOtherHasWhereItIsNotReached)
+{
+  const HeadPhantom head = headPhantom(14); // noise scatters all classes
+  std::vector<TissueClass> classes = trainingOf(head.truth, 20);
+  for (const std::size_t c : { 0, 2, 3, 5 }) classes[c].isContiguous = true;
+  const Classification found = classifyTissues(headImages({ head.image }), classes, {});
+  std::vector<int> classOf;
+  for (const Label label : found.map.labels) classOf.push_back(int(label) - 1);
+  for (const int c : { 0, 2, 3, 5 })
+  {
+    EXPECT_GT(found.invalidated[std::size_t(c)], 0u) << classes[std::size_t(c)].name;
+    const std::vector<bool> reached = reachedFrom(head.truth.grid, classes[std::size_t(c)], classOf, c);
+    for (std::size_t n = 0; n < classOf.size(); ++n)
+      ASSERT_TRUE(classOf[n] != c || reached[n]) << classes[std::size_t(c)].name;
+  }
 }
 
 TEST(TissueClassification, SeveralImagesPartMoreThanOne)
