@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "qSlicerTissueMapperModuleWidget.h"
 
+#include "MarkupsInput.h"
 #include "ParameterPanel.h"
 #include "TaskObstacle.h"
 #include "TrainingPoints.h"
@@ -87,7 +88,7 @@ void qSlicerTissueMapperModuleWidgetPrivate::bindControls()
   this->onShow(
     [this]
     {
-      if (this->training()) surgicalmesher::placePointsOf(this->Parameters->GetTrainingClass(), this->training());
+      if (this->training()) surgicalmesher::labelNewPoints(this->training(), this->Parameters->GetTrainingClass());
       for (QPushButton* button : { this->ScaleButton, this->MesherButton })
         button->setEnabled(this->Parameters->GetLabelMapNode(Node::LabelMapRole()) != nullptr);
     });

@@ -302,10 +302,15 @@ vtkSmartPointer<vtkUnstructuredGrid> gridOf(vtkPointSet* data)
 ElementMeshFile readElementMesh(const std::string& file)
 {
   const VTKFile read = readAny(file);
-  if (!read.data || read.data->GetNumberOfPoints() == 0) refuse(file, "no point, expected a surface or a mesh");
-  if (read.ras) turnToLps(read.data);
-  setSpace(read.data);
-  ElementMeshFile content{ { pointsOf(read.data, file), elementsOf(read.data, file) }, read.data };
+  if (read.data && read.data->GetNumberOfPoints() > 0 && read.ras) turnToLps(read.data);
+  return elementMeshOf(read.data, file);
+}
+
+ElementMeshFile elementMeshOf(vtkSmartPointer<vtkPointSet> data, const std::string& name)
+{
+  if (!data || data->GetNumberOfPoints() == 0) refuse(name, "no point, expected a surface or a mesh");
+  setSpace(data);
+  ElementMeshFile content{ { pointsOf(data, name), elementsOf(data, name) }, data };
   renumberWedges(content.mesh);
   return content;
 }

@@ -13,6 +13,30 @@
 
 namespace surgicalmesher
 {
+namespace
+{
+
+/// The equations of a spline: kernel and affine part, then what makes the weights orthogonal to affine maps.
+Eigen::MatrixXd systemOf(const Points& centres)
+{
+  const Eigen::Index n = centres.cols();
+  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 4, n + 4);
+  for (Eigen::Index i = 0; i < n; ++i)
+    system.col(i).head(n) = (centres.colwise() - centres.col(i)).colwise().norm().transpose();
+  system.block(n, 0, 3, n) = centres;
+  system.row(n + 3).head(n).setOnes();
+  system.topRightCorner(n, 4) = system.bottomLeftCorner(4, n).transpose();
+  return system;
+}
+
+Eigen::MatrixXd rightSideOf(const Points& goals)
+{
+  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(goals.cols() + 4, 3);
+  right.topRows(goals.cols()) = goals.transpose();
+  return right;
+}
+
+} // namespace
 
 ThinPlateSpline::ThinPlateSpline(const Points& centres, const Points& goals)
   : m_Middle(centres.rowwise().mean()),
@@ -20,14 +44,7 @@ ThinPlateSpline::ThinPlateSpline(const Points& centres, const Points& goals)
 {
   const Eigen::Index n = centres.cols();
   m_Centres = (centres.colwise() - m_Middle) / m_Size;
-  Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + 4, n + 4);
-  for (Eigen::Index i = 0; i < n; ++i)
-    system.col(i).head(n) = (m_Centres.colwise() - m_Centres.col(i)).colwise().norm().transpose();
-  system.block(n, 0, 3, n) = m_Centres;
-  system.row(n + 3).head(n).setOnes();
-  system.topRightCorner(n, 4) = system.bottomLeftCorner(4, n).transpose();
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(n + 4, 3);
-  right.topRows(n) = goals.transpose();
+  const Eigen::MatrixXd system = systemOf(m_Centres), right = rightSideOf(goals);
   const Eigen::MatrixXd solution = system.partialPivLu().solve(right);
   if (!solution.allFinite() || (system * solution - right).norm() > 1e-6 * (1 + right.norm()))
     throw EngineError("thin-plate spline: the equations of " + std::to_string(n) + " centres have no solution");
@@ -46,6 +63,21 @@ Points ThinPlateSpline::operator()(const Points& points) const
                 moved.col(Eigen::Index(i)) = m_Affine * p.homogeneous() + m_Weights * kernel;
               });
   return moved;
+}
+
+std::vector<double> leftOutErrors(const Points& centres, const Points& goals)
+{
+  const Eigen::Vector3d middle = centres.rowwise().mean();
+  const double size = std::sqrt((centres.colwise() - middle).colwise().squaredNorm().maxCoeff());
+  const Eigen::MatrixXd inverse = systemOf((centres.colwise() - middle) / size).inverse();
+  const Eigen::MatrixXd solution = inverse * rightSideOf(goals);
+  std::vector<double> errors;
+  for (Eigen::Index i = 0; i < centres.cols(); ++i)
+  {
+    const double own = std::abs(inverse(i, i));
+    errors.push_back(own > 1e-9 ? solution.row(i).norm() / own : std::numeric_limits<double>::infinity());
+  }
+  return errors;
 }
 
 std::vector<std::int32_t> farthestPoints(const Points& points, int count)

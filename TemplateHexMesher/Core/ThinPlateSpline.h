@@ -26,6 +26,11 @@ private:
   double m_Size; ///< unit of length: keeps the system well scaled
 };
 
+/// How far each goal lies from where the spline of all other centres takes its centre, in the goals' unit: what a
+/// landmark that was mistaken stands out by. By one inverse of the equations (Rippa, Adv. Comput. Math. 11, 1999).
+/// Infinity where the other centres don't span space. The centres are as for ThinPlateSpline.
+std::vector<double> leftOutErrors(const Points& centres, const Points& goals);
+
 /// `count` columns of `points`, or all: each the farthest from those before it, the first the farthest from the middle.
 std::vector<std::int32_t> farthestPoints(const Points& points, int count);
 

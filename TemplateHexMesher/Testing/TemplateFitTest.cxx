@@ -13,6 +13,8 @@
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 using namespace surgicalmesher;
@@ -319,6 +321,36 @@ TEST(Carrying, TakesPointsWhereTheNodesGo)
   EXPECT_LT((carried(mesh.points, mesh.points, truth, 50) - truth).cwiseAbs().maxCoeff(), 1e-6);
   const ElementMesh fine = slab(37, 29, 5);
   EXPECT_LT((carried(fine.points, mesh.points, truth) - bent(fine.points)).colwise().norm().maxCoeff(), 1.5);
+}
+
+TEST(ThinPlateSpline, LeavesEachCentreOutForItsError)
+{
+  const ElementMesh mesh = slab();
+  LandmarkPairs pairs = everyNth(mesh.points, bent(mesh.points), 31);
+  pairs.target.col(4) += Eigen::Vector3d(0, 6, 0); // a mistake
+  const std::vector<double> errors = leftOutErrors(pairs.source, pairs.target);
+  ASSERT_EQ(Eigen::Index(errors.size()), pairs.source.cols());
+  for (Eigen::Index i = 0; i < pairs.source.cols(); ++i)
+  {
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index j = 0; j < pairs.source.cols(); ++j)
+    {
+      if (j != i) others.push_back(j);
+    }
+    const ThinPlateSpline spline(pairs.source(Eigen::all, others), pairs.target(Eigen::all, others));
+    const double expected = (spline(pairs.source.col(i)) - pairs.target.col(i)).norm();
+    EXPECT_NEAR(errors[std::size_t(i)], expected, 1e-6 * (1 + expected)) << i;
+  }
+  EXPECT_EQ(std::max_element(errors.begin(), errors.end()) - errors.begin(), 4);
+}
+
+TEST(ThinPlateSpline, LeavesACentreThatTheOthersNeedUnknown)
+{
+  Points centres(3, 5); // four in a plane
+  centres << 0, 1, 0, 1, 0.3, 0, 0, 1, 1, 0.4, 0, 0, 0, 0, 1;
+  const std::vector<double> errors = leftOutErrors(centres, 2 * centres);
+  EXPECT_TRUE(std::isinf(errors[4]));
+  EXPECT_LT(errors[0], 1e-9);
 }
 
 TEST(Repair, MakesElementsValidAndLeavesTheOthersNearTheirPlace)

@@ -27,7 +27,7 @@ std::string HostLog::complaints()
   const ctkErrorLogAbstractModel& log = *qSlicerApplication::application()->errorLogModel();
   const bool isStart = m_EntriesSeen == 0;
   static const QRegularExpression ours(
-    "SurgicalPathScale|SimplexMesher|FuchsTetrahedralizer|TissueMapper|SurgicalMesher");
+    "SurgicalPathScale|SimplexMesher|FuchsTetrahedralizer|TissueMapper|TemplateHexMesher|TemplateFit|SurgicalMesher");
   QString lines;
   for (; m_EntriesSeen < log.logEntryCount(); ++m_EntriesSeen)
   {

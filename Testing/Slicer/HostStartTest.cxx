@@ -68,14 +68,18 @@ int HostStartTest(int argc, char* argv[])
   QCoreApplication application(argc, argv);
   const QStringList log = logOfStart({ SURGICALMESHER_LOADABLE_MODULES, SURGICALMESHER_CLI_MODULES });
   CHECK_BOOL(log.isEmpty(), false);
-  for (const QString& name :
-       QStringList{ "SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer", "TissueMapper" })
+  const std::pair<QString, QString> modules[] = { { "SurgicalPathScale", "SurgicalPathScaleCLI" },
+                                                  { "SimplexMesher", "SimplexMesherCLI" },
+                                                  { "FuchsTetrahedralizer", "FuchsTetrahedralizerCLI" },
+                                                  { "TissueMapper", "TissueMapperCLI" },
+                                                  { "TemplateHexMesher", "TemplateFitCLI" } };
+  for (const auto& [name, program] : modules)
   {
     std::cout << name.toStdString() << "\n";
     CHECK_BOOL(isRecognized(log, "libqSlicer" + name + "Module", "qSlicerLoadableModuleFactory"), true);
-    CHECK_BOOL(isRecognized(log, name + "CLI", "qSlicerCLIExecutableModuleFactory"), true);
+    CHECK_BOOL(isRecognized(log, program, "qSlicerCLIExecutableModuleFactory"), true);
     CHECK_INT(log.filter("Loading module \"" + name + "\"").size(), 1);
-    CHECK_INT(log.filter("Loading module \"" + name + "CLI\"").size(), 1);
+    CHECK_INT(log.filter("Loading module \"" + program + "\"").size(), 1);
   }
   const QStringList usual = complaintsIn(logOfStart({}));
   QStringList ours;

@@ -22,7 +22,7 @@ import sys
 import tempfile
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-MODULES = ("SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer", "TissueMapper")
+MODULES = ("SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer", "TissueMapper", "TemplateHexMesher")
 HEADER = re.compile(r"\.(h|hxx|txx|tpp)$")
 EXPORT_MACRO = re.compile(r"\b[A-Za-z]\w*_(?:NO_)?EXPORT\b")
 NOT_OURS_TO_REPLACE = re.compile(r"^(VTK(?!_SLICER|_MRML|_SURGICALMESHER|Addon)|Q_DECL)")

@@ -31,17 +31,4 @@ std::vector<std::string> usualClasses()
   return { "CSF", "grey matter", "white matter", "fat", "muscle", "skin", "skull", "connective tissue" };
 }
 
-/// The host labels new points by a format, in which "%" has a meaning; one that is being placed has its label already.
-void placePointsOf(const std::string& className, vtkMRMLMarkupsNode* training)
-{
-  std::string format = text::legible(text::trimmed(className));
-  format.erase(std::remove(format.begin(), format.end(), '%'), format.end());
-  training->SetControlPointLabelFormat(format);
-  for (int n = 0; n < training->GetNumberOfControlPoints(); ++n)
-  {
-    if (training->GetNthControlPointPositionStatus(n) == vtkMRMLMarkupsNode::PositionPreview)
-      training->SetNthControlPointLabel(n, format);
-  }
-}
-
 } // namespace surgicalmesher

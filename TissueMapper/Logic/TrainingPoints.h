@@ -25,8 +25,4 @@ VTK_SLICER_TISSUEMAPPER_MODULE_LOGIC_EXPORT std::vector<TrainedClass> countTrain
 /// The classes that a head is usually made of, and whose compartments are known by their names.
 VTK_SLICER_TISSUEMAPPER_MODULE_LOGIC_EXPORT std::vector<std::string> usualClasses();
 
-/// Points that are placed from now on are of this class, however they are placed.
-VTK_SLICER_TISSUEMAPPER_MODULE_LOGIC_EXPORT void placePointsOf(const std::string& className,
-                                                               vtkMRMLMarkupsNode* training);
-
 } // namespace surgicalmesher

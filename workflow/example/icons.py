@@ -118,6 +118,22 @@ def tissue_mapper():
     canvas.save("TissueMapper/Resources/Icons/TissueMapper.png")
 
 
+def template_hex_mesher():
+    """A bent sheet of quadrilaterals, the same as it was made behind it, and a pair of landmarks."""
+    canvas = Canvas()
+    grid = lambda x, y: (14 + 84 * x, 14 + 76 * y)  # noqa: E731
+    bent = lambda x, y: (30 + 88 * x + 10 * math.sin(3 * y), 30 + 74 * y + 18 * math.sin(math.pi * x))  # noqa: E731
+    for place, shades, stroke in ((grid, (BLUES[0], BLUES[0]), 4), (bent, (REDS[0], SAND), 6)):
+        for i in range(3):
+            for j in range(3):
+                corners = [place((i + a) / 3, (j + b) / 3) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                canvas.polygon(corners, shades[(i + j) % 2], stroke)
+    for place, color in ((grid(0, 0), BLUES[2]), (bent(0, 0), RED)):
+        canvas.disc(place, 11, (255, 255, 255))
+        canvas.disc(place, 8, color)
+    canvas.save("TemplateHexMesher/Resources/Icons/TemplateHexMesher.png")
+
+
 def extension():
     """Triangles that shrink towards a target, in a disc."""
     canvas = Canvas()
@@ -146,4 +162,5 @@ if __name__ == "__main__":
     simplex_mesher()
     fuchs_tetrahedralizer()
     tissue_mapper()
+    template_hex_mesher()
     extension()

@@ -9,6 +9,7 @@
 
 #include <vtkPoints.h>
 
+#include <algorithm>
 #include <fstream>
 #include <locale>
 
@@ -54,6 +55,19 @@ Markup labelledPoints(vtkMRMLMarkupsNode* node)
     markup.labels.push_back(node->GetNthControlPointLabel(n));
   }
   return markup;
+}
+
+/// The host labels new points by a format, in which "%" has a meaning; one that is being placed has its label already.
+void labelNewPoints(vtkMRMLMarkupsNode* node, const std::string& label)
+{
+  std::string format = text::legible(text::trimmed(label));
+  format.erase(std::remove(format.begin(), format.end(), '%'), format.end());
+  node->SetControlPointLabelFormat(format);
+  for (int n = 0; n < node->GetNumberOfControlPoints(); ++n)
+  {
+    const bool isBeingPlaced = node->GetNthControlPointPositionStatus(n) == vtkMRMLMarkupsNode::PositionPreview;
+    if (isBeingPlaced && node->GetNthControlPointLabel(n) != format) node->SetNthControlPointLabel(n, format);
+  }
 }
 
 std::vector<Vec3> markupsPath(vtkMRMLMarkupsNode* node)

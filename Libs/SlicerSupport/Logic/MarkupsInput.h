@@ -19,6 +19,9 @@ VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT std::vector<Vec3> markupsPoints(vtkMRMLM
 /// The same with their labels.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT Markup labelledPoints(vtkMRMLMarkupsNode* node);
 
+/// Points that are placed from now on, however they are placed, have this label, and so has one that is being placed.
+VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void labelNewPoints(vtkMRMLMarkupsNode* node, const std::string& label);
+
 /// A polyline from entry to target: the control points of a line, of a list of points or of a curve of straight pieces;
 /// of a smooth curve the points between which the host draws it. A closed curve ends with its first point again. Empty
 /// with fewer than two points.
