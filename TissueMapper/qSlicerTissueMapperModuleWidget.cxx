@@ -56,6 +56,8 @@ void qSlicerTissueMapperModuleWidgetPrivate::setParameterNode(vtkMRMLTissueMappe
   q->qvtkReconnect(this->Parameters, node, vtkCommand::ModifiedEvent, q, SLOT(updateFromNode()));
   q->qvtkReconnect(this->Parameters, node, Node::InputModifiedEvent, q, SLOT(onInputChanged()));
   this->Parameters = node;
+  this->RegistrationWidget->setParameterNode(node);
+  this->CompartmentsWidget->setParameterNode(node);
   this->TubeWidget->setParameterNode(node);
   q->updateFromNode();
 }
@@ -184,6 +186,8 @@ void qSlicerTissueMapperModuleWidget::setup()
   connect(d->ScaleButton, SIGNAL(clicked()), this, SLOT(openScale()));
   connect(d->MesherButton, SIGNAL(clicked()), this, SLOT(openMesher()));
   d->RunWidget->setRun(d->logic()->GetRun(Logic::Classify));
+  d->RegistrationWidget->setLogic(d->logic());
+  d->CompartmentsWidget->setLogic(d->logic());
   d->TubeWidget->setLogic(d->logic());
 }
 
@@ -192,6 +196,8 @@ void qSlicerTissueMapperModuleWidget::enter()
   Q_D(qSlicerTissueMapperModuleWidget);
   this->Superclass::enter();
   d->setParameterNode(d->logic()->ParameterNode());
+  d->RegistrationWidget->setActive(true);
+  d->CompartmentsWidget->setActive(true);
   d->TubeWidget->setActive(true);
 }
 
@@ -199,6 +205,8 @@ void qSlicerTissueMapperModuleWidget::exit()
 {
   Q_D(qSlicerTissueMapperModuleWidget);
   d->TrainingPlaceWidget->setPlaceModeEnabled(false);
+  d->RegistrationWidget->setActive(false);
+  d->CompartmentsWidget->setActive(false);
   d->TubeWidget->setActive(false);
   this->Superclass::exit();
 }
@@ -279,7 +287,7 @@ void qSlicerTissueMapperModuleWidget::onRunEnded()
   Q_D(qSlicerTissueMapperModuleWidget);
   vtkSurgicalMesherRun* run = d->logic()->GetRun(Logic::Classify);
   if (run->GetStatus() != vtkSurgicalMesherRun::Completed || !d->Parameters) return;
-  d->logic()->ShowTissues(d->Parameters);
+  d->logic()->ShowLabelMap(d->Parameters->GetNodeReference(Node::LabelMapRole()));
   QString sentence = tr("Classified in %1 s.").arg(run->GetElapsedSeconds(), 0, 'f', 1);
   for (const std::string& name : d->logic()->GetEmptyClasses())
     sentence += " " + tr("No voxel is %1.").arg(QString::fromStdString(name));

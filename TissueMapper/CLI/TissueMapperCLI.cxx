@@ -129,6 +129,15 @@ void writeProbabilities(CommandLine& line, const std::vector<TissueClass>& class
   }
 }
 
+void writeCompartments(const Classification& found, const std::string& file)
+{
+  TissueMap map;
+  map.grid = found.map.grid;
+  for (const Compartment compartment : found.compartments) map.labels.push_back(Label(compartment));
+  map.table = compartmentTable();
+  writeTissueMap(map, file);
+}
+
 HeadImages readImages(const CommandLine& line)
 {
   std::vector<std::string> files = channelFiles(line);
@@ -154,6 +163,8 @@ void run(CommandLine& line)
   }
   if (line.text("training").empty())
     throw UsageError("--training is missing, expected a markups file of labelled training points");
+  if (line.flag("noCompartments") && !line.outputNames("compartments").empty())
+    throw UsageError("--compartments: none are found with --noCompartments");
   const std::vector<TissueClass> classes = readTissueClasses(line.text("training"), line.text("classes"));
   HeadImages images = readImages(line);
   ClassificationOptions options;
@@ -167,6 +178,8 @@ void run(CommandLine& line)
   colour(found.map.table);
   writeTissueMap(found.map, line.outputFile("labelMap"));
   writeProbabilities(line, classes, found);
+  const std::string compartmentsFile = line.outputFile("compartments");
+  if (!compartmentsFile.empty()) writeCompartments(found, compartmentsFile);
   const std::string namesFile = line.outputFile("names");
   if (!namesFile.empty()) writeTissueNames(found.map.table, namesFile);
   const std::string reportFile = line.outputFile("report");

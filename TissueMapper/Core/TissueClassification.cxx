@@ -195,6 +195,21 @@ Admission usualAdmission(const std::string& name)
   return Admission::Anywhere;
 }
 
+TissueTable compartmentTable()
+{
+  TissueTable table;
+  const auto add = [&](Compartment compartment, const char* name, const std::array<double, 3>& color)
+  {
+    Tissue& tissue = table[Label(compartment)];
+    tissue.name = name;
+    tissue.color = color;
+  };
+  add(Compartment::Bone, "bone", { 0.95, 0.85, 0.60 });
+  add(Compartment::Intracranial, "intracranial", { 0.30, 0.60, 0.85 });
+  add(Compartment::Extracranial, "extracranial", { 0.85, 0.45, 0.35 });
+  return table;
+}
+
 Classification classifyTissues(HeadImages images, const std::vector<TissueClass>& classes,
                                const ClassificationOptions& options, const Progress& progress)
 {

@@ -55,6 +55,9 @@ struct Classification
   std::vector<std::vector<float>> probabilities;
 };
 
+/// Compartments as tissues: label (their number), name and colour.
+TissueTable compartmentTable();
+
 /// Bone is told by the CT, or else by the first image, an MR in which bone is dark. Throws InputError for fewer than two
 /// classes, a class without points, a point outside the image, no class or several of bone, bone that isn't darker than
 /// the rest (denser in a CT), and compartments without training points on both sides. The same bytes whatever the

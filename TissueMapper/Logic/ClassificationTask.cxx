@@ -16,6 +16,9 @@
 #include <vtkMRMLScene.h>
 
 #include <vtkImageData.h>
+#include <vtkImageShrink3D.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
 #include <vtksys/SystemTools.hxx>
 
 #include <algorithm>
@@ -60,6 +63,36 @@ TaskCheck checkTraining(Node* parameters)
   return {};
 }
 
+/// In voxels of about 2 mm, each the mean of those in it.
+vtkSmartPointer<vtkMRMLScalarVolumeNode> coarseCopyForRun(vtkMRMLScalarVolumeNode* volume)
+{
+  const auto copy = copyForRun(volume);
+  vtkNew<vtkImageShrink3D> shrink; // means are the default
+  shrink->SetInputData(copy->GetImageData());
+  vtkNew<vtkMatrix4x4> toWorld;
+  copy->GetIJKToRASMatrix(toWorld);
+  vtkNew<vtkMatrix4x4> toFine;
+  int factors[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    factors[axis] = std::max(1, int(2 / copy->GetSpacing()[axis] + 0.1));
+    toFine->SetElement(axis, axis, factors[axis]);
+    toFine->SetElement(axis, 3, 0.5 * (factors[axis] - 1));
+  }
+  shrink->SetShrinkFactors(factors);
+  shrink->Update();
+  vtkNew<vtkImageData> coarse;
+  coarse->ShallowCopy(shrink->GetOutput());
+  coarse->SetExtent(0, coarse->GetDimensions()[0] - 1, 0, coarse->GetDimensions()[1] - 1, 0,
+                    coarse->GetDimensions()[2] - 1);
+  coarse->SetOrigin(0, 0, 0);
+  coarse->SetSpacing(1, 1, 1);
+  copy->SetAndObserveImageData(coarse);
+  vtkMatrix4x4::Multiply4x4(toWorld, toFine, toWorld);
+  copy->SetIJKToRASMatrix(toWorld);
+  return copy;
+}
+
 } // namespace
 
 TaskCheck checkImage(vtkMRMLScalarVolumeNode* image)
@@ -83,7 +116,7 @@ void ClassificationTask::prepare(vtkMRMLTissueMapperNode* parameters)
   const std::vector<vtkMRMLScalarVolumeNode*> images = parameters->GetImages();
   for (std::size_t n = 0; n < images.size(); ++n)
   {
-    const auto copy = copyForRun(images[n]);
+    const auto copy = m_Wanted == Compartments ? coarseCopyForRun(images[n]) : copyForRun(images[n]);
     run->AddTemporaryNode(copy);
     run->SetParameterNode(channelParameters[n], copy);
   }
@@ -93,17 +126,33 @@ void ClassificationTask::prepare(vtkMRMLTissueMapperNode* parameters)
   run->SetParameter("classes", parameters->GetClasses());
   run->SetParameter("correctBias", parameters->GetCorrectBias());
   run->SetParameter("denoise", parameters->GetDenoise());
-  run->SetParameter("noCompartments", !parameters->GetUseCompartments());
+  run->SetParameter("noCompartments", m_Wanted == Tissues && !parameters->GetUseCompartments());
   run->SetParameter("noContiguity", !parameters->GetUseContiguity());
   m_NamesFile = run->NewTemporaryFile(".ctbl");
   run->SetParameter("names", m_NamesFile);
   m_LabelMap.request(run, "labelMap", vtkSmartPointer<vtkMRMLLabelMapVolumeNode>::New());
+  if (m_Wanted == Compartments)
+    m_Compartments.request(run, "compartments", vtkSmartPointer<vtkMRMLLabelMapVolumeNode>::New());
+}
+
+void ClassificationTask::deliver(vtkMRMLTissueMapperNode* parameters)
+{
+  if (m_Wanted == Tissues && m_LabelMap.isRead()) this->deliverTissues(parameters);
+  if (m_Wanted == Compartments && m_Compartments.isRead()) this->deliverCompartments(parameters);
+}
+
+void ClassificationTask::deliverCompartments(vtkMRMLTissueMapperNode* parameters)
+{
+  auto* compartments = vtkMRMLLabelMapVolumeNode::SafeDownCast(
+    m_Compartments.deliver(parameters->GetLabelMapNode(Node::CompartmentsRole()), parameters->GetScene(),
+                           vtkMRMLTr("vtkSlicerTissueMapperLogic", "compartments")));
+  parameters->SetNode(Node::CompartmentsRole(), compartments);
+  showTissueColors(compartments, compartmentTable());
 }
 
 /// The file of the label map has names and colours as well, but the host reads them from segmentations only.
-void ClassificationTask::deliver(vtkMRMLTissueMapperNode* parameters)
+void ClassificationTask::deliverTissues(vtkMRMLTissueMapperNode* parameters)
 {
-  if (!m_LabelMap.isRead()) return;
   const std::vector<vtkMRMLScalarVolumeNode*> images = parameters->GetImages();
   const std::string name = (images.empty() ? std::string() : images.front()->GetName() + std::string(" ")) +
                            vtkMRMLTr("vtkSlicerTissueMapperLogic", "tissues");
@@ -120,6 +169,10 @@ void ClassificationTask::deliver(vtkMRMLTissueMapperNode* parameters)
   }
 }
 
-void ClassificationTask::forgetResults() { m_LabelMap.forget(); }
+void ClassificationTask::forgetResults()
+{
+  m_LabelMap.forget();
+  m_Compartments.forget();
+}
 
 } // namespace surgicalmesher

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Tissues from images and training points, by TissueMapperCLI.
+/// Tissues from images and training points, or only the compartments that they may be in, by TissueMapperCLI.
 
 #include "PanelTask.h"
 #include "VolumeNodes.h"
@@ -19,7 +19,12 @@ TaskCheck checkImage(vtkMRMLScalarVolumeNode* image);
 class ClassificationTask : public PanelTask
 {
 public:
-  ClassificationTask() : PanelTask("TissueMapperCLI") {}
+  enum Wanted
+  {
+    Tissues,
+    Compartments ///< from images in voxels of 2 mm, for a look
+  };
+  explicit ClassificationTask(Wanted wanted) : PanelTask("TissueMapperCLI"), m_Wanted(wanted) {}
 
   TaskCheck findProblem(vtkMRMLTissueMapperNode* parameters) override;
   /// Of the run that completed last: the classes that no voxel is of.
@@ -31,7 +36,11 @@ protected:
   void forgetResults() override;
 
 private:
-  VolumeResult m_LabelMap;
+  void deliverTissues(vtkMRMLTissueMapperNode* parameters);
+  void deliverCompartments(vtkMRMLTissueMapperNode* parameters);
+
+  Wanted m_Wanted;
+  VolumeResult m_LabelMap, m_Compartments;
   std::string m_NamesFile;
   std::vector<std::string> m_EmptyClasses;
 };

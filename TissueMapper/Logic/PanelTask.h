@@ -30,6 +30,8 @@ struct TaskCheck
     NoClassFile, ///< the file `name` cannot be read
     FewPoints,   ///< less than two points on a tube are placed
     RadiiOdd,    ///< the smallest radius is above the largest, or there is one without the other
+    NoMoving,    ///< no image to be moved is chosen
+    SameImage,   ///< the image `name` is to be moved onto itself
     NoTissues,   ///< no label map that a tube could join
     Refused      ///< the core's own sentence is `name`
   };

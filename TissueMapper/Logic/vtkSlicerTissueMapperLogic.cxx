@@ -2,14 +2,17 @@
 #include "vtkSlicerTissueMapperLogic.h"
 
 #include "ClassificationTask.h"
+#include "RegistrationTask.h"
 #include "TubeTask.h"
 #include "vtkMRMLTissueMapperNode.h"
 #include "vtkSurgicalMesherRun.h"
 
 #include <vtkMRMLApplicationLogic.h>
 #include <vtkMRMLLabelMapVolumeNode.h>
+#include <vtkMRMLScalarVolumeNode.h>
 #include <vtkMRMLScene.h>
 #include <vtkMRMLSelectionNode.h>
+#include <vtkMRMLSliceCompositeNode.h>
 
 #include <vtkObjectFactory.h>
 #include <vtkSmartPointer.h>
@@ -20,8 +23,10 @@ vtkStandardNewMacro(vtkSlicerTissueMapperLogic);
 
 //----------------------------------------------------------------------------
 vtkSlicerTissueMapperLogic::vtkSlicerTissueMapperLogic()
-  : Classification(std::make_unique<surgicalmesher::ClassificationTask>()),
-    Tracing(std::make_unique<TubeTask>(TubeTask::Path)), Adding(std::make_unique<TubeTask>(TubeTask::PathAndTissue))
+  : Classification(std::make_unique<ClassificationTask>(ClassificationTask::Tissues)),
+    Compartments(std::make_unique<ClassificationTask>(ClassificationTask::Compartments)),
+    Registration(std::make_unique<RegistrationTask>()), Tracing(std::make_unique<TubeTask>(TubeTask::Path)),
+    Adding(std::make_unique<TubeTask>(TubeTask::PathAndTissue))
 {
 }
 
@@ -30,7 +35,7 @@ vtkSlicerTissueMapperLogic::~vtkSlicerTissueMapperLogic() = default;
 void vtkSlicerTissueMapperLogic::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  for (const Task task : { Classify, TraceTube, AddTube })
+  for (const Task task : { Classify, FindCompartments, Register, TraceTube, AddTube })
   {
     os << indent << "Run of " << this->TaskOf(task).module() << ":\n";
     this->GetRun(task)->PrintSelf(os, indent.GetNextIndent());
@@ -57,6 +62,8 @@ PanelTask& vtkSlicerTissueMapperLogic::TaskOf(Task task) const
 {
   switch (task)
   {
+  case FindCompartments: return *this->Compartments;
+  case Register: return *this->Registration;
   case TraceTube: return *this->Tracing;
   case AddTube: return *this->Adding;
   default: return *this->Classification;
@@ -81,18 +88,37 @@ TaskCheck vtkSlicerTissueMapperLogic::Start(Task task, vtkMRMLTissueMapperNode* 
 
 vtkSurgicalMesherRun* vtkSlicerTissueMapperLogic::GetRun(Task task) const { return this->TaskOf(task).run(); }
 
-void vtkSlicerTissueMapperLogic::ShowTissues(vtkMRMLTissueMapperNode* parameters)
+void vtkSlicerTissueMapperLogic::ShowLabelMap(vtkMRMLNode* labelMap)
 {
-  vtkMRMLLabelMapVolumeNode* tissues = parameters->GetLabelMapNode(vtkMRMLTissueMapperNode::LabelMapRole());
   vtkMRMLApplicationLogic* application = this->GetMRMLApplicationLogic();
-  if (!tissues || !application || !application->GetSelectionNode()) return;
-  application->GetSelectionNode()->SetActiveLabelVolumeID(tissues->GetID());
+  if (!application || !application->GetSelectionNode()) return;
+  application->GetSelectionNode()->SetActiveLabelVolumeID(labelMap ? labelMap->GetID() : nullptr);
   application->PropagateLabelVolumeSelection(0);
+}
+
+void vtkSlicerTissueMapperLogic::ShowRegistered(vtkMRMLTissueMapperNode* parameters)
+{
+  vtkMRMLNode* fixed = parameters->GetNodeReference(vtkMRMLTissueMapperNode::FixedImageRole());
+  vtkMRMLNode* registered = parameters->GetNodeReference(vtkMRMLTissueMapperNode::RegisteredImageRole());
+  vtkMRMLApplicationLogic* application = this->GetMRMLApplicationLogic();
+  if (!fixed || !registered || !application || !application->GetSelectionNode()) return;
+  application->GetSelectionNode()->SetActiveVolumeID(fixed->GetID());
+  application->GetSelectionNode()->SetSecondaryVolumeID(registered->GetID());
+  application->PropagateBackgroundVolumeSelection(0);
+  application->PropagateForegroundVolumeSelection(0);
+  std::vector<vtkMRMLNode*> views;
+  this->GetMRMLScene()->GetNodesByClass("vtkMRMLSliceCompositeNode", views);
+  for (vtkMRMLNode* view : views) vtkMRMLSliceCompositeNode::SafeDownCast(view)->SetForegroundOpacity(0.5);
 }
 
 std::vector<std::string> vtkSlicerTissueMapperLogic::GetEmptyClasses() const
 {
   return this->Classification->emptyClasses();
+}
+
+const FoundRegistration& vtkSlicerTissueMapperLogic::GetFoundRegistration() const
+{
+  return this->Registration->found();
 }
 
 const FoundTube& vtkSlicerTissueMapperLogic::GetFoundTube(Task task) const

@@ -2,6 +2,7 @@
 #pragma once
 /// Runs the command-line modules of Tissue Mapper for a parameter node, and makes their results legible.
 
+#include "FoundRegistration.h"
 #include "FoundTube.h"
 #include "PanelTask.h"
 #include "vtkSlicerTissueMapperModuleLogicExport.h"
@@ -18,6 +19,7 @@ class vtkSurgicalMesherRun;
 namespace surgicalmesher
 {
 class ClassificationTask;
+class RegistrationTask;
 class TubeTask;
 } // namespace surgicalmesher
 
@@ -33,9 +35,11 @@ public:
 
   enum Task
   {
-    Classify,  ///< the parameter node's label map from its images and training points
-    TraceTube, ///< the curve along a tube from its points
-    AddTube    ///< the same, and the tube becomes a tissue of the label map
+    Classify,         ///< the parameter node's label map from its images and training points
+    FindCompartments, ///< where the classes may be, in coarse voxels, as a label map
+    Register,         ///< the moving image onto the fixed one
+    TraceTube,        ///< the curve along a tube from its points
+    AddTube           ///< the same, and the tube becomes a tissue of the label map
   };
 
   surgicalmesher::TaskCheck FindProblem(Task task, vtkMRMLTissueMapperNode* parameters);
@@ -46,11 +50,15 @@ public:
   /// priority, the results have been finished.
   vtkSurgicalMesherRun* GetRun(Task task) const;
 
-  /// Puts the tissues over every slice view.
-  void ShowTissues(vtkMRMLTissueMapperNode* parameters);
+  /// Puts the label map of a role (tissues or compartments) over every slice view; null for none.
+  void ShowLabelMap(vtkMRMLNode* labelMap);
+  /// Puts the registered image half transparent over the fixed one in every slice view.
+  void ShowRegistered(vtkMRMLTissueMapperNode* parameters);
 
   /// Of the classification that completed last: the classes that no voxel is of.
   std::vector<std::string> GetEmptyClasses() const;
+  /// Of the registration that completed last.
+  const surgicalmesher::FoundRegistration& GetFoundRegistration() const;
   /// Of the tube that a task has followed last.
   const surgicalmesher::FoundTube& GetFoundTube(Task task) const;
 
@@ -66,6 +74,8 @@ private:
   surgicalmesher::PanelTask& TaskOf(Task task) const;
 
   std::unique_ptr<surgicalmesher::ClassificationTask> Classification;
+  std::unique_ptr<surgicalmesher::ClassificationTask> Compartments;
+  std::unique_ptr<surgicalmesher::RegistrationTask> Registration;
   std::unique_ptr<surgicalmesher::TubeTask> Tracing;
   std::unique_ptr<surgicalmesher::TubeTask> Adding;
 };

@@ -13,12 +13,13 @@ vtkMRMLNodeNewMacro(vtkMRMLTissueMapperNode);
 //----------------------------------------------------------------------------
 vtkMRMLTissueMapperNode::vtkMRMLTissueMapperNode()
 {
-  this->AddRoles({ ImageRole(), SecondImageRole(), ThirdImageRole(), FourthImageRole() }, {},
-                 { vtkMRMLTransformableNode::TransformModifiedEvent, vtkMRMLVolumeNode::ImageDataModifiedEvent });
-  this->AddRoles({ TrainingRole(), TubePointsRole() }, {},
+  this->AddRoles(
+    { ImageRole(), SecondImageRole(), ThirdImageRole(), FourthImageRole(), FixedImageRole(), MovingImageRole() }, {},
+    { vtkMRMLTransformableNode::TransformModifiedEvent, vtkMRMLVolumeNode::ImageDataModifiedEvent });
+  this->AddRoles({ TrainingRole(), TargetRole(), TubePointsRole() }, {},
                  { vtkMRMLTransformableNode::TransformModifiedEvent, vtkMRMLMarkupsNode::PointModifiedEvent,
                    vtkMRMLMarkupsNode::PointAddedEvent, vtkMRMLMarkupsNode::PointRemovedEvent });
-  this->AddRoles({ LabelMapRole(), TubeImageRole(), TubePathRole() }, {});
+  this->AddRoles({ LabelMapRole(), CompartmentsRole(), RegisteredImageRole(), TubeImageRole(), TubePathRole() }, {});
 }
 
 std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLTissueMapperNode::GetValues()
@@ -29,6 +30,9 @@ std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLTissueMapperNode::
            { "denoise", &this->Denoise },
            { "useCompartments", &this->UseCompartments },
            { "useContiguity", &this->UseContiguity },
+           { "compartmentsAtOnce", &this->CompartmentsAtOnce },
+           { "targetRadius", &this->TargetRadius },
+           { "registrationStart", &this->RegistrationStart },
            { "tubeName", &this->TubeName },
            { "minimumRadius", &this->MinimumRadius },
            { "maximumRadius", &this->MaximumRadius },

@@ -36,6 +36,19 @@ public:
   static const char* TrainingRole() { return "training"; } ///< markups; each point's label is the name of its class
   static const char* LabelMapRole() { return "labelMap"; } ///< the tissues; a new one where there is none
 
+  static const char* CompartmentsRole()
+  {
+    return "compartments";
+  } ///< label map: where classes may be, in coarse voxels
+
+  static const char* FixedImageRole() { return "fixedImage"; } ///< scalar volumes: one stays, the other comes onto it
+  static const char* MovingImageRole() { return "movingImage"; }
+  static const char* TargetRole()
+  {
+    return "target";
+  } ///< markups; the first point is what counts most; none: all alike
+  static const char* RegisteredImageRole() { return "registeredImage"; } ///< a new one where there is none
+
   static const char* TubeImageRole() { return "tubeImage"; }   ///< where a tube is followed; none: the first image
   static const char* TubePointsRole() { return "tubePoints"; } ///< markups: points on the tube, in its order
   static const char* TubePathRole() { return "tubePath"; }     ///< curve along its axis; a new one where there is none
@@ -60,6 +73,17 @@ public:
   /// Whether contiguity and limits of the table count.
   vtkGetMacro(UseContiguity, bool);
   vtkSetMacro(UseContiguity, bool);
+
+  /// Whether compartments follow the points and options at once.
+  vtkGetMacro(CompartmentsAtOnce, bool);
+  vtkSetMacro(CompartmentsAtOnce, bool);
+
+  /// Of the sphere around the target, mm.
+  vtkGetMacro(TargetRadius, double);
+  vtkSetMacro(TargetRadius, double);
+  /// "centre" or "principal": what the first guesses of registration lay on each other.
+  vtkGetMacro(RegistrationStart, std::string);
+  vtkSetMacro(RegistrationStart, std::string);
 
   /// The image that a tube is followed in; null if there is none.
   vtkMRMLScalarVolumeNode* GetTubeImage();
@@ -92,6 +116,9 @@ protected:
   bool Denoise = false;
   bool UseCompartments = true;
   bool UseContiguity = true;
+  bool CompartmentsAtOnce = false;
+  double TargetRadius = 40;
+  std::string RegistrationStart = "centre";
   std::string TubeName = "vessel";
   double MinimumRadius = 0;
   double MaximumRadius = 0;

@@ -76,6 +76,17 @@ TEST_F(TissueMapperCLI, TakesSeveralImagesAndWritesProbabilities)
   expectRefused("--training points.fcsv --probability p.nrrd t1.nrrd p-3.nrrd", 2, "p-3.nrrd");
 }
 
+TEST_F(TissueMapperCLI, WritesTheCompartmentsThatItsClassesKeepTo)
+{
+  expectDone("--training points.fcsv --compartments c.nrrd t1.nrrd map.nrrd");
+  const TissueMap map = readTissueMap(folder.file("map.nrrd")), compartments = readTissueMap(folder.file("c.nrrd"));
+  const std::array<Label, 8> compartmentOf{ 0, 2, 2, 2, 3, 3, 3, 1 };
+  for (std::size_t n = 0; n < map.labels.size(); ++n) ASSERT_EQ(compartments.labels[n], compartmentOf[map.labels[n]]);
+  EXPECT_EQ(compartments.table.at(2).name, "intracranial");
+  expectRefused("--training points.fcsv --noCompartments --compartments d.nrrd t1.nrrd map.nrrd", 2,
+                "--compartments: none");
+}
+
 TEST_F(TissueMapperCLI, NumbersClassesAsTheTableSays)
 {
   folder.write("classes.csv", "label,name,compartment\n11,csf,\n12,Grey matter,\n13,white matter,intracranial\n"

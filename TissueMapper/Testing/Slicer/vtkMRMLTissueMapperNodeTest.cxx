@@ -25,6 +25,9 @@ void fill(Node* node)
   node->SetDenoise(true);
   node->SetUseCompartments(false);
   node->SetUseContiguity(false);
+  node->SetCompartmentsAtOnce(true);
+  node->SetTargetRadius(27.5);
+  node->SetRegistrationStart("principal");
   node->SetTubeName("a. carotis \"interna\"");
   node->SetMinimumRadius(0.75);
   node->SetMaximumRadius(3.5);
@@ -40,6 +43,9 @@ int checkFilled(Node* node)
   CHECK_BOOL(node->GetDenoise(), true);
   CHECK_BOOL(node->GetUseCompartments(), false);
   CHECK_BOOL(node->GetUseContiguity(), false);
+  CHECK_BOOL(node->GetCompartmentsAtOnce(), true);
+  CHECK_DOUBLE(node->GetTargetRadius(), 27.5);
+  CHECK_STD_STRING(node->GetRegistrationStart(), "principal");
   CHECK_STD_STRING(node->GetTubeName(), "a. carotis \"interna\"");
   CHECK_DOUBLE(node->GetMinimumRadius(), 0.75);
   CHECK_DOUBLE(node->GetMaximumRadius(), 3.5);

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// One image brought onto another, by LocalRegistrationCLI.
+
+#include "FoundRegistration.h"
+#include "PanelTask.h"
+#include "VolumeNodes.h"
+
+namespace surgicalmesher
+{
+
+class RegistrationTask : public PanelTask
+{
+public:
+  RegistrationTask() : PanelTask("LocalRegistrationCLI") {}
+
+  TaskCheck findProblem(vtkMRMLTissueMapperNode* parameters) override;
+  /// Of the run that completed last.
+  const FoundRegistration& found() const { return m_Found; }
+
+protected:
+  void prepare(vtkMRMLTissueMapperNode* parameters) override;
+  void deliver(vtkMRMLTissueMapperNode* parameters) override;
+  void forgetResults() override;
+
+private:
+  VolumeResult m_Registered;
+  std::string m_ReportFile;
+  FoundRegistration m_Found;
+};
+
+} // namespace surgicalmesher

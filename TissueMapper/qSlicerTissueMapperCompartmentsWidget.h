@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "qSlicerTissueMapperModuleExport.h"
+
+#include <ctkVTKObject.h>
+#include <qSlicerWidget.h>
+
+class qSlicerTissueMapperCompartmentsWidgetPrivate;
+class vtkMRMLTissueMapperNode;
+class vtkSlicerTissueMapperLogic;
+
+/// The part of the panel that shows, in coarse voxels, where the classes may be.
+class Q_SLICER_QTMODULES_TISSUEMAPPER_EXPORT qSlicerTissueMapperCompartmentsWidget : public qSlicerWidget
+{
+  Q_OBJECT
+  QVTK_OBJECT
+
+public:
+  using Superclass = qSlicerWidget;
+
+  explicit qSlicerTissueMapperCompartmentsWidget(QWidget* parent = nullptr);
+  ~qSlicerTissueMapperCompartmentsWidget() override;
+
+  void setLogic(vtkSlicerTissueMapperLogic* logic);
+  void setParameterNode(vtkMRMLTissueMapperNode* node);
+  /// Whether the panel is open; compartments follow points and options only while it is.
+  void setActive(bool isActive);
+
+protected slots:
+  void updateFromNode();
+  void onInputChanged();
+  void followInputs();
+  void find();
+  void showTissues();
+  void onRunEnded();
+
+private:
+  QScopedPointer<qSlicerTissueMapperCompartmentsWidgetPrivate> d_ptr;
+  Q_DECLARE_PRIVATE(qSlicerTissueMapperCompartmentsWidget)
+  Q_DISABLE_COPY(qSlicerTissueMapperCompartmentsWidget)
+};
