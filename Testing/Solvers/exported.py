@@ -233,9 +233,13 @@ def read_k(file):
                     "SET_SEGMENT_TITLE": result.faces}[keyword]
             kind[lines[0]] = np.array(rows)[:, :3] if kind is result.faces else np.concatenate(rows)
     titles = {int(columns(lines[1], 10)[0]): lines[0] for keyword, lines in found if keyword == "PART"}
+    shells = [[int(field) for field in columns(line, 8)]
+              for line in next((lines for keyword, lines in found if keyword == "ELEMENT_SHELL"), [])]
     for number, name in titles.items():
         if number in parts:
             np.testing.assert_array_equal(np.flatnonzero(parts == number), result.cells[name])
+        else:
+            result.faces[name] = np.array([row[2:5] for row in shells if row[1] == number]) - 1
     return result
 
 
@@ -296,6 +300,8 @@ def read_exo(file):
     for name, kind, nodes in blocks:
         if kind == "TETRA":
             np.testing.assert_array_equal(np.sort(tetrahedra[result.cells[name]], axis=0), np.sort(nodes, axis=0))
+        else:
+            result.faces[name] = nodes
     return result
 
 

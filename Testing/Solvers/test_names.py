@@ -102,13 +102,17 @@ class NamesTest(unittest.TestCase):
             with self.subTest(extension):
                 file = read("mesh." + extension)
                 for name, expected in tetrahedra.items():
+                    if extension == "cdb" and len(name) > 32:  # Ansys's limit: head and tail are kept
+                        (name,) = (n for n in file.cells if n[:8] == name[:8] and n[-8:] == name[-8:])
+                        self.assertLessEqual(len(name), 32)
                     self.assertEqual(len(file.cells[name]), len(expected), name)
                 if extension in ("inp", "feb"):
                     self.assertEqual(set(file.faces), surfaces)
                 elif extension not in ("vtk", "vtu"):
-                    self.assertLess(set(file.faces) - shells, surfaces)
+                    self.assertLessEqual(set(file.faces) - shells, surfaces)
                     (shell,) = shells
-                    self.assertEqual(len(file.faces[shell]), self.sets[shell]["size"])
+                    elements = file.faces[shell] if shell in file.faces else file.cells[shell]
+                    self.assertEqual(len(elements), self.sets[shell]["size"])
 
     def test_null_displacement_reaches_the_nodes(self):
         constitutive = cell_array(read_dataset("reference.vtu"), "Constitutive")
