@@ -27,6 +27,8 @@ FiniteElementOptions readOptions(const CommandLine& line, const MeshFile& conten
   if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present);
   options.shells = shellChoices(line.texts("shell"), content.tissues, present, line.number("shellThickness"));
   options.nodes = nodeChoices(line.texts("nodeSet"));
+  for (const std::string& file : line.texts("nodeMarkups"))
+    for (const NodeChoice& choice : nodeChoicesOfMarkups(file)) options.nodes.push_back(choice);
   return options;
 }
 

@@ -162,6 +162,8 @@ void requireUsableOptions(CommandLine& line)
     throw UsageError("--shell is given, but neither --shells nor --export");
   if (!nodeChoices(line.texts("nodeSet")).empty() && !line.given("export"))
     throw UsageError("--nodeSet is given, but no --export, expected both");
+  if (!line.texts("nodeMarkups").empty() && !line.given("export"))
+    throw UsageError("--nodeMarkups is given, but no --export, expected both");
 }
 
 FiniteElementOptions readFiniteElementOptions(CommandLine& line, const TetrahedralizerInput& content)
@@ -177,6 +179,8 @@ FiniteElementOptions readFiniteElementOptions(CommandLine& line, const Tetrahedr
   if (!missing.empty()) line.warning(missing);
   options.shells = readShells(line, content.tissues, present);
   options.nodes = nodeChoices(line.texts("nodeSet"));
+  for (const std::string& file : line.texts("nodeMarkups"))
+    for (const NodeChoice& choice : nodeChoicesOfMarkups(file)) options.nodes.push_back(choice);
   options.beams.areTrusses = line.text("curveElements") == "truss";
   options.beams.material.youngsModulus = 1e-3 * line.number("curveYoungsModulus");
   return options;

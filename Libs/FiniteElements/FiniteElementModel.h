@@ -152,8 +152,10 @@ struct ShellChoice
 enum class NodeShape
 {
   Box,
+  TurnedBox,
   Sphere,
-  HalfSpace
+  HalfSpace,
+  NearestNode
 };
 
 /// A set of the nodes in some place, lengths in mm.
@@ -161,8 +163,11 @@ struct NodeChoice
 {
   std::string name;
   NodeShape shape = NodeShape::Box;
-  Vec3 a, b;         ///< corners of a box; centre of a sphere; a point of a half-space's plane and its normal, inwards
-  double radius = 0; ///< of a sphere
+  Vec3 a, b; ///< corners of a box; centre of a turned box or a sphere; a point of a half-space's plane and its normal,
+             ///< inwards; the point whose nearest node it is
+  double radius = 0;          ///< of a sphere
+  std::array<Vec3, 3> axes{}; ///< of a turned box, of unit length
+  Vec3 size;                  ///< of a turned box along them
 };
 
 /// What curves are made of.

@@ -3,8 +3,11 @@
 
 #include "Errors.h"
 #include "Text.h"
+#include "TissueMapIO.h"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <optional>
 #include <set>
 
@@ -54,9 +57,23 @@ std::optional<NodeChoice> findChoice(const std::string& text)
   return {};
 }
 
+std::int32_t nearestNode(const Vec3& place, const std::vector<Vec3>& points)
+{
+  const auto nearest =
+    std::min_element(points.begin(), points.end(),
+                     [&](const Vec3& p, const Vec3& q) { return squaredNorm(p - place) < squaredNorm(q - place); });
+  return static_cast<std::int32_t>(nearest - points.begin());
+}
+
 bool isWithin(const NodeChoice& choice, const Vec3& p)
 {
   if (choice.shape == NodeShape::Sphere) return norm(p - choice.a) <= choice.radius + kTolerance;
+  if (choice.shape == NodeShape::TurnedBox)
+  {
+    for (int i = 0; i < 3; ++i)
+      if (std::abs(dot(p - choice.a, choice.axes[i])) > choice.size[i] / 2 + kTolerance) return false;
+    return true;
+  }
   if (choice.shape == NodeShape::HalfSpace) return dot(p - choice.a, choice.b) >= -kTolerance * norm(choice.b);
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -75,10 +92,41 @@ std::vector<NodeChoice> nodeChoices(const std::vector<std::string>& texts)
   {
     const std::optional<NodeChoice> choice = findChoice(text);
     if (!choice)
-      throw UsageError(
-        "--nodeSet: \"" + text +
-        "\" found, NAME: box X Y Z X Y Z, NAME: sphere X Y Z RADIUS or NAME: plane X Y Z NX NY NZ expected");
+      throw UsageError("--nodeSet: \"" + text +
+                       "\" found, NAME: box X Y Z X Y Z, NAME: sphere X Y Z RADIUS, NAME: plane X Y Z NX NY NZ or "
+                       "NAME: FILE of markups expected");
     choices.push_back(*choice);
+  }
+  return choices;
+}
+
+std::vector<NodeChoice> nodeChoicesOfMarkups(const std::string& file)
+{
+  const std::string name = std::filesystem::path(file).stem().stem().string(); // .mrk.json
+  std::vector<NodeChoice> choices;
+  for (const Markup& markup : readLabelledMarkups(file))
+  {
+    NodeChoice choice;
+    choice.name = name;
+    if (markup.region)
+    {
+      const bool isPlane = markup.type == "Plane";
+      choice.shape = isPlane ? NodeShape::HalfSpace : NodeShape::TurnedBox;
+      choice.a = markup.region->center;
+      choice.b = markup.region->axes[2];
+      choice.axes = markup.region->axes;
+      choice.size = markup.region->size;
+      choices.push_back(choice);
+      continue;
+    }
+    if (markup.type != "Fiducial" && !markup.type.empty())
+      throw InputError(file + ": a markup of type \"" + markup.type + "\" found, points, a plane or an ROI expected");
+    choice.shape = NodeShape::NearestNode;
+    for (const Vec3& point : markup.points)
+    {
+      choice.a = point;
+      choices.push_back(choice);
+    }
   }
   return choices;
 }
@@ -90,6 +138,11 @@ std::map<std::string, std::vector<std::int32_t>> chosenNodes(const std::vector<N
   for (const NodeChoice& choice : choices)
   {
     std::set<std::int32_t>& some = members[choice.name];
+    if (choice.shape == NodeShape::NearestNode)
+    {
+      some.insert(nearestNode(choice.a, points));
+      continue;
+    }
     for (std::size_t i = 0; i < points.size(); ++i)
     {
       if (isWithin(choice, points[i])) some.insert(static_cast<std::int32_t>(i));

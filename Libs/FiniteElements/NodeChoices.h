@@ -11,6 +11,10 @@ namespace surgicalmesher
 /// "plane X Y Z NX NY NZ", the side of the plane that its normal points to. Throws UsageError for anything else.
 std::vector<NodeChoice> nodeChoices(const std::vector<std::string>& texts);
 
+/// The set that has a markups file's name: of each of its points the nearest node, of a plane the side that its normal
+/// points to, of an ROI the nodes within. Throws InputError for other markups.
+std::vector<NodeChoice> nodeChoicesOfMarkups(const std::string& file);
+
 /// Points within the shapes or on them (to a millionth of a mm), by name, ascending; shapes of one name are joined.
 /// Throws InputError for a name without a point.
 std::map<std::string, std::vector<std::int32_t>> chosenNodes(const std::vector<NodeChoice>& choices,

@@ -43,19 +43,44 @@ std::string textMember(const Json& object, const char* name, const std::string& 
   return missing;
 }
 
+/// So many finite numbers, or none.
+std::vector<double> numbersOf(const Json& object, const char* name, rapidjson::SizeType count)
+{
+  const Json* values = member(object, name);
+  if (!values || !values->IsArray() || values->Size() != count) return {};
+  std::vector<double> numbers;
+  for (const Json& value : values->GetArray())
+  {
+    if (!value.IsNumber() || !std::isfinite(value.GetDouble())) return {};
+    numbers.push_back(value.GetDouble());
+  }
+  return numbers;
+}
+
 Vec3 readPosition(const Json& controlPoint, const std::string& file)
 {
-  const Json* position = controlPoint.IsObject() ? member(controlPoint, "position") : nullptr;
-  Vec3 p;
-  bool good = position && position->IsArray() && position->Size() == 3;
-  for (int axis = 0; good && axis < 3; ++axis)
+  const auto p = controlPoint.IsObject() ? numbersOf(controlPoint, "position", 3) : std::vector<double>();
+  if (p.empty()) throw InputError(file + ": a control point without a position of three numbers");
+  return { p[0], p[1], p[2] };
+}
+
+/// A plane has a centre and a normal, a box centre, size and orientation, row by row, whose columns are its axes.
+std::optional<MarkupRegion> readRegion(const Json& markup, const std::string& type, bool ras)
+{
+  const auto center = numbersOf(markup, "center", 3), normal = numbersOf(markup, "normal", 3);
+  const auto size = numbersOf(markup, "size", 3), axes = numbersOf(markup, "orientation", 9);
+  if (center.empty()) return {};
+  MarkupRegion region;
+  region.center = toLps({ center[0], center[1], center[2] }, ras);
+  if (type == "Plane" && !normal.empty())
   {
-    const Json& value = (*position)[axis];
-    good = value.IsNumber() && std::isfinite(value.GetDouble());
-    if (good) p[axis] = value.GetDouble();
+    region.axes[2] = toLps({ normal[0], normal[1], normal[2] }, ras);
+    return region;
   }
-  if (!good) throw InputError(file + ": a control point without a position of three numbers");
-  return p;
+  if (type != "ROI" || size.empty() || axes.empty()) return {};
+  region.size = { size[0], size[1], size[2] };
+  for (std::size_t i = 0; i < 3; ++i) region.axes[i] = toLps({ axes[i], axes[3 + i], axes[6 + i] }, ras);
+  return region;
 }
 
 /// `isPlaced` of every control point of the file; values of those that are not are dropped with them.
@@ -87,6 +112,8 @@ Markup readMarkup(const Json& markup, const std::string& file)
   const std::string units = textMember(markup, "coordinateUnits", "mm");
   if (units != "mm") throw InputError(file + ": coordinates in \"" + units + "\", expected mm");
   Markup result;
+  result.type = textMember(markup, "type", "");
+  result.region = readRegion(markup, result.type, ras);
   std::vector<bool> isPlaced;
   for (const Json& controlPoint : controlPoints->GetArray())
   {
@@ -96,7 +123,7 @@ Markup readMarkup(const Json& markup, const std::string& file)
     result.labels.push_back(textMember(controlPoint, "label", ""));
   }
   readMeasurements(markup, isPlaced, result);
-  const bool isClosed = textMember(markup, "type", "") == "ClosedCurve";
+  const bool isClosed = result.type == "ClosedCurve";
   if (isClosed && result.points.size() > 1)
   {
     result.points.push_back(result.points.front());

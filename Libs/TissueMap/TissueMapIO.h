@@ -8,7 +8,9 @@
 #include "ScaleField.h"
 #include "TissueMap.h"
 
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,12 +72,22 @@ std::vector<std::vector<Vec3>> readMarkups(const std::string& file);
 Focus readFocus(const std::vector<Vec3>& targetPoints, const std::vector<std::string>& targetFiles,
                 const Path& pathPoints, const std::vector<std::string>& pathFiles);
 
+/// A plane or a box (ROI) of Slicer.
+struct MarkupRegion
+{
+  Vec3 center;              ///< LPS, mm
+  std::array<Vec3, 3> axes; ///< of unit length, LPS; the third is a plane's normal
+  Vec3 size;                ///< of a box along its axes (mm)
+};
+
 /// One markup with what its control points carry besides their places.
 struct Markup
 {
   std::vector<Vec3> points;                               ///< LPS, mm
   std::vector<std::string> labels;                        ///< by point; empty where it has none
   std::map<std::string, std::vector<double>> pointValues; ///< measurements of one value a point, by name
+  std::string type;                                       ///< Slicer's word: "Fiducial", "Plane"; empty in .fcsv
+  std::optional<MarkupRegion> region;                     ///< of types "Plane" and "ROI" that have one
 };
 
 /// The same markups as readMarkups(), with labels and measurements. A measurement whose values are not as many as the

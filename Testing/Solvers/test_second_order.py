@@ -3,6 +3,7 @@
 usage: test_second_order.py MODULES FOLDER. Without CalculiX or gmsh the status is 77.
 """
 import importlib.util
+import json
 import os
 import shutil
 import subprocess
@@ -228,6 +229,36 @@ class SecondOrder(unittest.TestCase):
             names = [reader.GetObjectName(vtk.vtkExodusIIReader.NODE_SET, i)
                      for i in range(reader.GetNumberOfObjects(vtk.vtkExodusIIReader.NODE_SET))]
             self.assertTrue({"root", "edge", "ball", "outer_boundary_nodes"} <= {name.split(" ")[0] for name in names}, names)
+
+    def test_sets_of_nodes_by_markups(self):
+        """Files as Slicer 5 writes them, in either frame."""
+        turned = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])  # columns are axes
+        flip = np.diag([-1.0, -1, 1])
+        for system, frame in (("LPS", np.eye(3)), ("RAS", flip)):
+            roi = {"type": "ROI", "coordinateSystem": system, "roiType": "Box", "center": list(frame @ (30, 0, 0)),
+                   "orientation": list((frame @ turned).ravel()), "size": [10, 3, 20], "insideOut": False,
+                   "controlPoints": [{"position": list(frame @ (30, 0, 0))}]}
+            plane = {"type": "Plane", "coordinateSystem": system, "center": list(frame @ (50, 0, 0)),
+                     "normal": list(frame @ (1, 0, 0)), "controlPoints": [{"position": list(frame @ (50, 0, 0))}]}
+            pins = {"type": "Fiducial", "coordinateSystem": system,
+                    "controlPoints": [{"position": list(frame @ p)} for p in ((-1, -4, -4), (61, 4, 4))]}
+            words = []
+            for name, markup in (("roi", roi), ("plane", plane), ("pins", pins), ("line", {**pins, "type": "Line"})):
+                with open(path(f"{name}.mrk.json"), "w", encoding="ascii") as file:
+                    json.dump({"markups": [markup]}, file)
+                words += ["--nodeMarkups", f"{name}.mrk.json"]
+            done = run_module("surgicalmesher", "convert", *words[:6], "mesh1.vtu", "placed.inp")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            mesh = meshio_read(path("placed.inp"))
+            within = (np.abs((mesh.points - (30, 0, 0)) @ turned) <= (5 + 1e-6, 1.5 + 1e-6, 10)).all(axis=1)
+            self.assertGreater(np.count_nonzero(within), 3)
+            np.testing.assert_array_equal(np.sort(mesh.point_sets["roi"]), np.flatnonzero(within))
+            np.testing.assert_array_equal(np.sort(mesh.point_sets["plane"]), np.flatnonzero(mesh.points[:, 0] > 50 - 1e-6))
+            np.testing.assert_allclose(mesh.points[np.sort(mesh.point_sets["pins"])][:, 0] % LENGTH, 0, atol=1e-9)
+            self.assertEqual(len(mesh.point_sets["pins"]), 2)
+            done = run_module("surgicalmesher", "convert", *words, "mesh1.vtu", "refused.inp")
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+            self.assertIn('"Line"', done.stderr)
 
     def test_gmsh_reads_it(self):
         import gmsh

@@ -87,7 +87,7 @@ std::vector<Vec3> markupsPath(vtkMRMLMarkupsNode* node)
 void writeMarkups(const std::vector<std::vector<Vec3>>& markups, const std::string& file)
 {
   std::vector<Markup> unlabelled;
-  for (const std::vector<Vec3>& points : markups) unlabelled.push_back({ points, {}, {} });
+  for (const std::vector<Vec3>& points : markups) unlabelled.emplace_back().points = points;
   writeLabelledMarkups(unlabelled, file);
 }
 
