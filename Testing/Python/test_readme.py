@@ -21,7 +21,7 @@ PROGRAMS = {"BalloonSurface": "SimplexMesher",
             "VolumetricHex": "TemplateHexMesher"}
 PAGES = (["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{module}.md" for module in MODULES]
          + ["Docs/TemplateHexMesher.md", "Docs/TissueMapper.md", "Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/MultirateSolver.md", "Docs/Fitness.md",
-            "Docs/Solvers.md", "Docs/Slicer.md", "Docs/Tutorial.md", "Docs/HeadPhantom.md", "Docs/surgicalmesher.md", "Docs/Packages.md", "Docs/Python.md", "Docs/Systems.md"])
+            "Docs/Solvers.md", "Docs/Slicer.md", "Docs/Tutorial.md", "Docs/ImageTutorial.md", "Docs/HeadPhantom.md", "Docs/surgicalmesher.md", "Docs/Packages.md", "Docs/Python.md", "Docs/Systems.md"])
 
 
 def text_of(*path):

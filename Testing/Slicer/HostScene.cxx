@@ -142,6 +142,8 @@ std::string jhuAtlasFile() { return ifExists("/usr/share/mricron/templates/jhu18
 
 std::string brainImageFile() { return ifExists("/usr/share/mricron/templates/ch2better.nii.gz"); }
 
+std::string headImageFile() { return ifExists("/usr/share/mricron/templates/ch2.nii.gz"); }
+
 vtkMRMLLabelMapVolumeNode* loadJhuAtlas(vtkMRMLScene* scene)
 {
   vtkMRMLLabelMapVolumeNode* atlas = loadLabelMap(scene, jhuAtlasFile());

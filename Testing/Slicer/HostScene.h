@@ -50,6 +50,9 @@ vtkMRMLScalarVolumeNode* loadVolume(vtkMRMLScene* scene, const std::string& file
 std::string jhuAtlasFile();
 std::string brainImageFile();
 
+/// The T1 image of the same head with all that is around the brain, from the same package.
+std::string headImageFile();
+
 /// The atlas in its place. Of the two places that its file gives, the host takes the wrong one.
 vtkMRMLLabelMapVolumeNode* loadJhuAtlas(vtkMRMLScene* scene);
 

@@ -5,17 +5,14 @@
 #include "HostLog.h"
 #include "HostScene.h"
 #include "MeshComparison.h"
+#include "TutorialSteps.h"
 #include "TutorialViews.h"
 #include "Waiting.h"
 
 #include <qMRMLCheckableNodeComboBox.h>
-#include <qMRMLNodeComboBox.h>
 #include <qSlicerAbstractModuleWidget.h>
 #include <qSlicerApplication.h>
-#include <qSurgicalMesherRunWidget.h>
-#include <vtkSurgicalMesherRun.h>
 
-#include <ctkCollapsibleButton.h>
 #include <ctkSliderWidget.h>
 
 #include <vtkMRMLApplicationLogic.h>
@@ -23,7 +20,6 @@
 #include <vtkMRMLLayoutNode.h>
 #include <vtkMRMLMarkupsDisplayNode.h>
 #include <vtkMRMLMarkupsNode.h>
-#include <vtkMRMLModelDisplayNode.h>
 #include <vtkMRMLModelNode.h>
 #include <vtkMRMLScalarVolumeNode.h>
 #include <vtkMRMLScene.h>
@@ -32,20 +28,14 @@
 #include <vtkMRMLSelectionNode.h>
 #include <vtkSlicerApplicationLogic.h>
 
-#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDialog>
 #include <QDir>
 #include <QDoubleSpinBox>
 #include <QFileInfo>
 #include <QLabel>
-#include <QLineEdit>
 #include <QPushButton>
 #include <QRadioButton>
-#include <QTimer>
-
-#include <stdexcept>
 
 namespace surgicalmesher::test
 {
@@ -54,51 +44,6 @@ namespace
 
 constexpr Point SELLA{ 0, 0, -10 }; ///< near the pituitary gland, RAS
 const std::vector<Point> TRANSNASAL_PATH{ { 0, 78, -34 }, { 0, 52, -26 }, { 0, 26, -17 }, SELLA };
-constexpr double RUN_LIMIT = 900; ///< s
-
-void require(bool condition, const std::string& expectation)
-{
-  if (!condition) throw std::runtime_error("expected " + expectation);
-}
-
-/// Applies as the button does, and waits for the end of the run.
-void apply(qSlicerAbstractModuleWidget* panel)
-{
-  auto* foot = findChild<qSurgicalMesherRunWidget>(panel, "RunWidget");
-  require(foot->problem().isEmpty(), "no problem, found: " + foot->problem().toStdString());
-  foot->apply();
-  require(foot->run() && foot->run()->GetStatus() == vtkSurgicalMesherRun::Running, "a run");
-}
-
-void waitForRun(qSlicerAbstractModuleWidget* panel)
-{
-  vtkSurgicalMesherRun* run = findChild<qSurgicalMesherRunWidget>(panel, "RunWidget")->run();
-  waitUntil([run] { return run->GetStatus() != vtkSurgicalMesherRun::Running; }, RUN_LIMIT);
-  require(run->GetStatus() == vtkSurgicalMesherRun::Completed, "a completed run, found: " + run->GetErrorText());
-  waitFor(1);
-}
-
-vtkMRMLNode* chosen(qSlicerAbstractModuleWidget* panel, const char* selector)
-{
-  vtkMRMLNode* node = findChild<qMRMLNodeComboBox>(panel, selector)->currentNode();
-  require(node != nullptr, std::string("a node in ") + selector);
-  return node;
-}
-
-void choose(qSlicerAbstractModuleWidget* panel, const char* selector, vtkMRMLNode* node)
-{
-  auto* box = findChild<qMRMLNodeComboBox>(panel, selector);
-  box->setCurrentNode(node);
-  require(box->currentNode() == node, std::string("the node to be offered by ") + selector);
-}
-
-void collapse(qSlicerAbstractModuleWidget* panel, const char* section, bool collapsed = true)
-{
-  findChild<ctkCollapsibleButton>(panel, section)->setCollapsed(collapsed);
-  waitFor(0.2);
-}
-
-void expand(qSlicerAbstractModuleWidget* panel, const char* section) { collapse(panel, section, false); }
 
 class Tutorial
 {
@@ -240,7 +185,7 @@ private:
     surfaces->setCheckState(chosen(m_SurfacePanel, "SurfaceSelector"), Qt::Checked);
     apply(m_MeshPanel);
     waitForRun(m_MeshPanel);
-    showOnly(chosen(m_MeshPanel, "MeshComboBox"));
+    showOnly(scene(), chosen(m_MeshPanel, "MeshComboBox"));
     showSlicesAt(SELLA, 190);
     lookAt({ 0, 0, 8 }, { -0.4, -0.9, -0.2 }, 150);
     collapse(m_MeshPanel, "OutputsCollapsibleButton");
@@ -263,40 +208,12 @@ private:
   void exportMesh()
   {
     const QString file = QString::fromStdString(newFolder("TutorialExport")) + "/brain.inp";
-    const auto answer = [file]
-    {
-      auto* dialog = qobject_cast<QDialog*>(QApplication::activeModalWidget());
-      if (!dialog) return;
-      findChild<QLineEdit>(dialog, "fileNameEdit")->setText(file);
-      dialog->accept();
-    };
-    QTimer::singleShot(1500, qApp, answer);
-    findChild<QPushButton>(m_MeshPanel, "ExportButton")->click();
-    waitFor(1);
+    exportTo(file, m_MeshPanel);
     require(QFileInfo::exists(file),
             "an exported mesh, found: " + findChild<QLabel>(m_MeshPanel, "MeshInfoLabel")->text().toStdString());
     showLayout(vtkMRMLLayoutNode::SlicerLayoutConventionalWidescreenView);
     lookAt(SELLA, { -0.4, -0.9, -0.2 }, 70);
     take("tutorial-10-export");
-  }
-
-  /// As a user picks an entry, which is more than setting it.
-  void select(QComboBox* box, int index)
-  {
-    box->setCurrentIndex(index);
-    emit box->activated(index);
-    waitFor(0.5);
-  }
-
-  void showOnly(vtkMRMLNode* shown)
-  {
-    std::vector<vtkMRMLNode*> models;
-    scene()->GetNodesByClass("vtkMRMLModelNode", models);
-    for (vtkMRMLNode* node : models)
-    {
-      auto* display = vtkMRMLModelNode::SafeDownCast(node)->GetModelDisplayNode();
-      if (display && node != shown && !node->GetHideFromEditors()) display->SetVisibility(false);
-    }
   }
 
   QString m_Folder;

@@ -21,7 +21,7 @@ bool qSlicerSurgicalMesherTutorialModule::isHidden() const { return true; }
 
 QStringList qSlicerSurgicalMesherTutorialModule::dependencies() const
 {
-  return { "SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer", "Segmentations", "Volumes" };
+  return { "TissueMapper", "SurgicalPathScale", "SimplexMesher", "FuchsTetrahedralizer", "Segmentations", "Volumes" };
 }
 
 void qSlicerSurgicalMesherTutorialModule::setup()
@@ -36,7 +36,9 @@ void qSlicerSurgicalMesherTutorialModule::walk()
   int status = EXIT_SUCCESS;
   try
   {
-    status = surgicalmesher::test::walkTutorial(qEnvironmentVariable("SURGICALMESHER_TUTORIAL"));
+    const QString folder = qEnvironmentVariable("SURGICALMESHER_TUTORIAL");
+    const bool isOfImage = qEnvironmentVariable("SURGICALMESHER_TUTORIAL_FROM") == "image";
+    status = isOfImage ? surgicalmesher::test::walkImageTutorial(folder) : surgicalmesher::test::walkTutorial(folder);
   }
   catch (const std::exception& e)
   {

@@ -2,7 +2,8 @@
 #pragma once
 /// A module that, once the host has started, walks the tutorial and ends the host: exit status 0 if every step did what
 /// it should, 1 if one did not, 77 if the atlas is not installed. It does nothing unless the environment variable
-/// SURGICALMESHER_TUTORIAL names the folder for the pictures.
+/// SURGICALMESHER_TUTORIAL names the folder for the pictures. With SURGICALMESHER_TUTORIAL_FROM=image it is the tutorial
+/// that begins with an image.
 
 #include <qSlicerLoadableModule.h>
 
