@@ -63,11 +63,12 @@ TaskCheck checkTraining(Node* parameters)
   return {};
 }
 
-/// In voxels of about 2 mm, each the mean of those in it.
+/// Every second or third voxel, so that they are about 2 mm apart: means would mix what thresholds have to part.
 vtkSmartPointer<vtkMRMLScalarVolumeNode> coarseCopyForRun(vtkMRMLScalarVolumeNode* volume)
 {
   const auto copy = copyForRun(volume);
-  vtkNew<vtkImageShrink3D> shrink; // means are the default
+  vtkNew<vtkImageShrink3D> shrink;
+  shrink->MeanOff();
   shrink->SetInputData(copy->GetImageData());
   vtkNew<vtkMatrix4x4> toWorld;
   copy->GetIJKToRASMatrix(toWorld);
@@ -77,7 +78,6 @@ vtkSmartPointer<vtkMRMLScalarVolumeNode> coarseCopyForRun(vtkMRMLScalarVolumeNod
   {
     factors[axis] = std::max(1, int(2 / copy->GetSpacing()[axis] + 0.1));
     toFine->SetElement(axis, axis, factors[axis]);
-    toFine->SetElement(axis, 3, 0.5 * (factors[axis] - 1));
   }
   shrink->SetShrinkFactors(factors);
   shrink->Update();

@@ -19,6 +19,21 @@
 
 using namespace surgicalmesher;
 
+namespace
+{
+
+/// What each slice view shows.
+std::vector<vtkMRMLSliceCompositeNode*> sliceViews(vtkMRMLScene* scene)
+{
+  std::vector<vtkMRMLNode*> nodes;
+  scene->GetNodesByClass("vtkMRMLSliceCompositeNode", nodes);
+  std::vector<vtkMRMLSliceCompositeNode*> views;
+  for (vtkMRMLNode* node : nodes) views.push_back(vtkMRMLSliceCompositeNode::SafeDownCast(node));
+  return views;
+}
+
+} // namespace
+
 vtkStandardNewMacro(vtkSlicerTissueMapperLogic);
 
 //----------------------------------------------------------------------------
@@ -94,6 +109,7 @@ void vtkSlicerTissueMapperLogic::ShowLabelMap(vtkMRMLNode* labelMap)
   if (!application || !application->GetSelectionNode()) return;
   application->GetSelectionNode()->SetActiveLabelVolumeID(labelMap ? labelMap->GetID() : nullptr);
   application->PropagateLabelVolumeSelection(0);
+  for (vtkMRMLSliceCompositeNode* view : sliceViews(this->GetMRMLScene())) view->SetLabelOpacity(0.5);
 }
 
 void vtkSlicerTissueMapperLogic::ShowRegistered(vtkMRMLTissueMapperNode* parameters)
@@ -106,9 +122,7 @@ void vtkSlicerTissueMapperLogic::ShowRegistered(vtkMRMLTissueMapperNode* paramet
   application->GetSelectionNode()->SetSecondaryVolumeID(registered->GetID());
   application->PropagateBackgroundVolumeSelection(0);
   application->PropagateForegroundVolumeSelection(0);
-  std::vector<vtkMRMLNode*> views;
-  this->GetMRMLScene()->GetNodesByClass("vtkMRMLSliceCompositeNode", views);
-  for (vtkMRMLNode* view : views) vtkMRMLSliceCompositeNode::SafeDownCast(view)->SetForegroundOpacity(0.5);
+  for (vtkMRMLSliceCompositeNode* view : sliceViews(this->GetMRMLScene())) view->SetForegroundOpacity(0.5);
 }
 
 std::vector<std::string> vtkSlicerTissueMapperLogic::GetEmptyClasses() const

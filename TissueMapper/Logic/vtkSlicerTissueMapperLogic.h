@@ -50,7 +50,7 @@ public:
   /// priority, the results have been finished.
   vtkSurgicalMesherRun* GetRun(Task task) const;
 
-  /// Puts the label map of a role (tissues or compartments) over every slice view; null for none.
+  /// Puts a label map, tissues or compartments, half transparent over every slice view; null for none.
   void ShowLabelMap(vtkMRMLNode* labelMap);
   /// Puts the registered image half transparent over the fixed one in every slice view.
   void ShowRegistered(vtkMRMLTissueMapperNode* parameters);

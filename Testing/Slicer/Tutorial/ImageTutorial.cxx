@@ -36,7 +36,7 @@ namespace
 {
 
 const std::string sources = SURGICALMESHER_SOURCES;
-constexpr double HEAD_WIDTH = 230; ///< mm
+constexpr double HEAD_WIDTH = 260; ///< mm
 
 /// Control points of a file, with their labels.
 Markup pointsOf(const std::string& file) { return readLabelledMarkups(sources + "/" + file).front(); }
