@@ -3,7 +3,6 @@
 
 #include "EdgeDivision.h"
 #include "Errors.h"
-#include "HarmonicField.h"
 #include "Parallel.h"
 #include "SurfaceTetrahedralization.h"
 #include "SurfaceValidity.h"
@@ -78,13 +77,14 @@ Tetrahedra insideOf(const TetMesh& filled, std::size_t surfacePoints, std::vecto
 }
 
 /// Points of the tetrahedra that lie on a side.
-std::vector<char> pointsOn(Side side, const Envelope& envelope, const std::vector<std::int32_t>& ids, std::size_t count)
+std::vector<char> pointsOn(Side side, const FilledEnvelope& filled)
 {
-  std::vector<char> on(count, 0);
+  const Envelope& envelope = filled.envelope;
+  std::vector<char> on(std::size_t(filled.mesh.points.cols()), 0);
   for (std::size_t t = 0; t < envelope.sides.size(); ++t)
   {
     if (envelope.sides[t] != side) continue;
-    for (const std::int32_t id : envelope.surface.triangles[t]) on[std::size_t(ids[id])] = 1;
+    for (const std::int32_t id : envelope.surface.triangles[t]) on[std::size_t(filled.ids[id])] = 1;
   }
   return on;
 }
@@ -175,36 +175,44 @@ Envelope withSides(const TriangleSurface& surface, const TriangleSurface& painte
   return envelope;
 }
 
+FilledEnvelope filledEnvelope(const Envelope& envelope, double edgeLength, const std::string& name)
+{
+  const SurfaceComplex complex = closedComplex(envelope.surface, edgeLength, name);
+  const TriangleSurface divided{ pointsOf(complex.points), { complex.triangles.begin(), complex.triangles.end() } };
+  FilledEnvelope result;
+  result.envelope = withSides(divided, envelope.surface, envelope.sides, name);
+  result.mesh = insideOf(fillWithTetrahedra(
+                           complex, [edgeLength](const Vec3&) { return edgeLength; }, name),
+                         complex.points.size(), result.ids);
+  return result;
+}
+
+Eigen::VectorXd harmonicBetween(const FilledEnvelope& filled, Side zero, Side one)
+{
+  const BetweenSides problem = between(pointsOn(zero, filled), pointsOn(one, filled));
+  return FieldSolver(filled.mesh, problem.known).harmonic(problem.values);
+}
+
 SlabParameterisation parameterise(const Envelope& envelope, double edgeLength, const std::string& name,
                                   const Progress& progress)
 {
   report(progress, 0, "filling the envelope with tetrahedra");
-  const SurfaceComplex complex = closedComplex(envelope.surface, edgeLength, name);
-  const TriangleSurface divided{ pointsOf(complex.points), { complex.triangles.begin(), complex.triangles.end() } };
-  SlabParameterisation result;
-  result.envelope = withSides(divided, envelope.surface, envelope.sides, name);
-  std::vector<std::int32_t> ids;
-  const Tetrahedra mesh = insideOf(fillWithTetrahedra(
-                                     complex, [edgeLength](const Vec3&) { return edgeLength; }, name),
-                                   complex.points.size(), ids);
-  const auto on = [&](Side side) { return pointsOn(side, result.envelope, ids, std::size_t(mesh.points.cols())); };
-
+  const FilledEnvelope filled = filledEnvelope(envelope, edgeLength, name);
   report(progress, 0.4, "harmonic field from bottom to top");
-  const BetweenSides upwards = between(on(Side::Bottom), on(Side::Top));
-  const Eigen::VectorXd w = FieldSolver(mesh, upwards.known).harmonic(upwards.values);
+  const Eigen::VectorXd w = harmonicBetween(filled, Side::Bottom, Side::Top);
   report(progress, 0.7, "harmonic field from right to left");
-  const BetweenSides leftwards = between(on(Side::Right), on(Side::Left));
-  const FieldSolver solver(mesh, leftwards.known);
+  const BetweenSides leftwards = between(pointsOn(Side::Right, filled), pointsOn(Side::Left, filled));
+  const FieldSolver solver(filled.mesh, leftwards.known);
   const Eigen::VectorXd first = solver.harmonic(leftwards.values);
-  const Points gradient = orthogonalised(gradientOf(mesh, first), gradientOf(mesh, w));
+  const Points gradient = orthogonalised(gradientOf(filled.mesh, first), gradientOf(filled.mesh, w));
   const Eigen::VectorXd u = solver.restored(gradient, leftwards.values);
 
-  Eigen::Matrix2Xd coordinates(2, Eigen::Index(ids.size()));
-  for (std::size_t i = 0; i < ids.size(); ++i) coordinates.col(Eigen::Index(i)) << u[ids[i]], w[ids[i]];
-  result.outer = chartOf(Side::Outer, result.envelope, coordinates);
-  result.inner = chartOf(Side::Inner, result.envelope, coordinates);
+  Eigen::Matrix2Xd coordinates(2, Eigen::Index(filled.ids.size()));
+  for (std::size_t i = 0; i < filled.ids.size(); ++i)
+    coordinates.col(Eigen::Index(i)) << u[filled.ids[i]], w[filled.ids[i]];
   report(progress, 1, "parameterised");
-  return result;
+  return { chartOf(Side::Outer, filled.envelope, coordinates), chartOf(Side::Inner, filled.envelope, coordinates),
+           filled.envelope };
 }
 
 } // namespace surgicalmesher

@@ -3,7 +3,7 @@
 /// Two coordinates on the skin and on the inner surface of a slab of soft tissue, by which points of the one have
 /// partners on the other.
 
-#include "ElementMesh.h"
+#include "HarmonicField.h"
 #include "Progress.h"
 
 #include <string>
@@ -52,12 +52,25 @@ struct SlabParameterisation
   Envelope envelope; ///< with edges divided, triangles wound outwards
 };
 
+/// The inside of an envelope as tetrahedra.
+struct FilledEnvelope
+{
+  Envelope envelope; ///< with edges divided, triangles wound outwards
+  Tetrahedra mesh;
+  std::vector<std::int32_t> ids; ///< of the envelope's points among those of `mesh`
+};
+
+/// Of edge length about `edgeLength` (mm). Throws SurfaceRefused (an InputError), naming `name`, unless the envelope is
+/// one closed surface without self-intersections.
+FilledEnvelope filledEnvelope(const Envelope& envelope, double edgeLength, const std::string& name);
+
+/// The harmonic field that is 0 on one side, 1 on the other.
+Eigen::VectorXd harmonicBetween(const FilledEnvelope& filled, Side zero, Side one);
+
 /// Tetrahedra of edge length about `edgeLength` (mm) fill the envelope; w is harmonic on them, 0 on the bottom and 1 on
 /// the top; u is harmonic, 0 on the right and 1 on the left, made orthogonal to w and restored from its gradient. After
-/// Kim et al. 2018, section 3.2.1. Walls of holes are left free: the fields flow around them.
-///
-/// Throws SurfaceRefused (an InputError), naming `name`, unless the envelope is one closed surface without
-/// self-intersections.
+/// Kim et al. 2018, section 3.2.1. Walls of holes are left free: the fields flow around them. Throws as
+/// filledEnvelope() does.
 SlabParameterisation parameterise(const Envelope& envelope, double edgeLength, const std::string& name,
                                   const Progress& progress = {});
 

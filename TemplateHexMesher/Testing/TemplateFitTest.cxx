@@ -9,6 +9,7 @@
 #include "Slab.h"
 #include "SurfaceDistance.h"
 #include "ThinPlateSpline.h"
+#include "Validity.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
@@ -364,4 +365,54 @@ TEST(Repair, MakesElementsValidAndLeavesTheOthersNearTheirPlace)
   const Points points = repaired(tangled);
   EXPECT_EQ(invalidIn(mesh, points), 0u);
   EXPECT_LT((points - tangled.points).col(0).norm(), 0.1); // a corner of the slab
+}
+
+/// A sheet 0.3 mm thin whose columns are `width` mm wide in the middle and many times that at the ends.
+ElementMesh gradedSheet(double width)
+{
+  ElementMesh mesh = slab(16, 8, 1);
+  for (Eigen::Index i = 0; i < mesh.points.cols(); ++i)
+  {
+    const double column = double(i % 17) - 8, row = double(i / 17 % 9) - 4;
+    mesh.points.col(i) = Eigen::Vector3d(width * std::sinh(0.8 * column), 0.5 * row, i >= 17 * 9 ? 0.3 : 0);
+  }
+  return mesh;
+}
+
+/// Nodes of both sides pushed over their neighbours, as at the corner of an eye, where the skin itself is folded:
+/// elements are wholly inside out, and their scaled Jacobians, at -1, have no slope.
+TEST(Repair, UnfoldsWhatIsWhollyInsideOut)
+{
+  for (const double width : { 0.05, 0.01 })
+  {
+    const ElementMesh mesh = gradedSheet(width);
+    for (const auto& [push, rows] :
+         { std::pair{ 0.2, 1 }, std::pair{ 0.2, 2 }, std::pair{ 1.0, 1 }, std::pair{ 2.0, 4 } })
+    {
+      ElementMesh folded = mesh;
+      for (int k = 0; k < rows; ++k)
+      {
+        for (const int layer : { 0, 1 }) folded.points(0, 8 + 17 * (3 + k + 9 * layer)) += push;
+      }
+      ASSERT_LT(validityOf(folded.elements, folded.points).minimum, -0.99);
+      const Points points = repaired(folded);
+      EXPECT_EQ(invalidIn(mesh, points), 0u) << width << " " << push << " " << rows;
+      const Eigen::RowVectorXd distance = (points - folded.points).colwise().norm();
+      EXPECT_LT(distance.maxCoeff(), push + 0.5);
+      EXPECT_EQ(distance[0], 0); // far from all that
+    }
+  }
+}
+
+/// Two elements of the same nodes, one of them inside out, can't both be valid; what lies elsewhere is mended.
+TEST(Repair, MendsWhatItCan)
+{
+  ElementMesh mesh = slab(20, 6, 1);
+  Element turned = mesh.elements[0];
+  for (int i = 0; i < 4; ++i) std::swap(turned.nodes[i], turned.nodes[i + 4]);
+  mesh.elements.push_back(turned);
+  ElementMesh tangled = mesh;
+  tangled.points.col(17 + 21 * (3 + 7)) += Eigen::Vector3d(8, 12, 0);
+  ASSERT_GT(invalidIn(mesh, tangled.points), 1u);
+  EXPECT_EQ(invalidIn(mesh, repaired(tangled)), 1u);
 }

@@ -3,7 +3,7 @@
 
 FACE is a folder with newface.node, newface.elem and badinface_adjusted.node (ArtiSynth's face and its adaptation to a
 second person), ICT one with neutral.obj.gz and identity003.obj.gz (ICT-FaceKit). TABLE: face, robust, ict, warps,
-muscles; without one, all. Each row is printed as soon as it is known. Seconds are the
+muscles, baselines; without one, all. Each row is printed as soon as it is known. Seconds are the
 processor's, over all threads.
 """
 import gzip
@@ -23,6 +23,7 @@ sys.path[:0] = [os.path.join(ROOT, "workflow", "hexahedra")]
 import face_shape  # noqa: E402
 
 LANDMARKS = 48
+ICT_SHELLS = (0.3, 1.0, 2.0)  # mm
 ICT_SKIN = 11248  # vertices of face, head and neck come first; then those of mouth, eyes and teeth
 # The second person's vertices that are landmarks of ICT's faces (from 0).
 ICT_LANDMARKS = [int(word) for word in """
@@ -176,19 +177,24 @@ def face_table(folder, face):
 
 
 def robust_table(folder, face):
-    print("\nForth, with less to go by\n" + HEAD)
-    others = np.setdiff1d(np.arange(len(face.points)), face.landmarks)
-    template, whole = os.path.join(folder, "first.vtu"), os.path.join(folder, "whole.vtp")
-    write_grid(template, face.points, face.cells)
-    face_shape.write_surface(whole, face.other, face.triangles)
+    for way, source, truth in (("Forth", face.points, face.other), ("Back", face.other, face.points)):
+        print(f"\n{way}, with less to go by\n" + HEAD)
+        robust_rows(folder, face, source, truth)
+
+
+def robust_rows(folder, face, source, truth):
+    others = np.setdiff1d(np.arange(len(source)), face.landmarks)
+    template, whole = os.path.join(folder, "template.vtu"), os.path.join(folder, "whole.vtp")
+    write_grid(template, source, face.cells)
+    face_shape.write_surface(whole, truth, face.triangles)
     height = face.points[face.triangles].mean(axis=1)[:, 2]
     cut = os.path.join(folder, "cut.vtp")
-    face_shape.write_surface(cut, face.other, face.triangles[height < np.percentile(height, 85)])
+    face_shape.write_surface(cut, truth, face.triangles[height < np.percentile(height, 85)])
     random = np.random.default_rng(1)
     turned = face.triangles.copy()
     chosen = random.random(len(turned)) < 1 / 3
     turned[chosen] = turned[chosen][:, ::-1]
-    face_shape.write_surface(os.path.join(folder, "turned.vtp"), face.other, turned)
+    face_shape.write_surface(os.path.join(folder, "turned.vtp"), truth, turned)
     nodes = face.landmarks
     noise = random.normal(0, 1 / np.sqrt(3), (len(nodes), 3))
     rows = (("as it is", whole, nodes, 0, ()),
@@ -197,8 +203,8 @@ def robust_table(folder, face):
             ("cut at the hairline", cut, nodes, 0, ()),
             ("a third turned", os.path.join(folder, "turned.vtp"), nodes, 0, ()))
     for name, target, some, error, options in rows:
-        pairs = (face.points[some], face.other[some] + error)
-        print_row(name, fit(folder, "robust", template, target, pairs, *options), face.other, others)
+        pairs = (source[some], truth[some] + error)
+        print_row(name, fit(folder, "robust", template, target, pairs, *options), truth, others)
 
 
 # ---- ICT's faces
@@ -226,12 +232,18 @@ def ict_table(folder, source):
     triangles = np.array([[face[0], face[i - 1], face[i]] for face in faces for i in range(2, len(face))])
     at = lambda name: os.path.join(folder, name)  # noqa: E731
     marks, units = points[ICT_LANDMARKS], ("--templateUnit", "cm", "--targetUnit", "cm", "--carry")
-    shell(at("offset.vtu"), points[:ICT_SKIN], [face for face in faces if max(face) < ICT_SKIN])
+    skin = [face for face in faces if max(face) < ICT_SKIN]
+    shells = []
+    for thickness in ICT_SHELLS:
+        shell(at(f"offset{thickness}.vtu"), points[:ICT_SKIN], skin, thickness)
+        shells.append(at(f"offset{thickness}.vtu"))
     fit(folder, "itself", at("neutral.obj"), at("neutral.obj"), (marks, marks), "--iterations", "1", *units,
-        at("offset.vtu"))
-    os.replace(at("itself.fitted.offset.vtu"), at("shell.vtu"))
+        ",".join(shells))
+    for thickness in ICT_SHELLS:
+        os.replace(at(f"itself.fitted.offset{thickness}.vtu"), at(f"shell{thickness}.vtu"))
     report, seconds, fitted = fit(folder, "ict", at("neutral.obj"), at("identity003.obj"),
-                                  (marks, truth[ICT_LANDMARKS]), *units, at("shell.vtu"))
+                                  (marks, truth[ICT_LANDMARKS]), *units,
+                                  ",".join(at(f"shell{thickness}.vtu") for thickness in ICT_SHELLS))
     if report is None:
         print(fitted)
         return
@@ -245,23 +257,68 @@ def ict_table(folder, source):
                                              * triangle_normals(b, triangles)).sum(axis=1) <= 0)
     print(f"{'triangles turned against truth':32}{against(result, truth):8d}")
     print(f"{'the truth against the source':32}{against(truth, points):8d}")
-    for name, file in (("the skin's shell, as offset", "offset.vtu"), ("  made valid where it lies", "shell.vtu"),
-                       ("  carried to identity003", "ict.fitted.shell.vtu")):
-        invalid = invalid_hexahedra(at(file))
-        print(f"{name:32}{invalid.sum():8d} invalid of {len(invalid)} hexahedra")
+    for thickness in ICT_SHELLS:
+        for name, file in ((f"shell of {thickness} mm, as offset", f"offset{thickness}.vtu"),
+                           ("  made valid where it lies", f"shell{thickness}.vtu"),
+                           ("  carried to identity003", f"ict.fitted.shell{thickness}.vtu")):
+            invalid = invalid_hexahedra(at(file))
+            print(f"{name:32}{invalid.sum():8d} invalid of {len(invalid)} hexahedra")
+        before, after = (read_points(at(f"{name}{thickness}.vtu")) for name in ("offset", "shell"))
+        moved = 10 * np.linalg.norm(after - before, axis=1)
+        print(f"{'  moved to be made valid, mm':32}{moved.mean():8.4f}, largest {moved.max():.3f}")
     print(f"{'seconds':32}{seconds:8.1f}", flush=True)
 
 
-def shell(file, points, faces):
-    """Each face of the skin as an element 0.3 mm thick, inwards."""
-    triangles = np.array([[face[0], face[i - 1], face[i]] for face in faces for i in range(2, len(face))])
-    normals = np.zeros_like(points)
-    for i in range(3):
-        np.add.at(normals, triangles[:, i], triangle_normals(points, triangles))
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    count = len(points)
-    both = np.concatenate([points - 0.03 * normals, points])
-    write_grid(file, both, [[*face, *(i + count for i in face)] for face in faces])
+def least_jacobian(points, cells):
+    """Of each hexahedron, the least scaled Jacobian over its corners."""
+    corners = [(0, 1, 3, 4), (1, 2, 0, 5), (2, 3, 1, 6), (3, 0, 2, 7),
+               (4, 7, 5, 0), (5, 4, 6, 1), (6, 5, 7, 2), (7, 6, 4, 3)]
+    least = np.ones(len(cells))
+    for node, *ends in corners:
+        edges = [points[cells[:, end]] - points[cells[:, node]] for end in ends]
+        edges = [edge / np.maximum(np.linalg.norm(edge, axis=1, keepdims=True), 1e-30) for edge in edges]
+        least = np.minimum(least, (np.cross(edges[0], edges[1]) * edges[2]).sum(axis=1))
+    return least
+
+
+def directions(points, quads):
+    """A unit vector for each point that all corners around it face, where there is one; and the least cosine."""
+    normals = []
+    for i in range(4):
+        a, b, c = points[quads[:, i]], points[quads[:, (i + 1) % 4]], points[quads[:, i - 1]]
+        normal = np.cross(b - a, c - a)
+        normals.append(normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-30))
+    normals, weights = np.stack(normals, axis=1), np.ones(quads.shape)
+    for _ in range(60):
+        result = np.zeros_like(points)
+        for i in range(4):
+            np.add.at(result, quads[:, i], weights[:, i, None] * normals[:, i])
+        result /= np.maximum(np.linalg.norm(result, axis=1, keepdims=True), 1e-12)
+        seen = (normals * result[quads]).sum(axis=2)
+        weights *= np.exp(1 - seen)  # what is seen least counts more
+        weights /= weights.max()
+    least = np.ones(len(points))
+    np.minimum.at(least, quads.ravel(), seen.ravel())
+    return result, least
+
+
+def shell(file, points, faces, thickness):
+    """Each face of the skin as an element, inwards, thinner where the skin bends too sharply. cm; thickness in mm."""
+    quads, points = np.array(faces), 10 * points
+    normals, seen = directions(points, quads)
+    edges = np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)])
+    depth = np.full(len(points), thickness)
+    cells = np.concatenate([quads, quads + len(points)], axis=1)
+    for _ in range(12):
+        both = np.concatenate([points - depth[:, None] * normals, points])
+        bad = np.unique(quads[least_jacobian(both, cells) < 0.1])
+        depth[bad] = np.maximum(depth[bad] / 2, np.where(seen[bad] > 0, 0.02, 0.1))  # thinness mends no fold
+        for _ in range(8):  # a neighbour is at most 1.5 times as thick
+            limit = depth.copy()
+            np.minimum.at(limit, edges[:, 0], 1.5 * depth[edges[:, 1]])
+            np.minimum.at(limit, edges[:, 1], 1.5 * depth[edges[:, 0]])
+            depth = limit
+    write_grid(file, both / 10, cells.tolist())
 
 
 def invalid_hexahedra(file):
@@ -311,6 +368,7 @@ def warps_table(folder, face):
     print("\nKnown warps of the face, landmarks with 1 mm noise\n" + HEAD)
     template = os.path.join(folder, "first.vtu")
     write_grid(template, face.points, face.cells)
+    found = {"smooth, 5 to 15 mm": [], "20 mm, folds": []}
     for i in range(40):
         random = np.random.default_rng(100 + i)
         size = 5 + 10 * i / 29
@@ -323,6 +381,26 @@ def warps_table(folder, face):
         print_row(f"{min(size, 20):.1f} mm" if i < 30 else "20 mm, folds", result, truth, slice(None))
         if result[0]:
             print(f"{'  the spline alone':26}{line_of(result[0], 'spline')}", flush=True)
+            error = np.linalg.norm(read_points(result[2]) - truth, axis=1).mean()
+            found[list(found)[i >= 30]].append((result[0], error))
+    for (name, rows), count in zip(found.items(), (30, 10)):
+        print_summary(name, rows, count)
+
+
+def print_summary(name, rows, count):
+    """A line of the page's table: runs, refused ones, those with an invalid element (fitted, spline alone), least
+    scaled Jacobian, error against the truth (mm: least, mean, largest; how often above 0.9), distance (fitted, spline), mm."""
+    if not rows:
+        return
+    reports, errors = [row[0] for row in rows], np.array([row[1] for row in rows])
+    invalid = {stage: sum(any(shape["invalid"] for shape in report["quality"][stage].values()) for report in reports)
+               for stage in ("spline", "fitted")}
+    least = min(shape["minimumScaledJacobian"] for report in reports for shape in report["quality"]["fitted"].values())
+    there = {stage: np.mean([report["distances"][stage]["fittedToTarget"]["mean"] for report in reports])
+             for stage in ("spline", "fitted")}
+    print(f"| {name} | {count} | {count - len(rows)} | {invalid['fitted']}, {invalid['spline']} | {least:.3f} | "
+          f"{errors.min():.3f}, {errors.mean():.3f}, {errors.max():.3f} | {np.sum(errors > 0.9)} | "
+          f"{there['fitted']:.3f}, {there['spline']:.3f} |", flush=True)
 
 
 # ---- muscles
@@ -411,6 +489,32 @@ def muscles_table(folder):
                   flush=True)
 
 
+def baselines_table(folder):
+    """By HexahedraBaselines of TemplateHexMesher/Testing, which prints the rows."""
+    print("\nHexahedra of known warps of the project's own face, landmarks with 1 mm noise, by several methods"
+          "\n| warp | divisions | method | hexahedra | invalid | minimum, mean scaled Jacobian | | shape skew |")
+    points, triangles, sides = face_shape.envelope()
+    at = lambda name: os.path.join(folder, name)  # noqa: E731
+    marks = np.array(list(face_shape.landmarks().values()))
+    face_shape.write_surface(at("sides.vtp"), points, triangles, sides)
+    near = [np.linalg.norm(points - mark, axis=1).argmin() for mark in marks]
+    for name, size in (("10 mm", 10), ("20 mm, folds", 20)):
+        random = np.random.default_rng(300 + size)
+        warp = smooth_warp(random, size, points) if size < 20 else folding_warp(random, points, near)
+        face_shape.write_surface(at("person.vtp"), warp(points), triangles)
+        noisy = warp(marks) + random.normal(0, 1 / np.sqrt(3), marks.shape)
+        report, _, fitted = fit(folder, "base", os.path.join(ROOT, "TemplateHexMesher", "Template", "face.vtu"),
+                                at("person.vtp"), (marks, noisy), "--landmarkWeight", "1", "--carry", at("sides.vtp"))
+        if report is None:
+            print(f"| {name} | {fitted}")
+            continue
+        done = subprocess.run([os.path.join(BIN, "HexahedraBaselines"), at("sides.vtp"), at("base.fitted.sides.vtu"),
+                               at("person.vtp"), at("base.a.fcsv"), at("base.b.fcsv"), "48,5,48", "78,8,78"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+        for line in (done.stdout + done.stderr).splitlines():
+            print(f"| {name} {line}", flush=True)
+
+
 def main():
     global BIN
     if len(sys.argv) < 5:
@@ -420,7 +524,7 @@ def main():
     tables = {"face": lambda: face_table(folder, Face(face_folder)),
               "robust": lambda: robust_table(folder, Face(face_folder)),
               "ict": lambda: ict_table(folder, ict_folder), "warps": lambda: warps_table(folder, Face(face_folder)),
-              "muscles": lambda: muscles_table(folder)}
+              "muscles": lambda: muscles_table(folder), "baselines": lambda: baselines_table(folder)}
     for table in sys.argv[5:] or tables:
         tables[table]()
 
