@@ -47,11 +47,7 @@ RunOptions presetOptions(const std::string& preset)
     return { { "minimumEdgeLength", { "2" } }, { "maximumEdgeLength", { "12" } }, { "minimumIslandVolume", { "30" } } };
   if (preset == "fine")
     return { { "minimumEdgeLength", { "0.5" } }, { "maximumEdgeLength", { "4" } }, { "spacing", { "1" } } };
-  if (preset == "simulation")
-    return { { "minimumIslandVolume", { "30" } },
-             { "minimumCavityVolume", { "30" } },
-             { "smoothing", { "0.7" } },
-             { "rigidity", { "0.3" } } };
+  if (preset == "simulation") return { { "minimumIslandVolume", { "30" } }, { "minimumCavityVolume", { "30" } } };
   return {};
 }
 

@@ -19,6 +19,7 @@ struct RunPass
   void operator()(const Improve& pass) const { improveBlock(operations, pass.options); }
   void operator()(const RaiseHeights& pass) const { raiseHeightsOfBlock(operations, pass.options); }
   void operator()(const EvenOut& pass) const { evenLengthsOfBlock(operations, pass.options); }
+  void operator()(const Fair& pass) const { fairBlock(operations, pass.options); }
   void operator()(const RelabelInterface& pass) const { relabelBlock(operations, pass.keptAngle, pass.mostLeft); }
   void operator()(const RemoveSpikes& pass) const { cutSpikesOfBlock(operations, pass.options); }
   void operator()(const RemoveEars& pass) const { removeEarsOfBlock(operations, pass.few); }
@@ -41,7 +42,7 @@ OperationCounts runSweep(TetComplex& block, const SizingFunction& length, const 
   OperationCounts counts;
   for (const Stage& stage : sweep.stages)
   {
-    GuardedOperations operations(block, length, boundsOf(stage, options), options.rigidity, curves);
+    GuardedOperations operations(block, length, boundsOf(stage, options), sweep.stiff ? options.rigidity : 0, curves);
     for (const Pass& pass : stage.passes) std::visit(RunPass{ operations }, pass);
     counts += operations.counts();
   }

@@ -182,7 +182,7 @@ std::vector<double> sizeLevels(const MeshSizes& sizes)
 bool isCoarse(double level, const MeshSizes& sizes) { return level > 5 * sizes.voxel; }
 
 /// The first levels hold most of the tetrahedra, in a lattice that is still regular: fitting, thoroughness and repair
-/// pay later, and relaxation there costs regular sizes in the end.
+/// pay later, and relaxation there costs regular sizes in the end. Stiffness would take away what later levels need.
 Sweep coarsenTo(double level, const MeshSizes& sizes)
 {
   const bool isFirst = level < 2 * sizes.voxel, isFine = level <= 3 * sizes.voxel;
@@ -190,16 +190,14 @@ Sweep coarsenTo(double level, const MeshSizes& sizes)
   stage.passes.push_back(Coarsen{ level, { .minimumAngle = 5, .fit = !isFirst, .thorough = level > 7 * sizes.voxel } });
   if (isCoarse(level, sizes)) stage.passes.push_back(Relax{});
   if (!isFine) stage.passes.push_back(improve(15, 8, 1));
-  return { "coarsening", { stage } };
+  return { .name = "coarsening", .stages = { stage }, .stiff = false };
 }
 
 Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly)
 {
-  return {
-    "coarsening",
-    { { { .rmsLimit = 0.45, .vertexDistance = vertexDistance },
-        { Coarsen{ sizes.longest, { .minimumAngle = 5, .quarters = thoroughly } }, Relax{}, improve(15, 8, 1) } } }
-  };
+  const Coarsen coarsen{ sizes.longest, { .minimumAngle = 5, .quarters = thoroughly } };
+  const Stage stage{ { .rmsLimit = 0.45, .vertexDistance = vertexDistance }, { coarsen, Relax{}, improve(15, 8, 1) } };
+  return { .name = "coarsening", .stages = { stage }, .stiff = false };
 }
 
 // --- surface stage: improvement -------------------------------------------------------------------------------------
@@ -245,6 +243,17 @@ std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& si
   return sweeps;
 }
 
+std::vector<Sweep> fairingSweeps(const MeshTargets& targets, const MeshSizes& sizes)
+{
+  constexpr std::size_t sweeps = 3;     // vertices on borders of blocks have their turn in the next
+  constexpr double fairTolerance = 1.5; // samples have the voxels' noise that fairing is to take away
+  const Fair fair{ { .leastAngle = 15, .farthest = 0.3 * sizes.voxel, .fineLength = 1.5 * sizes.voxel } };
+  const Sweep sweep{ "improvement",
+                     { { bounds(targets, 1, fairTolerance), { fair } },
+                       { bounds(targets, 1), { improve(targets.keptAngle, 12, 1) } } } };
+  return std::vector<Sweep>(sweeps, sweep);
+}
+
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& sizes)
 {
   const double kept = t.keptAngle, widest = t.widestTolerance;
@@ -261,7 +270,7 @@ std::size_t surfaceSweepCount(const MeshSizes& sizes)
 {
   const MeshTargets& t = usualTargets;
   return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() +
-         std::size_t(t.balanceRounds) + secondRepairSweeps(t, sizes).size() + 1;
+         std::size_t(t.balanceRounds) + fairingSweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + 1;
 }
 
 // --- tetrahedral stage ----------------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 
 #include "Coarsening.h"
 #include "EvenLengths.h"
+#include "Fairing.h"
 #include "HeightRaising.h"
 #include "Improvement.h"
 #include "InterfaceRelabelling.h"
@@ -43,6 +44,10 @@ struct EvenOut ///< evenLengthsOfBlock
 {
   EdgeLengthOptions options;
 };
+struct Fair ///< fairBlock
+{
+  FairingOptions options;
+};
 struct RelabelInterface ///< relabelBlock
 {
   double keptAngle; ///< degrees
@@ -57,8 +62,8 @@ struct RemoveEars ///< removeEarsOfBlock
   std::size_t few; ///< tetrahedra
 };
 
-using Pass =
-  std::variant<Coarsen, Relax, Polish, Improve, RaiseHeights, EvenOut, RelabelInterface, RemoveSpikes, RemoveEars>;
+using Pass = std::variant<Coarsen, Relax, Polish, Improve, RaiseHeights, EvenOut, Fair, RelabelInterface, RemoveSpikes,
+                          RemoveEars>;
 
 struct Stage
 {
@@ -72,6 +77,8 @@ struct Sweep
   std::vector<Stage> stages;
   /// In one block: borders between blocks are locked, and what is still bad in the end lies at them.
   bool whole = false;
+  /// The interface resists bending (RemesherOptions::rigidity).
+  bool stiff = true;
 };
 
 } // namespace surgicalmesher

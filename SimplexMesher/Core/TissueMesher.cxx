@@ -127,6 +127,7 @@ MeshedMap meshTissues(const TissueMap& map, const ScaleField& wanted, const Tiss
   remesher.balanceAndRun(improvementSweeps(targets, sizes));
   remesher.run(repairSweeps(targets, sizes));
   remesher.balanceAndRun(fittingSweeps(targets, sizes));
+  if (options.smoothing > 0) remesher.run(fairingSweeps(targets, sizes));
   remesher.run(secondRepairSweeps(targets, sizes));
   if (targets.countsTriangles()) remesher.balanceAndRun({ finishLengths(targets, sizes) });
   return std::move(remesher).result(targets.keptAngle);

@@ -18,9 +18,9 @@ struct TissueMesherOptions
   /// that keeps a tissue's volume.
   double maximumDistance = 0;
   /// Scale, in voxels, of the smooth boundary that the surface is driven to (SmoothBoundary.h); 0: the voxels' steps.
-  double smoothing = 0;
-  /// Resistance of the surface to bending, in that of its samples: 0 none, 0.3 some, 1 as much (Bending.h).
-  double rigidity = 0;
+  double smoothing = 0.7;
+  /// Resistance of the surface to bending, in that of its samples: 0 none, 0.2 some, 1 as much (Bending.h).
+  double rigidity = 0.2;
   FeatureOptions features; ///< what the map was simplified by; thin tissues are then held less closely
 };
 
@@ -32,7 +32,7 @@ struct MeshedMap
 };
 
 /// Lattice, boundary samples, smooth interface, coarsening by levels of size, improvement, repair, balance of volumes,
-/// even lengths. `map` must be well-composed (prepareMap); every tissue keeps its topology. `scale` is in world
+/// fairing, even lengths. `map` must be well-composed (prepareMap); every tissue keeps its topology. `scale` is in world
 /// coordinates. The result depends on neither the number of threads nor their timing. Throws EngineError.
 MeshedMap meshTissues(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options,
                       const Progress& progress = {});

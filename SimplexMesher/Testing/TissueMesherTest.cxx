@@ -107,10 +107,10 @@ std::vector<Shape> shapes()
 
 MeshedMap meshed(const TissueMap& map, const ScaleField& scale) { return meshTissues(map, scale, {}); }
 
-MeshedMap meshedSmoothly(const TissueMap& map, const ScaleField& scale)
+MeshedMap meshedInSteps(const TissueMap& map, const ScaleField& scale)
 {
   TissueMesherOptions options;
-  options.smoothing = 0.6;
+  options.smoothing = options.rigidity = 0;
   return meshTissues(map, scale, options);
 }
 
@@ -195,7 +195,7 @@ TEST_P(MeshedShape, IsSoundAndHasTheMapsTopology)
     ASSERT_FALSE(mesh.evolution.empty());
     EXPECT_EQ(mesh.evolution.back().tetrahedra, withoutOutside(mesh.background.mesh).tetrahedra.size());
     if (GetParam() != 1.5) continue;
-    EXPECT_EQ(faultOf(meshedSmoothly(shape.map, uniformScale(GetParam())), shape.map), "");
+    EXPECT_EQ(faultOf(meshedInSteps(shape.map, uniformScale(GetParam())), shape.map), "");
   }
 }
 
@@ -218,9 +218,9 @@ TEST(SurfaceMesher, HasNoStepsWhereLIsAVoxel)
   const TissueMap map = shapes()[0].map;
   for (double length : { 1.0, 1.5, 2.0 })
   {
-    const double steps = meanDeflection(interfaceOf(meshed(map, uniformScale(length)).background.mesh));
-    const SurfaceComplex smooth = interfaceOf(meshedSmoothly(map, uniformScale(length)).background.mesh);
-    EXPECT_LT(meanDeflection(smooth), (length < 1.5 ? 0.75 : 0.85) * steps) << length;
+    const double steps = meanDeflection(interfaceOf(meshedInSteps(map, uniformScale(length)).background.mesh));
+    const SurfaceComplex smooth = interfaceOf(meshed(map, uniformScale(length)).background.mesh);
+    EXPECT_LT(meanDeflection(smooth), (length < 1.5 ? 0.5 : 0.85) * steps) << length;
   }
 }
 
@@ -229,7 +229,7 @@ TEST(SurfaceMesher, ResistsBendingAtTheTopologyOfTheMap)
   for (const Shape& shape : shapes())
   {
     TissueMesherOptions options;
-    options.smoothing = 0.7;
+    options.rigidity = 0;
     const double soft = meanDeflection(interfaceOf(meshTissues(shape.map, uniformScale(2), options).background.mesh));
     options.rigidity = 0.5;
     const MeshedMap rigid = meshTissues(shape.map, uniformScale(2), options);
@@ -259,6 +259,7 @@ TEST(SurfaceMesher, HoldsThinTissuesLessCloselyOnceSimplifiedUnlessProtected)
   const auto mostDrift = [&](const FeatureOptions& features)
   {
     TissueMesherOptions options;
+    options.smoothing = 0;
     options.features = features;
     float most = 0;
     for (const auto& e : meshTissues(map, uniformScale(9), options).background.samples)
