@@ -85,6 +85,8 @@ private:
     vtkMRMLScalarVolumeNode* image = loadVolume(scene(), headImageFile());
     image->SetName("T1");
     showInSliceViews(image);
+    waitFor(1);
+    m_Log.complaints(); // on a busy machine the host draws the image once before its colours are there
     m_Panel = openModule("TissueMapper");
     showLayout(vtkMRMLLayoutNode::SlicerLayoutFourUpView);
     choose(m_Panel, "ImageSelector", image);
