@@ -128,24 +128,43 @@ private:
       count[a] = std::min(most, 2 * weight.reach());
       for (int i = 0; i < count[a]; ++i) w[a][i] = weight(low[a] + i - p[a]);
     }
+    const bool isWithin = isInMap(low, count);
+    std::array<Label, most> row;
     double value = 0;
     Vec3 gradient; // of the weights with respect to the voxels: the other way round for p
     for (int k = 0; k < count[2]; ++k)
       for (int j = 0; j < count[1]; ++j)
       {
-        double row = 0, slope = 0;
+        const Label* const labels = isWithin ? labelsFrom({ low[0], low[1] + j, low[2] + k }) : row.data();
+        for (int i = 0; i < count[0] && !isWithin; ++i) row[i] = labelAt(m_Map, { low[0] + i, low[1] + j, low[2] + k });
+        double sum = 0, slope = 0;
         for (int i = 0; i < count[0]; ++i)
         {
-          const Label label = labelAt(m_Map, { low[0] + i, low[1] + j, low[2] + k });
-          if (label == point.inside) row += w[0][i].first, slope += w[0][i].second;
-          else if (label == point.outside) row -= w[0][i].first, slope -= w[0][i].second;
+          const double sign = double(labels[i] == point.inside) - double(labels[i] == point.outside);
+          sum += sign * w[0][i].first;
+          slope += sign * w[0][i].second;
         }
-        value += row * w[1][j].first * w[2][k].first;
+        value += sum * w[1][j].first * w[2][k].first;
         gradient.x -= slope * w[1][j].first * w[2][k].first;
-        gradient.y -= row * w[1][j].second * w[2][k].first;
-        gradient.z -= row * w[1][j].first * w[2][k].second;
+        gradient.y -= sum * w[1][j].second * w[2][k].first;
+        gradient.z -= sum * w[1][j].first * w[2][k].second;
       }
     return { value, gradient };
+  }
+
+  /// Whether all those voxels are the map's.
+  bool isInMap(const Index& low, const Index& count) const
+  {
+    for (int a = 0; a < 3; ++a)
+      if (low[a] < 0 || low[a] + count[a] > m_Map.grid.size[a]) return false;
+    return true;
+  }
+
+  /// Of a voxel of the map and those after it along its row.
+  const Label* labelsFrom(const Index& voxel) const
+  {
+    const Index& size = m_Map.grid.size;
+    return m_Map.labels.data() + (std::size_t(voxel[2]) * size[1] + voxel[1]) * size[0] + voxel[0];
   }
 
   const TissueMap& m_Map;

@@ -306,7 +306,7 @@ ElementMeshFile readElementMesh(const std::string& file)
   return elementMeshOf(read.data, file);
 }
 
-ElementMeshFile elementMeshOf(vtkSmartPointer<vtkPointSet> data, const std::string& name)
+ElementMeshFile elementMeshOf(const vtkSmartPointer<vtkPointSet>& data, const std::string& name)
 {
   if (!data || data->GetNumberOfPoints() == 0) refuse(name, "no point, expected a surface or a mesh");
   setSpace(data);

@@ -32,7 +32,7 @@ struct ElementMeshFile
 ElementMeshFile readElementMesh(const std::string& file);
 
 /// The same of `data` (LPS), which is kept and gets a field SPACE; `name` stands for the file in messages.
-ElementMeshFile elementMeshOf(vtkSmartPointer<vtkPointSet> data, const std::string& name);
+ElementMeshFile elementMeshOf(const vtkSmartPointer<vtkPointSet>& data, const std::string& name);
 
 /// The outer surface of a mesh, or the surface itself, as triangles, without duplicate points.
 TriangleSurface readSurfaceOf(const std::string& file);
