@@ -60,8 +60,8 @@ bool keepOptions(vtkXMLDataElement* group, std::set<std::string>& seen)
 
 const std::set<std::string>& stageOptions()
 {
-  static const std::set<std::string> options{ "scale",          "edgeLength", "ambient", "preparedLabelMap",
-                                              "outputLabelMap", "report" };
+  static const std::set<std::string> options{ "scale",          "edgeLength", "ambient",  "preparedLabelMap",
+                                              "outputLabelMap", "report",     "channel2", "channel3" };
   return options;
 }
 

@@ -17,15 +17,16 @@ extern const char* const estimateXML;
 extern const char* const qualityXML;
 extern const char* const convertXML;
 extern const char* const viewXML;
+extern const char* const tissueMapperXML;
 extern const char* const pathScaleXML;
 extern const char* const simplexMesherXML;
 extern const char* const tetrahedralizerXML;
 
-/// Options of the programs that join the stages, and are not the user's to give.
+/// Options of the programs that join the stages or are for callers other than a user, and are not the user's to give.
 const std::set<std::string>& stageOptions();
 
-/// `command` with the options of `programs` behind its own, each once, without stageOptions(). Outputs become texts:
-/// where they go is not for the command line alone to say.
+/// `command` with the options of `programs` behind its own, each once, as the first program that has it describes it,
+/// without stageOptions(). Outputs become texts: where they go is not for the command line alone to say.
 std::string mergedDescription(const std::string& command, const std::vector<std::string>& programs);
 
 } // namespace surgicalmesher

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// surgicalmesher mesh: the three stages in a row, as far as they have not been run before.
+// surgicalmesher mesh: the stages in a row, as far as they have not been run before.
 
 #include "Arguments.h"
 #include "ChildProcess.h"
@@ -109,6 +109,20 @@ void forget(const std::string& stage, RunRecord& record, const fs::path& folder,
   record.erase(stage);
 }
 
+/// The same for stages of an earlier run that this one does without.
+void forgetOthers(const std::vector<Stage>& stages, RunRecord& record, const fs::path& folder,
+                  const std::vector<std::string>& given)
+{
+  std::vector<std::string> others;
+  for (const auto& earlier : record)
+  {
+    const auto isIt = [&](const Stage& stage) { return stage.name == earlier.first; };
+    if (std::none_of(stages.begin(), stages.end(), isIt)) others.push_back(earlier.first);
+  }
+  for (const std::string& other : others) forget(other, record, folder, given);
+  if (!others.empty()) writeRunRecord(record, folder.string());
+}
+
 /// Fingerprints of what a stage has written: by name in the folder, by path elsewhere.
 std::map<std::string, std::string> writtenSince(const std::map<std::string, std::string>& before, const Stage& stage,
                                                 const fs::path& folder)
@@ -136,6 +150,7 @@ void runStages(const RunRequest& request, const std::string& programs, CommandLi
   requireReadable(given);
   requireInputsKept(stages, given);
   RunRecord record = readRunRecord(request.folder);
+  forgetOthers(stages, record, request.folder, given);
   double done = 0;
   for (auto stage = stages.begin(); stage != stages.end(); ++stage)
   {

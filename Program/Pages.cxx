@@ -113,7 +113,7 @@ std::string completion(const std::string& program, const std::string& cases)
 std::vector<Page> commandPages()
 {
   const std::vector<std::pair<std::string, std::string>> commands{
-    { "mesh", mergedDescription(meshXML, { pathScaleXML, simplexMesherXML, tetrahedralizerXML }) },
+    { "mesh", mergedDescription(meshXML, { pathScaleXML, simplexMesherXML, tetrahedralizerXML, tissueMapperXML }) },
     { "estimate", mergedDescription(estimateXML, { pathScaleXML }) },
     { "quality", qualityXML },
     { "convert", convertXML },

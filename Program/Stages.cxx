@@ -2,7 +2,9 @@
 #include "Stages.h"
 
 #include "Descriptions.h"
+#include "Errors.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -29,6 +31,7 @@ bool isTaken(const Stage& stage, const Parameter& parameter, const ModuleDescrip
   static const std::set<std::string> focus{ "targets", "path", "targetPoint", "pathPoint" };
   if (stageOptions().count(parameter.name) || parameter.longFlag.empty()) return false;
   if (!isGiven(parameter.name, program, options)) return false;
+  if (stage.name == "tissues") return parameter.name != "names"; // those that the other stages read
   if (stage.name != "mesh") return true;
   if (parameter.name.rfind("nullDisplacement", 0) == 0) return false;
   return !focus.count(parameter.name) || isGiven("nonlinearDistance", program, options);
@@ -81,6 +84,49 @@ bool marksFarTissue(const RunRequest& request)
          isGiven("nullDisplacementPathDistance", program, request.options);
 }
 
+bool isAnImage(const RunRequest& request)
+{
+  return isGiven("training", parseModuleDescription(tissueMapperXML), request.options);
+}
+
+/// Options of the classification alone say nothing of a label map.
+void requireNoneOfAnImage(const RunRequest& request)
+{
+  const ModuleDescription classification = parseModuleDescription(tissueMapperXML);
+  std::vector<ModuleDescription> others;
+  for (const char* xml : { pathScaleXML, simplexMesherXML, tetrahedralizerXML })
+    others.push_back(parseModuleDescription(xml));
+  for (const auto& option : request.options)
+  {
+    const std::string& name = option.first;
+    const Parameter* parameter = classification.find(name);
+    const bool isShared =
+      std::any_of(others.begin(), others.end(), [&](const auto& other) { return other.find(name); });
+    if (parameter && !isShared && isGiven(name, classification, request.options))
+      throw UsageError(parameter->spelling() +
+                       " is given without --training, expected the training points of an image as well");
+  }
+}
+
+Stage tissuesStage(const RunRequest& request)
+{
+  Stage stage{ "tissues", "TissueMapperCLI", {}, {}, {}, 0.2 };
+  addOptions(stage, request, tissueMapperXML);
+  addOutput(stage, "--names=", inFolder(request, "tissues.ctbl"));
+  addOutput(stage, "--report=", inFolder(request, "classification.json"));
+  addInput(stage, "", request.labelMap);
+  addOutput(stage, "", inFolder(request, "tissues.nrrd"));
+  return stage;
+}
+
+/// Of what the classification of an image gives.
+RunRequest requestOfTissues(RunRequest request)
+{
+  request.labelMap = inFolder(request, "tissues.nrrd");
+  request.options.insert({ "names", { inFolder(request, "tissues.ctbl") } });
+  return request;
+}
+
 Stage surfaceStage(const RunRequest& request)
 {
   Stage stage{ "surface", "SimplexMesherCLI", {}, {}, {}, 0.83 };
@@ -121,7 +167,15 @@ Stage scaleStage(const RunRequest& request)
 
 std::vector<Stage> stagesOf(const RunRequest& request)
 {
-  return { scaleStage(request), surfaceStage(request), meshStage(request) };
+  if (!isAnImage(request))
+  {
+    requireNoneOfAnImage(request);
+    return { scaleStage(request), surfaceStage(request), meshStage(request) };
+  }
+  const RunRequest later = requestOfTissues(request);
+  std::vector<Stage> stages{ tissuesStage(request), scaleStage(later), surfaceStage(later), meshStage(later) };
+  for (std::size_t n = 1; n < stages.size(); ++n) stages[n].share *= 1 - stages[0].share;
+  return stages;
 }
 
 } // namespace surgicalmesher

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The three stages of a run, as command lines of the programs.
+/// The stages of a run, as command lines of the programs.
 
 #include "RunOptions.h"
 
@@ -9,14 +9,14 @@ namespace surgicalmesher
 
 struct RunRequest
 {
-  std::string labelMap; ///< absolute
+  std::string labelMap; ///< absolute; with training points an image
   std::string folder;   ///< absolute; of the results
   RunOptions options;   ///< completed
 };
 
 struct Stage
 {
-  std::string name;                   ///< scale, surface or mesh
+  std::string name;                   ///< tissues, scale, surface or mesh
   std::string program;                ///< its file name
   std::vector<std::string> arguments; ///< files as absolute paths
   std::vector<std::string> inputs;    ///< files that it reads
@@ -24,11 +24,13 @@ struct Stage
   double share = 0;                   ///< of the time that all stages take, as a rule
 };
 
-/// Far tissue is marked in the map by the first stage; the last one gets targets and paths only to measure the
-/// nonlinear distance from them. Throws UsageError for an output that its program would not write.
+/// With training points the first stage classifies an image, and the others get its label map and, unless the options
+/// name another, its colour table. Far tissue is marked in the map by the stage of the scale; the last one gets targets
+/// and paths only to measure the nonlinear distance from them. Throws UsageError for an output that its program would
+/// not write, and for options of the classification without training points.
 std::vector<Stage> stagesOf(const RunRequest& request);
 
-/// The first stage alone.
+/// The stage of the scale alone, of a label map.
 Stage scaleStage(const RunRequest& request);
 
 } // namespace surgicalmesher

@@ -27,8 +27,9 @@ struct Command
 const std::vector<Command>& commands()
 {
   static const std::vector<Command> all{
-    { "mesh", "MAP FOLDER", "from label map to mesh, exports and report",
-      mergedDescription(meshXML, { pathScaleXML, simplexMesherXML, tetrahedralizerXML }), meshCommand },
+    { "mesh", "MAP FOLDER", "from label map, or image and training points, to mesh, exports and report",
+      mergedDescription(meshXML, { pathScaleXML, simplexMesherXML, tetrahedralizerXML, tissueMapperXML }),
+      meshCommand },
     { "estimate", "MAP", "triangles, tetrahedra, memory and time, before anything is meshed",
       mergedDescription(estimateXML, { pathScaleXML }), estimateCommand },
     { "quality", "MESH", "measures of tetrahedra, hexahedra and wedges, by tissue", qualityXML,

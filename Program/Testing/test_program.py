@@ -1,4 +1,4 @@
-"""surgicalmesher: the bytes of the three programs in a row, and what it adds to them.
+"""surgicalmesher: the bytes of the programs in a row, and what it adds to them.
 
 usage: test_program.py BIN PAGES OUTDIR
 """
@@ -16,17 +16,22 @@ import sys
 import time
 import unittest
 
+import nibabel
 import numpy as np
 from PIL import Image
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Python")]
-from maps import cut_out, write_nrrd  # noqa: E402
+from maps import LPS_FROM_RAS, cut_out, write_nrrd  # noqa: E402
 from measures import signed_volumes  # noqa: E402
 from meshfiles import read_mesh  # noqa: E402
 
 BIN, PAGES, OUTDIR = (os.path.abspath(path) for path in sys.argv[1:4])
 TARGET = "-4,12,-7"
+HEAD = "/usr/share/mricron/templates/ch2.nii.gz"
+TRAINING = os.path.join(ROOT, "workflow", "from-image", "training.mrk.json")
+SELLA = "0,-7,-29"
+COARSE = ("--minimumEdgeLength", "8", "--maximumEdgeLength", "20")
 SIZES = ("--minimumEdgeLength", "3", "--maximumEdgeLength", "6", "--childRadius", "4")
 
 
@@ -53,6 +58,34 @@ def run_three_programs(folder):
              inside("prepared.nrrd"), "--ambient", inside("ambient.vtu"), "map.nrrd", inside("surface.vtp")),
             ("FuchsTetrahedralizerCLI", "--scale", inside("scale.nrrd"), "--ambient", inside("ambient.vtu"), "--export",
              inside("head.inp"), inside("surface.vtp"), inside("mesh.vtu"))):
+        done = run(*command)
+        assert done.returncode == 0, done.stderr
+
+
+def write_coarse_head(file, step=4):
+    """The T1 of Colin27, its voxels averaged by cubes of `step`."""
+    head = nibabel.load(HEAD)
+    count = [n // step for n in head.shape]
+    fine = np.asanyarray(head.dataobj)[tuple(slice(n * step) for n in count)].astype(float)
+    coarse = fine.reshape(*(part for n in count for part in (n, step))).mean(axis=(1, 3, 5))
+    enlarged = np.diag([step, step, step, 1.0])
+    enlarged[:3, 3] = (step - 1) / 2
+    write_nrrd(file, np.rint(coarse).astype(np.uint16), LPS_FROM_RAS @ head.affine @ enlarged)
+
+
+def run_four_programs(folder):
+    os.makedirs(folder)
+    inside = lambda name: os.path.join(folder, name)
+    names = ("--names", inside("tissues.ctbl"))
+    for command in (
+            ("TissueMapperCLI", "--training", TRAINING, *names, "head.nrrd", inside("tissues.nrrd")),
+            ("SurgicalPathScaleCLI", "--targetPoint", SELLA, *COARSE, *names, inside("tissues.nrrd"),
+             inside("scale.nrrd")),
+            ("SimplexMesherCLI", "--minimumIslandVolume", "4000", *names, "--scale", inside("scale.nrrd"),
+             "--preparedLabelMap", inside("prepared.nrrd"), "--ambient", inside("ambient.vtu"), inside("tissues.nrrd"),
+             inside("surface.vtp")),
+            ("FuchsTetrahedralizerCLI", "--scale", inside("scale.nrrd"), "--ambient", inside("ambient.vtu"),
+             inside("surface.vtp"), inside("mesh.vtu"))):
         done = run(*command)
         assert done.returncode == 0, done.stderr
 
@@ -257,10 +290,47 @@ class ProgramTest(unittest.TestCase):
                 (1, ["kind.toml", "true or false"], ["mesh", "--config", "kind.toml"]),
                 (1, ["broken.toml, line 1"], ["mesh", "--config", "broken.toml"]),
                 (2, ["--preset"], ["mesh", "--config", "hand.toml", "--preset", "fine"]),
+                (2, ["--classes is given without"], ["mesh", "map.nrrd", "new", *target, "--classes", "a.csv"]),
+                (2, ["--channel is given without"], ["mesh", "map.nrrd", "new", *target, "--channel", "b"]),
+                (2, ["--denoise is given without --training"], ["mesh", "map.nrrd", "new", *target, "--denoise"]),
+                (2, ["unknown flag", "--channel2"], ["mesh", "map.nrrd", "new", *target, "--channel2", "map.nrrd"]),
+                (1, ["none.mrk.json"], ["mesh", "map.nrrd", "new", *target, "--training", "none.mrk.json"]),
+                (1, ["none.csv"], ["mesh", "map.nrrd", "new", *target, "--training", TRAINING, "--classes=none.csv"]),
                 (2, [".doc"], ["convert", "out/mesh.vtu", "head.doc"]),
                 (1, ["map.nrrd"], ["quality", "map.nrrd"])):
             with self.subTest(arguments=arguments):
                 self.assert_refused(status, words, *arguments)
+
+    def test_an_image_becomes_a_mesh(self):
+        write_coarse_head("head.nrrd")
+        run_four_programs("four")
+        command = ("mesh", "head.nrrd", "imaged", "--training", TRAINING, "--target", SELLA, *COARSE,
+                   "--minimumIslandVolume", "4000")
+        done = surgicalmesher(*command)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in ("tissues.nrrd", "tissues.ctbl", "scale.nrrd", "prepared.nrrd", "surface.vtp", "ambient.vtu",
+                     "mesh.vtu"):
+            self.assertEqual(bytes_of(f"imaged/{name}"), bytes_of(f"four/{name}"), name)
+        with open("imaged/classification.json", encoding="utf-8") as file:
+            classes = {part["name"] for part in json.load(file)["classes"]}
+        with open("imaged/surface.json", encoding="utf-8") as file:
+            meshed = {re.sub(r" \d+$", "", part["name"]) for part in json.load(file)["structures"]}  # pieces: muscle 1
+        self.assertEqual(meshed, classes)
+        done = surgicalmesher(*command)
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 4), done.stderr)
+        done = surgicalmesher("mesh", "--config", "imaged/run.toml")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("tissues: nothing has changed", done.stdout)
+        self.assertEqual(bytes_of("imaged/mesh.vtu"), bytes_of("four/mesh.vtu"))
+        self.a_label_map_takes_the_images_place()
+
+    def a_label_map_takes_the_images_place(self):
+        """In the folder of an image, a map's run leaves nothing of the classification."""
+        done = surgicalmesher("mesh", "map.nrrd", "imaged", "--target", TARGET, *SIZES, "--minimumIslandVolume", "30")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_same_as_three_programs("imaged")
+        for name in ("tissues.nrrd", "tissues.ctbl", "classification.json"):
+            self.assertFalse(os.path.exists(f"imaged/{name}"), name)
 
     def test_interrupt_leaves_whole_stages_alone(self):
         command = [os.path.join(BIN, "surgicalmesher"), "mesh", "map.nrrd", "interrupted", "--target", TARGET,
