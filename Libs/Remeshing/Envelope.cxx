@@ -36,8 +36,8 @@ struct FacesToSamples
 Envelope::Envelope(TetComplex& complex, const EnvelopeBounds& bounds)
   : m_Complex(complex), m_Held(bounds.interfaceHeld), m_MeanSquareLimit(bounds.rmsLimit * bounds.rmsLimit),
     m_SquaredToleranceFactor(bounds.toleranceFactor * bounds.toleranceFactor), m_TriangleWeight(bounds.triangleWeight),
-    m_VertexDistance(bounds.vertexDistance), m_SquaredSeparatedFactor(bounds.separatedFactor * bounds.separatedFactor),
-    m_Sides(bounds.featureAngle)
+    m_VertexDistance(bounds.vertexDistance), m_SquaredSpacing(bounds.sampleSpacing * bounds.sampleSpacing),
+    m_SquaredSeparatedFactor(bounds.separatedFactor * bounds.separatedFactor), m_Sides(bounds.featureAngle)
 {
 }
 
@@ -212,7 +212,7 @@ bool Envelope::growsSpike(const Vec3& p) const
 {
   if (m_VertexDistance == 0) return false;
   const auto [sample, distance2] = nearestSample(m_Sheet, p);
-  return sample && distance2 > m_VertexDistance * m_VertexDistance * sample->squaredTolerance() &&
+  return sample && isBeyond(*sample, distance2, m_VertexDistance) &&
          distance2 > nearestSample(m_Sheet, m_Complex.points[m_SheetVertex]).second;
 }
 
@@ -228,7 +228,7 @@ bool Envelope::spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) co
       const double target = m_Complex.targetLength(f.vertices[k], x);
       if (squaredNorm(b - a) <= target * target) continue;
       const auto [sample, distance2] = nearestSample(sheet, 0.5 * (a + b));
-      if (!sample || distance2 <= m_VertexDistance * m_VertexDistance * sample->squaredTolerance()) continue;
+      if (!sample || !isBeyond(*sample, distance2, m_VertexDistance)) continue;
       const Vec3 other = f.vertices[k] == v ? b : a;
       if (distance2 > nearestSample(sheet, 0.5 * (from + other)).second) return true;
     }
@@ -242,7 +242,7 @@ bool Envelope::laysBare(std::int32_t t) const
   {
     if (m_Complex.onInterface[v]) continue;
     const auto [sample, distance2] = nearestSample(m_Old, m_Complex.points[v]);
-    if (!sample || distance2 > m_VertexDistance * m_VertexDistance * sample->squaredTolerance()) return true;
+    if (!sample || isBeyond(*sample, distance2, m_VertexDistance)) return true;
   }
   return false;
 }

@@ -11,6 +11,8 @@
 
 #include "FeatureSides.h"
 
+#include <algorithm>
+
 namespace surgicalmesher
 {
 
@@ -29,6 +31,9 @@ struct EnvelopeBounds
   /// to lie on the interface beyond it. Prevents spikes: they have good angles, and their sides pass the samples at
   /// their foot however long they grow. 0: no bound.
   double vertexDistance = 0;
+  /// mm; that bound is this at least: between samples so far apart a vertex of the smoothest surface is that far from
+  /// the nearest.
+  double sampleSpacing = 0;
   /// Factor, at least 1, on the tolerance to faces of its own pair for a sample whose two labels others have come
   /// between, if it has the boundary of either label within tolerance.
   double separatedFactor = 1;
@@ -44,6 +49,12 @@ public:
   Envelope(TetComplex& complex, const EnvelopeBounds& bounds);
 
   bool isHeld() const { return m_Held; }
+
+  /// Whether a place that far from its nearest sample is beyond so many of its tolerances, and the spacing of samples.
+  bool isBeyond(const SheetSample& nearest, double squaredDistance, double tolerances) const
+  {
+    return squaredDistance > std::max(tolerances * tolerances * nearest.squaredTolerance(), m_SquaredSpacing);
+  }
 
   // --- faces that an operation takes away, and faces that take their place
   void clear();
@@ -141,7 +152,7 @@ private:
   double m_MeanSquareLimit;
   const double m_SquaredToleranceFactor, m_TriangleWeight;
   double m_VertexDistance;
-  const double m_SquaredSeparatedFactor;
+  const double m_SquaredSpacing, m_SquaredSeparatedFactor;
   double m_LeastTolerance2 = 0;
   FeatureSides m_Sides; ///< of the faces asked about last
   Sheet m_Old;          ///< the faces that an operation takes away

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Fairing.h"
 
+#include "Quadric.h"
 #include "TetQuality.h"
 
 #include <algorithm>
+#include <map>
 
 namespace surgicalmesher
 {
@@ -16,7 +18,8 @@ class Fairing
 public:
   Fairing(GuardedOperations& operations, const FairingOptions& options)
     : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
-      m_Least(sine2OfDegrees(options.leastAngle)), m_Start(m_Complex.points), m_Umbrella(m_Start.size())
+      m_Least(sine2OfDegrees(options.leastAngle)), m_Start(m_Complex.points), m_Volumes(volumes()),
+      m_Umbrella(m_Start.size())
   {
     m_Begin.reserve(m_Start.size() + 1);
     for (std::int32_t v = 0; v < std::int32_t(m_Start.size()); ++v)
@@ -29,6 +32,7 @@ public:
 
   void run()
   {
+    constexpr int balancingRounds = 2;
     const std::int32_t count = std::int32_t(m_Start.size());
     for (int round = 0; round < m_Options.rounds; ++round)
     {
@@ -36,6 +40,7 @@ public:
       for (std::int32_t v = 0; v < count; ++v)
         if (hasNeighbours(v) && !m_Complex.locked[v]) flatten(v);
     }
+    for (int round = 0; round < balancingRounds; ++round) balanceVolumes();
   }
 
 private:
@@ -76,10 +81,111 @@ private:
   {
     constexpr double factor = 0.4; // of U(U(p)); stable up to 0.5
     const Vec3 p = m_Complex.points[v];
-    const Vec3 step = withinReach(v, p - factor * umbrella(v, m_Umbrella)) - p;
+    step(v, withinReach(v, p - factor * umbrella(v, m_Umbrella)) - p);
+  }
+
+  void step(std::int32_t v, const Vec3& way)
+  {
+    const Vec3 p = m_Complex.points[v];
     const double floor = std::min(m_Least, m_Operations.qualityAt(v));
     for (const double share : { 1.0, 0.5, 0.25 })
-      if (m_Operations.move(v, p + share * step, floor)) return;
+      if (m_Operations.move(v, p + share * way, floor)) return;
+  }
+
+  // ---- volumes ----
+
+  std::map<Label, double> volumes() const
+  {
+    std::map<Label, double> result;
+    const auto& p = m_Complex.points;
+    for (std::size_t t = 0; t < m_Complex.tets.size(); ++t)
+    {
+      if (!m_Complex.alive(std::int32_t(t))) continue;
+      const auto& [a, b, c, d] = m_Complex.tets[t];
+      result[m_Complex.labels[t]] += orient(p[a], p[b], p[c], p[d]) / 6;
+    }
+    return result;
+  }
+
+  /// A face at a vertex, seen from one of its labels.
+  struct Side
+  {
+    Label from, to;
+    Vec3 area; ///< vector, mm^2, from the one to the other
+  };
+
+  Side sideOf(const SheetFace& f) const
+  {
+    const auto at = [&](int k) { return m_Complex.points[f.vertices[k]]; };
+    const Vec3 area = 0.5 * cross(at(1) - at(0), at(2) - at(0));
+    const Vec3 inside = m_Complex.points[m_Complex.tets[f.tet][f.face]];
+    const Label from = m_Complex.labels[f.tet], to = m_Complex.labels[m_Complex.neighbours[f.tet][f.face]];
+    return { from, to, dot(area, inside - at(0)) > 0 ? -1.0 * area : area };
+  }
+
+  /// Of the faces at free vertices, mm^2, by the labels on both sides, either first.
+  std::map<std::pair<Label, Label>, double> areas()
+  {
+    std::map<std::pair<Label, Label>, double> result;
+    for (std::int32_t v = 0; v < std::int32_t(m_Start.size()); ++v)
+    {
+      if (!hasNeighbours(v) || m_Complex.locked[v]) continue;
+      for (const SheetFace& f : m_Operations.sheet(v).faces)
+      {
+        const Side side = sideOf(f);
+        const double share = norm(side.area) / 3;
+        result[{ side.from, side.to }] += share;
+        result[{ side.to, side.from }] += share;
+      }
+    }
+    return result;
+  }
+
+  /// How far (mm) each tissue's boundary has to go outwards for the volume that it had.
+  std::map<Label, double> offsets()
+  {
+    const std::map<std::pair<Label, Label>, double> shared = areas();
+    std::map<Label, double> lacking = m_Volumes, area, result;
+    for (const auto& [label, volume] : volumes()) lacking[label] -= volume;
+    for (const auto& [pair, a] : shared) area[pair.first] += a;
+    for (int round = 0; round < 20; ++round)
+    {
+      std::map<Label, double> wanted = lacking;
+      for (const auto& [pair, a] : shared) wanted[pair.first] += a * result[pair.second];
+      for (const auto& [label, a] : area)
+        if (label != 0) result[label] = std::clamp(wanted[label] / a, -m_Options.farthest, m_Options.farthest);
+    }
+    return result;
+  }
+
+  /// Where the boundaries of the tissues at v, each offset, meet.
+  Vec3 meetingStep(std::int32_t v, const std::map<Label, double>& offset)
+  {
+    constexpr double spring = 0.05; // where all are nearly one plane
+    Quadric quadric;
+    for (const SheetFace& f : m_Operations.sheet(v).faces)
+    {
+      const Side side = sideOf(f);
+      const double size = norm(side.area);
+      const Vec3 n = side.area / size;
+      const double m[6] = { n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z };
+      for (int i = 0; i < 6; ++i) quadric.m[i] += size * m[i];
+      quadric.g += (offset.at(side.from) - offset.at(side.to)) * side.area;
+    }
+    quadric.addToDiagonal(spring * quadric.trace());
+    return quadric.solve(quadric.g);
+  }
+
+  void balanceVolumes()
+  {
+    std::map<Label, double> offset = offsets();
+    offset[0] = 0;
+    for (std::int32_t v = 0; v < std::int32_t(m_Start.size()); ++v)
+    {
+      if (!hasNeighbours(v) || m_Complex.locked[v]) continue;
+      const Vec3 p = m_Complex.points[v];
+      step(v, withinReach(v, p + meetingStep(v, offset)) - p);
+    }
   }
 
   Vec3 withinReach(std::int32_t v, const Vec3& p) const
@@ -96,6 +202,7 @@ private:
   const FairingOptions& m_Options;
   const double m_Least;
   const std::vector<Vec3> m_Start;
+  const std::map<Label, double> m_Volumes;
   std::vector<Vec3> m_Umbrella;
   std::vector<std::int32_t> m_Begin, m_Neighbours;   ///< those of v are m_Neighbours[m_Begin[v]..m_Begin[v + 1])
   std::vector<std::pair<std::int32_t, int>> m_Faces; ///< neighbours on the interface, and how many faces are at each

@@ -19,8 +19,8 @@ struct FairingOptions
 
 /// Moves every free vertex of the interface against the thin-plate energy of the umbrella vectors there: p - 0.4 U(U(p)),
 /// U(x) = the mean of x at the neighbours on the same sheet or curve, less x at the vertex (Kobbelt, Campagna, Vorsatz
-/// and Seidel, SIGGRAPH 1998, equation 9). Unlike a step along U(p) it does not shrink what is round. Vertices where curves meet
-/// stay.
+/// and Seidel, SIGGRAPH 1998, equation 9). Vertices where curves meet stay. Then every tissue of the block gets the
+/// volume that it had, within the same reach: its boundary is offset by one length.
 void fairBlock(GuardedOperations& operations, const FairingOptions& options = {});
 
 } // namespace surgicalmesher

@@ -112,7 +112,7 @@ std::optional<Vec3> GuardedOperations::nearestSampleOf(std::int32_t v)
 bool GuardedOperations::isSpike(std::int32_t v, double tolerances)
 {
   const auto [sample, distance2] = nearestSample(sheet(v), m_Complex.points[v]);
-  return sample && distance2 > tolerances * tolerances * sample->squaredTolerance();
+  return sample && m_Envelope.isBeyond(*sample, distance2, tolerances);
 }
 
 } // namespace surgicalmesher

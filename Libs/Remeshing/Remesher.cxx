@@ -29,6 +29,7 @@ EnvelopeBounds boundsOf(const Stage& stage, const RemesherOptions& options)
 {
   EnvelopeBounds bounds = stage.bounds;
   bounds.featureAngle = options.featureAngle;
+  bounds.sampleSpacing = options.sampleSpacing;
   if (options.tolerancesAreHard) bounds.toleranceFactor = 1;
   else bounds.separatedFactor = options.separatedFactor;
   return bounds;

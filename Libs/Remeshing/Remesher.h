@@ -14,8 +14,9 @@ struct RemesherOptions
   bool tolerancesAreHard = false;
   /// EnvelopeBounds::separatedFactor of all stages; 1 if tolerances are hard.
   double separatedFactor = 1;
-  double featureAngle = 0; ///< EnvelopeBounds::featureAngle of all stages
-  double rigidity = 0;     ///< of the interface against bending, see quadricOf
+  double featureAngle = 0;  ///< EnvelopeBounds::featureAngle of all stages
+  double sampleSpacing = 0; ///< EnvelopeBounds::sampleSpacing of all stages, mm
+  double rigidity = 0;      ///< of the interface against bending, see quadricOf
 };
 
 /// Runs the stages of a sweep on one block. `curves`: see GuardedOperations.

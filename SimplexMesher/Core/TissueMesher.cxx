@@ -33,9 +33,11 @@ BackgroundMesh startingMesh(const TissueMap& map, const ScaleField& scale, const
 
 bool isBounded(const TissueMesherOptions& options) { return options.maximumDistance > 0; }
 
-RemesherOptions remesherOptions(const TissueMesherOptions& options)
+RemesherOptions remesherOptions(const TissueMesherOptions& options, double voxel)
 {
+  constexpr double betweenFaces = 0.8; // of a voxel: half the diagonal of a face, and what its sample has moved
   RemesherOptions result;
+  if (options.smoothing > 0) result.sampleSpacing = betweenFaces * voxel; // tolerances are narrower then
   result.tolerancesAreHard = isBounded(options);
   result.separatedFactor = 2;
   result.rigidity = options.rigidity;
@@ -57,8 +59,8 @@ class TissueRemesher
 public:
   TissueRemesher(BackgroundMesh start, const TissueMap& map, const SizingFunction& length,
                  const TissueMesherOptions& options, const Progress& progress, std::size_t sweeps)
-    : m_Remesher(std::move(start), length, remesherOptions(options), progress, sweeps), m_Balance(balanceOf(map)),
-      m_Balances(!isBounded(options))
+    : m_Remesher(std::move(start), length, remesherOptions(options, map.grid.smallestSpacing()), progress, sweeps),
+      m_Balance(balanceOf(map)), m_Balances(!isBounded(options))
   {
     m_Evolution.push_back(evolutionStep(m_Remesher.background(), "lattice", {}));
   }

@@ -224,6 +224,33 @@ TEST(SurfaceMesher, HasNoStepsWhereLIsAVoxel)
   }
 }
 
+/// Between samples a voxel apart every vertex is far from the nearest one, and is no spike.
+TEST(SurfaceMesher, LeavesFlatWallsFlatWhereLIsLittleOverAVoxel)
+{
+  constexpr double low = 3.5, high = 15.5, away = 1.5; // of the walls; from their edges
+  TissueMap map = paintedMap({ 20, 20, 20 },
+                             [](int i, int j, int k)
+                             {
+                               const auto isIn = [](int x) { return x > 3 && x < 16; };
+                               return isIn(i) && isIn(j) && isIn(k);
+                             });
+  prepareMap(map, {});
+  const MeshedMap mesh = meshed(map, uniformScale(1.25));
+  EXPECT_EQ(faultOf(mesh, map), "");
+  int count = 0, dents = 0;
+  for (const Vec3& p : interfaceOf(mesh.background.mesh).points)
+    for (int a = 0; a < 3; ++a)
+    {
+      const double off = std::min(std::abs(p[a] - low), std::abs(p[a] - high));
+      const auto isAmid = [&](double x) { return x > low + away && x < high - away; };
+      if (off > 2 || !isAmid(p[(a + 1) % 3]) || !isAmid(p[(a + 2) % 3])) continue;
+      ++count;
+      dents += off > 0.3;
+    }
+  EXPECT_GT(count, 300);
+  EXPECT_LT(dents, count / 50);
+}
+
 TEST(SurfaceMesher, ResistsBendingAtTheTopologyOfTheMap)
 {
   for (const Shape& shape : shapes())
