@@ -156,6 +156,7 @@ Options randomOptions(Draw& draw, const Grid& grid, const TissueSettings& settin
   if (draw.oneIn(4)) options.mesher.maximumDistance = draw.between(0.1, 1.5) * voxel;
   if (draw.oneIn(6)) options.mesher.smoothing = draw.between(0.2, 2);
   if (draw.oneIn(6)) options.mesher.rigidity = draw.between(0.1, 2);
+  if (draw.oneIn(4)) options.mesher.smoothing = options.mesher.rigidity = 0;
   options.followsThickness = draw.oneIn(4);
   if (draw.oneIn(4)) options.gradation = draw.between(0, 2);
   for (const auto& [label, setting] : settings)
