@@ -3,6 +3,7 @@
 
 #include "InterfaceSmoothing.h"
 #include "Parallel.h"
+#include "VolumeOffsets.h"
 
 #include <algorithm>
 #include <array>
@@ -313,20 +314,7 @@ std::map<Label, double> offsets(const std::vector<Point>& points)
     lost[p.outside] += swept;
     areas[{ p.inside, p.outside }] += std::abs(p.normal[p.axis]);
   }
-  std::map<Label, double> result, area;
-  for (const auto& [pair, a] : areas) area[pair.first] += a, area[pair.second] += a;
-  for (int round = 0; round < 20; ++round)
-  {
-    std::map<Label, double> wanted = lost;
-    for (const auto& [pair, a] : areas)
-    {
-      wanted[pair.first] += a * result[pair.second];
-      wanted[pair.second] += a * result[pair.first];
-    }
-    for (const auto& [label, sum] : wanted)
-      if (label != 0 && area[label] > 0) result[label] = std::clamp(sum / area[label], -mostOffset, mostOffset);
-  }
-  return result;
+  return offsetsForVolumes(lost, areas, mostOffset);
 }
 
 Point pointOf(const Vec3& position, const TissueMap& map)

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Fairing.h"
 
-#include "Quadric.h"
 #include "TetQuality.h"
+#include "VertexSteps.h"
+#include "VolumeOffsets.h"
 
 #include <algorithm>
 #include <map>
@@ -49,24 +50,14 @@ private:
   /// The vertices next to v on its curve if it is on one, on its sheet otherwise; none where curves meet or end.
   void addNeighbours(std::int32_t v)
   {
-    m_Faces.clear();
     const std::vector<SheetFace>& faces = m_Operations.sheet(v).faces;
-    for (const SheetFace& f : faces)
-      for (const std::int32_t u : f.vertices)
-        if (u != v) countFace(u);
+    facesAtNeighbours(m_Operations.sheet(v), v, m_Faces);
     const auto differs = [&](const SheetFace& f) { return f.labels != faces[0].labels; };
     const bool isOnCurve = std::any_of(faces.begin(), faces.end(), differs);
     const auto isAlong = [](const auto& n) { return n.second > 2; };
     if (std::count_if(m_Faces.begin(), m_Faces.end(), isAlong) != (isOnCurve ? 2 : 0)) return;
     for (const auto& n : m_Faces)
       if (!isOnCurve || isAlong(n)) m_Neighbours.push_back(n.first);
-  }
-
-  void countFace(std::int32_t u)
-  {
-    const auto at = std::find_if(m_Faces.begin(), m_Faces.end(), [u](const auto& n) { return n.first == u; });
-    if (at == m_Faces.end()) m_Faces.push_back({ u, 1 });
-    else ++at->second;
   }
 
   Vec3 umbrella(std::int32_t v, const std::vector<Vec3>& x) const
@@ -123,7 +114,7 @@ private:
     return { from, to, dot(area, inside - at(0)) > 0 ? -1.0 * area : area };
   }
 
-  /// Of the faces at free vertices, mm^2, by the labels on both sides, either first.
+  /// Of the faces at free vertices, mm^2, by the labels on both sides.
   std::map<std::pair<Label, Label>, double> areas()
   {
     std::map<std::pair<Label, Label>, double> result;
@@ -133,9 +124,7 @@ private:
       for (const SheetFace& f : m_Operations.sheet(v).faces)
       {
         const Side side = sideOf(f);
-        const double share = norm(side.area) / 3;
-        result[{ side.from, side.to }] += share;
-        result[{ side.to, side.from }] += share;
+        result[std::minmax(side.from, side.to)] += norm(side.area) / 3;
       }
     }
     return result;
@@ -144,18 +133,9 @@ private:
   /// How far (mm) each tissue's boundary has to go outwards for the volume that it had.
   std::map<Label, double> offsets()
   {
-    const std::map<std::pair<Label, Label>, double> shared = areas();
-    std::map<Label, double> lacking = m_Volumes, area, result;
+    std::map<Label, double> lacking = m_Volumes;
     for (const auto& [label, volume] : volumes()) lacking[label] -= volume;
-    for (const auto& [pair, a] : shared) area[pair.first] += a;
-    for (int round = 0; round < 20; ++round)
-    {
-      std::map<Label, double> wanted = lacking;
-      for (const auto& [pair, a] : shared) wanted[pair.first] += a * result[pair.second];
-      for (const auto& [label, a] : area)
-        if (label != 0) result[label] = std::clamp(wanted[label] / a, -m_Options.farthest, m_Options.farthest);
-    }
-    return result;
+    return offsetsForVolumes(lacking, areas(), m_Options.farthest);
   }
 
   /// Where the boundaries of the tissues at v, each offset, meet.
@@ -204,8 +184,8 @@ private:
   const std::vector<Vec3> m_Start;
   const std::map<Label, double> m_Volumes;
   std::vector<Vec3> m_Umbrella;
-  std::vector<std::int32_t> m_Begin, m_Neighbours;   ///< those of v are m_Neighbours[m_Begin[v]..m_Begin[v + 1])
-  std::vector<std::pair<std::int32_t, int>> m_Faces; ///< neighbours on the interface, and how many faces are at each
+  std::vector<std::int32_t> m_Begin, m_Neighbours; ///< those of v are m_Neighbours[m_Begin[v]..m_Begin[v + 1])
+  FacesAtNeighbours m_Faces;
 };
 
 } // namespace

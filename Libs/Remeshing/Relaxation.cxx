@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Relaxation.h"
 
-#include "Quadric.h"
 #include "TetQuality.h"
+#include "VertexSteps.h"
 
 #include <algorithm>
 
@@ -70,15 +70,7 @@ private:
   /// Towards the middle of the neighbours on the same curve, or on the sheet; nothing where curves meet.
   Vec3 alongInterface(std::int32_t v)
   {
-    m_Degree.clear();
-    for (const SheetFace& f : m_Operations.sheet(v).faces)
-      for (std::int32_t u : f.vertices)
-      {
-        if (u == v) continue;
-        auto at = std::find_if(m_Degree.begin(), m_Degree.end(), [&](const auto& d) { return d.first == u; });
-        if (at == m_Degree.end()) m_Degree.push_back({ u, 1 });
-        else ++at->second;
-      }
+    facesAtNeighbours(m_Operations.sheet(v), v, m_Degree);
     const auto curves = std::count_if(m_Degree.begin(), m_Degree.end(), [](const auto& d) { return d.second > 2; });
     if (curves != 0 && curves != 2) return {};
     Vec3 sum;
@@ -96,7 +88,7 @@ private:
   TetComplex& m_Complex;
   const RelaxationOptions& m_Options;
   const double m_Good;
-  std::vector<std::pair<std::int32_t, int>> m_Degree;
+  FacesAtNeighbours m_Degree;
 };
 
 } // namespace

@@ -3,6 +3,8 @@
 
 #include "TetQuality.h"
 
+#include <algorithm>
+
 namespace surgicalmesher
 {
 
@@ -18,6 +20,19 @@ Vec3 easiest(GuardedOperations& operations, std::int32_t v, const Quadric& held,
   const Vec3 d = operations.alongFeatures(v, held.solve(direction));
   const double n = norm(d);
   return n > 0 ? d / n : Vec3{};
+}
+
+void facesAtNeighbours(const Sheet& sheet, std::int32_t v, FacesAtNeighbours& result)
+{
+  result.clear();
+  for (const SheetFace& f : sheet.faces)
+    for (const std::int32_t u : f.vertices)
+    {
+      if (u == v) continue;
+      const auto at = std::find_if(result.begin(), result.end(), [u](const auto& n) { return n.first == u; });
+      if (at == result.end()) result.push_back({ u, 1 });
+      else ++at->second;
+    }
 }
 
 bool isWhole(GuardedOperations& operations, std::int32_t v)

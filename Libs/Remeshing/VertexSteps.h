@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Directions for a vertex: where angles get better, and where its samples yields.
+/// Directions for a vertex: where angles get better, and where its samples yield.
 
 #include "GuardedOperations.h"
 #include "Quadric.h"
@@ -8,11 +8,16 @@
 namespace surgicalmesher
 {
 
-/// How the samples resists a step of v: a share `ease` of all its resistance in every direction besides.
+/// How the samples resist a step of v: a share `ease` of all its resistance in every direction besides.
 Quadric heldAt(GuardedOperations& operations, std::int32_t v, double ease);
 
-/// Turns `direction` at v into one that its samples resists less, along the features there; a unit vector, or zero.
+/// Turns `direction` at v into one that its samples resist less, along the features there; a unit vector, or zero.
 Vec3 easiest(GuardedOperations& operations, std::int32_t v, const Quadric& held, const Vec3& direction);
+
+/// The vertices next to one on the interface, and how many faces of its sheet are at each: more than two along a curve
+/// between tissues.
+using FacesAtNeighbours = std::vector<std::pair<std::int32_t, int>>;
+void facesAtNeighbours(const Sheet& sheet, std::int32_t v, FacesAtNeighbours& result);
 
 /// Whether v lies inside a label among 24 tetrahedra, none of them with a dihedral angle below 45 degrees or above 135:
 /// what Fuchs's lattice, of 60 and 90 degrees, makes of a vertex, or nearly so. To move it can only harm the lattice.
