@@ -16,6 +16,8 @@
 #include <vtkMRMLScene.h>
 #include <vtkMRMLSegmentationNode.h>
 #include <vtkMRMLSelectionNode.h>
+#include <vtkMRMLStorableNode.h>
+#include <vtkMRMLStorageNode.h>
 #include <vtkSlicerApplicationLogic.h>
 #include <vtkSlicerSegmentationsModuleLogic.h>
 #include <vtkSlicerVolumesLogic.h>
@@ -136,6 +138,14 @@ vtkMRMLLabelMapVolumeNode* loadLabelMap(vtkMRMLScene* scene, const std::string& 
 vtkMRMLScalarVolumeNode* loadVolume(vtkMRMLScene* scene, const std::string& fileName)
 {
   return vtkMRMLScalarVolumeNode::SafeDownCast(loadAnyVolume(scene, fileName, 0));
+}
+
+std::string savedByHost(vtkMRMLStorableNode* node, const std::string& fileName)
+{
+  vtkSmartPointer<vtkMRMLStorageNode> storage;
+  storage.TakeReference(node->CreateDefaultStorageNode());
+  storage->SetFileName(fileName.c_str());
+  return storage->WriteData(node) ? fileName : std::string();
 }
 
 std::string jhuAtlasFile() { return ifExists("/usr/share/mricron/templates/jhu189.nii.gz"); }

@@ -15,6 +15,7 @@ class vtkMRMLMarkupsNode;
 class vtkMRMLScene;
 class vtkMRMLScalarVolumeNode;
 class vtkMRMLSegmentationNode;
+class vtkMRMLStorableNode;
 class vtkMRMLTransformableNode;
 class vtkMRMLTransformNode;
 class vtkMRMLVolumeNode;
@@ -44,6 +45,9 @@ vtkMRMLLabelMapVolumeNode* loadLabelMap(vtkMRMLScene* scene, const std::string& 
 
 /// An image of a file, in the same way.
 vtkMRMLScalarVolumeNode* loadVolume(vtkMRMLScene* scene, const std::string& fileName);
+
+/// Writes the host's own file of a node, in the format that its ending says. The file's name; empty if that failed.
+std::string savedByHost(vtkMRMLStorableNode* node, const std::string& fileName);
 
 /// The JHU atlas of 189 brain tissues, and a T1 image in its space, where Debian's mricron-data has put them; empty if
 /// it is not installed.

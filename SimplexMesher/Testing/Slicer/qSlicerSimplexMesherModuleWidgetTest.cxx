@@ -131,22 +131,13 @@ int testTissueTable(Panel& panel)
   return EXIT_SUCCESS;
 }
 
-/// The host's own file of a node.
-std::string saved(vtkMRMLStorableNode* node, const std::string& file)
-{
-  vtkSmartPointer<vtkMRMLStorageNode> storage;
-  storage.TakeReference(node->CreateDefaultStorageNode());
-  storage->SetFileName(file.c_str());
-  return storage->WriteData(node) ? file : "";
-}
-
 /// Label map and settings go to the command line as files; the panel has the same settings.
 int testSameMesh(Panel& panel)
 {
   const std::string folder = newFolder("SimplexMesherWidgetTest");
   auto* balls = vtkMRMLLabelMapVolumeNode::SafeDownCast(panel.node()->GetNodeReference(Node::TissueMapRole()));
-  const std::string map = saved(balls, folder + "/map.nrrd");
-  const std::string names = saved(balls->GetDisplayNode()->GetColorNode(), folder + "/names.ctbl");
+  const std::string map = savedByHost(balls, folder + "/map.nrrd");
+  const std::string names = savedByHost(balls->GetDisplayNode()->GetColorNode(), folder + "/names.ctbl");
   std::ofstream(folder + "/tissues.csv") << "name,maximum,protected\ntumour,2,yes\n";
 
   panel.child<ctkSliderWidget>("EdgeLengthSlider")->setValue(3);
@@ -166,7 +157,7 @@ int testSameMesh(Panel& panel)
   CHECK_STD_STRING(differenceOf(folder + "/simplex.vtp", panel.node()->GetModelNode(Node::SimplexMeshRole())), "");
   auto* ambient = vtkMRMLModelNode::SafeDownCast(surface->GetNodeReference(Node::AmbientTetrahedraRole()));
   CHECK_STD_STRING(differenceOf(folder + "/ambient.vtu", ambient), "");
-  writeSurface(readSurface(saved(surface, folder + "/saved.vtp")), folder + "/again.vtp");
+  writeSurface(readSurface(savedByHost(surface, folder + "/saved.vtp")), folder + "/again.vtp");
   CHECK_BOOL(sameBytes(folder + "/surface.vtp", folder + "/again.vtp"), true);
   return EXIT_SUCCESS;
 }
