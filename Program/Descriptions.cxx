@@ -5,6 +5,8 @@
 #include <vtkXMLDataElement.h>
 #include <vtkXMLUtilities.h>
 
+#include <algorithm>
+#include <cctype>
 #include <sstream>
 
 namespace surgicalmesher
@@ -37,23 +39,61 @@ void makeText(vtkXMLDataElement* output)
   output->RemoveNestedElement(output->FindNestedElementWithName("channel"));
 }
 
-/// Takes away what is not the user's to give here; whether anything is left.
-bool keepOptions(vtkXMLDataElement* group, std::set<std::string>& seen)
+void setText(vtkXMLDataElement* element, const std::string& text)
+{
+  element->SetCharacterData(text.c_str(), int(text.size()));
+}
+
+/// Whether it is the user's to give, and not among those of earlier programs.
+bool isKept(vtkXMLDataElement* parameter, const std::string& name, Outputs outputs, std::set<std::string>& seen)
+{
+  if (!parameter->FindNestedElementWithName("longflag") || stageOptions().count(name)) return false;
+  if (outputs == Outputs::LeftOut && childText(parameter, "channel") == "output") return false;
+  return seen.insert(name).second;
+}
+
+/// Takes away what is not to be given, and gives the rest its merged name; whether anything is left.
+bool keepOptions(vtkXMLDataElement* group, const ModuleDescription& program, Outputs outputs,
+                 std::set<std::string>& seen)
 {
   bool isUsed = false;
   for (vtkXMLDataElement* parameter : childrenOf(group))
   {
-    const std::string name = childText(parameter, "name");
-    if (name.empty()) continue; // the group's label and description
-    const bool isOption = parameter->FindNestedElementWithName("longflag") && !stageOptions().count(name);
-    if (!isOption || !seen.insert(name).second) group->RemoveNestedElement(parameter);
-    else
+    const std::string own = childText(parameter, "name");
+    if (own.empty()) continue; // the group's label and description
+    const std::string name = mergedName(own, program);
+    const bool isOption = isKept(parameter, name, outputs, seen);
+    if (!isOption) group->RemoveNestedElement(parameter);
+    else if (childText(parameter, "channel") == "output") makeText(parameter);
+    if (isOption && name != own)
     {
-      isUsed = true;
-      if (childText(parameter, "channel") == "output") makeText(parameter);
+      for (const char* element : { "name", "longflag" }) setText(parameter->FindNestedElementWithName(element), name);
     }
+    isUsed = isUsed || isOption;
   }
   return isUsed;
+}
+
+/// In the order of their options.
+const std::vector<ModuleDescription>& programs()
+{
+  static const std::vector<ModuleDescription> all{
+    parseModuleDescription(pathScaleXML),
+    parseModuleDescription(simplexMesherXML),
+    parseModuleDescription(tetrahedralizerXML),
+    parseModuleDescription(tissueMapperXML),
+  };
+  return all;
+}
+
+/// Simplex Mesher's gradation: simplexMesherGradation.
+std::string nameBehindProgram(std::string name, const ModuleDescription& program)
+{
+  std::string own = program.title;
+  own.erase(std::remove(own.begin(), own.end(), ' '), own.end());
+  own[0] = char(std::tolower(own[0]));
+  name[0] = char(std::toupper(name[0]));
+  return own + name;
 }
 
 } // namespace
@@ -65,19 +105,31 @@ const std::set<std::string>& stageOptions()
   return options;
 }
 
-std::string mergedDescription(const std::string& command, const std::vector<std::string>& programs)
+std::string mergedName(const std::string& name, const ModuleDescription& program)
+{
+  for (const ModuleDescription& earlier : programs())
+  {
+    const Parameter* first = earlier.find(name);
+    if (!first) continue;
+    const bool isShared = first->defaultValue == program.find(name)->defaultValue;
+    return isShared ? name : nameBehindProgram(name, program);
+  }
+  return name;
+}
+
+std::string mergedDescription(const std::string& command, const std::vector<std::string>& programs, Outputs outputs)
 {
   const Element merged = parsed(command);
   std::set<std::string> seen;
   for (const std::string& xml : programs)
   {
-    const Element program = parsed(xml);
-    for (vtkXMLDataElement* group : childrenOf(program))
+    const Element elements = parsed(xml);
+    const ModuleDescription program = parseModuleDescription(xml);
+    for (vtkXMLDataElement* group : childrenOf(elements))
     {
-      if (std::string(group->GetName()) != "parameters" || !keepOptions(group, seen)) continue;
+      if (std::string(group->GetName()) != "parameters" || !keepOptions(group, program, outputs, seen)) continue;
       vtkXMLDataElement* label = group->FindNestedElementWithName("label");
-      const std::string title = childText(program, "title") + ": " + label->GetCharacterData();
-      label->SetCharacterData(title.c_str(), int(title.size()));
+      setText(label, program.title + ": " + label->GetCharacterData());
       merged->AddNestedElement(group);
     }
   }

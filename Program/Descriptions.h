@@ -25,8 +25,20 @@ extern const char* const tetrahedralizerXML;
 /// Options of the programs that join the stages or are for callers other than a user, and are not the user's to give.
 const std::set<std::string>& stageOptions();
 
-/// `command` with the options of `programs` behind its own, each once, as the first program that has it describes it,
-/// without stageOptions(). Outputs become texts: where they go is not for the command line alone to say.
-std::string mergedDescription(const std::string& command, const std::vector<std::string>& programs);
+/// Outputs of the programs, when their options are put together.
+enum class Outputs
+{
+  AsTexts, ///< where they go is not for the command line alone to say
+  LeftOut
+};
+
+/// `command` with the options of `programs` behind its own, by mergedName(), each once, as the first program that has it
+/// describes it, without stageOptions().
+std::string mergedDescription(const std::string& command, const std::vector<std::string>& programs,
+                              Outputs outputs = Outputs::AsTexts);
+
+/// The name of a program's option among those put together: its own, behind the program's if an earlier program has
+/// another default for it. So every default can be told and kept.
+std::string mergedName(const std::string& name, const ModuleDescription& program);
 
 } // namespace surgicalmesher

@@ -77,12 +77,24 @@ void readSize(const std::string& file, Figures& figures)
   figures.tetrahedra = json["estimate"]["tetrahedra"].GetDouble();
 }
 
-Figures estimated(const CommandLine& line, const std::string& folder)
+void runStages(const RunRequest& request, const std::string& programs, CommandLine& line, const Progress& progress)
+{
+  const std::vector<Stage> stages = stagesToScale(request);
+  double done = 0;
+  for (const Stage& stage : stages)
+  {
+    const double begin = done;
+    done += stage.share / shareOf(stages);
+    runStage(stage, programs, line, subProgress(progress, begin, done));
+  }
+}
+
+Figures estimated(const RunRequest& request)
 {
   Figures figures;
-  readSize(folder + "/scale.json", figures);
-  const TissueMap map = readTissueMap(line.text("labelMap"));
-  figures.bytes = double(estimateSurfaceMemory(map, readScale(folder + "/scale.nrrd")));
+  readSize(request.folder + "/scale.json", figures);
+  const TissueMap map = readTissueMap(labelMapOf(request));
+  figures.bytes = double(estimateSurfaceMemory(map, readScale(request.folder + "/scale.nrrd")));
   figures.seconds = secondsPerFace * voxelFaces(map) + secondsPerTetrahedron * figures.tetrahedra;
   return figures;
 }
@@ -111,7 +123,7 @@ void estimateCommand(CommandLine& line, const std::string& programs, const std::
   const Progress progress = line.progress();
   try
   {
-    runStage(scaleStage(request), programs, line, subProgress(progress, 0, 0.6));
+    runStages(request, programs, line, subProgress(progress, 0, 0.6));
   }
   catch (const Interrupted& end)
   {
@@ -121,7 +133,7 @@ void estimateCommand(CommandLine& line, const std::string& programs, const std::
     std::raise(end.signal);
   }
   report(progress, 0.6, "memory and time");
-  const Figures figures = estimated(line, folder.path());
+  const Figures figures = estimated(request);
   line.message("memory: about " + text::rounded(figures.bytes / 1e6) + " MB at most");
   line.message("time: about " + text::rounded(figures.seconds, 2) + " s on one processor");
   const std::string file = line.outputFile("estimate");

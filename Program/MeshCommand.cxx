@@ -151,12 +151,13 @@ void runStages(const RunRequest& request, const std::string& programs, CommandLi
   requireInputsKept(stages, given);
   RunRecord record = readRunRecord(request.folder);
   forgetOthers(stages, record, request.folder, given);
+  const double all = shareOf(stages) / 0.96; // the report takes the rest
   double done = 0;
   for (auto stage = stages.begin(); stage != stages.end(); ++stage)
   {
     StageRecord present = recordOf(*stage, (fs::path(programs) / stage->program).string(), request.folder);
     const double begin = done;
-    done += stage->share;
+    done += stage->share / all;
     const auto earlier = record.find(stage->name);
     if (earlier != record.end() && stillHolds(earlier->second, present, request.folder))
     {

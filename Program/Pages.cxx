@@ -114,7 +114,7 @@ std::vector<Page> commandPages()
 {
   const std::vector<std::pair<std::string, std::string>> commands{
     { "mesh", mergedDescription(meshXML, { pathScaleXML, simplexMesherXML, tetrahedralizerXML, tissueMapperXML }) },
-    { "estimate", mergedDescription(estimateXML, { pathScaleXML }) },
+    { "estimate", mergedDescription(estimateXML, { pathScaleXML, tissueMapperXML }, Outputs::LeftOut) },
     { "quality", qualityXML },
     { "convert", convertXML },
     { "view", viewXML }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <set>
 
 namespace surgicalmesher
@@ -51,16 +52,29 @@ void addValue(Stage& stage, const RunRequest& request, const Parameter& paramete
   stage.arguments.push_back("--" + parameter.longFlag + "=" + text);
 }
 
+/// The options of a program, by its own names.
+RunOptions optionsOf(const ModuleDescription& program, const RunOptions& merged)
+{
+  RunOptions options;
+  for (const Parameter* parameter : program.parameters())
+  {
+    const auto found = merged.find(mergedName(parameter->name, program));
+    if (found != merged.end()) options[parameter->name] = found->second;
+  }
+  return options;
+}
+
 void addOptions(Stage& stage, const RunRequest& request, const char* xml)
 {
   const ModuleDescription program = parseModuleDescription(xml);
+  const RunOptions options = optionsOf(program, request.options);
   for (const Parameter* parameter : program.parameters())
   {
-    if (!isTaken(stage, *parameter, program, request.options)) continue;
+    if (!isTaken(stage, *parameter, program, options)) continue;
     if (parameter->type == "boolean") stage.arguments.push_back("--" + parameter->longFlag);
     else
     {
-      for (const std::string& value : request.options.at(parameter->name)) addValue(stage, request, *parameter, value);
+      for (const std::string& value : options.at(parameter->name)) addValue(stage, request, *parameter, value);
     }
   }
 }
@@ -110,7 +124,7 @@ void requireNoneOfAnImage(const RunRequest& request)
 
 Stage tissuesStage(const RunRequest& request)
 {
-  Stage stage{ "tissues", "TissueMapperCLI", {}, {}, {}, 0.2 };
+  Stage stage{ "tissues", "TissueMapperCLI", {}, {}, {}, 0.24 };
   addOptions(stage, request, tissueMapperXML);
   addOutput(stage, "--names=", inFolder(request, "tissues.ctbl"));
   addOutput(stage, "--report=", inFolder(request, "classification.json"));
@@ -122,9 +136,20 @@ Stage tissuesStage(const RunRequest& request)
 /// Of what the classification of an image gives.
 RunRequest requestOfTissues(RunRequest request)
 {
-  request.labelMap = inFolder(request, "tissues.nrrd");
+  request.labelMap = labelMapOf(request);
   request.options.insert({ "names", { inFolder(request, "tissues.ctbl") } });
   return request;
+}
+
+Stage scaleStage(const RunRequest& request)
+{
+  Stage stage{ "scale", "SurgicalPathScaleCLI", {}, {}, {}, 0.02 };
+  addOptions(stage, request, pathScaleXML);
+  if (marksFarTissue(request)) addOutput(stage, "--outputLabelMap=", inFolder(request, "labels.nrrd"));
+  addOutput(stage, "--report=", inFolder(request, "scale.json"));
+  addInput(stage, "", request.labelMap);
+  addOutput(stage, "", inFolder(request, "scale.nrrd"));
+  return stage;
 }
 
 Stage surfaceStage(const RunRequest& request)
@@ -154,28 +179,31 @@ Stage meshStage(const RunRequest& request)
 
 } // namespace
 
-Stage scaleStage(const RunRequest& request)
+std::string labelMapOf(const RunRequest& request)
 {
-  Stage stage{ "scale", "SurgicalPathScaleCLI", {}, {}, {}, 0.02 };
-  addOptions(stage, request, pathScaleXML);
-  if (marksFarTissue(request)) addOutput(stage, "--outputLabelMap=", inFolder(request, "labels.nrrd"));
-  addOutput(stage, "--report=", inFolder(request, "scale.json"));
-  addInput(stage, "", request.labelMap);
-  addOutput(stage, "", inFolder(request, "scale.nrrd"));
-  return stage;
+  return isAnImage(request) ? inFolder(request, "tissues.nrrd") : request.labelMap;
+}
+
+std::vector<Stage> stagesToScale(const RunRequest& request)
+{
+  if (isAnImage(request)) return { tissuesStage(request), scaleStage(requestOfTissues(request)) };
+  requireNoneOfAnImage(request);
+  return { scaleStage(request) };
 }
 
 std::vector<Stage> stagesOf(const RunRequest& request)
 {
-  if (!isAnImage(request))
-  {
-    requireNoneOfAnImage(request);
-    return { scaleStage(request), surfaceStage(request), meshStage(request) };
-  }
-  const RunRequest later = requestOfTissues(request);
-  std::vector<Stage> stages{ tissuesStage(request), scaleStage(later), surfaceStage(later), meshStage(later) };
-  for (std::size_t n = 1; n < stages.size(); ++n) stages[n].share *= 1 - stages[0].share;
+  const RunRequest later = isAnImage(request) ? requestOfTissues(request) : request;
+  std::vector<Stage> stages = stagesToScale(request);
+  stages.push_back(surfaceStage(later));
+  stages.push_back(meshStage(later));
   return stages;
+}
+
+double shareOf(const std::vector<Stage>& stages)
+{
+  return std::accumulate(stages.begin(), stages.end(), 0.0,
+                         [](double sum, const Stage& stage) { return sum + stage.share; });
 }
 
 } // namespace surgicalmesher

@@ -21,7 +21,7 @@ struct Stage
   std::vector<std::string> arguments; ///< files as absolute paths
   std::vector<std::string> inputs;    ///< files that it reads
   std::vector<std::string> outputs;   ///< files that it has to write
-  double share = 0;                   ///< of the time that all stages take, as a rule
+  double share = 0;                   ///< of the time that the stages take, as a rule, beside the others'
 };
 
 /// With training points the first stage classifies an image, and the others get its label map and, unless the options
@@ -30,7 +30,13 @@ struct Stage
 /// not write, and for options of the classification without training points.
 std::vector<Stage> stagesOf(const RunRequest& request);
 
-/// The stage of the scale alone, of a label map.
-Stage scaleStage(const RunRequest& request);
+/// Those up to the scale alone.
+std::vector<Stage> stagesToScale(const RunRequest& request);
+
+/// The label map that is meshed: the user's, or what the classification makes of an image.
+std::string labelMapOf(const RunRequest& request);
+
+/// The sum of their shares.
+double shareOf(const std::vector<Stage>& stages);
 
 } // namespace surgicalmesher

@@ -31,7 +31,7 @@ const std::vector<Command>& commands()
       mergedDescription(meshXML, { pathScaleXML, simplexMesherXML, tetrahedralizerXML, tissueMapperXML }),
       meshCommand },
     { "estimate", "MAP", "triangles, tetrahedra, memory and time, before anything is meshed",
-      mergedDescription(estimateXML, { pathScaleXML }), estimateCommand },
+      mergedDescription(estimateXML, { pathScaleXML, tissueMapperXML }, Outputs::LeftOut), estimateCommand },
     { "quality", "MESH", "measures of tetrahedra, hexahedra and wedges, by tissue", qualityXML,
       [](CommandLine& line, const std::string&, const std::string&) { qualityCommand(line); } },
     { "convert", "MESH FILE...", "a mesh in the formats of solvers", convertXML,

@@ -194,6 +194,25 @@ class ProgramTest(unittest.TestCase):
         done = surgicalmesher("mesh", "--config", "repeated/run.toml")
         self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
 
+    def test_configuration_of_a_finished_run_reruns_nothing(self):
+        shutil.copytree("out", "resumed")
+        before = {name: bytes_of(f"resumed/{name}") for name in os.listdir("resumed") if name.endswith((".vtu", ".vtp", ".nrrd"))}
+        done = surgicalmesher("mesh", "--config", "resumed/run.toml", "resumed")
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
+        self.assertEqual({name: bytes_of(f"resumed/{name}") for name in before}, before)
+
+    def test_defaults_that_differ_have_an_option_each(self):
+        lines = bytes_of("out/run.toml").decode().splitlines()
+        for line in ("gradation = 0", "simplexMesherGradation = 0.3"):
+            self.assertIn(line, lines)
+        shutil.copytree("out", "graded")
+        command = [word if word != "out" else "graded" for word in self.command]
+        done = surgicalmesher(*command, "--simplexMesherGradation", "0.1")
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 1), done.stderr)
+        with open("graded/stages.json", encoding="utf-8") as file:
+            stages = json.load(file)
+        self.assertEqual([name for name in stages if "--gradation=0.1" in stages[name]["arguments"]], ["surface"])
+
     def test_configuration_by_hand(self):
         with open("hand.toml", "w", encoding="utf-8") as file:
             file.write('labelMap = "map.nrrd"\nfolder = "by-hand"\ntargetPoint = [-4, 12, -7]\nminimumEdgeLength = 3.0\n'
@@ -295,6 +314,9 @@ class ProgramTest(unittest.TestCase):
                 (2, ["--denoise is given without --training"], ["mesh", "map.nrrd", "new", *target, "--denoise"]),
                 (2, ["unknown flag", "--channel2"], ["mesh", "map.nrrd", "new", *target, "--channel2", "map.nrrd"]),
                 (1, ["none.mrk.json"], ["mesh", "map.nrrd", "new", *target, "--training", "none.mrk.json"]),
+                (2, ["--denoise is given without --training"], ["estimate", "map.nrrd", *target, "--denoise"]),
+                (2, ["unknown flag", "--probability"], ["estimate", "map.nrrd", *target, "--probability", "p.nrrd"]),
+                (1, ["none.mrk.json"], ["estimate", "map.nrrd", *target, "--training", "none.mrk.json"]),
                 (1, ["none.csv"], ["mesh", "map.nrrd", "new", *target, "--training", TRAINING, "--classes=none.csv"]),
                 (2, [".doc"], ["convert", "out/mesh.vtu", "head.doc"]),
                 (1, ["map.nrrd"], ["quality", "map.nrrd"])):
@@ -320,9 +342,19 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 4), done.stderr)
         done = surgicalmesher("mesh", "--config", "imaged/run.toml")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("tissues: nothing has changed", done.stdout)
+        self.assertEqual(done.stdout.count("nothing has changed"), 4)
         self.assertEqual(bytes_of("imaged/mesh.vtu"), bytes_of("four/mesh.vtu"))
+        self.estimate_of_the_image_is_that_of_its_map()
         self.a_label_map_takes_the_images_place()
+
+    def estimate_of_the_image_is_that_of_its_map(self):
+        figures = []
+        for name, image in (("of-image", ("head.nrrd", "--training", TRAINING)),
+                            ("of-map", ("four/tissues.nrrd", "--names", "four/tissues.ctbl"))):
+            done = surgicalmesher("estimate", *image, "--target", SELLA, *COARSE, "--estimate", f"{name}.json")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            figures.append(bytes_of(f"{name}.json"))
+        self.assertEqual(*figures)
 
     def a_label_map_takes_the_images_place(self):
         """In the folder of an image, a map's run leaves nothing of the classification."""

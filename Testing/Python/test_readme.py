@@ -151,6 +151,7 @@ class PagesTest(unittest.TestCase):
         known |= {flag for file in glob.glob(os.path.join(ROOT, "Program", "*.xml"))
                   for flag in re.findall(r"<longflag>(\w+)</longflag>", text_of(file))}
         known |= {"help", "version", "xml", "returnparameterfile", "quiet", "progress"}
+        known.add("simplexMesherGradation")  # of `surgicalmesher mesh`, tried by test_program
         for page in PAGES:
             for flag in re.findall(r"`--(\w+)", text_of(page)):
                 self.assertIn(flag, known, page)
