@@ -26,9 +26,7 @@ FiniteElementOptions readOptions(const CommandLine& line, const MeshFile& conten
   const std::string materials = line.text("materials");
   if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present);
   options.shells = shellChoices(line.texts("shell"), content.tissues, present, line.number("shellThickness"));
-  options.nodes = nodeChoices(line.texts("nodeSet"));
-  for (const std::string& file : line.texts("nodeMarkups"))
-    for (const NodeChoice& choice : nodeChoicesOfMarkups(file)) options.nodes.push_back(choice);
+  options.nodes = nodeChoices(line.texts("nodeSet"), line.texts("nodeMarkups"));
   return options;
 }
 

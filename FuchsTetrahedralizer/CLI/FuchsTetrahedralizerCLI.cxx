@@ -178,9 +178,7 @@ FiniteElementOptions readFiniteElementOptions(CommandLine& line, const Tetrahedr
     materials.empty() ? std::string() : warningOfMaterials(options, present, content.tissues, materials);
   if (!missing.empty()) line.warning(missing);
   options.shells = readShells(line, content.tissues, present);
-  options.nodes = nodeChoices(line.texts("nodeSet"));
-  for (const std::string& file : line.texts("nodeMarkups"))
-    for (const NodeChoice& choice : nodeChoicesOfMarkups(file)) options.nodes.push_back(choice);
+  options.nodes = nodeChoices(line.texts("nodeSet"), line.texts("nodeMarkups"));
   options.beams.areTrusses = line.text("curveElements") == "truss";
   options.beams.material.youngsModulus = 1e-3 * line.number("curveYoungsModulus");
   return options;

@@ -450,7 +450,13 @@ FiniteElementModel finiteElementModel(const SolidMesh& mesh, const FiniteElement
   content.mesh.points = mesh.points;
   content.mesh.labels = mesh.labels;
   content.tissues = mesh.tissues;
-  return Builder(content, mesh.elements, options).build(mesh.elementSets, mesh.nodeSets);
+  std::map<std::string, std::vector<std::int32_t>> nodeSets = mesh.nodeSets;
+  for (auto& [name, nodes] : chosenNodes(options.nodes, mesh.points))
+  {
+    if (!nodeSets.insert({ name, std::move(nodes) }).second)
+      throw InputError(name + ": the mesh has a set of nodes of this name, expected another name for the chosen nodes");
+  }
+  return Builder(content, mesh.elements, options).build(mesh.elementSets, nodeSets);
 }
 
 } // namespace surgicalmesher

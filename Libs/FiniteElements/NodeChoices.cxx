@@ -131,6 +131,16 @@ std::vector<NodeChoice> nodeChoicesOfMarkups(const std::string& file)
   return choices;
 }
 
+std::vector<NodeChoice> nodeChoices(const std::vector<std::string>& texts, const std::vector<std::string>& markups)
+{
+  std::vector<NodeChoice> choices = nodeChoices(texts);
+  for (const std::string& file : markups)
+  {
+    for (const NodeChoice& choice : nodeChoicesOfMarkups(file)) choices.push_back(choice);
+  }
+  return choices;
+}
+
 std::map<std::string, std::vector<std::int32_t>> chosenNodes(const std::vector<NodeChoice>& choices,
                                                              const std::vector<Vec3>& points)
 {

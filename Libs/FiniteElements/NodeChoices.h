@@ -15,6 +15,9 @@ std::vector<NodeChoice> nodeChoices(const std::vector<std::string>& texts);
 /// points to, of an ROI the nodes within. Throws InputError for other markups.
 std::vector<NodeChoice> nodeChoicesOfMarkups(const std::string& file);
 
+/// Both: texts and files of markups, in this order.
+std::vector<NodeChoice> nodeChoices(const std::vector<std::string>& texts, const std::vector<std::string>& markups);
+
 /// Points within the shapes or on them (to a millionth of a mm), by name, ascending; shapes of one name are joined.
 /// Throws InputError for a name without a point.
 std::map<std::string, std::vector<std::int32_t>> chosenNodes(const std::vector<NodeChoice>& choices,

@@ -319,6 +319,7 @@ class ProgramTest(unittest.TestCase):
                 (1, ["none.mrk.json"], ["estimate", "map.nrrd", *target, "--training", "none.mrk.json"]),
                 (1, ["none.csv"], ["mesh", "map.nrrd", "new", *target, "--training", TRAINING, "--classes=none.csv"]),
                 (2, [".doc"], ["convert", "out/mesh.vtu", "head.doc"]),
+                (1, ["no volume element found"], ["quality", "out/surface.vtp"]),
                 (1, ["map.nrrd"], ["quality", "map.nrrd"])):
             with self.subTest(arguments=arguments):
                 self.assert_refused(status, words, *arguments)

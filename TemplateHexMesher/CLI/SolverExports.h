@@ -1,21 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// --export and --materials of both programs.
+/// --export of both programs, and what goes with it.
 
 #include "CommandLine.h"
+#include "Errors.h"
 #include "Export.h"
 #include "MaterialTable.h"
+#include "NodeChoices.h"
 #include "SolidElements.h"
+#include "Units.h"
 
 #include <set>
 
 namespace surgicalmesher
 {
 
-/// What is written beside the exports; before anything is read.
-inline void announceExports(CommandLine& line, const std::vector<std::string>& exports)
+struct SolverExports
 {
-  for (const std::string& file : exports)
+  std::vector<std::string> files;
+  std::string materials;         ///< a table; empty for the default
+  std::vector<NodeChoice> nodes; ///< in mm
+  Units units = Units::Millimetres;
+};
+
+/// Announces what is written beside the exports. Throws UsageError for sets of nodes without an export; before anything
+/// is read.
+inline void requireUsable(const SolverExports& exports, CommandLine& line)
+{
+  for (const std::string& file : exports.files)
   {
     for (const ExportSidecar& sidecar : exportSidecars(file))
     {
@@ -23,19 +35,23 @@ inline void announceExports(CommandLine& line, const std::vector<std::string>& e
       else line.alsoWrites("export", sidecar.before);
     }
   }
+  if (exports.files.empty() && !exports.nodes.empty())
+    throw UsageError("--nodeSet or --nodeMarkups is given, but no --export, expected both");
 }
 
 /// `points` in mm; `file` is named in messages.
-inline void writeExports(CommandLine& line, const std::vector<std::string>& exports, const std::string& materials,
-                         const ElementMeshFile& content, const Points& points, const std::string& file)
+inline void writeExports(CommandLine& line, const SolverExports& exports, const ElementMeshFile& content,
+                         const Points& points, const std::string& file)
 {
-  if (exports.empty()) return;
+  if (exports.files.empty()) return;
   const SolidMesh solid = solidMeshOf(content, points, file);
   FiniteElementOptions options;
-  if (!materials.empty())
-    options.materials = readMaterialTable(materials, solid.tissues, { solid.labels.begin(), solid.labels.end() });
-  const FiniteElementModel model = finiteElementModel(solid, options);
-  for (const std::string& name : exports)
+  options.nodes = exports.nodes;
+  if (!exports.materials.empty())
+    options.materials =
+      readMaterialTable(exports.materials, solid.tissues, { solid.labels.begin(), solid.labels.end() });
+  const FiniteElementModel model = inUnits(finiteElementModel(solid, options), exports.units);
+  for (const std::string& name : exports.files)
     exportModel(model, name, [&](const std::string& finalPath) { return line.outputPath(finalPath); });
 }
 

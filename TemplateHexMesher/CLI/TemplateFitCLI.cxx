@@ -241,13 +241,21 @@ void tell(CommandLine& line, const Report& report)
   line.message(text.str());
 }
 
+SolverExports readExports(CommandLine& line)
+{
+  SolverExports exports{ line.outputNames("export"), line.text("materials"),
+                         nodeChoices(line.texts("nodeSet"), line.texts("nodeMarkups")),
+                         unitsNamed(line.text("units")) };
+  requireUsable(exports, line);
+  return exports;
+}
+
 void run(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
-  const std::vector<std::string> exports = line.outputNames("export");
-  announceExports(line, exports);
+  const SolverExports exports = readExports(line);
   const Units units{ millimetresIn(line.text("templateUnit")), millimetresIn(line.text("targetUnit")) };
   const LandmarkPairs pairs = readPairs(line, units);
   const std::string templateFile = line.text("template"), fittedName = line.outputNames("fitted").at(0);
@@ -269,7 +277,7 @@ void run(CommandLine& line)
   report(progress, 0.9, "writing");
   writeElementMesh(content, fit.points / units.ofTarget, templateFile, line.outputFile("fitted"));
   writeCarried(line, carriedFiles, units, mesh.points, fit.points);
-  writeExports(line, exports, line.text("materials"), content, fit.points, templateFile);
+  writeExports(line, exports, content, fit.points, templateFile);
   tell(line, results);
   const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty()) writeReport(reportFile, line, results);

@@ -219,13 +219,21 @@ void warnOfEmptyParts(CommandLine& line, const std::vector<Part>& parts, const C
   }
 }
 
+SolverExports readExports(CommandLine& line)
+{
+  SolverExports exports{ line.outputNames("export"), line.text("materials"),
+                         nodeChoices(line.texts("nodeSet"), line.texts("nodeMarkups")),
+                         unitsNamed(line.text("units")) };
+  requireUsable(exports, line);
+  return exports;
+}
+
 void run(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
-  const std::vector<std::string> exports = line.outputNames("export");
-  announceExports(line, exports);
+  const SolverExports exports = readExports(line);
   const HexOptions options = readOptions(line);
   const std::string envelopeFile = line.text("envelope"), sidesFile = line.text("sides");
   const std::vector<double> cutOffs = readCutOffs(line);
@@ -244,7 +252,7 @@ void run(CommandLine& line)
   const ElementMeshFile content = contentOf(mesh);
   addParts(parts, classes.part, vtkUnstructuredGrid::SafeDownCast(content.data));
   writeElementMesh(content, mesh.mesh.points, envelopeFile, line.outputFile("mesh"));
-  writeExports(line, exports, line.text("materials"), content, mesh.mesh.points, envelopeFile);
+  writeExports(line, exports, content, mesh.mesh.points, envelopeFile);
   tell(line, quality, distances);
   warnOfEmptyParts(line, parts, classes);
   const std::string reportFile = line.outputFile("report");

@@ -75,7 +75,8 @@ SolidMesh solidMeshOf(const ElementMeshFile& content, const Points& points, cons
     if (layers)
       solid.elementSets["layer_" + std::to_string(int(layers->GetTuple1(vtkIdType(e))))].push_back(newElement[e]);
   }
-  if (solid.elements.empty()) throw InputError(file + ": no volume element, expected some to export");
+  if (solid.elements.empty())
+    throw InputError(file + ": no volume element found, tetrahedra, hexahedra or wedges expected");
   for (std::size_t i = 0; i < newPoint.size(); ++i)
   {
     if (newPoint[i] < 0) continue;

@@ -98,6 +98,11 @@ TEST_F(TemplateFitCLI, ExportsMillimetresAndTheSetsOfTheTemplate)
   const std::string deck = readBytes(folder.file("e.inp"));
   for (const char* expected : { "*NSET, NSET=corner\n1, 2\n", "*ELSET, ELSET=skin\n" })
     EXPECT_NE(deck.find(expected), std::string::npos) << expected;
+  expectDone("--landmarks a.fcsv,b.fcsv --targetUnit m --units si --nodeMarkups a.fcsv --export s.inp template.inp "
+             "target.inp g.vtu");
+  const ElementMesh inMetres = readElementMesh(folder.file("s.inp")).mesh;
+  EXPECT_LT((fitted.points - inMetres.points).colwise().norm().maxCoeff(), 1e-9);
+  EXPECT_NE(readBytes(folder.file("s.inp")).find("*NSET, NSET=a\n"), std::string::npos);
 }
 
 TEST_F(TemplateFitCLI, RefusesLandmarksAtFault)

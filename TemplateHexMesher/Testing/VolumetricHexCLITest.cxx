@@ -93,6 +93,23 @@ TEST_F(VolumetricHexCLI, ExportsTissuesLayersAndSides)
                 "bar.vtk");
 }
 
+TEST_F(VolumetricHexCLI, ExportsMetresAndSetsOfNodes)
+{
+  expectDone(coarse + "--nodeSet 'far: plane 0 0 0 -1 0 0' --export mm.inp envelope.vtk sides.vtk m.vtu");
+  expectDone(coarse + "--nodeSet 'far: plane 0 0 0 -1 0 0' --units si --export si.inp envelope.vtk sides.vtk m.vtu");
+  const ElementMesh mm = readElementMesh(folder.file("mm.inp")).mesh, si = readElementMesh(folder.file("si.inp")).mesh;
+  EXPECT_LT((mm.points - 1000 * si.points).colwise().norm().maxCoeff(), 1e-9);
+  const std::string text = readBytes(folder.file("si.inp"));
+  EXPECT_NE(text.find("NSET=far"), std::string::npos);
+  EXPECT_NE(text.find("m, N, Pa, kg, s"), std::string::npos);
+  const std::string files = "envelope.vtk sides.vtk n.vtu";
+  expectRefused(coarse + "--nodeSet 'far: plane 0 0 0 -1 0 0' " + files, 2, "no --export");
+  expectRefused(coarse + "--nodeSet 'far: cone' --export n.inp " + files, 2, "far: cone");
+  expectRefused(coarse + "--nodeSet 'right: plane 0 0 0 -1 0 0' --export n.inp " + files, 1,
+                "right: the mesh has a set of nodes of this name");
+  expectRefused(coarse + "--nodeMarkups none.mrk.json --export n.inp " + files, 1, "none.mrk.json");
+}
+
 TEST_F(VolumetricHexCLI, WritesTheSameBytesWithOneThreadAndTwo)
 {
   expectDone(coarse + "--parts bar.vtk --threads 1 envelope.vtk sides.vtk a.vtu");
