@@ -11,6 +11,8 @@ import unittest
 
 import numpy as np
 from vtk.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import VTK_HEXAHEDRON
+from vtkmodules.vtkIOExodus import vtkExodusIIReader
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
@@ -44,7 +46,7 @@ class HexahedraTest(unittest.TestCase):
     def setUpClass(cls):
         shutil.rmtree(OUTDIR, ignore_errors=True)
         os.environ["PATH"] = ENVIRONMENT["PATH"]
-        formats = ("inp", "msh", "msh2", "xdmf")
+        formats = ("cdb", "exo", "inp", "msh", "msh2", "xdmf")
         make(OUTDIR, *(word for e in formats for word in ("--export", os.path.join(OUTDIR, "face." + e))))
         cls.grid = read_dataset(os.path.join(OUTDIR, "face.vtu"))
 
@@ -87,6 +89,23 @@ class HexahedraTest(unittest.TestCase):
         self.assertEqual(groups["inner_faces"], groups["layer_3"])
         labels = cell_array(self.grid, "TissueLabel")
         self.assertEqual(groups["orbicularis_oris"], np.count_nonzero(labels == 2))
+
+    @unittest.skipUnless(installed("getfem"), "getfem is not installed")
+    def test_getfem_reads_ansys(self):
+        import getfem
+
+        mesh = getfem.Mesh("import", "cdb", os.path.join(OUTDIR, "face.cdb"))
+        self.assertEqual((mesh.nbpts(), mesh.nbcvs()), (self.grid.GetNumberOfPoints(), self.grid.GetNumberOfCells()))
+        self.assertEqual(mesh.geotrans()[0].char(), "GT_QK(3,1)")
+
+    def test_vtk_reads_exodus(self):
+        reader = vtkExodusIIReader()
+        reader.SetFileName(os.path.join(OUTDIR, "face.exo"))
+        reader.Update()
+        blocks = reader.GetOutput().GetBlock(0)
+        grids = [blocks.GetBlock(n) for n in range(blocks.GetNumberOfBlocks())]
+        self.assertEqual(sum(grid.GetNumberOfCells() for grid in grids), self.grid.GetNumberOfCells())
+        self.assertEqual({grid.GetCellType(n) for grid in grids for n in range(grid.GetNumberOfCells())}, {VTK_HEXAHEDRON})
 
     @unittest.skipUnless(installed("ccx"), "ccx is not installed")
     def test_example_operates(self):

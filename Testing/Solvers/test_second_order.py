@@ -217,6 +217,18 @@ class SecondOrder(unittest.TestCase):
             np.testing.assert_array_equal(theirs.cells[0].data, ours.cells[0].data)
             self.assertEqual(set(theirs.cell_data["nastran:ref"][0]), {1})
 
+    def test_getfem_reads_ansys(self):
+        """Its reader knows SOLID187, and not SOLID285, which first order is written as."""
+        import getfem
+
+        mesh, ours = getfem.Mesh("import", "cdb", path("bar2.cdb")), meshio_read(path("bar2.vtu"))
+        self.assertEqual(mesh.geotrans()[0].char(), "GT_PK(3,2)")
+        self.assertEqual((mesh.nbpts(), mesh.nbcvs()), (len(ours.points), len(ours.cells[0].data)))
+        in_order = lambda points: points[np.lexsort(np.round(points, 9).T)]
+        np.testing.assert_allclose(in_order(mesh.pts().T), in_order(ours.points), atol=1e-9)
+        volume = getfem.asm_generic(getfem.MeshIm(mesh, getfem.Integ("IM_TETRAHEDRON(5)")), 0, "1", -1)
+        self.assertAlmostEqual(volume / (LENGTH * SIDE ** 2), 1, delta=1e-9)
+
     def test_vtk_reads_exodus(self):
         for order, kind in ((1, vtk.VTK_TETRA), (2, vtk.VTK_QUADRATIC_TETRA)):
             reader = vtk.vtkExodusIIReader()
@@ -229,6 +241,17 @@ class SecondOrder(unittest.TestCase):
             names = [reader.GetObjectName(vtk.vtkExodusIIReader.NODE_SET, i)
                      for i in range(reader.GetNumberOfObjects(vtk.vtkExodusIIReader.NODE_SET))]
             self.assertTrue({"root", "edge", "ball", "outer_boundary_nodes"} <= {name.split(" ")[0] for name in names}, names)
+
+    def test_vtk_reads_its_formats(self):
+        for order, kind in ((1, vtk.VTK_TETRA), (2, vtk.VTK_QUADRATIC_TETRA)):
+            ours = meshio_read(path(f"bar{order}.vtu"))
+            for extension, reader in (("vtk", vtk.vtkUnstructuredGridReader()), ("vtu", vtk.vtkXMLUnstructuredGridReader())):
+                reader.SetFileName(path(f"bar{order}.{extension}"))
+                reader.Update()
+                grid = reader.GetOutput()
+                self.assertEqual({grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}, {kind})
+                self.assertEqual((grid.GetNumberOfPoints(), grid.GetNumberOfCells()), (len(ours.points), len(ours.cells[0].data)))
+                self.assertEqual(grid.GetCellData().GetArray("TissueLabel").GetRange(), (1, 1))
 
     def test_sets_of_nodes_by_markups(self):
         """Files as Slicer 5 writes them, in either frame."""
@@ -266,7 +289,9 @@ class SecondOrder(unittest.TestCase):
         gmsh.initialize()
         gmsh.option.setNumber("General.Terminal", 0)
         shutil.copy(path("bar2.msh2"), path("version2.msh"))
-        for name in ("bar2.bdf", "bar2.msh", "version2.msh"):
+        gmsh.open(path("bar1.vtk"))
+        self.assertEqual(list(gmsh.model.mesh.getElementTypes(3)), [4])
+        for name in ("bar2.bdf", "bar2.msh", "version2.msh", "bar2.vtk"):
             gmsh.open(path(name))
             types = gmsh.model.mesh.getElementTypes(3)
             self.assertEqual([gmsh.model.mesh.getElementProperties(kind)[2] for kind in types], [2], name)
