@@ -25,18 +25,16 @@ public:
     const int number = int(m_Forest.m_Nodes.size());
     m_Forest.m_Nodes.push_back({});
     const std::array<double, 2> weight = weightsOf(members);
-    m_Forest.m_Nodes[number].share = float(weight[1] / (weight[0] + weight[1]));
+    m_Forest.m_Nodes[number].threshold = float(weight[1] / (weight[0] + weight[1]));
     Split best;
     if (weight[0] > 0 && weight[1] > 0) best = bestSplit(members, weight);
     if (best.feature < 0) return number;
     const auto middle = std::stable_partition(members.begin(), members.end(),
                                               [&](int n) { return m_Samples[n][best.feature] < best.threshold; });
     const std::vector<int> below(members.begin(), middle);
-    build(std::vector<int>(middle, members.end())); // follows its parent
-    const int belowNumber = build(below);
-    m_Forest.m_Nodes[number].feature = best.feature;
-    m_Forest.m_Nodes[number].threshold = best.threshold;
-    m_Forest.m_Nodes[number].below = belowNumber;
+    const int stepsAbove = build(std::vector<int>(middle, members.end())) - number;
+    const int stepsBelow = build(below) - number;
+    m_Forest.m_Nodes[number] = { best.feature, best.threshold, stepsBelow, stepsAbove };
     return number;
   }
 
@@ -98,6 +96,7 @@ private:
 };
 
 ExtraTrees::ExtraTrees(const FeatureRows& samples, const std::vector<bool>& isFirst, int treeCount)
+  : m_FeatureCount(samples.front().size())
 {
   std::vector<int> all(samples.size());
   for (std::size_t n = 0; n < all.size(); ++n) all[n] = int(n);
@@ -105,16 +104,34 @@ ExtraTrees::ExtraTrees(const FeatureRows& samples, const std::vector<bool>& isFi
   for (int tree = 0; tree < treeCount; ++tree) m_Roots.push_back(builder.build(all));
 }
 
-float ExtraTrees::probability(const float* features) const
+// Some rows at a time go down a tree, a step each: the processor then waits for none of them, and guesses no branch.
+void ExtraTrees::probabilities(const float* rows, std::size_t count, float* shares) const
 {
-  float sum = 0;
-  for (const int root : m_Roots)
+  constexpr std::size_t together = 16;
+  for (std::size_t first = 0; first < count; first += together)
   {
-    const Node* node = &m_Nodes[root];
-    while (node->feature >= 0) node = features[node->feature] < node->threshold ? &m_Nodes[node->below] : node + 1;
-    sum += node->share;
+    const std::size_t rowCount = std::min(together, count - first);
+    std::array<float, together> sums{};
+    for (const int root : m_Roots)
+    {
+      std::array<const Node*, together> nodes;
+      nodes.fill(&m_Nodes[std::size_t(root)]);
+      for (int steps = 1; steps != 0;)
+      {
+        steps = 0;
+        for (std::size_t r = 0; r < rowCount; ++r)
+        {
+          const Node& node = *nodes[r];
+          const bool isBelow = rows[(first + r) * m_FeatureCount + std::size_t(node.feature)] < node.threshold;
+          const int step = isBelow ? node.below : node.above;
+          nodes[r] += step;
+          steps |= step;
+        }
+      }
+      for (std::size_t r = 0; r < rowCount; ++r) sums[r] += nodes[r]->threshold;
+    }
+    for (std::size_t r = 0; r < rowCount; ++r) shares[first + r] = sums[r] / float(m_Roots.size());
   }
-  return sum / float(m_Roots.size());
 }
 
 } // namespace surgicalmesher

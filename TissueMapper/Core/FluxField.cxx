@@ -263,11 +263,12 @@ FluxField computeFlux(const ScalarImage& image, const std::vector<double>& radii
   return field;
 }
 
-std::vector<float> strongestFlux(const FluxField& field, int sign)
+std::vector<float> strongestFlux(const FluxField& field, int sign, const RadiusRange& range)
 {
   std::vector<float> strongest(field.grid.voxelCount(), 0);
-  for (const std::vector<float>& flux : field.flux)
+  for (std::size_t r = range.begin; r < range.end; ++r)
   {
+    const std::vector<float>& flux = field.flux[r];
     for (std::size_t n = 0; n < flux.size(); ++n) strongest[n] = std::max(strongest[n], sign * flux[n]);
   }
   return strongest;

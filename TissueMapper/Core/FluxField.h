@@ -39,7 +39,14 @@ double fluxMemory(const std::array<int, 3>& size, std::size_t radii);
 /// `radii` in mm. The same bytes whatever the number of threads.
 FluxField computeFlux(const ScalarImage& image, const std::vector<double>& radii, const Progress& progress = {});
 
-/// Largest flux of all radii by voxel, at least 0; `sign` is 1 for bright tubes, -1 for dark ones.
-std::vector<float> strongestFlux(const FluxField& field, int sign);
+/// Some of a field's radii that follow each other, by number: from `begin` to before `end`.
+struct RadiusRange
+{
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// Largest flux of these radii by voxel, at least 0; `sign` is 1 for bright tubes, -1 for dark ones.
+std::vector<float> strongestFlux(const FluxField& field, int sign, const RadiusRange& range);
 
 } // namespace surgicalmesher

@@ -171,16 +171,18 @@ std::vector<float> outsideProbability(const Grid& grid, const Features& features
   }
   const ExtraTrees trees(samples, isOutside, treeCount);
   std::vector<float> probability(grid.voxelCount(), 1);
-  vtkSMPTools::For(0, vtkIdType(probability.size()), 8192,
+  vtkSMPTools::For(0, vtkIdType(probability.size()), 2048,
                    [&](vtkIdType begin, vtkIdType end)
                    {
-                     std::vector<float> row(features.values.size());
+                     const std::size_t width = features.values.size();
+                     std::vector<vtkIdType> voxels;
                      for (vtkIdType n = begin; n < end; ++n)
-                     {
-                       if (!isSoft[n]) continue;
-                       features.at(std::size_t(n), row.data());
-                       probability[n] = trees.probability(row.data());
-                     }
+                       if (isSoft[n]) voxels.push_back(n);
+                     std::vector<float> rows(voxels.size() * width), found(voxels.size());
+                     for (std::size_t v = 0; v < voxels.size(); ++v)
+                       features.at(std::size_t(voxels[v]), &rows[v * width]);
+                     trees.probabilities(rows.data(), voxels.size(), found.data());
+                     for (std::size_t v = 0; v < voxels.size(); ++v) probability[std::size_t(voxels[v])] = found[v];
                    });
   return probability;
 }

@@ -105,6 +105,34 @@ double noiseOf(const ScalarImage& image)
   return medianToDeviation * left[left.size() / 2] / gainOfResidual;
 }
 
+/// The channels as vectors in units of `noise`, smoothed.
+template <unsigned channelCount>
+void denoiseTogether(HeadImages& images, const std::vector<double>& noise)
+{
+  using Pixel = itk::Vector<float, channelCount>;
+  using Image = itk::Image<Pixel, 3>;
+  const auto image = Image::New();
+  typename Image::SizeType size;
+  for (int axis = 0; axis < 3; ++axis) size[axis] = images.grid().size[axis];
+  image->SetRegions(typename Image::RegionType(size));
+  image->Allocate();
+  Pixel* pixels = image->GetBufferPointer();
+  const std::size_t count = images.grid().voxelCount();
+  for (std::size_t n = 0; n < count; ++n)
+    for (unsigned c = 0; c < channelCount; ++c) pixels[n][c] = float(images.channels[c].values[n] / noise[c]);
+  const auto filter = itk::VectorGradientAnisotropicDiffusionImageFilter<Image, Image>::New();
+  filter->SetInput(image);
+  filter->SetNumberOfIterations(6);
+  filter->SetTimeStep(0.0625);
+  filter->SetUseImageSpacing(false);
+  filter->SetFixedAverageGradientMagnitude(1);
+  filter->SetConductanceParameter(2); // in units of the noise
+  filter->Update();
+  const Pixel* smooth = filter->GetOutput()->GetBufferPointer();
+  for (unsigned c = 0; c < channelCount; ++c)
+    for (std::size_t n = 0; n < count; ++n) images.channels[c].values[n] = float(smooth[n][c] * noise[c]);
+}
+
 } // namespace
 
 HeadImages headImages(std::vector<ScalarImage> channels)
@@ -139,32 +167,15 @@ void correctBias(HeadImages& images, const std::vector<bool>& head)
 
 void denoise(HeadImages& images)
 {
-  constexpr unsigned channelCount = kMostChannels;
-  using Pixel = itk::Vector<float, channelCount>;
-  using Image = itk::Image<Pixel, 3>;
   std::vector<double> noise;
   for (const ScalarImage& channel : images.channels) noise.push_back(std::max(1e-6, noiseOf(channel)));
-  const auto image = Image::New();
-  Image::SizeType size;
-  for (int axis = 0; axis < 3; ++axis) size[axis] = images.grid().size[axis];
-  image->SetRegions(Image::RegionType(size));
-  image->Allocate();
-  Pixel* pixels = image->GetBufferPointer();
-  const std::size_t count = images.grid().voxelCount();
-  for (std::size_t n = 0; n < count; ++n)
-    for (unsigned c = 0; c < channelCount; ++c)
-      pixels[n][c] = c < images.channels.size() ? float(images.channels[c].values[n] / noise[c]) : 0;
-  const auto filter = itk::VectorGradientAnisotropicDiffusionImageFilter<Image, Image>::New();
-  filter->SetInput(image);
-  filter->SetNumberOfIterations(6);
-  filter->SetTimeStep(0.0625);
-  filter->SetUseImageSpacing(false);
-  filter->SetFixedAverageGradientMagnitude(1);
-  filter->SetConductanceParameter(2); // in units of the noise
-  filter->Update();
-  const Pixel* smooth = filter->GetOutput()->GetBufferPointer();
-  for (std::size_t c = 0; c < images.channels.size(); ++c)
-    for (std::size_t n = 0; n < count; ++n) images.channels[c].values[n] = float(smooth[n][c] * noise[c]);
+  switch (noise.size())
+  {
+  case 1: return denoiseTogether<1>(images, noise);
+  case 2: return denoiseTogether<2>(images, noise);
+  case 3: return denoiseTogether<3>(images, noise);
+  default: return denoiseTogether<kMostChannels>(images, noise);
+  }
 }
 
 } // namespace surgicalmesher

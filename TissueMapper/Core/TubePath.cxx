@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace surgicalmesher
 {
@@ -118,10 +119,9 @@ std::vector<float> filtered(const ScalarImage& image, double sigma)
   return valuesOf(*filter->GetOutput());
 }
 
-/// What the path follows, at least 0, by voxel.
-std::vector<float> ridgeOf(const ScalarImage& image, const FluxField& field, int sign, Potential potential)
+/// What the path follows where that isn't the flux, at least 0, by voxel.
+std::vector<float> ridgeOf(const ScalarImage& image, int sign, Potential potential)
 {
-  if (potential == Potential::Flux) return strongestFlux(field, sign);
   const double sigma = 0.7 * voxelLength(image.grid);
   if (potential == Potential::Gradient)
     return filtered<itk::GradientMagnitudeRecursiveGaussianImageFilter<ItkImage, ItkImage>>(image, sigma);
@@ -211,6 +211,73 @@ void requirePlaces(const ScalarImage& image, const std::vector<Vec3>& places)
   }
 }
 
+/// What a front follows and a path is refined by; grid frame.
+struct Ridge
+{
+  const Grid& grid;
+  std::vector<float> values;             ///< by voxel, at least 0
+  std::function<double(const Vec3&)> at; ///< between voxels
+};
+
+/// The flux into spheres of some radii. The largest of interpolated fluxes is smoother than the interpolated largest one.
+Ridge fluxRidge(const FluxField& field, int sign, const RadiusRange& range)
+{
+  const auto at = [&field, sign, range](const Vec3& p)
+  {
+    double strongest = 0;
+    for (std::size_t r = range.begin; r < range.end; ++r)
+      strongest = std::max(strongest, sign * cubicValue(field.grid, field.flux[r], p));
+    return strongest;
+  };
+  return { field.grid, strongestFlux(field, sign, range), at };
+}
+
+/// The axis of the tube that runs through these places, at half a voxel's steps.
+std::vector<Vec3> axisThrough(const Ridge& ridge, const std::vector<bool>& isBlocked, const std::vector<Vec3>& places,
+                              const char* polarity, const TubePathOptions& options, const Progress& progress)
+{
+  const Grid& grid = ridge.grid;
+  std::vector<Vec3> knots;
+  for (const Vec3& given : places)
+  {
+    knots.push_back(snapped(grid, ridge.values, given, options.snapDistance));
+    if (linearValue(grid, ridge.values, knots.back()) > 0) continue;
+    throw InputError("point " + place(grid.gridToWorld(given)) + " LPS lies on no " + polarity +
+                     " tube of the radii sought");
+  }
+  std::vector<Vec3> path{ knots.front() };
+  for (std::size_t n = 1; n < knots.size(); ++n)
+  {
+    report(progress, double(n - 1) / double(knots.size()), "minimal path");
+    const std::vector<float> speed = speedBetween(grid, ridge.values, isBlocked, knots[n - 1], knots[n]);
+    const std::vector<Vec3> part = minimalPath(grid, speed, knots[n - 1], knots[n]);
+    path.insert(path.end(), part.begin() + 1, part.end());
+  }
+  report(progress, 0.9, "refinement");
+  path = refinedPath(grid, ridge.at, path);
+  path = fittedToEnds(path, places.front(), places.back());
+  return resampled(path, 0.5 * voxelLength(grid));
+}
+
+/// The radii near that of the tube where it comes nearest to the places: those that a tube can have that runs from one
+/// to the next.
+RadiusRange radiiNearPlaces(const FluxField& field, const std::vector<Vec3>& path, const std::vector<double>& radii,
+                            const std::vector<Vec3>& places)
+{
+  constexpr double reach = 1.6; // of a radius, up and down
+  double least = field.radii.back(), largest = field.radii.front();
+  for (const Vec3& p : places)
+  {
+    const auto nearer = [&](const Vec3& a, const Vec3& b) { return squaredNorm(a - p) < squaredNorm(b - p); };
+    const double here = radii[std::size_t(std::min_element(path.begin(), path.end(), nearer) - path.begin())];
+    least = std::min(least, here);
+    largest = std::max(largest, here);
+  }
+  const auto begin = std::lower_bound(field.radii.begin(), field.radii.end() - 1, least / reach);
+  const auto end = std::upper_bound(begin + 1, field.radii.end(), largest * reach);
+  return { std::size_t(begin - field.radii.begin()), std::size_t(end - field.radii.begin()) };
+}
+
 } // namespace
 
 double tubePathMemory(const Grid& grid, const std::vector<Vec3>& places, const TubePathOptions& options)
@@ -229,54 +296,36 @@ TubePath traceTube(const ScalarImage& image, const std::vector<Vec3>& places, co
   const ScalarImage crop = cropped(image, boxAround(image.grid, places, options.margin));
   const Grid& grid = crop.grid;
   const FluxField field = computeFlux(crop, tubeRadii(grid, options), subProgress(progress, 0, 0.6));
-  std::vector<Vec3> knots;
-  for (const Vec3& point : places) knots.push_back(grid.worldToGrid(point));
-  const int sign = signOf(field, knots, options);
-  const std::vector<float> ridge = ridgeOf(crop, field, sign, options.potential);
-  for (Vec3& knot : knots)
-  {
-    const Vec3 given = knot;
-    knot = snapped(grid, ridge, given, options.snapDistance);
-    if (!(linearValue(grid, ridge, knot) > 0))
-    {
-      throw InputError("point " + place(grid.gridToWorld(given)) + " LPS lies on no " + (sign > 0 ? "bright" : "dark") +
-                       " tube of the radii sought");
-    }
-  }
-
+  std::vector<Vec3> given;
+  for (const Vec3& point : places) given.push_back(grid.worldToGrid(point));
+  const int sign = signOf(field, given, options);
   const std::vector<bool> isBlocked = voxelsIn(grid, blocked);
-  std::vector<Vec3> path{ knots.front() };
-  for (std::size_t n = 1; n < knots.size(); ++n)
+  const auto axis = [&](const Ridge& ridge, double from, double to)
   {
-    report(progress, 0.6 + 0.3 * double(n - 1) / double(knots.size() - 1), "minimal path");
-    const std::vector<float> speed = speedBetween(grid, ridge, isBlocked, knots[n - 1], knots[n]);
-    const std::vector<Vec3> part = minimalPath(grid, speed, knots[n - 1], knots[n]);
-    path.insert(path.end(), part.begin() + 1, part.end());
-  }
-  report(progress, 0.9, "refinement");
-  // The largest of interpolated fluxes is smoother than the interpolated largest one.
-  const auto ridgeAt = [&](const Vec3& p)
-  {
-    if (options.potential != Potential::Flux) return cubicValue(grid, ridge, p);
-    double strongest = 0;
-    for (const std::vector<float>& flux : field.flux) strongest = std::max(strongest, sign * cubicValue(grid, flux, p));
-    return strongest;
+    return axisThrough(ridge, isBlocked, given, sign > 0 ? "bright" : "dark", options, subProgress(progress, from, to));
   };
-  path = refinedPath(grid, ridgeAt, path);
-  path = fittedToEnds(path, grid.worldToGrid(places.front()), grid.worldToGrid(places.back()));
-  path = resampled(path, 0.5 * voxelLength(grid));
-
+  const RadiusRange all{ 0, field.radii.size() };
+  std::vector<Vec3> path;
+  if (options.potential == Potential::Flux)
+  {
+    path = axis(fluxRidge(field, sign, all), 0.6, 0.8);
+    const RadiusRange near = radiiNearPlaces(field, path, radiiAlong(field, sign, path), given);
+    path = axis(fluxRidge(field, sign, near), 0.8, 1);
+  }
+  else
+  {
+    const std::vector<float> values = ridgeOf(crop, sign, options.potential);
+    path = axis({ grid, values, [&](const Vec3& p) { return cubicValue(grid, values, p); } }, 0.6, 1);
+  }
   TubePath tube;
   tube.isBright = sign > 0;
   tube.radii = radiiAlong(field, sign, path);
-  const std::vector<float> strongest =
-    options.potential == Potential::Flux ? std::vector<float>() : strongestFlux(field, sign);
+  const std::vector<float> strongest = strongestFlux(field, sign, all);
   for (const Vec3& p : path)
   {
     tube.points.push_back(grid.gridToWorld(p));
-    tube.flux.push_back(linearValue(grid, strongest.empty() ? ridge : strongest, p));
+    tube.flux.push_back(linearValue(grid, strongest, p));
   }
-  report(progress, 1, "refinement");
   return tube;
 }
 

@@ -24,6 +24,14 @@ void drawDisc(int count, unsigned seed, FeatureRows& samples, std::vector<bool>&
   }
 }
 
+std::vector<float> probabilitiesOf(const ExtraTrees& trees, const FeatureRows& samples)
+{
+  std::vector<float> rows, shares(samples.size());
+  for (const std::vector<float>& sample : samples) rows.insert(rows.end(), sample.begin(), sample.end());
+  trees.probabilities(rows.data(), samples.size(), shares.data());
+  return shares;
+}
+
 } // namespace
 
 TEST(ExtraTrees, LearnsADiscThatNoSingleFeatureTells)
@@ -34,7 +42,8 @@ TEST(ExtraTrees, LearnsADiscThatNoSingleFeatureTells)
   drawDisc(1000, 2, others, isTrue);
   const ExtraTrees trees(samples, isFirst, 100);
   int right = 0;
-  for (std::size_t n = 0; n < others.size(); ++n) right += (trees.probability(others[n].data()) > 0.5f) == isTrue[n];
+  const std::vector<float> shares = probabilitiesOf(trees, others);
+  for (std::size_t n = 0; n < others.size(); ++n) right += (shares[n] > 0.5f) == isTrue[n];
   EXPECT_GT(right, 900);
 }
 
@@ -43,8 +52,18 @@ TEST(ExtraTrees, KnowsItsSamplesAndWeighsClassesAlike)
   const FeatureRows samples{ { 0 }, { 1 }, { 2 }, { 3 }, { 10 } };
   const std::vector<bool> isFirst{ false, false, false, false, true };
   const ExtraTrees trees(samples, isFirst, 50);
-  for (std::size_t n = 0; n < samples.size(); ++n) EXPECT_EQ(trees.probability(samples[n].data()), isFirst[n] ? 1 : 0);
+  EXPECT_EQ(probabilitiesOf(trees, samples), std::vector<float>({ 0, 0, 0, 0, 1 }));
   const FeatureRows same{ { 1 }, { 1 }, { 1 }, { 1 } };
-  const float even = 1;
-  EXPECT_FLOAT_EQ(ExtraTrees(same, { true, false, false, false }, 3).probability(&even), 0.5f);
+  EXPECT_FLOAT_EQ(probabilitiesOf(ExtraTrees(same, { true, false, false, false }, 3), same).back(), 0.5f);
+}
+
+TEST(ExtraTrees, SaysTheSameOfARowWhateverRowsAreBesideIt)
+{
+  FeatureRows samples, others;
+  std::vector<bool> isFirst, isTrue;
+  drawDisc(100, 1, samples, isFirst);
+  drawDisc(37, 2, others, isTrue);
+  const ExtraTrees trees(samples, isFirst, 20);
+  const std::vector<float> together = probabilitiesOf(trees, others);
+  for (std::size_t n = 0; n < others.size(); ++n) EXPECT_EQ(together[n], probabilitiesOf(trees, { others[n] })[0]);
 }

@@ -166,6 +166,23 @@ TEST(TubePath, TakesTheSameWayAtACrossing)
   EXPECT_LT(error.largest, 1);
 }
 
+TEST(TubePath, IsNotDrawnToAThickerThingBesideAFaintStretch)
+{
+  TubeScene scene = helix(1, 10);
+  const std::size_t middle = scene.truth.size() / 2;
+  const Vec3 across = cross(scene.truth[middle + 5] - scene.truth[middle - 5], { -0.3, 0.5, -0.8 });
+  PhantomTube ball;
+  ball.radius = 3;
+  ball.axis = { scene.truth[middle] + (5.5 / norm(across)) * across };
+  ball.contrast = { 1 };
+  scene.tubes.push_back(ball);
+  const TubePath tube = traceTube(drawn(scene, 0.2), scene.places, {}, {});
+  const PathError error = pathError(tube.points, scene.truth);
+  EXPECT_LT(error.mean, 0.3);
+  EXPECT_LT(error.largest, 1);
+  EXPECT_NEAR(meanOf(tube.radii), 1, 0.2);
+}
+
 TEST(TubePath, PointsOffTheAxisAreDrawnToIt)
 {
   TubeScene scene = helix(1);
