@@ -32,8 +32,8 @@ BRAINWEB_CLASSES = {
     "connective tissue": ([9], "extracranial", 0)}
 PLACES = {"CSF": ("intracranial", 0), "grey matter": ("intracranial", 0),
           "white matter": ("intracranial", 0), "other tissue": ("extracranial", 0),
-          "muscle": ("extracranial", 30), "skin": ("extracranial", 0), "skull": ("bone", 0),
-          "eye": ("extracranial", 15), "artery": ("any", 20), "vein": ("any", 30), "optic nerve": ("extracranial", 10),
+          "eye muscle": ("intraorbital", 30), "skin": ("extracranial", 0), "skull": ("bone", 0),
+          "eye": ("intraorbital", 15), "artery": ("any", 60), "vein": ("any", 30), "optic nerve": ("intraorbital", 10),
           "mucosa": ("extracranial", 30)}
 
 
@@ -141,7 +141,8 @@ def constraints(program, truth, count, *options):
             "none": (["--noCompartments"], False, False)}
     if not any(limit for _, _, limit in truth.classes.values()):
         del rows["without limits"]
-    other = {"CSF": truth.within("extracranial"), "muscle": truth.within("intracranial")}
+    muscle = next(name for name in truth.classes if "muscle" in name)
+    other = {"CSF": truth.within("extracranial") | truth.within("intraorbital"), muscle: truth.within("intracranial")}
     seeds = seeds_of(count)
     with tempfile.TemporaryDirectory() as folder:
         for row, (more, contiguity, limits) in rows.items():

@@ -42,6 +42,7 @@ const char* nameOf(Admission admission)
   {
   case Admission::Intracranial: return "intracranial";
   case Admission::Extracranial: return "extracranial";
+  case Admission::Intraorbital: return "intraorbital";
   case Admission::Bone: return "bone";
   default: return "any";
   }

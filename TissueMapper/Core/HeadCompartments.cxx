@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "HeadCompartments.h"
 
+#include "Errors.h"
 #include "ExtraTrees.h"
+#include "GeodesicFront.h"
 #include "ItkImage.h"
 #include "Sampling.h"
 
@@ -52,10 +54,10 @@ std::vector<float> distanceTo(const Grid& grid, const std::vector<bool>& mask)
   return distances;
 }
 
-/// Dilation and erosion by a ball; what lies beyond the image counts as dilated.
-std::vector<bool> closed(const Grid& grid, const std::vector<bool>& mask, float radius)
+/// Dilation and erosion by a ball; what lies beyond the image counts as dilated. `outward` is the distance to the mask.
+std::vector<bool> closed(const Grid& grid, const std::vector<bool>& mask, const std::vector<float>& outward,
+                         float radius)
 {
-  const std::vector<float> outward = distanceTo(grid, mask);
   std::vector<bool> rest(mask.size());
   for (std::size_t n = 0; n < mask.size(); ++n) rest[n] = outward[n] > radius;
   const std::vector<float> inward = distanceTo(grid, rest);
@@ -251,24 +253,17 @@ std::vector<float> continuousCut(const Grid& grid, const std::vector<float>& wei
   return u;
 }
 
-} // namespace
-
-std::vector<bool> headMask(const HeadImages& images, float threshold)
+/// What a ball reaches from the image's sides and upper end, and 6 mm of ways around it that the ball is too large for.
+/// `distance` is that to what was closed to `head`.
+std::vector<bool> outsideOf(const Grid& grid, const std::vector<bool>& head, const std::vector<float>& distance)
 {
-  constexpr float air = -500; // HU
-  const Grid& grid = images.grid();
-  const bool isCt = images.ct >= 0;
-  const ScalarImage& shown = images.channels[isCt ? std::size_t(images.ct) : 0];
-  const std::vector<float> values = isCt ? blurred(asItkImage<ItkImage>(grid, shown.values), 0.5) : shown.values;
-  std::vector<bool> bright(values.size());
-  for (std::size_t n = 0; n < bright.size(); ++n) bright[n] = values[n] > (isCt ? air : threshold);
-  const std::vector<bool> whole = closed(grid, bright, 2);
-  std::vector<bool> isOutside(whole.size(), false);
+  constexpr float ballRadius = 3;
+  std::vector<bool> isReached(head.size(), false);
   std::vector<std::size_t> stack;
   const auto enter = [&](std::size_t n)
   {
-    if (whole[n] || isOutside[n]) return;
-    isOutside[n] = true;
+    if (head[n] || isReached[n]) return;
+    isReached[n] = true;
     stack.push_back(n);
   };
   for (int k = 0; k < grid.size[2]; ++k)
@@ -282,12 +277,68 @@ std::vector<bool> headMask(const HeadImages& images, float threshold)
   {
     const std::size_t n = stack.back();
     stack.pop_back();
-    forFaceNeighbours(grid, n, enter);
+    const auto enterWide = [&](std::size_t m)
+    {
+      if (distance[m] > ballRadius) enter(m);
+    };
+    forFaceNeighbours(grid, n, enterWide);
   }
-  isOutside.flip();
+  std::vector<std::size_t> rim;
+  std::vector<bool> isOpen(head.size());
+  for (std::size_t n = 0; n < head.size(); ++n)
+  {
+    isOpen[n] = !head[n] && !isReached[n];
+    bool isRim = false;
+    if (isReached[n]) forFaceNeighbours(grid, n, [&](std::size_t m) { isRim = isRim || !isReached[m]; });
+    if (isRim) rim.push_back(n);
+  }
+  for (const std::size_t n : rim) isOpen[n] = true;
+  const std::vector<bool> around = reachedFrom(grid, rim, isOpen, 2 * ballRadius);
+  for (std::size_t n = 0; n < head.size(); ++n) isReached[n] = isReached[n] || around[n];
+  return isReached;
+}
+
+/// Gives to orbits what a front from the seeds reaches of what lies outside the skull.
+void findOrbits(const Grid& grid, const std::vector<float>& boneDistance, const std::vector<std::array<int, 3>>& seeds,
+                std::vector<Compartment>& compartments)
+{
+  constexpr float frontRadius = 1, reach = 15; // mm
+  std::vector<bool> isOpen(compartments.size());
+  for (std::size_t n = 0; n < isOpen.size(); ++n)
+    isOpen[n] = compartments[n] == Compartment::Extracranial && boneDistance[n] > frontRadius;
+  std::vector<std::size_t> starts;
+  for (const std::array<int, 3>& v : seeds)
+  {
+    const std::size_t n = grid.index(v[0], v[1], v[2]);
+    if (compartments[n] != Compartment::Extracranial) continue;
+    isOpen[n] = true; // however near to bone
+    starts.push_back(n);
+  }
+  if (starts.empty())
+    throw InputError("no training point of a class within the orbits lies in soft tissue outside the skull");
+  const std::vector<float> distance = distanceTo(grid, reachedFrom(grid, starts, isOpen, reach));
+  for (std::size_t n = 0; n < compartments.size(); ++n)
+    if (compartments[n] == Compartment::Extracranial && distance[n] < 1.01f * frontRadius)
+      compartments[n] = Compartment::Intraorbital;
+}
+
+} // namespace
+
+std::vector<bool> headMask(const HeadImages& images, float threshold)
+{
+  constexpr float air = -500; // HU
+  const Grid& grid = images.grid();
+  const bool isCt = images.ct >= 0;
+  const ScalarImage& shown = images.channels[isCt ? std::size_t(images.ct) : 0];
+  const std::vector<float> values = isCt ? blurred(asItkImage<ItkImage>(grid, shown.values), 0.5) : shown.values;
+  std::vector<bool> bright(values.size());
+  for (std::size_t n = 0; n < bright.size(); ++n) bright[n] = values[n] > (isCt ? air : threshold);
+  const std::vector<float> outward = distanceTo(grid, bright);
+  std::vector<bool> head = outsideOf(grid, closed(grid, bright, outward, 2), outward);
+  head.flip();
   if (isCt)
-    for (std::size_t n = 0; n < isOutside.size(); ++n) isOutside[n] = isOutside[n] && bright[n];
-  return isOutside;
+    for (std::size_t n = 0; n < head.size(); ++n) head[n] = head[n] && bright[n];
+  return head;
 }
 
 HeadSigns headSigns(const HeadImages& images, const BoneContrast& bone, const BoneContrast& structural)
@@ -307,9 +358,11 @@ HeadSigns headSigns(const HeadImages& images, const BoneContrast& bone, const Bo
 }
 
 std::vector<Compartment> findCompartments(const HeadImages& images, const HeadSigns& signs,
-                                          const CompartmentSeeds& seeds, const Progress& progress)
+                                          const CompartmentSeeds& known, const Progress& progress)
 {
   const Grid& grid = images.grid();
+  CompartmentSeeds seeds = known;
+  seeds.outside.insert(seeds.outside.end(), seeds.orbital.begin(), seeds.orbital.end());
   report(progress, 0, "head and bone");
   const std::vector<bool>&head = signs.head, &isBone = signs.bone;
   std::vector<bool> isSoft(head.size()), isBackground(head.size());
@@ -348,6 +401,7 @@ std::vector<Compartment> findCompartments(const HeadImages& images, const HeadSi
     if (isBone[n]) compartments[n] = Compartment::Bone;
     else if (isSoft[n]) compartments[n] = inside[n] > 0.5f ? Compartment::Intracranial : Compartment::Extracranial;
   }
+  if (!seeds.orbital.empty()) findOrbits(grid, boneDistance, seeds.orbital, compartments);
   return compartments;
 }
 

@@ -18,14 +18,16 @@ enum class Compartment : std::uint8_t
   Background,
   Bone,
   Intracranial,
-  Extracranial
+  Extracranial, ///< but not in an orbit
+  Intraorbital
 };
 
-/// Soft tissue known to lie inside or outside the skull; voxels.
+/// Soft tissue known to lie inside the skull, outside, and in an orbit; voxels.
 struct CompartmentSeeds
 {
   std::vector<std::array<int, 3>> inside;
   std::vector<std::array<int, 3>> outside;
+  std::vector<std::array<int, 3>> orbital;
 };
 
 /// Of one channel: the value that parts bone from soft tissue, and the medians between which the skull's border lies.
@@ -45,7 +47,8 @@ struct HeadSigns
 };
 
 /// Which voxels are the head's: those over -500 HU of a CT, or else brighter than the threshold in the first image;
-/// closed by 2 mm, with what they enclose but a CT's air. The image's lower end is no way in: there the neck goes on.
+/// closed by 2 mm, with what they enclose but a CT's air. A hole that a ball of 3 mm doesn't pass is no way in but for
+/// 6 mm, nor is the image's lower end: there the neck goes on.
 std::vector<bool> headMask(const HeadImages& images, float threshold);
 
 /// Bone is denser than `bone.threshold` in the CT, or else darker in the first image; softness is that of the
@@ -55,8 +58,10 @@ HeadSigns headSigns(const HeadImages& images, const BoneContrast& bone, const Bo
 /// The compartment of every voxel. Soft tissue is inside or outside by three things together: extremely randomised trees
 /// on brightness at several scales, on bone nearby and on depth, trained at the seeds; a flood from all seeds through
 /// the widest ways between bones, which stops it at foramina; and a continuous cut of least weighted area between the
-/// two (Chambolle and Pock, JMIV 40(1), 2011), cheap where softness is low. Both lists of seeds have at least one voxel.
-/// The same on any number of threads.
+/// two (Chambolle and Pock, JMIV 40(1), 2011), cheap where softness is low. Orbits are what a front from orbital seeds
+/// reaches outside the skull within 15 mm, a ball of 1 mm that bone stops and that no fissure lets through; without such
+/// seeds there are none. Both sides of the skull have at least one seed, orbital ones outside. Throws InputError if no
+/// orbital seed lies outside the skull. The same on any number of threads.
 std::vector<Compartment> findCompartments(const HeadImages& images, const HeadSigns& signs,
                                           const CompartmentSeeds& seeds, const Progress& progress = {});
 

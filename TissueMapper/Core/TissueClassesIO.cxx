@@ -40,9 +40,10 @@ Admission readAdmission(const TextTableRow& row, const std::string& name)
   if (field.empty()) return usualAdmission(name);
   if (field == "intracranial") return Admission::Intracranial;
   if (field == "extracranial") return Admission::Extracranial;
+  if (field == "intraorbital") return Admission::Intraorbital;
   if (field == "bone") return Admission::Bone;
   if (field == "any") return Admission::Anywhere;
-  row.fail("compartment \"" + field + "\", expected intracranial, extracranial, bone or any");
+  row.fail("compartment \"" + field + "\", expected intracranial, intraorbital, extracranial, bone or any");
 }
 
 bool readContiguity(const TextTableRow& row)

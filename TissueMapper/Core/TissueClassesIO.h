@@ -16,7 +16,7 @@ namespace surgicalmesher
 std::vector<TissueClass> trainedClasses(const std::vector<Markup>& training, const std::string& source);
 
 /// The same as a table says: `classesFile` (CSV; empty for none) has the columns `label`, `name`, `compartment`
-/// (intracranial, extracranial, bone, any), `contiguity` (yes, no) and `limit` (mm), of which `name` is needed; an empty
+/// (intracranial, intraorbital, extracranial, bone, any), `contiguity` (yes, no) and `limit` (mm), of which `name` is needed; an empty
 /// field means the usual. Throws InputError for points without a label, fewer than two classes, and classes that are
 /// trained but not in the table, in it twice or of a label that another has.
 std::vector<TissueClass> tissueClasses(const std::vector<Markup>& training, const std::string& source,

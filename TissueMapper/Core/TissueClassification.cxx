@@ -2,8 +2,8 @@
 #include "TissueClassification.h"
 
 #include "BrightnessModel.h"
-#include "ClassContiguity.h"
 #include "Errors.h"
+#include "GeodesicFront.h"
 #include "Place.h"
 #include "Sampling.h"
 #include "TextFile.h"
@@ -84,17 +84,27 @@ BoneContrast boneContrast(const HeadImages& images, const std::vector<TrainingVa
   return contrast;
 }
 
-/// Classes that may be in a compartment; every soft one if compartments don't count.
-std::vector<int> admitted(const std::vector<TissueClass>& classes, Admission compartment, bool useCompartments)
+bool isAdmitted(Admission admission, Compartment compartment)
+{
+  if (admission == Admission::Anywhere) return true;
+  if (admission == Admission::Intracranial) return compartment == Compartment::Intracranial;
+  if (admission == Admission::Intraorbital) return compartment == Compartment::Intraorbital;
+  return admission == Admission::Extracranial && compartment != Compartment::Intracranial;
+}
+
+/// Classes of soft tissue that may be in a compartment; every one if compartments don't count.
+std::vector<int> admitted(const std::vector<TissueClass>& classes, Compartment compartment, bool useCompartments)
 {
   std::vector<int> result;
   for (std::size_t c = 0; c < classes.size(); ++c)
   {
     const Admission admission = classes[c].admission;
     if (admission == Admission::Bone) continue;
-    if (!useCompartments || admission == Admission::Anywhere || admission == compartment) result.push_back(int(c));
+    if (!useCompartments || isAdmitted(admission, compartment)) result.push_back(int(c));
   }
-  if (result.empty()) throw InputError("no class of soft tissue is trained");
+  if (result.empty())
+    throw InputError("no class of soft tissue may lie " +
+                     std::string(compartment == Compartment::Intracranial ? "within" : "outside") + " the skull");
   return result;
 }
 
@@ -103,12 +113,13 @@ CompartmentSeeds seedsOf(const Grid& grid, const std::vector<TissueClass>& class
   CompartmentSeeds seeds;
   for (const TissueClass& tissue : classes)
   {
-    const bool isInside = tissue.admission == Admission::Intracranial;
-    if (!isInside && tissue.admission != Admission::Extracranial) continue;
-    for (const Vec3& point : tissue.points)
-      (isInside ? seeds.inside : seeds.outside).push_back(nearestVoxel(grid, grid.worldToGrid(point)));
+    if (tissue.admission == Admission::Anywhere || tissue.admission == Admission::Bone) continue;
+    auto& voxels = tissue.admission == Admission::Intracranial   ? seeds.inside
+                   : tissue.admission == Admission::Intraorbital ? seeds.orbital
+                                                                 : seeds.outside;
+    for (const Vec3& point : tissue.points) voxels.push_back(nearestVoxel(grid, grid.worldToGrid(point)));
   }
-  if (seeds.inside.empty() || seeds.outside.empty())
+  if (seeds.inside.empty() || (seeds.outside.empty() && seeds.orbital.empty()))
   {
     throw InputError(std::string("no training point of a class ") + (seeds.inside.empty() ? "within" : "outside") +
                      " the skull, expected some on both sides, or no compartments");
@@ -126,17 +137,42 @@ std::vector<Compartment> withoutCompartments(const HeadSigns& signs)
   return compartments;
 }
 
-/// The models of soft tissue within the skull and outside.
-using ModelPair = std::array<BrightnessModel, 2>;
+/// The models of soft tissue within the skull, outside, and in the orbits.
+using Models = std::array<BrightnessModel, 3>;
 
-const BrightnessModel& modelOf(const ModelPair& models, Compartment compartment)
+Models makeModels(const std::vector<TissueClass>& classes, const std::vector<TrainingValues>& training,
+                  bool useCompartments)
 {
-  return models[compartment == Compartment::Intracranial ? 0 : 1];
+  const auto model = [&](Compartment compartment)
+  { return BrightnessModel(admitted(classes, compartment, useCompartments), training); };
+  return { model(Compartment::Intracranial), model(Compartment::Extracranial), model(Compartment::Intraorbital) };
+}
+
+const BrightnessModel& modelOf(const Models& models, Compartment compartment)
+{
+  return models[std::size_t(compartment) - std::size_t(Compartment::Intracranial)];
+}
+
+/// What contiguity and limit leave to a class: a front starts at each of its points, whatever is there, and runs through
+/// its voxels.
+std::vector<bool> reachedByClass(const Grid& grid, const TissueClass& tissue, const std::vector<int>& classOf,
+                                 int number)
+{
+  std::vector<bool> isOpen(classOf.size());
+  for (std::size_t n = 0; n < classOf.size(); ++n) isOpen[n] = classOf[n] == number;
+  std::vector<std::size_t> seeds;
+  for (const Vec3& point : tissue.points)
+  {
+    const std::array<int, 3> v = nearestVoxel(grid, grid.worldToGrid(point));
+    seeds.push_back(grid.index(v[0], v[1], v[2]));
+    isOpen[seeds.back()] = true;
+  }
+  return reachedFrom(grid, seeds, isOpen, tissue.limit);
 }
 
 /// Takes away what contiguity and limits forbid, and gives it to the class next in brightness, until all that each class
 /// has is reached. Where every class has been refused, the last one stays.
-void enforceContiguity(const HeadImages& images, const std::vector<TissueClass>& classes, const ModelPair& models,
+void enforceContiguity(const HeadImages& images, const std::vector<TissueClass>& classes, const Models& models,
                        std::vector<int>& classOf, Classification& result)
 {
   std::vector<std::vector<bool>> isRefused(classes.size(), std::vector<bool>(classOf.size(), false));
@@ -146,7 +182,7 @@ void enforceContiguity(const HeadImages& images, const std::vector<TissueClass>&
     for (std::size_t c = 0; c < classes.size(); ++c)
     {
       if (!classes[c].isContiguous && !(classes[c].limit > 0)) continue;
-      const std::vector<bool> reached = reachedFrom(images.grid(), classes[c], classOf, int(c));
+      const std::vector<bool> reached = reachedByClass(images.grid(), classes[c], classOf, int(c));
       for (std::size_t n = 0; n < classOf.size(); ++n)
       {
         if (classOf[n] != int(c) || reached[n] || isRefused[c][n]) continue;
@@ -162,7 +198,7 @@ void enforceContiguity(const HeadImages& images, const std::vector<TissueClass>&
   }
 }
 
-void addProbabilities(const HeadImages& images, const std::vector<int>& classOf, const ModelPair& models, int bone,
+void addProbabilities(const HeadImages& images, const std::vector<int>& classOf, const Models& models, int bone,
                       Classification& result)
 {
   result.probabilities.assign(result.invalidated.size(), std::vector<float>(classOf.size(), 0));
@@ -191,6 +227,8 @@ Admission usualAdmission(const std::string& name)
   if (has("csf") || has("cerebrospinal") || has("grey matter") || has("gray matter") || has("white matter") ||
       has("brain"))
     return Admission::Intracranial;
+  if (has("eye") || has("optic nerve") || has("orbit") || has("ocular") || has("rectus"))
+    return Admission::Intraorbital;
   if (has("fat") || has("muscle") || has("skin") || has("connective")) return Admission::Extracranial;
   return Admission::Anywhere;
 }
@@ -207,6 +245,7 @@ TissueTable compartmentTable()
   add(Compartment::Bone, "bone", { 0.95, 0.85, 0.60 });
   add(Compartment::Intracranial, "intracranial", { 0.30, 0.60, 0.85 });
   add(Compartment::Extracranial, "extracranial", { 0.85, 0.45, 0.35 });
+  add(Compartment::Intraorbital, "intraorbital", { 0.45, 0.75, 0.40 });
   return table;
 }
 
@@ -229,10 +268,7 @@ Classification classifyTissues(HeadImages images, const std::vector<TissueClass>
   const BoneContrast corrected = contrastIn(boneChannel);
   const std::size_t structural = std::size_t(&images.structural() - images.channels.data());
   const HeadSigns signs = headSigns(images, corrected, structural == boneChannel ? corrected : contrastIn(structural));
-  const ModelPair models{
-    BrightnessModel(admitted(classes, Admission::Intracranial, options.useCompartments), training),
-    BrightnessModel(admitted(classes, Admission::Extracranial, options.useCompartments), training)
-  };
+  const Models models = makeModels(classes, training, options.useCompartments);
   Classification result;
   result.boneThreshold = corrected.threshold;
   result.invalidated.assign(classes.size(), 0);

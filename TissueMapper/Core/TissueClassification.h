@@ -17,7 +17,8 @@ enum class Admission
 {
   Anywhere, ///< in soft tissue
   Intracranial,
-  Extracranial,
+  Extracranial, ///< in orbits or not
+  Intraorbital,
   Bone ///< the class that the skull is made of
 };
 
@@ -41,8 +42,9 @@ struct ClassificationOptions
   bool withProbabilities = false;
 };
 
-/// What a head is usually made of: skull and bone are bone; CSF, grey and white matter lie within the skull; fat,
-/// muscle, skin and connective tissue outside. Anywhere for other names.
+/// What a head is usually made of: skull and bone are bone; CSF, grey and white matter lie within the skull; eyes, optic
+/// nerves and what has orbit, orbital, ocular or rectus in its name within the orbits; fat, muscle, skin and connective
+/// tissue outside the skull. Anywhere for other names.
 Admission usualAdmission(const std::string& name);
 
 struct Classification
@@ -60,8 +62,8 @@ TissueTable compartmentTable();
 
 /// Bone is told by the CT, or else by the first image, an MR in which bone is dark. Throws InputError for fewer than two
 /// classes, a class without points, a point outside the image, no class or several of bone, bone that isn't darker than
-/// the rest (denser in a CT), and compartments without training points on both sides. The same bytes whatever the
-/// number of threads.
+/// the rest (denser in a CT), compartments without training points on both sides, and a compartment in which no class
+/// may be. The same bytes whatever the number of threads.
 Classification classifyTissues(HeadImages images, const std::vector<TissueClass>& classes,
                                const ClassificationOptions& options, const Progress& progress = {});
 

@@ -28,7 +28,8 @@ std::vector<TrainedClass> countTrainingPoints(vtkMRMLMarkupsNode* training)
 
 std::vector<std::string> usualClasses()
 {
-  return { "CSF", "grey matter", "white matter", "fat", "muscle", "skin", "skull", "connective tissue" };
+  return { "CSF",  "grey matter", "white matter",      "fat", "muscle",
+           "skin", "skull",       "connective tissue", "eye", "optic nerve" };
 }
 
 } // namespace surgicalmesher

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueClassification.h"
 
-#include "ClassContiguity.h"
 #include "Errors.h"
+#include "GeodesicFront.h"
 #include "HeadPhantom.h"
+#include "Sampling.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
@@ -31,6 +32,30 @@ std::size_t falsePositives(const TissueMap& found, const TissueMap& truth, Label
   std::size_t count = 0;
   for (std::size_t n = 0; n < truth.labels.size(); ++n) count += found.labels[n] == label && truth.labels[n] != label;
   return count;
+}
+
+std::vector<std::size_t> voxelsOf(const Grid& grid, const std::vector<Vec3>& points)
+{
+  std::vector<std::size_t> voxels;
+  for (const Vec3& point : points)
+  {
+    const std::array<int, 3> v = nearestVoxel(grid, grid.worldToGrid(point));
+    voxels.push_back(grid.index(v[0], v[1], v[2]));
+  }
+  return voxels;
+}
+
+/// Paints the voxels nearer to `centre` than `radius`.
+void paintBall(ScalarImage& image, const Vec3& centre, double radius, float value)
+{
+  const Grid& grid = image.grid;
+  for (int k = 0; k < grid.size[2]; ++k)
+    for (int j = 0; j < grid.size[1]; ++j)
+      for (int i = 0; i < grid.size[0]; ++i)
+      {
+        if (norm(grid.gridToWorld({ double(i), double(j), double(k) }) - centre) < radius)
+          image.values[grid.index(i, j, k)] = value;
+      }
 }
 
 } // namespace
@@ -82,6 +107,51 @@ TEST(TissueClassification, TheFrontStopsInAHoleOfTheSkull)
   EXPECT_LT(leaked, 20u);
 }
 
+TEST(TissueClassification, WhatBelongsInAnOrbitStaysNearItsPoints)
+{
+  HeadPhantom head = headPhantom(2);
+  const Vec3 orbit{ 26, 0, 0 }, cheek{ 0, 0, 26 };
+  for (const Vec3& centre : { orbit, cheek }) paintBall(head.image, centre, 2.5, 200);
+  std::vector<TissueClass> classes = trainingOf(head.truth, 20);
+  TissueClass eye;
+  eye.name = "left eye";
+  eye.label = 8;
+  eye.admission = usualAdmission(eye.name);
+  eye.points = { orbit, orbit + Vec3{ 0, 1, 0 }, orbit + Vec3{ 0, 0, 1 } };
+  classes.push_back(eye);
+  const Classification found = classifyTissues(headImages({ head.image }), classes, {});
+  ClassificationOptions anywhere;
+  anywhere.useCompartments = false;
+  const Classification without = classifyTissues(headImages({ head.image }), classes, anywhere);
+  const Grid& grid = head.truth.grid;
+  const std::size_t inOrbit = voxelsOf(grid, { orbit })[0], inCheek = voxelsOf(grid, { cheek })[0];
+  EXPECT_EQ(found.map.labels[inOrbit], 8);
+  EXPECT_EQ(found.compartments[inOrbit], Compartment::Intraorbital);
+  EXPECT_NE(found.map.labels[inCheek], 8);
+  EXPECT_EQ(without.map.labels[inCheek], 8);
+  for (std::size_t n = 0; n < found.compartments.size(); ++n)
+  {
+    const bool isInOrbit = found.compartments[n] == Compartment::Intraorbital;
+    const Label label = found.map.labels[n];
+    ASSERT_TRUE(isInOrbit || label != 8);
+    ASSERT_TRUE(!isInOrbit || label > 3); // nothing of the brain
+  }
+  classes.back().points = { { 0, 0, 0 } }; // within the skull
+  EXPECT_THROW(classifyTissues(headImages({ head.image }), classes, {}), InputError);
+}
+
+TEST(TissueClassification, ASmallHoleInTheSkinLetsNoAirIntoTheSkull)
+{
+  HeadPhantom head = headPhantom(0);
+  const std::vector<TissueClass> classes = trainingOf(head.truth, 20);
+  const Classification whole = classifyTissues(headImages({ head.image }), classes, {});
+  for (double x = 22; x < 33; ++x) paintBall(head.image, { x, 0, 0 }, 2.6, 2); // air, as dark as bone
+  const Classification holed = classifyTissues(headImages({ head.image }), classes, {});
+  const auto bone = [](const Classification& found)
+  { return std::count(found.compartments.begin(), found.compartments.end(), Compartment::Bone); };
+  EXPECT_NEAR(double(bone(holed)), double(bone(whole)), 300);
+}
+
 TEST(TissueClassification, LimitsAndContiguityTakeAwayWhatIsNotReached)
 {
   HeadPhantom head = headPhantom(0);
@@ -128,7 +198,11 @@ TEST(TissueClassification, WhatOneClassLosesNoOtherHasWhereItIsNotReached)
   for (const int c : { 0, 2, 3, 5 })
   {
     EXPECT_GT(found.invalidated[std::size_t(c)], 0u) << classes[std::size_t(c)].name;
-    const std::vector<bool> reached = reachedFrom(head.truth.grid, classes[std::size_t(c)], classOf, c);
+    std::vector<bool> isOpen;
+    for (const int other : classOf) isOpen.push_back(other == c);
+    const std::vector<std::size_t> seeds = voxelsOf(head.truth.grid, classes[std::size_t(c)].points);
+    for (const std::size_t n : seeds) isOpen[n] = true;
+    const std::vector<bool> reached = reachedFrom(head.truth.grid, seeds, isOpen, 0);
     for (std::size_t n = 0; n < classOf.size(); ++n)
       ASSERT_TRUE(classOf[n] != c || reached[n]) << classes[std::size_t(c)].name;
   }

@@ -5,6 +5,8 @@
 
 #include <rapidjson/document.h>
 
+#include <limits>
+
 using namespace surgicalmesher;
 using namespace surgicalmesher::test;
 
@@ -90,7 +92,7 @@ TEST_F(TissueMapperCLI, WritesTheCompartmentsThatItsClassesKeepTo)
 TEST_F(TissueMapperCLI, NumbersClassesAsTheTableSays)
 {
   folder.write("classes.csv", "label,name,compartment\n11,csf,\n12,Grey matter,\n13,white matter,intracranial\n"
-                              "24,fat,\n25,muscle,\n26,skin,extracranial\n40,skull,bone\n");
+                              "24,fat,intraorbital\n25,muscle,\n26,skin,extracranial\n40,skull,bone\n");
   expectDone("--training points.fcsv --classes classes.csv --threads 2 t1.nrrd a.nrrd");
   EXPECT_EQ(presentLabels(readTissueMap(folder.file("a.nrrd"))), (std::vector<Label>{ 11, 12, 13, 24, 25, 26, 40 }));
   expectDone("--training points.fcsv --classes classes.csv --threads 1 t1.nrrd b.nrrd");
@@ -109,6 +111,13 @@ TEST_F(TissueMapperCLI, RefusesBadInputWithOneLine)
   const std::string training = "--training points.fcsv ";
   expectRefused("t1.nrrd map.nrrd", 2, "--training is missing");
   expectRefused(training + "missing.nrrd map.nrrd", 1, "missing.nrrd: no such file");
+  ScalarImage shifted = head.image, undefined = head.image;
+  shifted.grid.origin.x += 1;
+  undefined.values[1000] = std::numeric_limits<float>::quiet_NaN();
+  writeImage(shifted, folder.file("shifted.nrrd"));
+  writeImage(undefined, folder.file("nan.nrrd"));
+  expectRefused(training + "--channel shifted.nrrd t1.nrrd map.nrrd", 1, "image 2 lies on another grid");
+  expectRefused(training + "nan.nrrd map.nrrd", 1, "nan.nrrd");
   expectRefused("--training unnamed.fcsv t1.nrrd map.nrrd", 1, "without a label");
   expectRefused("--training one.fcsv t1.nrrd map.nrrd", 1, "one class, skull, is trained");
   expectRefused("--training outside.fcsv t1.nrrd map.nrrd", 1, "lies outside the image");

@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "ClassContiguity.h"
+#include "GeodesicFront.h"
 
-#include "Sampling.h"
-
+#include <array>
+#include <functional>
 #include <limits>
 #include <queue>
 
 namespace surgicalmesher
 {
 
-std::vector<bool> reachedFrom(const Grid& grid, const TissueClass& tissue, const std::vector<int>& classOf, int number)
+std::vector<bool> reachedFrom(const Grid& grid, const std::vector<std::size_t>& seeds, const std::vector<bool>& isOpen,
+                              double limit)
 {
   using Entry = std::pair<double, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<Entry>> queue;
-  std::vector<float> way(classOf.size(), std::numeric_limits<float>::infinity());
-  for (const Vec3& point : tissue.points)
+  std::vector<float> way(isOpen.size(), std::numeric_limits<float>::infinity());
+  for (const std::size_t n : seeds)
   {
-    const std::array<int, 3> v = nearestVoxel(grid, grid.worldToGrid(point));
-    const std::size_t n = grid.index(v[0], v[1], v[2]);
-    if (classOf[n] != number) continue;
+    if (!isOpen[n]) continue;
     way[n] = 0;
     queue.push({ 0, n });
   }
-  const double limit = tissue.limit > 0 ? tissue.limit : std::numeric_limits<double>::infinity();
-  std::vector<bool> reached(classOf.size(), false);
+  const double farthest = limit > 0 ? limit : std::numeric_limits<double>::infinity();
+  std::vector<bool> reached(isOpen.size(), false);
   while (!queue.empty())
   {
     const auto [here, n] = queue.top();
@@ -38,9 +37,9 @@ std::vector<bool> reachedFrom(const Grid& grid, const TissueClass& tissue, const
       const std::array<int, 3> d{ step % 3 - 1, step / 3 % 3 - 1, step / 9 - 1 };
       if (!grid.contains(i + d[0], j + d[1], k + d[2])) continue;
       const std::size_t m = grid.index(i + d[0], j + d[1], k + d[2]);
-      if (classOf[m] != number || reached[m]) continue;
+      if (!isOpen[m] || reached[m]) continue;
       const double there = here + norm({ d[0] * grid.spacing.x, d[1] * grid.spacing.y, d[2] * grid.spacing.z });
-      if (there > limit || !(there < way[m])) continue;
+      if (there > farthest || !(there < way[m])) continue;
       way[m] = float(there);
       queue.push({ there, m });
     }
