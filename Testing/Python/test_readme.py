@@ -20,7 +20,7 @@ PROGRAMS = {"BalloonSurface": "SimplexMesher",
             "TubePath": "TissueMapper",
             "VolumetricHex": "TemplateHexMesher"}
 PAGES = (["README.md", "CONTRIBUTING.md", "CHANGELOG.md"] + [f"Docs/{module}.md" for module in MODULES]
-         + ["Docs/TemplateHexMesher.md", "Docs/TissueMapper.md", "Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/MultirateSolver.md", "Docs/Fitness.md",
+         + ["Docs/TemplateHexMesher.md", "Docs/TissueMapper.md", "Docs/Cohort.md", "Docs/Benchmarks.md", "Docs/MultirateSolver.md", "Docs/Fitness.md", "Docs/Evidence.md",
             "Docs/Solvers.md", "Docs/Slicer.md", "Docs/Tutorial.md", "Docs/ImageTutorial.md", "Docs/HeadPhantom.md", "Docs/surgicalmesher.md", "Docs/Packages.md", "Docs/Python.md", "Docs/Systems.md"])
 
 

@@ -1,0 +1,118 @@
+"""Meshes of one body by several meshers, at settings swept from near the surface to far from it."""
+import os
+import subprocess
+from types import SimpleNamespace
+
+import numpy as np
+import vtk
+from scipy import ndimage
+from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+
+from brain import blocks_of
+from fidelity import boundary_of_map, boundary_of_mesh, boundary_triangles
+from lattice import compressed
+from maps import write_nrrd
+from measures import dihedral_angles
+from meshfiles import interpolated, read_mesh
+
+MESHERS = ("ours, ambient", "ours, surface alone", "CGAL Mesh_3", "CGAL surface + TetGen", "compressed lattice")
+
+
+def write_uniform_scale(file, length):
+    """A scale volume that is `length` everywhere."""
+    header = ("NRRD0005\ntype: float\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 2 2\n"
+              "space directions: (1000,0,0) (0,1000,0) (0,0,1000)\nspace origin: (-500,-500,-500)\n"
+              "endian: little\nencoding: raw\n\n")
+    with open(file, "wb") as stream:
+        stream.write(header.encode() + np.full(8, length, "<f4").tobytes())
+
+
+class Programs:
+    """Runs the meshers' programs in a folder and adds up the processor time they take."""
+
+    def __init__(self, programs, folder):
+        self.programs, self.folder, self.seconds = os.path.abspath(programs), folder, 0.0
+
+    def __call__(self, program, *arguments):
+        before = os.times()
+        subprocess.run([os.path.join(self.programs, program), *map(str, arguments)], check=True, cwd=self.folder,
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        after = os.times()
+        self.seconds += after.children_user + after.children_system - before.children_user - before.children_system
+
+
+def ours(run, body, setting, ambient):
+    """Setting: (voxel side, edge length), mm: the body on larger voxels is what the surface is near to."""
+    side, length = setting
+    blocks, coarse = blocks_of(body.mask, body.affine, side)
+    write_nrrd(os.path.join(run.folder, "coarse.nrrd"), blocks.astype(np.uint16), coarse)
+    beside = ("--ambient", "ambient.vtu") if ambient else ()
+    run("SimplexMesherCLI", "--edgeLength", length, *beside, "coarse.nrrd", "surface.vtp")
+    run("FuchsTetrahedralizerCLI", "--edgeLength", length, *beside, "surface.vtp", "mesh.vtu")
+    return read_mesh(os.path.join(run.folder, "mesh.vtu"))
+
+
+def mesh3(run, setting, refined, out):
+    """Setting: (facet distance, edge length), mm."""
+    distance, length = setting
+    write_uniform_scale(os.path.join(run.folder, "scale.nrrd"), length)
+    run("Mesh3Driver", "body.nrrd", "scale.nrrd", out, *(() if refined else ("--perturb", "--exude")),
+        "--facetDistance", distance)
+
+
+def mesh_by(run, mesher, body, setting):
+    """The mesh and its processor seconds; raises CalledProcessError where the mesher fails."""
+    write_nrrd(os.path.join(run.folder, "body.nrrd"), body.mask.astype(np.uint16), body.affine)
+    run.seconds = 0.0
+    if mesher.startswith("ours"):
+        mesh = ours(run, body, setting, mesher == "ours, ambient")
+    elif mesher == "compressed lattice":
+        before = os.times()
+        side, weight = setting
+        mesh = compressed(body.mask, body.affine, body.surface, side, weight)
+        after = os.times()
+        run.seconds = after.user + after.system - before.user - before.system
+    elif mesher == "CGAL Mesh_3":
+        mesh3(run, setting, False, "mesh.vtu")
+        mesh = read_mesh(os.path.join(run.folder, "mesh.vtu"))
+    else:
+        mesh3(run, setting, True, "complex.vtu")
+        run("TetGenDriver", "complex.vtu", "scale.nrrd", "mesh.vtu")
+        mesh = read_mesh(os.path.join(run.folder, "mesh.vtu"))
+    return SimpleNamespace(points=mesh.points, tetrahedra=mesh.tetrahedra, tissue=mesh.tissue), run.seconds
+
+
+def body_of(mask, affine):
+    """The body and, for distances: its surface's points, mm, and how far each voxel's centre is from it, mm."""
+    inner, outer = (ndimage.distance_transform_edt(part) for part in (mask, ~mask))
+    return SimpleNamespace(mask=mask, affine=affine, surface=boundary_of_map(mask.astype(int), affine).points,
+                           distance=np.abs(np.where(mask, 0.5 - inner, outer - 0.5)))
+
+
+def distances_to_triangles(points, corners, triangles):
+    cells, vtk_points, surface = vtk.vtkCellArray(), vtk.vtkPoints(), vtk.vtkPolyData()
+    vtk_points.SetData(numpy_to_vtk(np.ascontiguousarray(corners), deep=True))
+    cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, 3 * len(triangles) + 1, 3, dtype=np.int64), deep=True),
+                  numpy_to_vtkIdTypeArray(np.ascontiguousarray(triangles, np.int64).ravel(), deep=True))
+    surface.SetPoints(vtk_points)
+    surface.SetPolys(cells)
+    locator = vtk.vtkStaticCellLocator()
+    locator.SetDataSet(surface)
+    locator.BuildLocator()
+    nearest, cell, sub, squared = [0.0] * 3, vtk.reference(0), vtk.reference(0), vtk.reference(0.0)
+    result = np.empty(len(points))
+    for i, point in enumerate(points):
+        locator.FindClosestPoint(point, nearest, cell, sub, squared)
+        result[i] = np.sqrt(squared.get())
+    return result
+
+
+def shape_of(mesh, body):
+    """D_H to the body's surface, mm (of all its voxel faces, and of points 1 mm apart on the mesh's), and angles."""
+    smallest = dihedral_angles(mesh).min(axis=1)
+    there = interpolated(body.distance, body.affine, boundary_of_mesh(mesh, 1.0).points)
+    back = distances_to_triangles(body.surface, mesh.points, boundary_triangles(mesh)[0])
+    return {"tetrahedra": len(mesh.tetrahedra), "points": len(mesh.points),
+            "hausdorff": float(max(there.max(), back.max())),
+            "hausdorff95": float(max(np.quantile(there, 0.95), np.quantile(back, 0.95))),
+            "smallestDihedral": float(smallest.min()), "meanSmallestDihedral": float(smallest.mean())}

@@ -1,0 +1,27 @@
+"""Puts tables and pictures into Docs/Evidence.md, each table between the page's two marks of its name."""
+import os
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PAGE = os.path.join(ROOT, "Docs", "Evidence.md")
+IMAGES = os.path.join(ROOT, "Docs", "images")
+
+
+def table(header, rows):
+    lines = [header, ["---"] + ["---:"] * (len(header) - 1), *rows]
+    return "".join("| " + " | ".join(map(str, line)) + " |\n" for line in lines)
+
+
+def with_tables(text, tables):
+    """The page's text with each table in its place; ValueError if the page has no place for one."""
+    for name, content in tables.items():
+        begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->\n"
+        start = text.index(begin) + len(begin)
+        text = text[:start] + content + text[text.index(end, start):]
+    return text
+
+
+def put(tables):
+    with open(PAGE, encoding="utf-8") as file:
+        text = with_tables(file.read(), tables)
+    with open(PAGE, "w", encoding="utf-8") as file:
+        file.write(text)

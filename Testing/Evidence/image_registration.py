@@ -1,0 +1,220 @@
+#!/usr/bin/python3
+"""Fitness of meshes for registration with images, after Chernikov et al.: from a T1 to the error at every brain voxel.
+
+usage: image_registration.py BIN OUTDIR [--shifts MM,MM,..] [--document]
+
+BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, Mesh3Driver and TetGenDriver; CalculiX is ccx. Docs/Evidence.md says
+what is done. Every finished part stays in OUTDIR and is not made again; a folder that is empty begins anew. Writes
+registration.md (tables), registration.json, registration.png and registration-meshes.png; --document puts tables and
+pictures into Docs/.
+"""
+import argparse
+import os
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import numpy as np
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path[:0] = [os.path.join(ROOT, *folder) for folder in (("workflow", "example"), ("Testing", "Python"),
+                                                           ("Testing", "Benchmarks"), ("Testing", "Evidence"))]
+import hidden_truth  # noqa: E402
+import matching  # noqa: E402
+import robust  # noqa: E402
+from brain import brain, positions_of  # noqa: E402
+from brain_meshes import MESHERS, Programs, body_of, mesh_by, shape_of  # noqa: E402
+from elasticity import Cholesky, shape_gradients  # noqa: E402
+from fitness import largest_body  # noqa: E402
+from parts import Parts  # noqa: E402
+from registration import condition_numbers, interpolation, nearest_tetrahedra, system  # noqa: E402
+
+BINS = ((15, 16.5), (14, 15.5), (13, 14.5), (8.5, 9.5), (7, 8))  # the paper's, voxels
+SHIFTS = (5, 10, 14)  # mm
+NOISE = 0.04  # of the brightest voxel
+PLANTED, PLANTED_DISTANCE = 0.1, (5, 15)  # share; mm beside the true displacement
+MOST_ERROR = 0.5  # voxel
+REPETITIONS = 5  # of a registration, for the solver's time
+OURS = [(side, factor * side) for side in (6, 7, 8, 9, *range(10, 23)) for factor in (2, 3, 3.5, 4)]
+CGAL = [(share * length, length) for length in (18, 20, 22, 24, 26, 28, 32, 34, 36, 38, 40, 42, 45, 47, 50, 52, 55, 60)
+        for share in (0.25, 0.3, 0.4)]
+LATTICE = [(side, weight) for side in (16, 18, 20, 22, 24, 27, 30, 33, 36, 40) for weight in (1, 5)]
+SETTINGS = dict(zip(MESHERS, (OURS, OURS, CGAL, CGAL, LATTICE)))
+
+
+# ---- images and matches
+
+def shifted(parts, scene, shift):
+    """Truth at all voxels (mm) for a shift, and the matches of the features in the image it makes."""
+    displacement = hidden_truth.at_all_voxels(scene.hexahedra, scene.shifts[str(shift)], scene.body.shape, scene.affine)
+    def make():
+        during = hidden_truth.deformed(scene.t1, scene.body, scene.cavity, displacement, scene.affine, NOISE)
+        found = matching.match(scene.t1 * scene.body, during, scene.features)
+        return {"matched": found @ scene.affine[:3, :3].T}
+    return SimpleNamespace(displacement=displacement, matched=parts.arrays(f"matches-{shift}", make)["matched"])
+
+
+def scene_of(parts, shifts, make_brain=brain):
+    scene = SimpleNamespace(**parts.arrays("brain", lambda: vars(make_brain())))
+    scene.cavity = hidden_truth.cavity_of(scene.body, scene.affine)
+    scene.hexahedra = hidden_truth.hexahedra(scene.body, scene.cavity, scene.affine)
+    def truth():
+        states = hidden_truth.brain_shifts(parts.folder, scene.hexahedra, shifts)
+        return {str(shift): state for shift, state in states.items()}
+    scene.shifts = parts.arrays("truth", truth)
+    scene.features = parts.arrays("features", lambda: {
+        "voxels": matching.features(scene.t1 * scene.body, scene.mask)})["voxels"]
+    scene.points = positions_of(scene.features, scene.affine)
+    return scene
+
+
+def matching_quality(scene, shift, during):
+    """How near the matches of features that are still there are to the truth, mm."""
+    there = ~scene.cavity[tuple(scene.features.T)]
+    errors = np.linalg.norm(during.matched - during.displacement[tuple(scene.features.T)], axis=1)[there]
+    return {"shift": shift, "points": int(len(there)), "removed": int(np.count_nonzero(~there)),
+            "withinVoxel": float(np.mean(errors <= 1)), "median": float(np.median(errors)),
+            "quantile95": float(np.quantile(errors, 0.95))}
+
+
+# ---- meshes and their errors
+
+def tetrahedra_at(points, tetrahedra, voxels, shape, affine):
+    """The tetrahedron that each voxel's centre is in or, outside the mesh, nearest to."""
+    at = np.full(shape, -1, np.int32)
+    indices = (points - affine[:3, 3]) @ np.linalg.inv(affine[:3, :3]).T
+    gradients, _ = shape_gradients(indices, tetrahedra)
+    for t, corners in enumerate(indices[tetrahedra]):
+        low = np.maximum(np.ceil(corners.min(axis=0)), 0).astype(int)
+        high = np.minimum(np.floor(corners.max(axis=0)) + 1, shape).astype(int)
+        box = tuple(slice(*ends) for ends in zip(low, high))
+        i, j, k = np.ogrid[box]
+        inside = True
+        for corner, (x, y, z) in enumerate(gradients[t]):
+            share = x * (i - corners[0, 0]) + y * (j - corners[0, 1]) + z * (k - corners[0, 2]) + (corner == 0)
+            inside = inside & (share >= -1e-9)
+        at[box][inside] = t
+    result = at[tuple(voxels.T)]
+    outside = result < 0
+    result[outside] = nearest_tetrahedra(points, tetrahedra, positions_of(voxels[outside], affine))
+    return result
+
+
+def errors_at(mesh, nodes, voxels, at, truth, affine):
+    """Distance, mm, of the interpolated displacement from the truth at every voxel."""
+    gradients, _ = shape_gradients(mesh.points, mesh.tetrahedra)
+    result = np.empty(len(voxels))
+    for some in np.array_split(np.arange(len(voxels)), 1 + len(voxels) // 200000):
+        corners = mesh.tetrahedra[at[some]]
+        shares = np.einsum("pai,pi->pa", gradients[at[some]], positions_of(voxels[some], affine) - mesh.points[corners[:, 0]])
+        shares[:, 0] += 1
+        found = np.einsum("pa,pai->pi", shares, nodes[corners])
+        result[some] = np.linalg.norm(found - truth[tuple(voxels[some].T)], axis=1)
+    return result
+
+
+def brain_voxels(scene, every=1):
+    """Voxels of the brain that are still there."""
+    return np.argwhere(scene.mask & ~scene.cavity)[::every]
+
+
+def measured(scene, mesher, setting, run, body, during):
+    """Shape, conditioning, solver and error (at every 50th voxel) of one mesh; its points stay in a file."""
+    mesh, seconds = mesh_by(run, mesher, body, setting)
+    mesh = largest_body(mesh)
+    equations = system(mesh, scene.points, robust.YOUNGS_MODULUS, robust.POISSONS_RATIO)
+    condition, scaled = condition_numbers(equations.A, Cholesky(equations.A))
+    result = robust.register(mesh, scene.points, during.matched)
+    voxels = brain_voxels(scene, 50)
+    h = interpolation(mesh.points, mesh.tetrahedra, positions_of(voxels, scene.affine))
+    errors = np.linalg.norm((h @ result.nodes.ravel()).reshape(-1, 3) - during.displacement[tuple(voxels.T)], axis=1)
+    return {"mesher": mesher, "setting": list(setting), "mesherSeconds": seconds, **shape_of(mesh, body),
+            "condition": float(condition), "scaledCondition": float(scaled), "iterations": result.iterations,
+            "solverSeconds": result.seconds, "error": float(errors.mean())}
+
+
+def name_of(mesher, setting):
+    return "mesh-" + "-".join(word.strip(",+") for word in mesher.split()) + "-" + "-".join(f"{x:g}" for x in setting)
+
+
+def swept(parts, scene, run, body, during, settings):
+    """Records of all settings; a mesher that fails leaves one that says so."""
+    rows = []
+    for mesher, each in settings.items():
+        for setting in each:
+            def make(mesher=mesher, setting=setting):
+                try:
+                    return measured(scene, mesher, setting, run, body, during)
+                except (subprocess.CalledProcessError, RuntimeError) as failure:
+                    return {"mesher": mesher, "setting": list(setting), "failed": str(failure)[-200:]}
+            rows.append(parts.record(name_of(mesher, setting), make))
+            print({key: value for key, value in rows[-1].items()}, flush=True)
+    return rows
+
+
+def chosen(rows, mesher, interval):
+    """The paper's second experiment, for every mesher alike: of its meshes at that distance, the fastest to solve of those
+    with a mean error of at most half a voxel; if there is none, the one with the least error; None without a mesh."""
+    there = [row for row in rows if row["mesher"] == mesher and "failed" not in row
+             and interval[0] <= row["hausdorff"] <= interval[1]]
+    good = [row for row in there if row["error"] <= MOST_ERROR]
+    if good:
+        return min(good, key=lambda row: row["iterations"] * row["points"])
+    return min(there, key=lambda row: row["error"], default=None)
+
+
+def dense(scene, row, run, body, durings):
+    """The chosen mesh again: error at all brain voxels and outliers rejected, by shift, and the solver's time."""
+    mesh = largest_body(mesh_by(run, row["mesher"], body, row["setting"])[0])
+    voxels = brain_voxels(scene)
+    at = tetrahedra_at(mesh.points, mesh.tetrahedra, voxels, scene.body.shape, scene.affine)
+    results = {}
+    for shift, during in durings.items():
+        runs = [robust.register(mesh, scene.points, during.matched) for _ in range(REPETITIONS)]
+        errors = errors_at(mesh, runs[0].nodes, voxels, at, during.displacement, scene.affine)
+        spoilt, planted = robust.with_outliers(during.matched, PLANTED, *PLANTED_DISTANCE)
+        kept = robust.register(mesh, scene.points, spoilt).kept
+        results[str(shift)] = {
+            "mean": float(errors.mean()), "rootMeanSquare": float(np.sqrt(np.mean(errors**2))),
+            "quantile95": float(np.quantile(errors, 0.95)), "largest": float(errors.max()),
+            "iterations": runs[0].iterations, "solverSeconds": float(np.median([r.seconds for r in runs])),
+            "plantedRejected": float(1 - kept[planted].mean())}
+    return results
+
+
+def compared(parts, scene, run, body, durings, rows, bins=BINS):
+    """(bin, mesher) -> the chosen mesh's record with what dense() adds, or None."""
+    table = {}
+    for interval in bins:
+        for mesher in dict.fromkeys(row["mesher"] for row in rows):
+            row = chosen(rows, mesher, interval)
+            if row:
+                def make(row=row):
+                    return dense(scene, row, run, body, durings)
+                row = {**row, "dense": parts.record("dense-" + name_of(mesher, row["setting"]), make)}
+            table[interval, mesher] = row
+    return table
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("programs")
+    parser.add_argument("folder")
+    parser.add_argument("--shifts", default=",".join(map(str, SHIFTS)))
+    parser.add_argument("--document", action="store_true")
+    options = parser.parse_args()
+    import registration_page  # pylint: disable=import-outside-toplevel  # matplotlib, for those who want it
+    shifts = [float(word) if "." in word else int(word) for word in options.shifts.split(",")]
+    parts = Parts(options.folder)
+    scene = scene_of(parts, shifts)
+    durings = {shift: shifted(parts, scene, shift) for shift in shifts}
+    matches = [matching_quality(scene, shift, during) for shift, during in durings.items()]
+    body, run = body_of(scene.body, scene.affine), Programs(options.programs, parts.folder)
+    rows = swept(parts, scene, run, body, durings[shifts[len(shifts) // 2]], SETTINGS)
+    table = compared(parts, scene, run, body, durings, rows)
+    registration_page.write(parts, matches, rows, table, options.document,
+                            lambda row: mesh_by(run, row["mesher"], body, row["setting"])[0])
+
+
+if __name__ == "__main__":
+    main()
