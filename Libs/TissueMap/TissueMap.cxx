@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueMap.h"
 
+#include <algorithm>
+
 namespace surgicalmesher
 {
 
@@ -12,6 +14,14 @@ std::vector<Label> presentLabels(const TissueMap& map)
     if (label != 0) labels.push_back(label);
   }
   return labels;
+}
+
+bool fillBackground(TissueMap& map, Label label)
+{
+  if (std::find(map.labels.begin(), map.labels.end(), label) != map.labels.end()) return false;
+  std::replace(map.labels.begin(), map.labels.end(), Label(0), label);
+  if (map.table[label].name.empty()) map.table[label].name = "surroundings";
+  return true;
 }
 
 std::map<Label, std::size_t> countVoxels(const TissueMap& map)

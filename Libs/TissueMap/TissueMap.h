@@ -44,6 +44,10 @@ inline Label labelAt(const TissueMap& map, const std::array<int, 3>& voxel)
 /// Labels present in the map, ascending, without background.
 std::vector<Label> presentLabels(const TissueMap& map);
 
+/// Makes the background, all of it, a tissue of that label, which is called "surroundings" if the table has no name for
+/// it. False, and no change, if a voxel has the label already.
+bool fillBackground(TissueMap& map, Label label);
+
 /// Voxels of each label in the map, background included.
 std::map<Label, std::size_t> countVoxels(const TissueMap& map);
 

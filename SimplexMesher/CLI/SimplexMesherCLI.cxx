@@ -68,10 +68,21 @@ void markNullDisplacement(CommandLine& line, TissueMap& map)
   }
 }
 
+/// The surroundings as a tissue, before the table of tissues, which may say more of it.
+void fillSurroundings(const CommandLine& line, TissueMap& map)
+{
+  const auto label = Label(line.integer("background"));
+  if (label == 0) return;
+  if (!fillBackground(map, label))
+    throw InputError(line.text("labelMap") + ": --background " + std::to_string(label) +
+                     ", expected a label that no voxel has");
+}
+
 /// The map and what is asked of its tissues; groups are joined, and tissues left out are gone.
 TissueMap readMap(CommandLine& line, SurfaceReport& results)
 {
   TissueMap map = readTissueMap(line.text("labelMap"));
+  fillSurroundings(line, map);
   std::vector<std::string> warnings;
   completeTissueTable(map, line.text("names"), &warnings);
   const std::string intensities = likenessToIntensities(map);

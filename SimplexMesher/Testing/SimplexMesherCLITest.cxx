@@ -398,6 +398,25 @@ TEST_F(SimplexMesherCLI, KeepsIslandsAndCavitiesTissueByTissue)
   EXPECT_EQ(labelAt(11, 8), 1) << "an island of 1, kept";
 }
 
+TEST_F(SimplexMesherCLI, MeshesTheSurroundingsAsATissue)
+{
+  folder.write("tissues.csv", "name,maximum\nsurroundings,3\n");
+  expectDone("--scale scale.nrrd --background 9 --tissues tissues.csv --preparedLabelMap p.nrrd map.nrrd s.vtp");
+  const TissueMap prepared = readTissueMap(folder.file("p.nrrd"));
+  EXPECT_EQ(presentLabels(prepared), (std::vector<Label>{ 1, 7, 9 }));
+  EXPECT_EQ(countVoxels(prepared).count(0), 0u);
+  EXPECT_EQ(readSurface(folder.file("s.vtp")).tissues.at(9).name, "surroundings");
+  double all = 0;
+  for (const auto& [label, volume] : enclosedVolumes("s.vtp"))
+  {
+    EXPECT_NEAR(volume / volumeOf(prepared, label), 1, label == 9 ? 0.05 : 0.2) << label;
+    all += volume;
+  }
+  EXPECT_NEAR(all / (14 * 12 * 12), 1, 0.05) << "the corners of the map's box are round";
+  expectRefused("--scale scale.nrrd --background 7 map.nrrd s.vtp", 1,
+                "--background 7, expected a label that no voxel has");
+}
+
 TEST_F(SimplexMesherCLI, WritesEveryTissueApartWhateverItsName)
 {
   folder.write("names.ctbl", "1 ../../<a>&b\x01\xff,c 200 200 180 255\n7 %s$(x)'`\\ 255 100 50 255\n");

@@ -33,6 +33,9 @@ class Programs:
     def __init__(self, programs, folder):
         self.programs, self.folder, self.seconds = os.path.abspath(programs), folder, 0.0
 
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
     def __call__(self, program, *arguments):
         before = os.times()
         subprocess.run([os.path.join(self.programs, program), *map(str, arguments)], check=True, cwd=self.folder,
@@ -45,24 +48,24 @@ def ours(run, body, setting, ambient):
     """Setting: (voxel side, edge length), mm: the body on larger voxels is what the surface is near to."""
     side, length = setting
     blocks, coarse = blocks_of(body.mask, body.affine, side)
-    write_nrrd(os.path.join(run.folder, "coarse.nrrd"), blocks.astype(np.uint16), coarse)
+    write_nrrd(run.path("coarse.nrrd"), blocks.astype(np.uint16), coarse)
     beside = ("--ambient", "ambient.vtu") if ambient else ()
     run("SimplexMesherCLI", "--edgeLength", length, *beside, "coarse.nrrd", "surface.vtp")
     run("FuchsTetrahedralizerCLI", "--edgeLength", length, *beside, "surface.vtp", "mesh.vtu")
-    return read_mesh(os.path.join(run.folder, "mesh.vtu"))
+    return read_mesh(run.path("mesh.vtu"))
 
 
 def mesh3(run, setting, refined, out):
     """Setting: (facet distance, edge length), mm."""
     distance, length = setting
-    write_uniform_scale(os.path.join(run.folder, "scale.nrrd"), length)
+    write_uniform_scale(run.path("scale.nrrd"), length)
     run("Mesh3Driver", "body.nrrd", "scale.nrrd", out, *(() if refined else ("--perturb", "--exude")),
         "--facetDistance", distance)
 
 
 def mesh_by(run, mesher, body, setting):
     """The mesh and its processor seconds; raises CalledProcessError where the mesher fails."""
-    write_nrrd(os.path.join(run.folder, "body.nrrd"), body.mask.astype(np.uint16), body.affine)
+    write_nrrd(run.path("body.nrrd"), body.mask.astype(np.uint16), body.affine)
     run.seconds = 0.0
     if mesher.startswith("ours"):
         mesh = ours(run, body, setting, mesher == "ours, ambient")
@@ -74,11 +77,11 @@ def mesh_by(run, mesher, body, setting):
         run.seconds = after.user + after.system - before.user - before.system
     elif mesher == "CGAL Mesh_3":
         mesh3(run, setting, False, "mesh.vtu")
-        mesh = read_mesh(os.path.join(run.folder, "mesh.vtu"))
+        mesh = read_mesh(run.path("mesh.vtu"))
     else:
         mesh3(run, setting, True, "complex.vtu")
         run("TetGenDriver", "complex.vtu", "scale.nrrd", "mesh.vtu")
-        mesh = read_mesh(os.path.join(run.folder, "mesh.vtu"))
+        mesh = read_mesh(run.path("mesh.vtu"))
     return SimpleNamespace(points=mesh.points, tetrahedra=mesh.tetrahedra, tissue=mesh.tissue), run.seconds
 
 

@@ -35,9 +35,9 @@ NOISE = 0.04  # of the brightest voxel
 PLANTED, PLANTED_DISTANCE = 0.1, (5, 15)  # share; mm beside the true displacement
 MOST_ERROR = 0.5  # voxel
 REPETITIONS = 5  # of a registration, for the solver's time
-OURS = [(side, factor * side) for side in (6, 7, 8, 9, *range(10, 23)) for factor in (2, 3, 3.5, 4)]
+OURS = [(side, factor * side) for side in range(5, 23) for factor in (2, 3, 3.5, 4, 4.5)]
 CGAL = [(share * length, length) for length in (18, 20, 22, 24, 26, 28, 32, 34, 36, 38, 40, 42, 45, 47, 50, 52, 55, 60)
-        for share in (0.25, 0.3, 0.4)]
+        for share in (0.25, 0.3, 0.35, 0.4)]
 LATTICE = [(side, weight) for side in (16, 18, 20, 22, 24, 27, 30, 33, 36, 40) for weight in (1, 5)]
 SETTINGS = dict(zip(MESHERS, (OURS, OURS, CGAL, CGAL, LATTICE)))
 

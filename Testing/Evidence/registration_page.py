@@ -99,7 +99,7 @@ def draw_mesh(axis, mesh, color):
     axis.set_xlim(low[0], high[0])
     axis.set_ylim(low[1], high[1])
     axis.set_zlim(low[2], high[2])
-    axis.set_box_aspect(high - low)
+    axis.set_box_aspect(high - low, zoom=1.35)
     axis.view_init(15, -150)
     axis.set_axis_off()
 
