@@ -1,0 +1,435 @@
+#!/usr/bin/python3
+"""Ways to interfaces that contiguous tissues share, after the paper on meshes of the Virtual Family models.
+
+usage: compatible_interfaces.py BIN OUTDIR [--map FILE --groups LABEL=L,L,.. LABEL=..] [--edgeLength MM] [--document]
+
+BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, SurfaceRemesherCLI, Mesh3Driver,
+TetGenDriver and BooleanDriver. The map is jhu189 as it is, or FILE
+(.nii.gz) with groups of its labels joined and all others left out. Docs/Evidence.md says what is compared. Every
+finished way stays in OUTDIR and is not run again. Writes interfaces.md and interfaces.json; --document puts
+the table into Docs/Evidence.md.
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+from types import SimpleNamespace
+
+import nibabel
+import numpy as np
+import vtk
+from scipy import ndimage
+from scipy.spatial import cKDTree
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path[:0] = [os.path.join(ROOT, *folder) for folder in (("workflow", "example"), ("Testing", "Python"),
+                                                           ("Testing", "Evidence"))]
+import document  # noqa: E402
+from brain_meshes import Programs, write_uniform_scale  # noqa: E402
+from fidelity import boundary_of_map, boundary_of_mesh, boundary_triangles, hausdorff_by_tissue  # noqa: E402
+from lattice import lattice_tetrahedra  # noqa: E402
+from maps import ATLAS, LPS_FROM_RAS, write_nrrd  # noqa: E402
+from measures import (TETRAHEDRON_EDGES, TETRAHEDRON_FACES, components_of_mesh, dihedral_angles,  # noqa: E402
+                      euler_numbers_of_map, euler_numbers_of_mesh, signed_volumes)
+from meshfiles import cell_array, interpolated, read_dataset, read_mesh, read_nrrd  # noqa: E402
+from parts import Parts  # noqa: E402
+
+ISLAND = 30  # mm^3
+SMOOTHING = 1.5  # voxels, of a map by the largest of its tissues' blurred shares
+PASS_BAND, ITERATIONS = 0.1, 20  # of the windowed sinc
+OFFSET = 0.2  # voxels, of surfaces that are to overlap
+SPIKE = 2  # voxels
+MARGIN = 4  # voxels of surroundings
+
+
+# ---- the ways; each returns a mesh, or raises one of FAILURES
+
+class NoMesh(Exception):
+    """What a way left cannot be filled."""
+
+
+FAILURES = (subprocess.CalledProcessError, subprocess.TimeoutExpired, NoMesh)
+
+
+def label_transfer(run, given):
+    """A uniform lattice whose tetrahedra take the label at their middle."""
+    corners = np.array(list(np.ndindex(2, 2, 2))) * (np.array(given.labels.shape) - 1)
+    corners = corners @ given.affine[:3, :3].T + given.affine[:3, 3]
+    points, tetrahedra = lattice_tetrahedra(corners.min(axis=0), corners.max(axis=0), given.length)
+    voxels = np.rint((points[tetrahedra].mean(axis=1) - given.affine[:3, 3]) @ np.linalg.inv(given.affine[:3, :3]).T)
+    inside = np.all((voxels >= 0) & (voxels < given.labels.shape), axis=1)
+    tissue = np.zeros(len(tetrahedra), int)
+    tissue[inside] = given.labels[tuple(voxels[inside].astype(int).T)]
+    used, kept = np.unique(tetrahedra[tissue > 0], return_inverse=True)
+    return SimpleNamespace(points=points[used], tetrahedra=kept.reshape(-1, 4), tissue=tissue[tissue > 0])
+
+
+def mesh3(run, given):
+    run("Mesh3Driver", "prepared.nrrd", "scale.nrrd", "mesh3.vtu", "--perturb", "--exude")
+    return read_mesh(run.path("mesh3.vtu"))
+
+
+def coated(labels):
+    """The map with surroundings in place of every voxel that has a neighbour, across a corner at least, of a tissue with
+    a smaller label."""
+    smallest = ndimage.minimum_filter(np.where(labels > 0, labels, labels.max() + 1), 3)
+    return np.where(smallest < labels, 0, labels)
+
+
+def without(mesh, label):
+    used, kept = np.unique(mesh.tetrahedra[mesh.tissue != label], return_inverse=True)
+    return SimpleNamespace(points=mesh.points[used], tetrahedra=kept.reshape(-1, 4), tissue=mesh.tissue[mesh.tissue != label])
+
+
+def background_with_tetgen(run, given):
+    """Mesh_3's surface of the surroundings that coat every tissue, and TetGen in it and in the tissues, its holes."""
+    surroundings = given.labels.max() + 1
+    coat = coated(given.labels)
+    write_nrrd(run.path("coat.nrrd"), np.where(coat == 0, surroundings, coat).astype(np.uint16), given.affine)
+    run("Mesh3Driver", "coat.nrrd", "scale.nrrd", "coat-complex.vtu")
+    run("TetGenDriver", "coat-complex.vtu", "scale.nrrd", "coat-tetgen.vtu")
+    return without(read_mesh(run.path("coat-tetgen.vtu")), surroundings)
+
+
+def background_ours(run, given):
+    """The same coat, by our programs with --background."""
+    surroundings = int(given.labels.max()) + 1
+    write_nrrd(run.path("coat-tissues.nrrd"), coated(given.labels).astype(np.uint16), given.affine)
+    run("SimplexMesherCLI", "--edgeLength", given.length, "--minimumIslandVolume", ISLAND, "--background", surroundings,
+        "--ambient", "coat-ambient.vtu", "coat-tissues.nrrd", "coat.vtp")
+    run("FuchsTetrahedralizerCLI", "--edgeLength", given.length, "--ambient", "coat-ambient.vtu", "coat.vtp", "coat.vtu")
+    return without(read_mesh(run.path("coat.vtu")), surroundings)
+
+
+def smoothed(labels, scale=SMOOTHING):
+    """Each voxel with the tissue, or the background, that has most of its Gaussian neighbourhood."""
+    best, result = np.zeros(labels.shape, np.float32), np.zeros_like(labels)
+    for label in np.unique(labels):
+        share = ndimage.gaussian_filter((labels == label).astype(np.float32), scale)
+        result[share > best] = label
+        best = np.maximum(best, share)
+    return result
+
+
+def marching_cubes(labels, affine):
+    """Discrete marching cubes of every label, windowed sinc: corners (mm), triangles, and the labels on both sides of
+    each (n, 2): a triangle that only one tissue has, has 0 beyond."""
+    padded = np.pad(labels, 1)
+    image = vtk.vtkImageData()
+    image.SetDimensions(padded.shape)
+    image.SetOrigin(-1, -1, -1)
+    image.GetPointData().SetScalars(numpy_to_vtk(padded.astype(np.int32).ravel(order="F"), deep=True))
+    cubes = vtk.vtkDiscreteMarchingCubes()
+    cubes.SetInputData(image)
+    for n, label in enumerate(np.setdiff1d(labels, [0])):
+        cubes.SetValue(n, int(label))
+    merged = vtk.vtkCleanPolyData()
+    merged.SetInputConnection(cubes.GetOutputPort())
+    sinc = vtk.vtkWindowedSincPolyDataFilter()
+    sinc.SetInputConnection(merged.GetOutputPort())
+    sinc.SetNumberOfIterations(ITERATIONS)
+    sinc.SetPassBand(PASS_BAND)
+    sinc.BoundarySmoothingOn()
+    sinc.NonManifoldSmoothingOn()
+    sinc.NormalizeCoordinatesOn()
+    sinc.Update()
+    surface = sinc.GetOutput()
+    triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    owner = vtk_to_numpy(surface.GetCellData().GetScalars()).astype(int)
+    corners = vtk_to_numpy(surface.GetPoints().GetData()).astype(float) @ affine[:3, :3].T + affine[:3, 3]
+    a, b, c = np.moveaxis(corners[triangles], 1, 0)
+    if np.sum(np.cross(b, c) * a) < 0:
+        triangles = triangles[:, ::-1]  # normals point out of the triangle's first tissue
+    keys = np.sort(triangles, axis=1)
+    order = np.lexsort(keys.T)
+    keys, owner, triangles = keys[order], owner[order], triangles[order]
+    same = np.r_[np.all(keys[1:] == keys[:-1], axis=1), False]
+    first = ~np.r_[False, same[:-1]]
+    return corners, triangles[first], np.column_stack([owner, np.where(same, np.roll(owner, -1), 0)])[first]
+
+
+def write_surface(file, corners, triangles, sides):
+    surface, points, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
+    points.SetDataTypeToDouble()
+    points.SetData(numpy_to_vtk(np.ascontiguousarray(corners), deep=True))
+    for triangle in triangles:
+        cells.InsertNextCell(3, triangle.tolist())
+    surface.SetPoints(points)
+    surface.SetPolys(cells)
+    labels = numpy_to_vtk(np.ascontiguousarray(sides, np.int32), deep=True)
+    labels.SetName("BoundaryLabels")
+    surface.GetCellData().AddArray(labels)
+    writer = vtk.vtkXMLPolyDataWriter()
+    writer.SetInputData(surface)
+    writer.SetFileName(file)
+    writer.Write()
+
+
+def cubes_and_sinc(run, given, labels, name):
+    start = time.process_time()
+    corners, triangles, sides = marching_cubes(labels, given.affine)
+    run.seconds += time.process_time() - start
+    given.surfaces[name] = corners, triangles, sides
+    write_surface(run.path(name + ".vtp"), corners, triangles, sides)
+    run("TetGenDriver", name + ".vtp", "scale.nrrd", name + ".vtu")
+    mesh = read_mesh(run.path(name + ".vtu"))
+    if not np.all(np.isin(np.setdiff1d(labels, [0]), mesh.tissue)):
+        raise NoMesh("TetGen's regions lack tissues")
+    return mesh
+
+
+def cubes_raw(run, given):
+    return cubes_and_sinc(run, given, given.raw, "cubes-raw")
+
+
+def cubes_smoothed(run, given):
+    return cubes_and_sinc(run, given, smoothed(given.raw), "cubes-smoothed")
+
+
+def contour(labels, affine, label, offset, file):
+    """The closed surface of one tissue, smoothed, at the level about `offset` voxels outside."""
+    inside = ndimage.gaussian_filter((np.pad(labels, 3) == label).astype(np.float32), 1)
+    image, edges, place = vtk.vtkImageData(), vtk.vtkFlyingEdges3D(), vtk.vtkTransform()
+    image.SetDimensions(inside.shape)
+    image.SetOrigin(-3, -3, -3)
+    image.GetPointData().SetScalars(numpy_to_vtk(inside.ravel(order="F"), deep=True))
+    edges.SetInputData(image)
+    edges.SetValue(0, 0.5 - 0.4 * offset)  # a plane's share falls by 0.4 in a voxel
+    edges.ComputeNormalsOff()
+    place.SetMatrix(affine.ravel().tolist())
+    moved, writer = vtk.vtkTransformPolyDataFilter(), vtk.vtkSTLWriter()
+    moved.SetInputConnection(edges.GetOutputPort())
+    moved.SetTransform(place)
+    writer.SetFileTypeToBinary()
+    writer.SetInputConnection(moved.GetOutputPort())
+    writer.SetFileName(file)
+    writer.Write()
+
+
+def booleans(run, given):
+    """Each tissue's smoothed surface, a little outside, remeshed; their union by corefinement; remeshed again within
+    its curves; and TetGen in it."""
+    bodies = []
+    for label in given.tissues:
+        contour(given.labels, given.affine, label, OFFSET, run.path(f"contour-{label}.stl"))
+        run("SurfaceRemesherCLI", "--edgeLength", given.length, f"contour-{label}.stl", f"body-{label}.vtp")
+        bodies.append(f"{label}=body-{label}.vtp")
+    run("BooleanDriver", "union.vtp", *bodies)
+    given.surfaces["booleans"] = read_surface(run.path("union.vtp"))
+    run("SurfaceRemesherCLI", "--edgeLength", given.length, "union.vtp", "union-remeshed.vtp")
+    run("TetGenDriver", "union-remeshed.vtp", "scale.nrrd", "union.vtu")
+    return read_mesh(run.path("union.vtu"))
+
+
+def read_surface(file):
+    surface = read_dataset(file)
+    return (vtk_to_numpy(surface.GetPoints().GetData()).astype(float),
+            vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3), cell_array(surface, "BoundaryLabels"))
+
+
+def ours(run, given):
+    run("SimplexMesherCLI", "--edgeLength", given.length, "--minimumIslandVolume", ISLAND, "--ambient", "ambient.vtu",
+        "map.nrrd", "surface.vtp")
+    run("FuchsTetrahedralizerCLI", "--edgeLength", given.length, "--ambient", "ambient.vtu", "surface.vtp", "mesh.vtu")
+    return read_mesh(run.path("mesh.vtu"))
+
+
+# By way: how it is done, and the figures that somebody has to choose for it.
+WAYS = {"label transfer": (label_transfer, 1), "CGAL Mesh_3": (mesh3, 4),
+        "background material, Mesh_3 and TetGen": (background_with_tetgen, 4),
+        "background material, ours": (background_ours, 2),
+        "marching cubes and sinc, raw map": (cubes_raw, 3), "marching cubes and sinc, smoothed map": (cubes_smoothed, 4),
+        "offset and booleans": (booleans, 4), "ours": (ours, 1)}
+
+
+# ---- measures
+
+def faces_of(mesh):
+    """Every face's sorted corners, twice where two tetrahedra share it, next to each other; and its tetrahedron."""
+    faces = np.sort(mesh.tetrahedra[:, TETRAHEDRON_FACES].reshape(-1, 3), axis=1)
+    order = np.lexsort(faces.T)
+    return faces[order], np.repeat(np.arange(len(mesh.tetrahedra)), 4)[order]
+
+
+def orthogonality(mesh):
+    """Angles (degrees) between each inner face's normal and the line between the middles of its two tetrahedra."""
+    faces, owner = faces_of(mesh)
+    first = np.flatnonzero(np.all(faces[1:] == faces[:-1], axis=1))
+    a, b, c = np.moveaxis(mesh.points[faces[first]], 1, 0)
+    normals = np.cross(b - a, c - a)
+    middles = mesh.points[mesh.tetrahedra].mean(axis=1)
+    lines = middles[owner[first + 1]] - middles[owner[first]]
+    cosines = np.abs(np.sum(normals * lines, axis=1)) / np.linalg.norm(normals, axis=1) / np.linalg.norm(lines, axis=1)
+    return np.degrees(np.arccos(np.clip(cosines, 0, 1)))
+
+
+def radius_ratios(mesh):
+    """Three inscribed radii over the circumscribed one: 1 for a regular tetrahedron."""
+    corners = mesh.points[mesh.tetrahedra]
+    lengths = np.linalg.norm(corners[:, TETRAHEDRON_EDGES[:, 0]] - corners[:, TETRAHEDRON_EDGES[:, 1]], axis=2)
+    p, q, r = (lengths[:, i] * lengths[:, 5 - i] for i in range(3))
+    volume = np.abs(signed_volumes(mesh))
+    area = sum(np.linalg.norm(np.cross(corners[:, b] - corners[:, a], corners[:, c] - corners[:, a]), axis=1) / 2
+               for a, b, c in TETRAHEDRON_FACES)
+    circumradius = np.sqrt(np.maximum((p + q + r) * (p + q - r) * (p - q + r) * (q + r - p), 0)) / (24 * volume)
+    return 9 * volume / area / np.maximum(circumradius, 1e-300)
+
+
+def jiggle(corners, triangles, sides):
+    """Root mean square angle (degrees) between the normals of neighbours in one sheet between two labels."""
+    a, b, c = np.moveaxis(corners[triangles], 1, 0)
+    normals = np.cross(b - a, c - a)
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+    edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    owner = np.repeat(np.arange(len(triangles)), 3)
+    low, high = np.sort(sides, axis=1).T
+    keys = np.column_stack([edges, low[owner], high[owner]])
+    order = np.lexsort(keys.T)
+    same = np.flatnonzero(np.all(keys[order][1:] == keys[order][:-1], axis=1))
+    first, second = owner[order][same], owner[order][same + 1]
+    # Turned alike if the shared edge runs in opposite directions.
+    def forward(triangle, edge):
+        at = np.argmax(triangles[triangle] == edge[:, :1], axis=1)
+        return triangles[triangle, (at + 1) % 3] == edge[:, 1]
+    edge = edges[order][same]
+    sign = np.where(forward(first, edge) != forward(second, edge), 1, -1)
+    cosines = np.clip(sign * np.sum(normals[first] * normals[second], axis=1), -1, 1)
+    return float(np.sqrt(np.mean(np.degrees(np.arccos(cosines)) ** 2)))
+
+
+def shared_once(triangles, centres, sides, given):
+    """Share of the triangles within the tissues (farther than a voxel from the outside) that two tissues share."""
+    within = interpolated(given.depth, given.affine, centres) > 1.5
+    return float(np.mean(np.all(sides[within] > 0, axis=1))) if np.any(within) else 1.0
+
+
+def surface_measures(corners, triangles, sides, given):
+    used = np.unique(triangles)
+    away = given.tree.query(corners[used], distance_upper_bound=SPIKE * given.voxel)[0]
+    return {"triangles": len(triangles), "jiggle": jiggle(corners, triangles, sides),
+            "sharedOnce": shared_once(triangles, corners[triangles].mean(axis=1), sides, given),
+            "spikes": int(np.count_nonzero(~np.isfinite(away)))}
+
+
+def volume_measures(mesh, given):
+    volumes = np.bincount(mesh.tissue, signed_volumes(mesh), given.labels.max() + 1)
+    wanted = np.bincount(given.labels.ravel()) * given.voxel**3
+    errors = np.abs(volumes / np.maximum(wanted, 1) - 1)[given.tissues]
+    distances = hausdorff_by_tissue(given.boundary, boundary_of_mesh(mesh, 1.0), given.tissues)
+    euler, pieces = euler_numbers_of_mesh(mesh), components_of_mesh(mesh)
+    wrong = [int(label) for label in given.tissues
+             if label >= len(euler) or euler[label] != given.euler[label] or pieces[label] != given.pieces[label]]
+    smallest, angles = dihedral_angles(mesh).min(axis=1), orthogonality(mesh)
+    return {"tetrahedra": len(mesh.tetrahedra), "smallestDihedral": float(smallest.min()),
+            "meanSmallestDihedral": float(smallest.mean()), "radiusRatio": float(radius_ratios(mesh).mean()),
+            "volumeMedian": float(np.median(errors)), "volumeWorst": float(errors.max()),
+            "hausdorffMean": float(np.mean(list(distances.values()))), "hausdorffWorst": float(max(distances.values())),
+            "wrong": wrong, "orthogonalityMean": float(angles.mean()),
+            "orthogonality99": float(np.quantile(angles, 0.99))}
+
+
+def measured(name, run, given):
+    """One row; a way that fails has the measures of the surface that it left, if it left one."""
+    make, parameters = WAYS[name]
+    run.seconds, before = 0.0, time.process_time()
+    row = {"way": name, "parameters": parameters}
+    try:
+        mesh = make(run, given)
+        row["seconds"] = run.seconds if run.seconds else time.process_time() - before
+        triangles, sides = boundary_triangles(mesh)
+        row.update(surface_measures(mesh.points, triangles, sides, given), **volume_measures(mesh, given))
+    except FAILURES as failure:
+        row.update(seconds=run.seconds, failed=str(failure)[-120:])
+        left = [surface for key, surface in given.surfaces.items() if key.split("-")[-1] in name]
+        if left:
+            row.update(surface_measures(*left[0], given))
+    return row
+
+
+# ---- input and output
+
+def tissues_of(options):
+    """The raw map and its affine, cut to the tissues and a margin."""
+    image = nibabel.load(options.map)
+    labels = np.rint(np.asanyarray(image.dataobj)).astype(int)
+    if options.groups:
+        joined = np.zeros_like(labels)
+        for group in options.groups:
+            name, members = group.split("=")
+            joined[np.isin(labels, [int(word) for word in members.split(",")])] = int(name)
+        labels = joined
+    labels = np.pad(labels, MARGIN)
+    low, high = (end(np.argwhere(labels), axis=0) for end in (np.min, np.max))
+    box = tuple(slice(a - MARGIN, b + MARGIN + 1) for a, b in zip(low, high))
+    affine = LPS_FROM_RAS @ image.affine
+    affine[:3, 3] += affine[:3, :3] @ (low - 2 * MARGIN)
+    return labels[box], affine
+
+
+def given_to(run, raw, affine, length):
+    """What all ways are given, and are held against: the prepared map, and the raw one for marching cubes."""
+    write_nrrd(run.path("map.nrrd"), raw.astype(np.uint16), affine)
+    write_uniform_scale(run.path("scale.nrrd"), length)
+    if not os.path.exists(run.path("prepared.nrrd")):
+        run("SimplexMesherCLI", "--edgeLength", length, "--minimumIslandVolume", ISLAND, "--preparedLabelMap",
+            "prepared.nrrd", "map.nrrd", "unused.vtp")
+    labels, affine = read_nrrd(run.path("prepared.nrrd"))
+    labels = labels.astype(int)
+    boundary, tissues = boundary_of_map(labels, affine), np.setdiff1d(labels, [0])
+    pieces = np.zeros(labels.max() + 1, int)
+    pieces[tissues] = [ndimage.label(labels == label)[1] for label in tissues]
+    return SimpleNamespace(raw=raw, labels=labels, affine=affine, length=length, boundary=boundary, tissues=tissues,
+                           tree=cKDTree(boundary.points), depth=ndimage.distance_transform_edt(labels > 0),
+                           voxel=abs(np.linalg.det(affine[:3, :3])) ** (1 / 3), pieces=pieces,
+                           euler=euler_numbers_of_map(labels), surfaces={})
+
+
+def cells_of(row):
+    def of(key, text):
+        return format(row[key], text) if key in row else "-"
+    ended = "no: " + row["failed"].split(" returned")[0].split("/")[-1].strip("',[] ") if "failed" in row else "yes"
+    return [row["way"], ended if len(ended) < 40 else "no", of("tetrahedra", ","),
+            f"{of('smallestDihedral', '.1f')} / {of('meanSmallestDihedral', '.1f')}", of("radiusRatio", ".3f"),
+            of("sharedOnce", ".1%"), of("jiggle", ".1f"), of("spikes", ","),
+            f"{of('hausdorffMean', '.1f')} / {of('hausdorffWorst', '.1f')}",
+            f"{of('volumeMedian', '.1%')} / {of('volumeWorst', '.1%')}", len(row["wrong"]) if "wrong" in row else "-",
+            f"{of('orthogonalityMean', '.1f')} / {of('orthogonality99', '.1f')}", f"{row['seconds']:.1f}", row["parameters"]]
+
+
+def table_of(rows):
+    return document.table(
+        ["way", "meshes", "tetrahedra", "dihedral min / mean min (°)", "radius ratio", "faces shared", "jiggle (°)",
+         "spikes", "D_H mean / worst (mm)", "volume median / worst", "wrong tissues", "orthogonality mean / 99 % (°)",
+         "processor s", "parameters"], [cells_of(row) for row in rows])
+
+
+def main():
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("programs")
+    parser.add_argument("folder")
+    parser.add_argument("--map", default=ATLAS)
+    parser.add_argument("--groups", nargs="+")
+    parser.add_argument("--edgeLength", type=float, default=3)
+    parser.add_argument("--document", action="store_true")
+    options = parser.parse_args()
+    parts = Parts(options.folder)
+    run = Programs(options.programs, parts.folder)
+    given = given_to(run, *tissues_of(options), options.edgeLength)
+    rows = []
+    for name in WAYS:
+        rows.append(parts.record("way-" + name.replace(" ", "-").replace(",", ""), lambda name=name: measured(name, run, given)))
+        print(rows[-1], flush=True)
+    with open(parts.path("interfaces.json"), "w", encoding="utf-8") as file:
+        json.dump(rows, file, indent=1)
+    with open(parts.path("interfaces.md"), "w", encoding="utf-8") as file:
+        file.write(table_of(rows))
+    if options.document:
+        document.put({"six ways": table_of(rows)})
+    print(table_of(rows))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,190 @@
+#!/usr/bin/python3
+"""Whole maps of many tissues: ours and CGAL Mesh_3 at the same scale, and which tissues are lost, by name.
+
+usage: whole_maps.py BIN OUTDIR [--case NAME FILE TARGET MIN,MAX,RADIUS,DECAY NAMES [OPTION..]].. [--document]
+
+BIN holds the three modules and Mesh3Driver. A case is a label map (.nii.gz, .nrrd), a target point x,y,z (LPS mm), the
+four lengths of SurgicalPathScaleCLI, a file of names (- for none), and options of SimplexMesherCLI. Without a case: the
+JHU atlas. Finished maps stay in OUTDIR and are not meshed again. Writes maps.md and maps.json; --document puts the
+tables into Docs/Evidence.md.
+"""
+import argparse
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+from scipy import ndimage
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path[:0] = [os.path.join(ROOT, *folder) for folder in (("workflow", "example"), ("Testing", "Python"),
+                                                           ("Testing", "Evidence"))]
+import document  # noqa: E402
+from brain_meshes import Programs  # noqa: E402
+from fidelity import around, boundary_of_mesh  # noqa: E402
+from maps import ATLAS  # noqa: E402
+from measures import (components_of_mesh, dihedral_angles, euler_numbers_of_map, euler_numbers_of_mesh,  # noqa: E402
+                      signed_volumes)
+from meshfiles import interpolated, read_mesh, read_nrrd  # noqa: E402
+from parts import Parts  # noqa: E402
+
+LARGE = 1000  # voxels, of tissues whose volume counts
+SPOILT = 0.25  # of its volume, a tissue has lost or won
+JHU = ["jhu189", ATLAS, "0,0,-10", "1,8,10,25", "-", "--minimumIslandVolume", "30"]
+
+
+def options_of(arguments):
+    cases, rest = [], []
+    for word in arguments:
+        if word == "--case":
+            cases.append([])
+        elif word == "--document" or not cases:
+            rest.append(word)
+        else:
+            cases[-1].append(word)
+    parser = argparse.ArgumentParser(usage=__doc__)
+    parser.add_argument("programs")
+    parser.add_argument("folder")
+    parser.add_argument("--document", action="store_true")
+    options = parser.parse_args(rest)
+    if any(len(case) < 5 for case in cases):
+        parser.error("--case needs a name, a map, a target, four lengths and a file of names")
+    return options, cases or [JHU]
+
+
+def read_names(file):
+    """Label -> name, of a Slicer colour table or an ITK-SNAP label file."""
+    names = {}
+    if file != "-":
+        with open(file, encoding="utf-8") as stream:
+            for fields in (line.split() for line in stream):
+                if len(fields) > 1 and fields[0].isdigit():
+                    names[int(fields[0])] = fields[1]
+    return names
+
+
+def mean_distances(mesh, labels, affine):
+    """Label -> mean distance (mm) of points 1 mm apart on the tissue's boundary in the mesh from that in the map."""
+    boundary = boundary_of_mesh(mesh, 1.0)
+    spacing = np.linalg.norm(affine[:3, :3], axis=0)
+    result = {}
+    for label, box in enumerate(ndimage.find_objects(labels), 1):
+        points = around(boundary, label)
+        if box is None or len(points) == 0:
+            continue
+        low = np.maximum([part.start - 4 for part in box], 0)
+        cut = labels[tuple(slice(a, part.stop + 4) for a, part in zip(low, box))] == label
+        cut, shift = np.pad(cut, 1), low - 1
+        inner, outer = (ndimage.distance_transform_edt(part, spacing) for part in (cut, ~cut))
+        half = 0.5 * spacing.min()
+        moved = affine.copy()
+        moved[:3, 3] += affine[:3, :3] @ shift
+        signed = np.where(cut, half - inner, outer - half)
+        result[label] = float(np.abs(interpolated(signed, moved, points)).mean())
+    return result
+
+
+def tissues_of(mesh, labels, affine):
+    """By label: voxels, volume over the map's (0: lost), whether its pieces and its Euler number are the map's, and
+    the mean distance in voxels."""
+    size = abs(np.linalg.det(affine[:3, :3]))
+    voxels = np.bincount(labels.ravel())
+    euler_map, euler, pieces = euler_numbers_of_map(labels), euler_numbers_of_mesh(mesh), components_of_mesh(mesh)
+    volumes = np.bincount(mesh.tissue, signed_volumes(mesh), len(voxels))
+    distances = mean_distances(mesh, labels, affine)
+    result = {}
+    for label in np.setdiff1d(labels, [0]).tolist():
+        box = ndimage.find_objects((labels == label).astype(np.uint8))[0]
+        count = ndimage.label(labels[box] == label)[1]
+        there = label < len(euler)
+        result[str(label)] = {
+            "voxels": int(voxels[label]), "volume": float(volumes[label] / (voxels[label] * size)),
+            "right": bool(there and euler[label] == euler_map[label] and pieces[label] == count),
+            "distance": distances.get(label, np.inf) / size ** (1 / 3)}
+    return result
+
+
+def mesh_by(mesher, run, scale, file, options):
+    """The mesh, from OUTDIR's prepared.nrrd for others."""
+    if mesher == "ours":
+        run("SimplexMesherCLI", "--scale", "scale.nrrd", *options, "--preparedLabelMap", "prepared.nrrd", "--ambient",
+            "ambient.vtu", file, "surface.vtp")
+        run("FuchsTetrahedralizerCLI", "--scale", "scale.nrrd", "--ambient", "ambient.vtu", "surface.vtp", "mesh.vtu")
+        return read_mesh(run.path("mesh.vtu"))
+    run("Mesh3Driver", "prepared.nrrd", "scale.nrrd", "mesh3.vtu", "--perturb", "--exude", "--facetDistance",
+        scale.split(",")[0])
+    return read_mesh(run.path("mesh3.vtu"))
+
+
+def measured(case, mesher, run):
+    name, file, target, scale, names, *options = case
+    lengths = dict(zip(("--minimumEdgeLength", "--maximumEdgeLength", "--childRadius", "--decayLength"), scale.split(",")))
+    run.seconds = 0.0
+    run("SurgicalPathScaleCLI", "--targetPoint=" + target, *(word for pair in lengths.items() for word in pair),
+        os.path.abspath(file), "scale.nrrd")
+    if mesher == "ours":
+        options += [] if names == "-" else ["--names", os.path.abspath(names)]
+    mesh = mesh_by(mesher, run, scale, os.path.abspath(file), options)
+    seconds = run.seconds
+    labels, affine = read_nrrd(run.path("prepared.nrrd"))
+    angles = dihedral_angles(mesh)
+    return {"map": name, "mesher": mesher, "seconds": seconds, "tetrahedra": len(mesh.tetrahedra),
+            "smallestDihedral": float(angles.min()), "largestDihedral": float(angles.max()),
+            "tissues": tissues_of(mesh, labels.astype(int), affine)}
+
+
+def row_of(record):
+    tissues = record["tissues"].values()
+    large = [abs(tissue["volume"] - 1) for tissue in tissues if tissue["voxels"] > LARGE]
+    distances = [tissue["distance"] for tissue in tissues if np.isfinite(tissue["distance"])]
+    return [record["map"], record["mesher"], len(record["tissues"]), f"{record['tetrahedra']:,}",
+            f"{record['smallestDihedral']:.1f} .. {record['largestDihedral']:.1f}",
+            sum(not tissue["right"] for tissue in tissues), sum(tissue["volume"] == 0 for tissue in tissues),
+            f"{np.median(large):.2%} / {max(large):.1%}", f"{np.median(distances):.2f} / {max(distances):.2f}",
+            f"{record['seconds']:.0f}"]
+
+
+def spoilt(record, names):
+    """Tissues lost, and those with another volume, smallest first."""
+    found = sorted((tissue["voxels"], tissue["volume"], label) for label, tissue in record["tissues"].items()
+                   if abs(tissue["volume"] - 1) > SPOILT)
+    return ", ".join(f"{names.get(int(label), label)} ({'lost' if volume == 0 else f'{volume - 1:+.0%}'} of {voxels})"
+                     for voxels, volume, label in found) or "none"
+
+
+def tables_of(records, names):
+    """`names`: map -> label -> name."""
+    return {
+        "whole maps": document.table(
+            ["map", "mesher", "tissues", "tetrahedra", "dihedral angles (°)", "wrong", "lost",
+             "volume of large tissues, median / worst", "mean distance, median / worst tissue (voxels)", "processor s"],
+            [row_of(record) for record in records]),
+        "lost tissues": document.table(
+            ["map", "mesher", f"tissues lost or off by more than {SPOILT:.0%} of their volume (of so many voxels)"],
+            [[record["map"], record["mesher"], spoilt(record, names[record["map"]])] for record in records])}
+
+
+def main():
+    options, cases = options_of(sys.argv[1:])
+    parts = Parts(options.folder)
+    records = []
+    for case in cases:
+        run = Programs(options.programs, Parts(parts.path(case[0])).folder)
+        for mesher in ("ours", "CGAL Mesh_3"):
+            def make(case=case, mesher=mesher, run=run):
+                return measured(case, mesher, run)
+            records.append(parts.record(f"{case[0]}-{mesher.split()[-1]}", make))
+            print(row_of(records[-1]), flush=True)
+    tables = tables_of(records, {case[0]: read_names(case[4]) for case in cases})
+    with open(parts.path("maps.json"), "w", encoding="utf-8") as file:
+        json.dump(records, file, indent=1)
+    with open(parts.path("maps.md"), "w", encoding="utf-8") as file:
+        file.write("\n".join(tables.values()))
+    if options.document:
+        document.put(tables)
+    print("\n".join(tables.values()))
+
+
+if __name__ == "__main__":
+    main()
