@@ -80,8 +80,9 @@ def coated(labels):
 
 
 def without(mesh, label):
-    used, kept = np.unique(mesh.tetrahedra[mesh.tissue != label], return_inverse=True)
-    return SimpleNamespace(points=mesh.points[used], tetrahedra=kept.reshape(-1, 4), tissue=mesh.tissue[mesh.tissue != label])
+    others = mesh.tissue != label
+    used, kept = np.unique(mesh.tetrahedra[others], return_inverse=True)
+    return SimpleNamespace(points=mesh.points[used], tetrahedra=kept.reshape(-1, 4), tissue=mesh.tissue[others])
 
 
 def background_with_tetgen(run, given):
@@ -396,7 +397,8 @@ def cells_of(row):
             of("sharedOnce", ".1%"), of("jiggle", ".1f"), of("spikes", ","),
             f"{of('hausdorffMean', '.1f')} / {of('hausdorffWorst', '.1f')}",
             f"{of('volumeMedian', '.1%')} / {of('volumeWorst', '.1%')}", len(row["wrong"]) if "wrong" in row else "-",
-            f"{of('orthogonalityMean', '.1f')} / {of('orthogonality99', '.1f')}", f"{row['seconds']:.1f}", row["parameters"]]
+            f"{of('orthogonalityMean', '.1f')} / {of('orthogonality99', '.1f')}", f"{row['seconds']:.1f}",
+            row["parameters"]]
 
 
 def table_of(rows):
@@ -420,7 +422,8 @@ def main():
     given = given_to(run, *tissues_of(options), options.edgeLength)
     rows = []
     for name in WAYS:
-        rows.append(parts.record("way-" + name.replace(" ", "-").replace(",", ""), lambda name=name: measured(name, run, given)))
+        file = "way-" + name.replace(" ", "-").replace(",", "")
+        rows.append(parts.record(file, lambda name=name: measured(name, run, given)))
         print(rows[-1], flush=True)
     with open(parts.path("interfaces.json"), "w", encoding="utf-8") as file:
         json.dump(rows, file, indent=1)

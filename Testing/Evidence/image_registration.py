@@ -106,7 +106,8 @@ def errors_at(mesh, nodes, voxels, at, truth, affine):
     result = np.empty(len(voxels))
     for some in np.array_split(np.arange(len(voxels)), 1 + len(voxels) // 200000):
         corners = mesh.tetrahedra[at[some]]
-        shares = np.einsum("pai,pi->pa", gradients[at[some]], positions_of(voxels[some], affine) - mesh.points[corners[:, 0]])
+        positions = positions_of(voxels[some], affine)
+        shares = np.einsum("pai,pi->pa", gradients[at[some]], positions - mesh.points[corners[:, 0]])
         shares[:, 0] += 1
         found = np.einsum("pa,pai->pi", shares, nodes[corners])
         result[some] = np.linalg.norm(found - truth[tuple(voxels[some].T)], axis=1)
@@ -153,8 +154,8 @@ def swept(parts, scene, run, body, during, settings):
 
 
 def chosen(rows, mesher, interval):
-    """The paper's second experiment, for every mesher alike: of its meshes at that distance, the fastest to solve of those
-    with a mean error of at most half a voxel; if there is none, the one with the least error; None without a mesh."""
+    """The paper's second experiment, for every mesher alike: of its meshes at that distance, the fastest to solve of
+    those with a mean error of at most half a voxel; if there is none, the one with the least; None without a mesh."""
     there = [row for row in rows if row["mesher"] == mesher and "failed" not in row
              and interval[0] <= row["hausdorff"] <= interval[1]]
     good = [row for row in there if row["error"] <= MOST_ERROR]

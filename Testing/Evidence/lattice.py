@@ -22,7 +22,7 @@ SMALLEST = 0.05  # of a tetrahedron's volume in the lattice
 
 
 def lattice_tetrahedra(low, high, side):
-    """Points and positively wound tetrahedra of the lattice over a box: four around each face between two cubes' centres."""
+    """Points and positively wound tetrahedra of the lattice over a box: four around each face between two cubes."""
     size = np.ceil((high - low) / side).astype(int) + 1
     cubes = np.argwhere(np.ones(size, bool))
     corner_size = size + 1

@@ -57,8 +57,8 @@ def error_rows(table):
     for (interval, mesher), row in table.items():
         if row:
             yield [interval_text(interval), mesher] + [
-                f"{result['mean']:.2f} / {result['rootMeanSquare']:.2f} / {result['quantile95']:.2f} / {result['largest']:.1f}"
-                for result in row["dense"].values()]
+                " / ".join([*(f"{result[key]:.2f}" for key in ("mean", "rootMeanSquare", "quantile95")),
+                            f"{result['largest']:.1f}"]) for result in row["dense"].values()]
 
 
 def error_table(table, shifts):

@@ -1,4 +1,7 @@
-"""Ways to shared interfaces, on two halves of a ball with a third tissue between. usage: test_compatible_interfaces.py BIN OUTDIR"""
+"""Ways to shared interfaces, on two halves of a ball with a third tissue between.
+
+usage: test_compatible_interfaces.py BIN OUTDIR
+"""
 import os
 import shutil
 import sys

@@ -24,7 +24,8 @@ class BoxTest(unittest.TestCase):
         labels, affine = cut_out(np.s_[60:84, 90:114, 50:74])
         write_nrrd(run.path("box.nrrd"), labels, affine)
         centre = affine[:3, :3] @ [12, 12, 12] + affine[:3, 3]
-        case = ["box", run.path("box.nrrd"), ",".join(f"{x:g}" for x in centre), "1,4,6,10", "-", "--minimumIslandVolume", "30"]
+        target = ",".join(f"{x:g}" for x in centre)
+        case = ["box", run.path("box.nrrd"), target, "1,4,6,10", "-", "--minimumIslandVolume", "30"]
         records = [evidence.measured(list(case), mesher, run) for mesher in ("ours", "CGAL Mesh_3")]
         tissues = records[0]["tissues"]
         self.assertGreater(len(tissues), 5)

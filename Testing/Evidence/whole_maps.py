@@ -11,7 +11,6 @@ tables into Docs/Evidence.md.
 import argparse
 import json
 import os
-import subprocess
 import sys
 
 import numpy as np
