@@ -11,6 +11,7 @@
 #include "SolverExports.h"
 #include "TemplateFit.h"
 #include "TemplateFitCLIXML.h"
+#include "Text.h"
 #include "TissueMapIO.h"
 #include "Validity.h"
 
@@ -204,6 +205,7 @@ void writeReport(const std::string& file, const CommandLine& line, const Report&
                     writeMember(json, "lengths", "mm");
                     writeMember(json, "alpha", line.number("alpha"));
                     writeMember(json, "iterations", line.integer("iterations"));
+                    writeMember(json, "minimumScaledJacobian", line.number("minimumScaledJacobian"));
                     writeMember(json, "repairRounds", report.fit.repairRounds);
                     writeMember(json, "turnedFacets", report.fit.turnedFacets);
                     json.Key("quality");
@@ -270,7 +272,12 @@ void run(CommandLine& line)
   options.alpha = line.number("alpha");
   options.iterations = line.integer("iterations");
   options.landmarkWeight = line.number("landmarkWeight");
+  options.minimumScaledJacobian = line.number("minimumScaledJacobian");
   const FitResult fit = fitTemplate(mesh, pairs, target, options, subProgress(progress, 0.05, 0.8));
+  const double least = validityOf(mesh.elements, fit.points).minimum;
+  if (least < options.minimumScaledJacobian)
+    line.warning(templateFile + ": the least scaled Jacobian of the fit is " + text::rounded(least) + ", expected " +
+                 text::rounded(options.minimumScaledJacobian) + " (--minimumScaledJacobian)");
   report(progress, 0.8, "measuring");
   const Report results{ mesh, pairs, fit, distancesOf(mesh, fit.spline, target),
                         distancesOf(mesh, fit.points, target) };

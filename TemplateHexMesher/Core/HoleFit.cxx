@@ -257,9 +257,12 @@ void fitToHoles(LayeredMesh& mesh, const Envelope& envelope, const std::array<Ho
   EnergyWeights weights{ 0.3, 10, 0.4, 0.2 };
   fit.rounds(kRounds, weights);
   Validity validity = validityOf(mesh.mesh.elements, mesh.mesh.points);
-  for (int round = 0; round < repairRounds && validity.invalid > 0; ++round)
+  double before = -2; // the least of the round before
+  for (int round = 0; round < repairRounds; ++round)
   {
+    if (validity.invalid == 0 && (validity.minimum >= kPoor || validity.minimum <= before)) break;
     report(progress, 0.9, "repairing elements");
+    before = validity.minimum;
     weights.hinge *= 2;
     fit.rounds(1, weights);
     validity = validityOf(mesh.mesh.elements, mesh.mesh.points);

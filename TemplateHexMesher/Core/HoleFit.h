@@ -13,8 +13,8 @@ using HoleBorders = std::vector<std::vector<Eigen::Vector3d>>; ///< closed loops
 /// Moves nodes to the minimum of FitEnergy: all of a mesh of at most 20,000, else those within three elements of a hole,
 /// or of an element with a scaled Jacobian under 0.2. Nodes on a side of the envelope slide on it (in the smaller mesh
 /// faces lie on skin and inner surface by their middles, too); nodes around a hole are drawn to its `borders` on the
-/// outer and the inner surface and to its walls between. Throws EngineError, with the place, if an element is still
-/// invalid after `repairRounds` rounds more.
+/// outer and the inner surface and to its walls between. Rounds of repair follow, at most `repairRounds`, while an element
+/// is invalid, or under 0.2 and each brings more. Throws EngineError, with the place, if one is still invalid then.
 void fitToHoles(LayeredMesh& mesh, const Envelope& envelope, const std::array<HoleBorders, 2>& borders,
                 int repairRounds, const Progress& progress = {});
 

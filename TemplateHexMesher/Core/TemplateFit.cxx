@@ -232,20 +232,29 @@ private:
   std::vector<Attachment> m_Landmarks;
 };
 
+/// Of the corners' mean quality. Better shapes are paid for by nodes that slide on the target: 0.2 in place of 0.1 gives
+/// 0.02 more mean scaled Jacobian and 0.08 mm more error under known warps.
+constexpr double kMeanWeight = 0.1;
+
 /// From stiff to soft, each weight twice.
 std::vector<EnergyWeights> fittingRounds(double alpha)
 {
   std::vector<EnergyWeights> rounds;
   for (const double factor : { 100, 30, 10, 3, 1 })
   {
-    for (int twice = 0; twice < 2; ++twice) rounds.push_back({ alpha * factor, 10, 0.25, 0.2 });
+    for (int twice = 0; twice < 2; ++twice) rounds.push_back({ alpha * factor, 10, 0.25, kMeanWeight });
   }
   return rounds;
 }
 
-/// For the elements' quality, and once more for closeness.
-EnergyWeights polishing(double alpha) { return { alpha, 60, 0.5, 0.1 }; }
-constexpr int kPolishingRounds = 3;
+/// For the elements' quality, and for closeness: each round forgives what the last one bent.
+EnergyWeights polishing(double alpha) { return { alpha, 60, 0.5, kMeanWeight }; }
+
+/// A surface has no corners to improve, and slides the farther the longer it is polished.
+int polishingRounds(const ElementMesh& mesh)
+{
+  return std::any_of(mesh.elements.begin(), mesh.elements.end(), [](const Element& e) { return isVolume(e); }) ? 6 : 3;
+}
 
 } // namespace
 
@@ -255,14 +264,15 @@ FitResult fitTemplate(const ElementMesh& mesh, const LandmarkPairs& landmarks, T
   report(progress, 0, "spline of the landmarks");
   Fit fit(mesh, landmarks, std::move(target), options);
   const std::vector<EnergyWeights> rounds = fittingRounds(options.alpha);
-  const double count = double(rounds.size()) + kPolishingRounds;
+  const int polishingCount = polishingRounds(mesh);
+  const double count = double(rounds.size()) + polishingCount;
   for (std::size_t i = 0; i < rounds.size(); ++i)
   {
     report(progress, 0.05 + 0.9 * double(i) / count, "fitting the surface");
     fit.round(rounds[i]);
   }
   EnergyWeights weights = polishing(options.alpha);
-  for (int i = 0; i < kPolishingRounds; ++i)
+  for (int i = 0; i < polishingCount; ++i)
   {
     report(progress, 0.05 + 0.9 * (double(rounds.size()) + i) / count, "improving elements");
     fit.relax();
@@ -270,9 +280,13 @@ FitResult fitTemplate(const ElementMesh& mesh, const LandmarkPairs& landmarks, T
   }
   int repairRounds = 0;
   Validity validity = fit.validity();
-  for (; (validity.invalid > 0 || fit.turnedFacets() > 0) && repairRounds < options.repairRounds; ++repairRounds)
+  double before = -2; // the least of the round before
+  for (; repairRounds < options.repairRounds; ++repairRounds)
   {
+    const bool valid = validity.invalid == 0 && fit.turnedFacets() == 0;
+    if (valid && (validity.minimum >= options.minimumScaledJacobian || validity.minimum <= before)) break;
     report(progress, 0.95, "repairing elements");
+    before = validity.minimum;
     weights.hinge *= 2;
     fit.relax();
     fit.round(weights);

@@ -14,7 +14,8 @@ struct FitOptions
   double alpha = 1;           ///< smoothness of the displacements from the spline in the last rounds; see EnergyWeights
   int iterations = 15;        ///< steps of each round
   double landmarkWeight = 50; ///< of squared distances to landmarks, mm^-2; the surface's weight is 1
-  int repairRounds = 12;      ///< at most, after the fit, while an element is invalid
+  int repairRounds = 12;      ///< at most, after the fit, while an element is invalid or has less than
+  double minimumScaledJacobian = 0.3; ///< at a corner; for that alone no longer than each round brings more
 };
 
 struct FitResult

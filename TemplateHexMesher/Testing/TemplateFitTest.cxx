@@ -67,6 +67,14 @@ Pull pullTo(std::int32_t node, const Eigen::Vector3d& goal)
   return pull;
 }
 
+/// Bent, and sheared so that no element keeps its corners.
+Points folded(const Points& points)
+{
+  Points moved = bent(points);
+  for (Eigen::Index i = 0; i < moved.cols(); ++i) moved(0, i) += 12 * std::sin(moved(1, i) / 8);
+  return moved;
+}
+
 } // namespace
 
 TEST(ThinPlateSpline, TakesCentresToGoalsAndKeepsAffineMaps)
@@ -248,6 +256,25 @@ TEST(TemplateFit, LeavesNoInvalidElementWhereTheSplineDoes)
   options.landmarkWeight = 1;
   const FitResult fit = fitTemplate(mesh, pairs, TargetSurface(outerSurface({ truth, mesh.elements })), options);
   EXPECT_EQ(invalidIn(mesh, fit.points), 0u);
+}
+
+TEST(TemplateFit, RepairsWhatIsWorseThanAskedFor)
+{
+  const ElementMesh mesh = slab();
+  const Points truth = folded(mesh.points);
+  const TargetSurface target(outerSurface({ truth, mesh.elements }));
+  const LandmarkPairs pairs = everyNth(mesh.points, truth, 13);
+  FitOptions options;
+  options.minimumScaledJacobian = 0;
+  const FitResult valid = fitTemplate(mesh, pairs, target, options);
+  const double least = validityOf(mesh.elements, valid.points).minimum;
+  EXPECT_EQ(valid.repairRounds, 0);
+  options.minimumScaledJacobian = least + 0.01;
+  const FitResult better = fitTemplate(mesh, pairs, target, options);
+  EXPECT_GT(better.repairRounds, 0);
+  EXPECT_GT(validityOf(mesh.elements, better.points).minimum, least);
+  options.minimumScaledJacobian = 1;
+  EXPECT_LT(fitTemplate(mesh, pairs, target, options).repairRounds, options.repairRounds);
 }
 
 TEST(TemplateFit, FitsASurfaceWithoutElementsInside)

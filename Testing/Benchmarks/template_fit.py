@@ -3,7 +3,7 @@
 
 FACE is a folder with newface.node, newface.elem and badinface_adjusted.node (ArtiSynth's face and its adaptation to a
 second person), ICT one with neutral.obj.gz and identity003.obj.gz (ICT-FaceKit). TABLE: face, robust, ict, warps,
-muscles, baselines; without one, all. Each row is printed as soon as it is known. Seconds are the
+volumes, muscles, baselines, face_baselines; without one, all. Each row is printed as soon as it is known. Seconds are the
 processor's, over all threads.
 """
 import gzip
@@ -403,6 +403,103 @@ def print_summary(name, rows, count):
           f"{there['fitted']:.3f}, {there['spline']:.3f} |", flush=True)
 
 
+# ---- hexahedra by volumetric parameterisation
+
+DIVISIONS = ("48,5,48", "78,8,78", "118,8,116")
+
+
+def opposite_sides(cell):
+    """Pairs of opposite sides of an element, as indices into HEXAHEDRON or WEDGE; quadrilaterals of a wedge have none."""
+    return {0: 1, 1: 0, 2: 4, 4: 2, 3: 5, 5: 3} if len(cell) == 8 else {0: 1, 1: 0}
+
+
+def depths(cells):
+    """(face, elements from it through the slab to the other side) of each outer face; 0 where that does not end."""
+    sides = [[tuple(cell[i] for i in side) for side in (HEXAHEDRON if len(cell) == 8 else WEDGE)] for cell in cells]
+    at = {}
+    for element, faces in enumerate(sides):
+        for number, face in enumerate(faces):
+            at.setdefault(frozenset(face), []).append((element, number))
+    for key, found in at.items():
+        if len(found) > 1:
+            continue
+        (element, number), = found
+        first, depth = sides[element][number], 1
+        while depth and depth < 500:
+            across = opposite_sides(cells[element]).get(number)
+            if across is None:
+                depth = 0
+                break
+            beyond = [next_ for next_ in at[frozenset(sides[element][across])] if next_[0] != element]
+            if not beyond:
+                break
+            (element, number), = beyond
+            depth += 1
+        yield first, depth
+
+
+def connected(faces):
+    """The faces in groups that share nodes."""
+    parent = {}
+
+    def root(node):
+        while parent.setdefault(node, node) != node:
+            node = parent[node]
+        return node
+    for face in faces:
+        for node in face[1:]:
+            parent[root(node)] = root(face[0])
+    groups = {}
+    for face in faces:
+        groups.setdefault(root(face[0]), []).append(face)
+    return list(groups.values())
+
+
+def painted_sides(face):
+    """Triangles of the boundary and their Side, by the three layers of elements and newface's own coordinates."""
+    outer = list(depths(face.cells))
+    sheets = connected([nodes for nodes, depth in outer if depth == 3])
+    skin = max(sheets, key=lambda sheet: np.mean([face.points[list(nodes)].mean(axis=0)[1] for nodes in sheet]))
+    skin = set(skin)
+    walls = connected([nodes for nodes, depth in outer if depth != 3])
+    rim = set(max(walls, key=len))
+    triangles, sides = [], []
+    for nodes, depth in outer:
+        x, _, z = face.points[list(nodes)].mean(axis=0)
+        around = 6 if z > -3 else 5 if z < -104 else 3 if x < 0 else 4
+        side = (1 if nodes in skin else 2) if depth == 3 else around if nodes in rim else 0
+        for i in range(2, len(nodes)):
+            triangles.append([nodes[0], nodes[i - 1], nodes[i]])
+            sides.append(side)
+    return np.array(triangles), np.array(sides)
+
+
+def volumes_table(folder, face):
+    print("\nHexahedra of both faces' volumes by VolumetricHexCLI; distances are means, mm"
+          f"\n{'':8}{'divisions':12}{'elements':>9}{'invalid':>8}{'min SJ':>8}{'mean':>7}{'skew':>7}{'to skin':>9}"
+          f"{'from skin':>10}{'seconds':>9}")
+    triangles, sides = painted_sides(face)
+    for name, points in (("first", face.points), ("second", face.other)):
+        surface, made = os.path.join(folder, name + ".sides.vtp"), os.path.join(folder, name)
+        face_shape.write_surface(surface, points, triangles, sides)
+        for divisions in DIVISIONS:
+            before = resource.getrusage(resource.RUSAGE_CHILDREN)
+            done = subprocess.run([os.path.join(BIN, "VolumetricHexCLI"), "--divisions", divisions, "--report",
+                                   made + ".json", surface, surface, f"{made}.{divisions}.vtu"],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+            after = resource.getrusage(resource.RUSAGE_CHILDREN)
+            if done.returncode:
+                print(f"{name:8}{divisions:12}{done.stderr.strip()}")
+                continue
+            with open(made + ".json", encoding="utf-8") as file:
+                report = json.load(file)
+            seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+            print(f"{name:8}{divisions:12}{report['elements']:9d}{report['invalid']:8d}"
+                  f"{report['minimumScaledJacobian']:8.3f}{report['meanScaledJacobian']:7.3f}"
+                  f"{report['meanShapeSkew']:7.3f}{report['meshToSkin']['mean']:9.3f}"
+                  f"{report['skinToMesh']['mean']:10.3f}{seconds:9.1f}", flush=True)
+
+
 # ---- muscles
 
 def inside(points, surface):
@@ -468,7 +565,7 @@ def muscles_table(folder):
         if report is None:
             print(f"{size:2d} mm           {fitted}")
             continue
-        for divisions in ("48,5,48", "78,8,78", "118,8,116"):
+        for divisions in DIVISIONS:
             parts = [word for name in muscles for word in ("--parts", at(f"muscles.fitted.{name}.vtu"))]
             done = subprocess.run([os.path.join(BIN, "VolumetricHexCLI"), "--divisions", divisions, *parts, "--report",
                                    at("hex.json"), at("person.vtp"), at("muscles.fitted.sides.vtu"), at("hex.vtu")],
@@ -489,30 +586,48 @@ def muscles_table(folder):
                   flush=True)
 
 
+BASELINES_HEAD = "| warp | divisions | method | hexahedra | invalid | minimum, mean scaled Jacobian | | shape skew |"
+
+
+def baseline_rows(folder, name, template, marks, options):
+    """Rows of HexahedraBaselines (TemplateHexMesher/Testing) for person.vtp; sides.vtp is the template's envelope."""
+    at = lambda file: os.path.join(folder, file)  # noqa: E731
+    report, _, fitted = fit(folder, "base", template, at("person.vtp"), marks, *options, "--carry", at("sides.vtp"))
+    if report is None:
+        print(f"| {name} | {fitted}")
+        return
+    done = subprocess.run([os.path.join(BIN, "HexahedraBaselines"), at("sides.vtp"), at("base.fitted.sides.vtu"),
+                           at("person.vtp"), at("base.a.fcsv"), at("base.b.fcsv"), *DIVISIONS],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    for line in (done.stdout + done.stderr).splitlines():
+        print(f"| {name} {line}", flush=True)
+
+
 def baselines_table(folder):
-    """By HexahedraBaselines of TemplateHexMesher/Testing, which prints the rows."""
-    print("\nHexahedra of known warps of the project's own face, landmarks with 1 mm noise, by several methods"
-          "\n| warp | divisions | method | hexahedra | invalid | minimum, mean scaled Jacobian | | shape skew |")
+    print("\nHexahedra of known warps of the project's own face, landmarks with 1 mm noise, by several methods\n"
+          + BASELINES_HEAD)
     points, triangles, sides = face_shape.envelope()
-    at = lambda name: os.path.join(folder, name)  # noqa: E731
     marks = np.array(list(face_shape.landmarks().values()))
-    face_shape.write_surface(at("sides.vtp"), points, triangles, sides)
+    face_shape.write_surface(os.path.join(folder, "sides.vtp"), points, triangles, sides)
     near = [np.linalg.norm(points - mark, axis=1).argmin() for mark in marks]
     for name, size in (("10 mm", 10), ("20 mm, folds", 20)):
         random = np.random.default_rng(300 + size)
         warp = smooth_warp(random, size, points) if size < 20 else folding_warp(random, points, near)
-        face_shape.write_surface(at("person.vtp"), warp(points), triangles)
+        face_shape.write_surface(os.path.join(folder, "person.vtp"), warp(points), triangles)
         noisy = warp(marks) + random.normal(0, 1 / np.sqrt(3), marks.shape)
-        report, _, fitted = fit(folder, "base", os.path.join(ROOT, "TemplateHexMesher", "Template", "face.vtu"),
-                                at("person.vtp"), (marks, noisy), "--landmarkWeight", "1", "--carry", at("sides.vtp"))
-        if report is None:
-            print(f"| {name} | {fitted}")
-            continue
-        done = subprocess.run([os.path.join(BIN, "HexahedraBaselines"), at("sides.vtp"), at("base.fitted.sides.vtu"),
-                               at("person.vtp"), at("base.a.fcsv"), at("base.b.fcsv"), "48,5,48", "78,8,78"],
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
-        for line in (done.stdout + done.stderr).splitlines():
-            print(f"| {name} {line}", flush=True)
+        baseline_rows(folder, name, os.path.join(ROOT, "TemplateHexMesher", "Template", "face.vtu"), (marks, noisy),
+                      ("--landmarkWeight", "1"))
+
+
+def face_baselines_table(folder, face):
+    print("\nHexahedra of each face's volume by several methods, the other one being the template\n" + BASELINES_HEAD)
+    triangles, sides = painted_sides(face)
+    for name, source, person in (("forth", face.points, face.other), ("back", face.other, face.points)):
+        face_shape.write_surface(os.path.join(folder, "sides.vtp"), source, triangles, sides)
+        face_shape.write_surface(os.path.join(folder, "person.vtp"), person, triangles)
+        write_grid(os.path.join(folder, "base.vtu"), source, face.cells)
+        baseline_rows(folder, name, os.path.join(folder, "base.vtu"), (source[face.landmarks], person[face.landmarks]),
+                      ())
 
 
 def main():
@@ -524,7 +639,9 @@ def main():
     tables = {"face": lambda: face_table(folder, Face(face_folder)),
               "robust": lambda: robust_table(folder, Face(face_folder)),
               "ict": lambda: ict_table(folder, ict_folder), "warps": lambda: warps_table(folder, Face(face_folder)),
-              "muscles": lambda: muscles_table(folder), "baselines": lambda: baselines_table(folder)}
+              "volumes": lambda: volumes_table(folder, Face(face_folder)),
+              "muscles": lambda: muscles_table(folder), "baselines": lambda: baselines_table(folder),
+              "face_baselines": lambda: face_baselines_table(folder, Face(face_folder))}
     for table in sys.argv[5:] or tables:
         tables[table]()
 
