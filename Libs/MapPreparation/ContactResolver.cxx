@@ -2,6 +2,7 @@
 #include "ContactResolver.h"
 
 #include "Errors.h"
+#include "LocalTopology.h"
 #include "Place.h"
 
 #include <algorithm>
@@ -14,99 +15,7 @@ namespace surgicalmesher
 namespace
 {
 
-// Corners of a block: bit 0 of the number is i, bit 1 j, bit 2 k.
-// Voxels of a 3x3x3 neighbourhood: i + 3 j + 9 k, the centre at 13.
-
-using CornerMask = unsigned; ///< a set of corners, one bit each
-using Block = std::array<Label, 8>;
-using Neighbourhood = std::array<Label, 27>;
-
 constexpr int centre = 13;
-
-bool faceConnected(CornerMask corners)
-{
-  CornerMask reached = corners & (~corners + 1);
-  for (int step = 0; step < 7; ++step)
-  {
-    for (int c = 0; c < 8; ++c)
-    {
-      if (reached >> c & 1) reached |= (1u << (c ^ 1) | 1u << (c ^ 2) | 1u << (c ^ 4)) & corners;
-    }
-  }
-  return reached == corners;
-}
-
-/// For each set of corners, whether a label may hold exactly these.
-std::array<bool, 256> makeAllowedSets()
-{
-  std::array<bool, 256> allowed{};
-  for (CornerMask m = 0; m < 256; ++m) allowed[m] = faceConnected(m) && faceConnected(~m & 255);
-  return allowed;
-}
-
-const std::array<bool, 256> allowedSets = makeAllowedSets();
-
-CornerMask cornersOf(Label label, const Block& block)
-{
-  CornerMask corners = 0;
-  for (int c = 0; c < 8; ++c) corners |= CornerMask(block[c] == label) << c;
-  return corners;
-}
-
-bool isCritical(const Block& block)
-{
-  CornerMask seen = 0;
-  for (int c = 0; c < 8; ++c)
-  {
-    if (seen >> c & 1) continue;
-    const CornerMask corners = cornersOf(block[c], block);
-    if (!allowedSets[corners]) return true;
-    seen |= corners;
-    if (seen == 255) return false;
-  }
-  return false;
-}
-
-/// How many of the eight blocks around the centre are critical.
-int criticalBlocks(const Neighbourhood& n)
-{
-  constexpr std::array<int, 8> lowCorners{ 0, 1, 3, 4, 9, 10, 12, 13 };
-  int count = 0;
-  for (const int l : lowCorners)
-  {
-    count += isCritical({ n[l], n[l + 1], n[l + 3], n[l + 4], n[l + 9], n[l + 10], n[l + 12], n[l + 13] });
-  }
-  return count;
-}
-
-/// Face-connected parts of `label` among the 18 voxels around the centre, of which only those that touch the centre by
-/// a face count. One means that the centre can join or leave the label without its surroundings falling apart or
-/// meeting.
-int partsAround(const Neighbourhood& n, Label label)
-{
-  const auto& faces = sixNeighbours;
-  std::array<int, 27> part;
-  for (int v = 0; v < 27; ++v) part[v] = v != centre && n[v] == label ? v : -1;
-  int parts = 0;
-  for (const int f : faces) parts += part[f] >= 0;
-  // An edge voxel joins the two face voxels beside it.
-  for (int a = 0; a < 6; ++a)
-  {
-    for (int b = a + 1; b < 6; ++b)
-    {
-      const int edge = faces[a] + faces[b] - centre;
-      if (faces[a] + faces[b] == 2 * centre || part[faces[a]] < 0 || part[faces[b]] < 0 || part[edge] < 0) continue;
-      const int from = part[faces[b]], to = part[faces[a]];
-      if (from == to) continue;
-      --parts;
-      for (const int f : faces)
-      {
-        if (part[f] == from) part[f] = to;
-      }
-    }
-  }
-  return parts;
-}
 
 int faceContacts(const Neighbourhood& n, Label label)
 {
@@ -120,14 +29,6 @@ std::array<std::ptrdiff_t, 8> cornerSteps(const Grid& grid)
 {
   const std::ptrdiff_t j = grid.size[0], k = j * grid.size[1];
   return { 0, 1, j, j + 1, k, k + 1, k + j, k + j + 1 };
-}
-
-template <std::size_t N>
-std::array<Label, N> gather(const TissueMap& map, std::size_t voxel, const std::array<std::ptrdiff_t, N>& steps)
-{
-  std::array<Label, N> result;
-  for (std::size_t n = 0; n < N; ++n) result[n] = map.labels[voxel + steps[n]];
-  return result;
 }
 
 /// Critical blocks left if the centre is given to `label`, plus parts split or joined, plus growth of the interface.

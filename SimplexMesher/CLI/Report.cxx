@@ -115,31 +115,53 @@ std::vector<PieceRange> byTissueAndKind(const std::vector<MapChange>& changes)
   return ranges;
 }
 
-void writeSimplification(JsonWriter& json, const SurfaceReport& report)
+std::size_t voxelsLost(const std::vector<MapChange>& changes)
 {
   std::size_t voxels = 0;
-  for (const MapChange& change : report.preparation.simplification)
-    voxels += change.kind < ChangeKind::Cavity ? change.voxels : 0;
+  for (const MapChange& change : changes) voxels += change.kind < ChangeKind::Cavity ? change.voxels : 0;
+  return voxels;
+}
+
+void writePieces(JsonWriter& json, const PieceRange& pieces, const TissueTable& table)
+{
+  std::size_t sum = 0;
+  for (auto piece = pieces.begin; piece != pieces.end; ++piece) sum += piece->voxels;
+  writeTissue(json, pieces.begin->label, table);
+  writeMember(json, "kind", std::string(nameOf(pieces.begin->kind)));
+  writeMember(json, "count", std::size_t(pieces.end - pieces.begin));
+  writeMember(json, "voxels", sum);
+}
+
+void writeSimplification(JsonWriter& json, const SurfaceReport& report)
+{
+  const std::vector<MapChange>& changes = report.preparation.simplification;
   json.Key("simplification");
   json.StartObject();
   writeMember(json, "featureScale", report.featureScale);
-  writeMember(json, "voxelsChanged", voxels);
+  writeMember(json, "voxelsChanged", voxelsLost(changes));
   writeObjects(json, "keptWhole", report.preparation.keptWhole,
                [&](Label label) { writeTissue(json, label, report.tissues); });
-  writeObjects(json, "changes", byTissueAndKind(report.preparation.simplification),
+  writeObjects(json, "changes", byTissueAndKind(changes),
                [&](const PieceRange& pieces)
                {
-                 std::size_t sum = 0;
-                 for (auto piece = pieces.begin; piece != pieces.end; ++piece) sum += piece->voxels;
-                 writeTissue(json, pieces.begin->label, report.tissues);
-                 writeMember(json, "kind", std::string(nameOf(pieces.begin->kind)));
-                 writeMember(json, "count", std::size_t(pieces.end - pieces.begin));
-                 writeMember(json, "voxels", sum);
+                 writePieces(json, pieces, report.tissues);
                  json.Key("places");
                  json.StartArray();
                  for (auto piece = pieces.begin; piece != pieces.end; ++piece) writePlace(json, piece->place);
                  json.EndArray();
                });
+  json.EndObject();
+}
+
+/// Without places: they are as many as the map is rough.
+void writeSmoothing(JsonWriter& json, const SurfaceReport& report)
+{
+  json.Key("smoothing");
+  json.StartObject();
+  writeMember(json, "voxels", report.smoothing);
+  writeMember(json, "voxelsChanged", voxelsLost(report.smoothed));
+  writeObjects(json, "changes", byTissueAndKind(report.smoothed),
+               [&](const PieceRange& pieces) { writePieces(json, pieces, report.tissues); });
   json.EndObject();
 }
 
@@ -265,6 +287,7 @@ std::string reportJson(const SurfaceReport& report)
     writeSelection(json, report);
     writePreparation(json, report);
     writeSimplification(json, report);
+    writeSmoothing(json, report);
     writeObjects(json, "topology", report.topology,
                  [&](const auto& tissue)
                  {

@@ -29,6 +29,8 @@ struct SurfaceReport
   bool followsThickness = false;
   std::size_t points = 0, triangles = 0;
   std::vector<EvolutionStep> evolution;
+  double smoothing = 0;                     ///< voxels
+  std::vector<MapChange> smoothed;          ///< between the prepared map and the one whose boundary was meshed
   Grid world;                               ///< the frame of the files; the fidelity's places are in the map's own
   double maximumDistance = 0;               ///< mm, as asked for; 0: nothing was
   std::map<Label, TissueFidelity> fidelity; ///< to the prepared map; empty: not assessed

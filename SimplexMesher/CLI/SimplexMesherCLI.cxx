@@ -285,6 +285,8 @@ void run(CommandLine& line)
   results.points = content.surface.points.size();
   results.triangles = content.surface.triangles.size();
   results.evolution = mesh.evolution;
+  results.smoothing = options.smoothing;
+  results.smoothed = mesh.smoothed;
   report(progress, 0.92, "distances");
   assessDistances(line, content.surface, map, world, results);
 

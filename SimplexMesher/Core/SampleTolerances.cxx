@@ -59,10 +59,11 @@ void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::
 {
   const double voxel = map.grid.largestSpacing(), room = roomIn(background, map), bound = options.maximumDistance;
   const std::map<Label, double> drifts = mostDrifts(thickness, map.grid.largestSpacing(), options.features);
-  const double ofVoxel = options.isSmooth ? 0.25 : 0.42; // steps take up most of the latter
+  const double ofVoxel = options.isSmooth ? 0.25 : 0.42;   // steps take up most of the latter
+  const double ofLength = options.isSmooth ? 0.06 : 0.095; // without roughness to follow, closer costs no tetrahedra
   for (auto& sample : background.samples)
   {
-    double tolerance = room * (ofVoxel * voxel + 0.095 * length(sample.position));
+    double tolerance = room * (ofVoxel * voxel + ofLength * length(sample.position));
     for (const Label label : labelsBeside(map, sample.position))
       if (label != 0) tolerance = std::min(tolerance, drifts.at(label));
     sample.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);

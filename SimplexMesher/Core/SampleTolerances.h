@@ -20,9 +20,9 @@ struct ToleranceOptions
 
 /// Gives every sample of `background`, which lies at the centre of a voxel face of `map`, its tolerance:
 ///
-///     min(r (c voxel + 0.095 L), s thickness), at least 0.6 voxel where thickness decides
+///     min(r (c voxel + d L), s thickness), at least 0.6 voxel where thickness decides
 ///
-/// with c = 0.25 for samples of a smooth boundary and 0.42 for others.
+/// with c = 0.25 and d = 0.06 for samples of a smooth boundary, 0.42 and 0.095 for others.
 /// `thickness`: mean, of each tissue, mm; s = 0.28 + 0.08 F, at most 0.4, with F the feature scale (0 for protected
 /// tissues). r is 1, and less, down to 0.5, in large maps with little tissue for each face between tissues. All in the
 /// grid frame of the map.

@@ -3,6 +3,7 @@
 
 #include "InterfaceSmoothing.h"
 #include "KuhnLattice.h"
+#include "LabelSmoothing.h"
 #include "Remesher.h"
 #include "SampleTolerances.h"
 #include "Schedule.h"
@@ -19,6 +20,16 @@ namespace surgicalmesher
 namespace
 {
 
+bool isBounded(const TissueMesherOptions& options) { return options.maximumDistance > 0; }
+
+/// The map whose boundary is meshed.
+SmoothedLabels withoutRoughness(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options)
+{
+  constexpr double wider = 1.43; // a crack of one voxel is still there after the Gaussian that makes walls smooth
+  if (!(options.smoothing > 0) || isBounded(options)) return { map, {} };
+  return smoothLabels(map, scale, { wider * options.smoothing, 1.5, options.features.protectedLabels });
+}
+
 /// The lattice of `map`, its samples with tolerances and its interface smooth.
 BackgroundMesh startingMesh(const TissueMap& map, const ScaleField& scale, const std::map<Label, double>& thickness,
                             const SizingFunction& length, const TissueMesherOptions& options, const Progress& progress)
@@ -30,8 +41,6 @@ BackgroundMesh startingMesh(const TissueMap& map, const ScaleField& scale, const
   else smoothInterface(lattice, map.grid.spacing);
   return std::move(lattice.background);
 }
-
-bool isBounded(const TissueMesherOptions& options) { return options.maximumDistance > 0; }
 
 RemesherOptions remesherOptions(const TissueMesherOptions& options, double voxel)
 {
@@ -87,7 +96,7 @@ public:
   bool hasUnresolvedFeatures() const { return surgicalmesher::hasUnresolvedFeatures(m_Remesher.background().mesh); }
   MeshedMap result(double targetAngle) &&
   {
-    return { std::move(m_Remesher.background()), targetAngle, std::move(m_Evolution) };
+    return { std::move(m_Remesher.background()), targetAngle, std::move(m_Evolution), {} };
   }
 
 private:
@@ -113,9 +122,11 @@ MeshTargets coarsen(TissueRemesher& remesher, const MeshSizes& sizes)
 
 } // namespace
 
-MeshedMap meshTissues(const TissueMap& map, const ScaleField& wanted, const TissueMesherOptions& options,
+MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const TissueMesherOptions& options,
                       const Progress& progress)
 {
+  const SmoothedLabels smoothed = withoutRoughness(prepared, wanted, options);
+  const TissueMap& map = smoothed.map;
   const std::map<Label, double> thickness = meanThickness(map);
   const ScaleField scale = followFlatTissues(wanted, map, thickness);
   const SizingFunction length = [&](const Vec3& p) { return double(float(scale(map.grid.gridToWorld(p)))); };
@@ -132,7 +143,9 @@ MeshedMap meshTissues(const TissueMap& map, const ScaleField& wanted, const Tiss
   if (options.smoothing > 0) remesher.run(fairingSweeps(targets, sizes));
   remesher.run(secondRepairSweeps(targets, sizes));
   if (targets.countsTriangles()) remesher.balanceAndRun({ finishLengths(targets, sizes) });
-  return std::move(remesher).result(targets.keptAngle);
+  MeshedMap result = std::move(remesher).result(targets.keptAngle);
+  result.smoothed = smoothed.changes;
+  return result;
 }
 
 } // namespace surgicalmesher

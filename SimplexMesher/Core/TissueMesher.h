@@ -4,6 +4,7 @@
 
 #include "Evolution.h"
 #include "FeatureSimplification.h"
+#include "MapChanges.h"
 #include "Progress.h"
 #include "ScaleField.h"
 #include "TissueMap.h"
@@ -17,7 +18,8 @@ struct TissueMesherOptions
   /// times as much (2.4 in maps full of noise) where an angle cannot be mended otherwise, and up to a voxel more where
   /// that keeps a tissue's volume.
   double maximumDistance = 0;
-  /// Scale, in voxels, of the smooth boundary that the surface is driven to (SmoothBoundary.h); 0: the voxels' steps.
+  /// Scale, in voxels, of the smooth boundary that the surface is driven to (SmoothBoundary.h); without a
+  /// maximumDistance the map's roughness of that scale goes first (LabelSmoothing.h). 0: the voxels' steps.
   double smoothing = 0.7;
   /// Resistance of the surface to bending, in that of its samples: 0 none, 0.2 some, 1 as much (Bending.h).
   double rigidity = 0.2;
@@ -29,9 +31,10 @@ struct MeshedMap
   BackgroundMesh background; ///< in the grid frame of the map
   double targetAngle;        ///< degrees, dihedral: what it has been improved to, but for single places
   std::vector<EvolutionStep> evolution;
+  std::vector<MapChange> smoothed; ///< what smoothing took from tissues and gave to them, before anything was meshed
 };
 
-/// Lattice, boundary samples, smooth interface, coarsening by levels of size, improvement, repair, balance of volumes,
+/// Labels without roughness, lattice, boundary samples, smooth interface, coarsening by levels of size, improvement, repair, balance of volumes,
 /// fairing, even lengths. `map` must be well-composed (prepareMap); every tissue keeps its topology. `scale` is in world
 /// coordinates. The result depends on neither the number of threads nor their timing. Throws EngineError.
 MeshedMap meshTissues(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options,

@@ -399,4 +399,19 @@ TEST(SurfaceMesher, CanBeCancelledAnywhere)
   }
 }
 
+TEST(SurfaceMesher, RoughnessGoesOnlyWhereTheSurfaceMaySmoothAndDrift)
+{
+  const TissueMap map = paintedMap({ 16, 16, 16 },
+                                   [](int i, int j, int k) {
+                                     return squareAt(i, j, k, { 8, 8, 8 }) < 36 && (i != 8 || j < 8);
+                                   });
+  TissueMesherOptions options;
+  EXPECT_FALSE(meshTissues(map, uniformScale(4), options).smoothed.empty());
+  options.maximumDistance = 1.5;
+  EXPECT_TRUE(meshTissues(map, uniformScale(4), options).smoothed.empty());
+  options = {};
+  options.smoothing = 0;
+  EXPECT_TRUE(meshTissues(map, uniformScale(4), options).smoothed.empty());
+}
+
 } // namespace surgicalmesher

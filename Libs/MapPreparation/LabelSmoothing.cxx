@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LabelSmoothing.h"
+
+#include "LocalTopology.h"
+#include "Parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+constexpr int reach = 3; // voxels, of the Gaussian
+
+/// Weights of the voxels around one along an axis, by a Gaussian cut off at `reach`.
+struct Kernel
+{
+  explicit Kernel(double sigma)
+  {
+    double sum = 0;
+    for (int i = -reach; i <= reach; ++i) sum += weights[i + reach] = float(std::exp(-0.5 * i * i / (sigma * sigma)));
+    for (float& w : weights) w /= float(sum);
+  }
+  std::array<float, 2 * reach + 1> weights{};
+};
+
+/// The smoothed indicators of the labels around a voxel. Of more than 32 labels the last share one.
+class Indicators
+{
+public:
+  Indicators(const PaddedMap& map, std::size_t voxel, const Kernel& kernel)
+  {
+    const std::ptrdiff_t dj = map.grid.size[0], dk = dj * map.grid.size[1];
+    for (int k = -reach; k <= reach; ++k)
+      for (int j = -reach; j <= reach; ++j)
+        addRow(map.labels.data() + voxel + k * dk + j * dj, kernel,
+               kernel.weights[k + reach] * kernel.weights[j + reach]);
+  }
+
+  float of(Label label) const
+  {
+    const int at = place(label);
+    return at < m_Count ? m_Shares[at] : 0;
+  }
+
+private:
+  static constexpr int most = 32;
+
+  void addRow(const Label* row, const Kernel& kernel, float weight)
+  {
+    for (int i = -reach; i <= reach; ++i)
+    {
+      if (m_Count == 0 || m_Labels[m_Last] != row[i])
+      {
+        m_Last = std::min(place(row[i]), most - 1);
+        if (m_Last == m_Count) m_Labels[m_Count] = row[i], m_Shares[m_Count++] = 0;
+      }
+      m_Shares[m_Last] += weight * kernel.weights[i + reach];
+    }
+  }
+
+  int place(Label label) const { return int(std::find(m_Labels, m_Labels + m_Count, label) - m_Labels); }
+
+  Label m_Labels[most];
+  float m_Shares[most];
+  int m_Count = 0, m_Last = 0;
+};
+
+/// A voxel, and how much more than its own label's the smoothed indicators of the labels beside it are.
+struct Candidate
+{
+  std::size_t voxel;
+  Label own;
+  std::array<Label, 6> labels{};
+  std::array<float, 6> gains{};
+  int count = 0;
+
+  /// Once; unless it is so much less that no constant is to make up for it.
+  void add(Label label, float gain)
+  {
+    constexpr float hopeless = -0.3F;
+    if (gain < hopeless || std::find(labels.begin(), labels.begin() + count, label) != labels.begin() + count) return;
+    labels[count] = label;
+    gains[count++] = gain;
+  }
+};
+
+class LabelSmoother
+{
+public:
+  LabelSmoother(PaddedMap& map, const ScaleField& scale, const LabelSmoothingOptions& options)
+    : m_Map(map), m_Scale(scale), m_Options(options), m_Coarse(options.sigma), m_Fine(0.7 * options.sigma),
+      m_Around(neighbourSteps(map.grid)), m_Constants(labelCount, 0)
+  {
+  }
+
+  void run()
+  {
+    findCandidates();
+    balance();
+    change();
+  }
+
+private:
+  void findCandidates()
+  {
+    const int margin = m_Map.margin;
+    std::vector<std::vector<Candidate>> slices(m_Map.grid.size[2] - 2 * margin);
+    parallelForEach(slices.size(), [&](std::size_t k) { findInSlice(int(k) + margin, slices[k]); });
+    for (const std::vector<Candidate>& slice : slices)
+      m_Candidates.insert(m_Candidates.end(), slice.begin(), slice.end());
+  }
+
+  void findInSlice(int k, std::vector<Candidate>& result) const
+  {
+    const auto& size = m_Map.grid.size;
+    for (int j = m_Map.margin; j < size[1] - m_Map.margin; ++j)
+      for (int i = m_Map.margin; i < size[0] - m_Map.margin; ++i)
+        if (const std::size_t voxel = m_Map.grid.index(i, j, k); mayChange(voxel))
+          if (const Candidate c = candidate(voxel); c.count > 0) result.push_back(c);
+  }
+
+  /// A voxel with five of its own label beside it is in a wall, and stays.
+  bool mayChange(std::size_t voxel) const
+  {
+    const Label own = m_Map.labels[voxel];
+    int others = 0;
+    for (const int face : sixNeighbours) others += m_Map.labels[voxel + m_Around[face]] != own;
+    return others > 1 && m_Options.protectedLabels.count(own) == 0;
+  }
+
+  Candidate candidate(std::size_t voxel) const
+  {
+    const bool isFine = m_Scale(m_Map.worldAt(voxel)) < m_Options.fine * m_Map.grid.smallestSpacing();
+    const Indicators indicators(m_Map, voxel, isFine ? m_Fine : m_Coarse);
+    Candidate result{ voxel, m_Map.labels[voxel] };
+    for (const int face : sixNeighbours)
+    {
+      const Label label = m_Map.labels[voxel + m_Around[face]];
+      if (label == result.own || m_Options.protectedLabels.count(label)) continue;
+      result.add(label, indicators.of(label) - indicators.of(result.own));
+    }
+    return result;
+  }
+
+  /// How much more the smoothed indicator of a candidate's rival is than its own label's, with the constants.
+  float gain(const Candidate& c, int rival) const
+  {
+    return c.gains[rival] + m_Constants[c.labels[rival]] - m_Constants[c.own];
+  }
+
+  /// Which of its rivals a candidate goes to; -1: none.
+  int choice(const Candidate& c) const
+  {
+    int best = -1;
+    float most = 0;
+    for (int r = 0; r < c.count; ++r)
+      if (const float g = gain(c, r); g > most) best = r, most = g;
+    return best;
+  }
+
+  /// Finds the constants with which tissues keep their volumes; the background's stays 0.
+  void balance()
+  {
+    constexpr int rounds = 60;
+    constexpr float step = 0.3F, most = 0.8F;
+    std::vector<std::int32_t> own(labelCount, 0), gained(labelCount);
+    for (const Candidate& c : m_Candidates) ++own[c.own];
+    for (int round = 0; round < rounds; ++round)
+    {
+      std::fill(gained.begin(), gained.end(), 0);
+      for (const Candidate& c : m_Candidates)
+        if (const int r = choice(c); r >= 0) --gained[c.own], ++gained[c.labels[r]];
+      for (std::size_t label = 1; label < labelCount; ++label)
+      {
+        const float share = float(gained[label]) / float(std::max(own[label], 1));
+        m_Constants[label] = std::clamp(m_Constants[label] - step * share, -most, most);
+      }
+    }
+  }
+
+  /// One by one, over and over, as every change lets others follow; where none does, with a neighbour.
+  void change()
+  {
+    std::vector<const Candidate*> left;
+    for (const Candidate& c : m_Candidates)
+      if (choice(c) >= 0) left.push_back(&c);
+    for (std::size_t before = 0; left.size() != before;)
+    {
+      before = left.size();
+      const auto drop = [&](auto&& isDone)
+      { left.erase(std::remove_if(left.begin(), left.end(), isDone), left.end()); };
+      drop([&](const Candidate* c) { return isChanged(*c) || changeAlone(*c); });
+      if (left.size() == before) drop([&](const Candidate* c) { return isChanged(*c) || changeWithNeighbour(*c); });
+    }
+  }
+
+  bool isChanged(const Candidate& c) const { return m_Map.labels[c.voxel] != c.own; }
+
+  bool changeAlone(const Candidate& c)
+  {
+    const Label label = c.labels[choice(c)];
+    if (!keepsTopology(around(c.voxel), label)) return false;
+    m_Map.labels[c.voxel] = label;
+    return true;
+  }
+
+  /// Where the change alone leaves a contact: with that of the neighbour which costs least, and takes the contact away.
+  bool changeWithNeighbour(const Candidate& c)
+  {
+    const Label label = c.labels[choice(c)];
+    if (!isSimple(around(c.voxel), label)) return false;
+    m_Map.labels[c.voxel] = label;
+    float least = -0.3F; // a wall moves by a voxel
+    const Candidate* partner = nullptr;
+    Label to = 0;
+    for (const std::ptrdiff_t step : m_Around)
+    {
+      const Candidate* const other = candidateAt(c.voxel + step);
+      if (step == 0 || !other || isChanged(*other)) continue;
+      for (int r = 0; r < other->count; ++r)
+        if (gain(*other, r) > least && mendsContact(c.voxel, other->voxel, other->labels[r]))
+          least = gain(*other, r), partner = other, to = other->labels[r];
+    }
+    m_Map.labels[partner ? partner->voxel : c.voxel] = partner ? to : c.own;
+    return partner;
+  }
+
+  /// Whether no contact would be left at `voxel` nor at its neighbour with the neighbour of that label, a simple change.
+  bool mendsContact(std::size_t voxel, std::size_t neighbour, Label label)
+  {
+    if (!isSimple(around(neighbour), label)) return false;
+    const Label before = std::exchange(m_Map.labels[neighbour], label);
+    const int contacts = criticalBlocks(around(voxel)) + criticalBlocks(around(neighbour));
+    m_Map.labels[neighbour] = before;
+    return contacts == 0;
+  }
+
+  const Candidate* candidateAt(std::size_t voxel) const
+  {
+    const auto at = std::lower_bound(m_Candidates.begin(), m_Candidates.end(), voxel,
+                                     [](const Candidate& c, std::size_t v) { return c.voxel < v; });
+    return at != m_Candidates.end() && at->voxel == voxel ? &*at : nullptr;
+  }
+
+  Neighbourhood around(std::size_t voxel) const { return gather(m_Map, voxel, m_Around); }
+
+  PaddedMap& m_Map;
+  const ScaleField& m_Scale;
+  const LabelSmoothingOptions& m_Options;
+  const Kernel m_Coarse, m_Fine;
+  const std::array<std::ptrdiff_t, 27> m_Around;
+  std::vector<float> m_Constants;      ///< by label, added to its smoothed indicator
+  std::vector<Candidate> m_Candidates; ///< by voxel, ascending
+};
+
+} // namespace
+
+SmoothedLabels smoothLabels(const TissueMap& map, const ScaleField& scale, const LabelSmoothingOptions& options)
+{
+  const PaddedMap before = padded(map, reach);
+  PaddedMap after = before;
+  LabelSmoother(after, scale, options).run();
+  SmoothedLabels result{ map, mapChanges(before, after) };
+  copyWithoutMargin(after, result.map);
+  return result;
+}
+
+} // namespace surgicalmesher

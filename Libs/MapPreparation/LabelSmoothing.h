@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Roughness of a map, as narrow as its voxels, taken away before anything is meshed: cracks, ears and single steps.
+///
+/// A voxel at a boundary goes to the label beside it whose indicator, smoothed by a Gaussian, is the largest there, as
+/// in one step of threshold dynamics (Merriman, Bence and Osher 1992) for all labels together. To every indicator a
+/// constant of its label is added with which all tissues keep their volumes, as in auction dynamics (Jacobs, Merkurjev
+/// and Esedoglu 2018): without it small and thin ones would shrink. Voxels change one by one, and only where every label
+/// keeps its topology and its manifold boundary (keepsTopology()).
+
+#include "MapChanges.h"
+#include "ScaleField.h"
+
+#include <set>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+struct LabelSmoothingOptions
+{
+  /// Standard deviation of the Gaussian along each axis, voxels, where L is `fine` voxels or more; 0.7 of it elsewhere,
+  /// which leaves what is one voxel wide.
+  double sigma = 1;
+  double fine = 1.5;
+  std::set<Label> protectedLabels; ///< keep every voxel and gain none; label 0 protects the background
+};
+
+struct SmoothedLabels
+{
+  TissueMap map;
+  std::vector<MapChange> changes; ///< every piece that a label lost or gained
+};
+
+/// `map` is well-composed, and so is the result. Deterministic.
+SmoothedLabels smoothLabels(const TissueMap& map, const ScaleField& scale, const LabelSmoothingOptions& options);
+
+} // namespace surgicalmesher

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "LabelSmoothing.h"
+
+#include "DigitalTopology.h"
+#include "LocalTopology.h"
+#include "MapPreparation.h"
+#include "VoxelMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+using namespace surgicalmesher;
+using namespace surgicalmesher::test;
+
+namespace
+{
+
+const LabelSmoothingOptions usual{};
+
+SmoothedLabels smoothed(const TissueMap& map, double length = 4, const LabelSmoothingOptions& options = usual)
+{
+  return smoothLabels(map, uniformScale(length), options);
+}
+
+int isWithin(int from, int to, int i, int j, int k)
+{
+  return std::min({ i, j, k }) >= from && std::max({ i, j, k }) < to;
+}
+
+/// A block with a crack of one voxel, open at one end.
+TissueMap cracked()
+{
+  return paintedMap({ 24, 24, 24 },
+                    [](int i, int j, int k) { return isWithin(4, 20, i, j, k) && !(i == 12 && j >= 10) ? 1 : 0; });
+}
+
+std::size_t different(const TissueMap& a, const TissueMap& b)
+{
+  std::size_t count = 0;
+  for (std::size_t v = 0; v < a.labels.size(); ++v) count += a.labels[v] != b.labels[v];
+  return count;
+}
+
+} // namespace
+
+TEST(LabelSmoothing, ACrackOfOneVoxelCloses)
+{
+  const TissueMap result = smoothed(cracked()).map;
+  EXPECT_EQ(labelAt(result, { 12, 12, 12 }), 1);
+  EXPECT_EQ(tissueTopology(result), tissueTopology(cracked()));
+}
+
+TEST(LabelSmoothing, ACrackStaysWhereElementsAreAsFineAsVoxels)
+{
+  EXPECT_EQ(labelAt(smoothed(cracked(), 1).map, { 12, 12, 12 }), 0);
+}
+
+TEST(LabelSmoothing, WallsAndEdgesOfABoxStay)
+{
+  const TissueMap box =
+    paintedMap({ 24, 24, 24 }, [](int i, int j, int k) { return isWithin(4, 20, i, j, k) ? 1 : 0; });
+  EXPECT_LE(different(smoothed(box).map, box), 16u) << "its corners, and what balances their volume";
+}
+
+TEST(LabelSmoothing, AStrandOfOneVoxelStays)
+{
+  const TissueMap strand = paintedMap({ 24, 24, 24 },
+                                      [](int i, int j, int k)
+                                      {
+                                        if (!isWithin(3, 21, i, j, k)) return 0;
+                                        return i == 12 && j == 12 ? 2 : 1;
+                                      });
+  const TissueMap result = smoothed(strand).map;
+  EXPECT_GE(countVoxels(result).at(2), 16u);
+  EXPECT_EQ(tissueTopology(result), tissueTopology(strand));
+}
+
+TEST(LabelSmoothing, ProtectedTissuesKeepEveryVoxel)
+{
+  LabelSmoothingOptions options;
+  options.protectedLabels = { 1 };
+  EXPECT_EQ(different(smoothed(cracked(), 4, options).map, cracked()), 0u);
+}
+
+TEST(LabelSmoothing, NoiseGoesAndEveryTissueKeepsItsTopologyAndVolume)
+{
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    std::mt19937 random(seed);
+    TissueMap map = paintedMap({ 26, 26, 26 },
+                               [&](int i, int j, int k)
+                               {
+                                 if (!isWithin(2, 24, i, j, k)) return 0;
+                                 const int label = 1 + (i / 9 + j / 9 + k / 9) % 3;
+                                 return random() % 8 ? label : int(random() % 4);
+                               });
+    prepareMap(map, { .minimumIslandVolume = 8, .islandVolumes = {}, .cavityVolumes = {} });
+    const SmoothedLabels result = smoothed(map);
+    EXPECT_GT(different(result.map, map), 100u);
+    EXPECT_EQ(tissueTopology(result.map), tissueTopology(map)) << seed;
+    EXPECT_EQ(countCriticalBlocks(result.map), 0u) << seed;
+    const auto before = countVoxels(map), after = countVoxels(result.map);
+    for (const auto& [label, voxels] : before)
+    {
+      if (label != 0)
+      {
+        EXPECT_NEAR(double(after.at(label)), double(voxels), 0.05 * double(voxels)) << seed;
+      }
+    }
+  }
+}
+
+TEST(LabelSmoothing, ListsWhatChanged)
+{
+  const SmoothedLabels result = smoothed(cracked());
+  std::size_t lost = 0;
+  for (const MapChange& change : result.changes) lost += change.kind < ChangeKind::Cavity ? change.voxels : 0;
+  EXPECT_EQ(lost, different(result.map, cracked()));
+}
+
+TEST(LocalTopology, AVoxelBetweenTwoPartsIsNotSimple)
+{
+  Neighbourhood around{};
+  around[4] = around[13] = around[22] = 1; // a strand along k
+  EXPECT_FALSE(isSimple(around, 0));
+  around[22] = 0; // its end
+  EXPECT_TRUE(isSimple(around, 0));
+  EXPECT_TRUE(keepsTopology(around, 0));
+}
+
+TEST(LocalTopology, TheLastVoxelAndACavityAreNotSimple)
+{
+  Neighbourhood around{};
+  around[13] = 1;
+  EXPECT_FALSE(isSimple(around, 0));
+  around.fill(1);
+  EXPECT_FALSE(isSimple(around, 0));
+}
+
+TEST(LocalTopology, AContactIsSeen)
+{
+  Neighbourhood around{};
+  around[12] = around[13] = 1;
+  around[16] = 1; // touches 12 along an edge once the centre is gone
+  EXPECT_FALSE(keepsTopology(around, 0));
+}
