@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """Ways to interfaces that contiguous tissues share, after the paper on meshes of the Virtual Family models.
 
-usage: compatible_interfaces.py BIN OUTDIR [--map FILE --groups LABEL=L,L,.. LABEL=..] [--edgeLength MM] [--document]
+usage: compatible_interfaces.py BIN OUTDIR [--map FILE --groups LABEL=L,L,.. LABEL=..] [--box I:I,J:J,K:K]
+           [--edgeLength MM] [--document]
 
 BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, SurfaceRemesherCLI, Mesh3Driver,
 TetGenDriver and BooleanDriver. The map is jhu189 as it is, or FILE
-(.nii.gz) with groups of its labels joined and all others left out. Docs/Evidence.md says what is compared. Every
+(.nii.gz) with groups of its labels joined and all others left out, or only a box of its voxels. Docs/Evidence.md says what is compared. Every
 finished way stays in OUTDIR and is not run again. Writes interfaces.md and interfaces.json; --document puts
 the table into Docs/Evidence.md.
 """
@@ -51,7 +52,7 @@ class NoMesh(Exception):
     """What a way left cannot be filled."""
 
 
-FAILURES = (subprocess.CalledProcessError, subprocess.TimeoutExpired, NoMesh)
+FAILURES = (subprocess.CalledProcessError, NoMesh)
 
 
 def label_transfer(run, given):
@@ -171,7 +172,7 @@ def write_surface(file, corners, triangles, sides):
 
 def cubes_and_sinc(run, given, labels, name):
     start = time.process_time()
-    corners, triangles, sides = marching_cubes(labels, given.affine)
+    corners, triangles, sides = marching_cubes(labels, given.raw_affine)
     run.seconds += time.process_time() - start
     given.surfaces[name] = corners, triangles, sides
     write_surface(run.path(name + ".vtp"), corners, triangles, sides)
@@ -190,19 +191,23 @@ def cubes_smoothed(run, given):
     return cubes_and_sinc(run, given, smoothed(given.raw), "cubes-smoothed")
 
 
-def contour(labels, affine, label, offset, file):
-    """The closed surface of one tissue, smoothed, at the level about `offset` voxels outside."""
+def contour(labels, affine, label, offset, length, file):
+    """The closed surface of one tissue, smoothed, at the level about `offset` voxels outside, decimated to about that
+    length (in voxels) with its topology kept."""
     inside = ndimage.gaussian_filter((np.pad(labels, 3) == label).astype(np.float32), 1)
-    image, edges, place = vtk.vtkImageData(), vtk.vtkFlyingEdges3D(), vtk.vtkTransform()
+    image, edges, fewer = vtk.vtkImageData(), vtk.vtkFlyingEdges3D(), vtk.vtkDecimatePro()
     image.SetDimensions(inside.shape)
     image.SetOrigin(-3, -3, -3)
     image.GetPointData().SetScalars(numpy_to_vtk(inside.ravel(order="F"), deep=True))
     edges.SetInputData(image)
     edges.SetValue(0, 0.5 - 0.4 * offset)  # a plane's share falls by 0.4 in a voxel
     edges.ComputeNormalsOff()
+    fewer.SetInputConnection(edges.GetOutputPort())
+    fewer.PreserveTopologyOn()
+    fewer.SetTargetReduction(max(0, 1 - 1 / length**2))  # triangles of a contour are about a voxel long
+    place, moved, writer = vtk.vtkTransform(), vtk.vtkTransformPolyDataFilter(), vtk.vtkSTLWriter()
     place.SetMatrix(affine.ravel().tolist())
-    moved, writer = vtk.vtkTransformPolyDataFilter(), vtk.vtkSTLWriter()
-    moved.SetInputConnection(edges.GetOutputPort())
+    moved.SetInputConnection(fewer.GetOutputPort())
     moved.SetTransform(place)
     writer.SetFileTypeToBinary()
     writer.SetInputConnection(moved.GetOutputPort())
@@ -211,13 +216,12 @@ def contour(labels, affine, label, offset, file):
 
 
 def booleans(run, given):
-    """Each tissue's smoothed surface, a little outside, remeshed; their union by corefinement; remeshed again within
-    its curves; and TetGen in it."""
+    """Each tissue's smoothed surface, a little outside, decimated; their union by corefinement, remeshed within its
+    curves; and TetGen in it."""
     bodies = []
     for label in given.tissues:
-        contour(given.labels, given.affine, label, OFFSET, run.path(f"contour-{label}.stl"))
-        run("SurfaceRemesherCLI", "--edgeLength", given.length, f"contour-{label}.stl", f"body-{label}.vtp")
-        bodies.append(f"{label}=body-{label}.vtp")
+        contour(given.labels, given.affine, label, OFFSET, given.length / given.voxel, run.path(f"body-{label}.stl"))
+        bodies.append(f"{label}=body-{label}.stl")
     run("BooleanDriver", "union.vtp", *bodies)
     given.surfaces["booleans"] = read_surface(run.path("union.vtp"))
     run("SurfaceRemesherCLI", "--edgeLength", given.length, "union.vtp", "union-remeshed.vtp")
@@ -332,6 +336,12 @@ def volume_measures(mesh, given):
             "orthogonality99": float(np.quantile(angles, 0.99))}
 
 
+def sentence(failure):
+    if isinstance(failure, NoMesh):
+        return str(failure)
+    return f"{os.path.basename(failure.cmd[0])} ended with {failure.returncode}"
+
+
 def measured(name, run, given):
     """One row; a way that fails has the measures of the surface that it left, if it left one."""
     make, parameters = WAYS[name]
@@ -343,7 +353,7 @@ def measured(name, run, given):
         triangles, sides = boundary_triangles(mesh)
         row.update(surface_measures(mesh.points, triangles, sides, given), **volume_measures(mesh, given))
     except FAILURES as failure:
-        row.update(seconds=run.seconds, failed=str(failure)[-120:])
+        row.update(seconds=run.seconds, failed=sentence(failure))
         left = [surface for key, surface in given.surfaces.items() if key.split("-")[-1] in name]
         if left:
             row.update(surface_measures(*left[0], given))
@@ -356,6 +366,10 @@ def tissues_of(options):
     """The raw map and its affine, cut to the tissues and a margin."""
     image = nibabel.load(options.map)
     labels = np.rint(np.asanyarray(image.dataobj)).astype(int)
+    low = np.zeros(3, int)
+    if options.box:
+        box = tuple(slice(*map(int, ends.split(":"))) for ends in options.box.split(","))
+        labels, low = labels[box], np.array([part.start for part in box])
     if options.groups:
         joined = np.zeros_like(labels)
         for group in options.groups:
@@ -363,11 +377,10 @@ def tissues_of(options):
             joined[np.isin(labels, [int(word) for word in members.split(",")])] = int(name)
         labels = joined
     labels = np.pad(labels, MARGIN)
-    low, high = (end(np.argwhere(labels), axis=0) for end in (np.min, np.max))
-    box = tuple(slice(a - MARGIN, b + MARGIN + 1) for a, b in zip(low, high))
+    first, last = (end(np.argwhere(labels), axis=0) for end in (np.min, np.max))
     affine = LPS_FROM_RAS @ image.affine
-    affine[:3, 3] += affine[:3, :3] @ (low - 2 * MARGIN)
-    return labels[box], affine
+    affine[:3, 3] += affine[:3, :3] @ (low + first - 2 * MARGIN)
+    return labels[tuple(slice(a - MARGIN, b + MARGIN + 1) for a, b in zip(first, last))], affine
 
 
 def given_to(run, raw, affine, length):
@@ -377,13 +390,15 @@ def given_to(run, raw, affine, length):
     if not os.path.exists(run.path("prepared.nrrd")):
         run("SimplexMesherCLI", "--edgeLength", length, "--minimumIslandVolume", ISLAND, "--preparedLabelMap",
             "prepared.nrrd", "map.nrrd", "unused.vtp")
+    raw_affine = affine  # the prepared map may run along other axes
     labels, affine = read_nrrd(run.path("prepared.nrrd"))
     labels = labels.astype(int)
     boundary, tissues = boundary_of_map(labels, affine), np.setdiff1d(labels, [0])
     pieces = np.zeros(labels.max() + 1, int)
     pieces[tissues] = [ndimage.label(labels == label)[1] for label in tissues]
-    return SimpleNamespace(raw=raw, labels=labels, affine=affine, length=length, boundary=boundary, tissues=tissues,
-                           tree=cKDTree(boundary.points), depth=ndimage.distance_transform_edt(labels > 0),
+    return SimpleNamespace(raw=raw, raw_affine=raw_affine, labels=labels, affine=affine, length=length,
+                           boundary=boundary, tissues=tissues, tree=cKDTree(boundary.points),
+                           depth=ndimage.distance_transform_edt(labels > 0),
                            voxel=abs(np.linalg.det(affine[:3, :3])) ** (1 / 3), pieces=pieces,
                            euler=euler_numbers_of_map(labels), surfaces={})
 
@@ -391,8 +406,7 @@ def given_to(run, raw, affine, length):
 def cells_of(row):
     def of(key, text):
         return format(row[key], text) if key in row else "-"
-    ended = "no: " + row["failed"].split(" returned")[0].split("/")[-1].strip("',[] ") if "failed" in row else "yes"
-    return [row["way"], ended if len(ended) < 40 else "no", of("tetrahedra", ","),
+    return [row["way"], "no: " + row["failed"] if "failed" in row else "yes", of("tetrahedra", ","),
             f"{of('smallestDihedral', '.1f')} / {of('meanSmallestDihedral', '.1f')}", of("radiusRatio", ".3f"),
             of("sharedOnce", ".1%"), of("jiggle", ".1f"), of("spikes", ","),
             f"{of('hausdorffMean', '.1f')} / {of('hausdorffWorst', '.1f')}",
@@ -414,6 +428,7 @@ def main():
     parser.add_argument("folder")
     parser.add_argument("--map", default=ATLAS)
     parser.add_argument("--groups", nargs="+")
+    parser.add_argument("--box")
     parser.add_argument("--edgeLength", type=float, default=3)
     parser.add_argument("--document", action="store_true")
     options = parser.parse_args()

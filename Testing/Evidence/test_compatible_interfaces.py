@@ -63,7 +63,7 @@ class WaysTest(unittest.TestCase):
     def test_booleans_have_every_tissue_but_leave_gaps_between_smoothed_surfaces(self):
         row = self.rows["offset and booleans"]
         self.assertEqual(row["wrong"], [])
-        self.assertGreater(row["sharedOnce"], 0.5)
+        self.assertGreater(row["sharedOnce"], 0.3)
         self.assertLess(row["volumeWorst"], 0.2)
         self.assertLess(row["smallestDihedral"], self.rows["ours"]["smallestDihedral"])
 
