@@ -81,6 +81,7 @@ void writeReport(const std::string& file, const CommandLine& line, const std::ve
     writeMember(json, "denoised", line.flag("denoise"));
     writeMember(json, "compartments", !line.flag("noCompartments"));
     writeMember(json, "contiguity", !line.flag("noContiguity"));
+    writeMember(json, "proximity", !line.flag("noProximity"));
     writeMember(json, "boneThreshold", found.boneThreshold);
     const std::map<Label, std::size_t> voxels = countVoxels(found.map);
     json.Key("classes");
@@ -171,6 +172,7 @@ void run(CommandLine& line)
   ClassificationOptions options;
   options.useCompartments = !line.flag("noCompartments");
   options.useContiguity = !line.flag("noContiguity");
+  options.useProximity = !line.flag("noProximity");
   options.correctBias = line.flag("correctBias");
   options.denoise = line.flag("denoise");
   options.withProbabilities = !line.outputNames("probability").empty();

@@ -87,20 +87,19 @@ double BrightnessModel::distance2(std::size_t n, const HeadImages& images, std::
 
 int BrightnessModel::classOf(const HeadImages& images, std::size_t voxel) const
 {
-  if (m_Variances.size() > 1) return nearestClass(images, voxel, [](int) { return true; });
+  if (m_Variances.size() > 1) return nearestClass(images, voxel, [](int) { return 0.0; });
   const float value = images.channels[0].values[voxel];
   return m_Classes[std::size_t(std::upper_bound(m_Cuts.begin(), m_Cuts.end(), value) - m_Cuts.begin())];
 }
 
 int BrightnessModel::nearestClass(const HeadImages& images, std::size_t voxel,
-                                  const std::function<bool(int)>& mayBe) const
+                                  const std::function<double(int)>& penalty) const
 {
   int best = -1;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t n = 0; n < m_Classes.size(); ++n)
   {
-    if (!mayBe(m_Classes[n])) continue;
-    const double distance = distance2(n, images, voxel);
+    const double distance = penalty(m_Classes[n]) + distance2(n, images, voxel);
     if (!(distance < least)) continue;
     least = distance;
     best = m_Classes[n];

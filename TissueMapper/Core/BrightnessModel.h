@@ -32,8 +32,9 @@ public:
   BrightnessModel(std::vector<int> classes, const std::vector<TrainingValues>& training);
 
   int classOf(const HeadImages& images, std::size_t voxel) const;
-  /// The nearest in brightness of those that may be there; -1 if none may.
-  int nearestClass(const HeadImages& images, std::size_t voxel, const std::function<bool(int)>& mayBe) const;
+  /// The class of the least sum of its squared distance in brightness, in deviations, and its penalty; -1 if every
+  /// penalty is infinite.
+  int nearestClass(const HeadImages& images, std::size_t voxel, const std::function<double(int)>& penalty) const;
   /// Of the classes admitted here, in the order of classes(); they add up to 1.
   std::vector<float> probabilities(const HeadImages& images, std::size_t voxel) const;
   const std::vector<int>& classes() const { return m_Classes; }

@@ -39,21 +39,6 @@ std::vector<float> blurred(const ItkImage::Pointer& image, double sigma)
   return filtered<itk::SmoothingRecursiveGaussianImageFilter<ItkImage, ItkImage>>(image, sigma);
 }
 
-/// Distance (mm) of every voxel to the nearest of the mask; 0 in it.
-std::vector<float> distanceTo(const Grid& grid, const std::vector<bool>& mask)
-{
-  using Filter = itk::SignedMaurerDistanceMapImageFilter<Mask, ItkImage>;
-  if (std::find(mask.begin(), mask.end(), true) == mask.end()) return std::vector<float>(mask.size(), 1e6f);
-  const auto filter = Filter::New();
-  filter->SetInput(asItkImage<Mask>(grid, mask));
-  filter->SetSquaredDistance(false);
-  filter->SetUseImageSpacing(true);
-  filter->Update();
-  std::vector<float> distances = valuesOf(*filter->GetOutput());
-  for (float& distance : distances) distance = std::max(0.f, distance);
-  return distances;
-}
-
 /// Dilation and erosion by a ball; what lies beyond the image counts as dilated. `outward` is the distance to the mask.
 std::vector<bool> closed(const Grid& grid, const std::vector<bool>& mask, const std::vector<float>& outward,
                          float radius)
@@ -323,6 +308,20 @@ void findOrbits(const Grid& grid, const std::vector<float>& boneDistance, const 
 }
 
 } // namespace
+
+std::vector<float> distanceTo(const Grid& grid, const std::vector<bool>& mask)
+{
+  using Filter = itk::SignedMaurerDistanceMapImageFilter<Mask, ItkImage>;
+  if (std::find(mask.begin(), mask.end(), true) == mask.end()) return std::vector<float>(mask.size(), 1e6f);
+  const auto filter = Filter::New();
+  filter->SetInput(asItkImage<Mask>(grid, mask));
+  filter->SetSquaredDistance(false);
+  filter->SetUseImageSpacing(true);
+  filter->Update();
+  std::vector<float> distances = valuesOf(*filter->GetOutput());
+  for (float& distance : distances) distance = std::max(0.f, distance);
+  return distances;
+}
 
 std::vector<bool> headMask(const HeadImages& images, float threshold)
 {

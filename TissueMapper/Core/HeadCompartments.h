@@ -46,6 +46,9 @@ struct HeadSigns
   std::vector<float> softness; ///< how far from bone's brightness towards that of soft tissue, 0.05 to 1
 };
 
+/// Distance (mm) of every voxel to the nearest of the mask; 0 in it, 1e6 for an empty mask.
+std::vector<float> distanceTo(const Grid& grid, const std::vector<bool>& mask);
+
 /// Which voxels are the head's: those over -500 HU of a CT, or else brighter than the threshold in the first image;
 /// closed by 2 mm, with what they enclose but a CT's air. A hole that a ball of 3 mm doesn't pass is no way in but for
 /// 6 mm, nor is the image's lower end: there the neck goes on.

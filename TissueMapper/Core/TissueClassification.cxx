@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 namespace surgicalmesher
 {
@@ -153,6 +154,9 @@ const BrightnessModel& modelOf(const Models& models, Compartment compartment)
   return models[std::size_t(compartment) - std::size_t(Compartment::Intracranial)];
 }
 
+/// Whether contiguity or a limit holds for a class.
+bool isBound(const TissueClass& tissue) { return tissue.isContiguous || tissue.limit > 0; }
+
 /// What contiguity and limit leave to a class: a front starts at each of its points, whatever is there, and runs through
 /// its voxels.
 std::vector<bool> reachedByClass(const Grid& grid, const TissueClass& tissue, const std::vector<int>& classOf,
@@ -170,25 +174,55 @@ std::vector<bool> reachedByClass(const Grid& grid, const TissueClass& tissue, co
   return reachedFrom(grid, seeds, isOpen, tissue.limit);
 }
 
-/// Takes away what contiguity and limits forbid, and gives it to the class next in brightness, until all that each class
-/// has is reached. Where every class has been refused, the last one stays.
-void enforceContiguity(const HeadImages& images, const std::vector<TissueClass>& classes, const Models& models,
-                       std::vector<int>& classOf, Classification& result)
+/// Squared distances (in units of 5 mm) to what is certain of every class: what its own front reaches, or all that
+/// brightness gives to a class that needs none.
+class Proximity
 {
+public:
+  Proximity(const Grid& grid, const std::vector<TissueClass>& classes, const std::vector<int>& classOf)
+  {
+    for (std::size_t c = 0; c < classes.size(); ++c)
+    {
+      std::vector<bool> isCertain(classOf.size());
+      if (isBound(classes[c])) isCertain = reachedByClass(grid, classes[c], classOf, int(c));
+      else
+        for (std::size_t n = 0; n < classOf.size(); ++n) isCertain[n] = classOf[n] == int(c);
+      m_Distances.push_back(distanceTo(grid, isCertain));
+    }
+  }
+  double operator()(int number, std::size_t voxel) const
+  {
+    constexpr double unit = 5; // mm
+    const double distance = m_Distances[std::size_t(number)][voxel] / unit;
+    return distance * distance;
+  }
+
+private:
+  std::vector<std::vector<float>> m_Distances;
+};
+
+/// Takes away what contiguity and limits forbid, and gives it to the class next in brightness and place, until all that
+/// each class has is reached. Where every class has been refused, the last one stays.
+void enforceContiguity(const HeadImages& images, const std::vector<TissueClass>& classes, const Models& models,
+                       const std::optional<Proximity>& proximity, std::vector<int>& classOf, Classification& result)
+{
+  constexpr double never = std::numeric_limits<double>::infinity();
   std::vector<std::vector<bool>> isRefused(classes.size(), std::vector<bool>(classOf.size(), false));
   for (bool hasChanged = true; hasChanged;)
   {
     hasChanged = false;
     for (std::size_t c = 0; c < classes.size(); ++c)
     {
-      if (!classes[c].isContiguous && !(classes[c].limit > 0)) continue;
+      if (!isBound(classes[c])) continue;
       const std::vector<bool> reached = reachedByClass(images.grid(), classes[c], classOf, int(c));
       for (std::size_t n = 0; n < classOf.size(); ++n)
       {
         if (classOf[n] != int(c) || reached[n] || isRefused[c][n]) continue;
         isRefused[c][n] = true;
-        const auto mayBe = [&](int other) { return !isRefused[std::size_t(other)][n]; };
-        const int other = modelOf(models, result.compartments[n]).nearestClass(images, n, mayBe);
+        const auto penalty = [&](int other) {
+          return isRefused[std::size_t(other)][n] ? never : proximity ? (*proximity)(other, n) : 0;
+        };
+        const int other = modelOf(models, result.compartments[n]).nearestClass(images, n, penalty);
         if (other < 0) continue;
         classOf[n] = other;
         ++result.invalidated[c];
@@ -283,7 +317,12 @@ Classification classifyTissues(HeadImages images, const std::vector<TissueClass>
     else if (result.compartments[n] != Compartment::Background)
       classOf[n] = modelOf(models, result.compartments[n]).classOf(images, n);
   }
-  if (options.useContiguity) enforceContiguity(images, classes, models, classOf, result);
+  if (options.useContiguity && std::any_of(classes.begin(), classes.end(), isBound))
+  {
+    std::optional<Proximity> proximity;
+    if (options.useProximity) proximity.emplace(images.grid(), classes, classOf);
+    enforceContiguity(images, classes, models, proximity, classOf, result);
+  }
   if (options.withProbabilities) addProbabilities(images, classOf, models, bone, result);
   result.map.grid = images.grid();
   for (const int c : classOf) result.map.labels.push_back(c < 0 ? Label(0) : classes[std::size_t(c)].label);

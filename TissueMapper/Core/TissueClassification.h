@@ -37,6 +37,7 @@ struct ClassificationOptions
 {
   bool useCompartments = true;
   bool useContiguity = true; ///< contiguity and spatial limit
+  bool useProximity = true;  ///< to what is certain, where these take a voxel from its class
   bool correctBias = false;
   bool denoise = false;
   bool withProbabilities = false;

@@ -187,6 +187,27 @@ TEST(TissueClassification, LimitsAndContiguityTakeAwayWhatIsNotReached)
       }
 }
 
+TEST(TissueClassification, WhatOneClassLosesGoesToWhatIsNear)
+{
+  HeadPhantom head = headPhantom(14);
+  const Vec3 scarPlace{ 0, 0, 26 }, island{ 0, 26, 0 };
+  paintBall(head.image, scarPlace, 2.5, 150);
+  paintBall(head.image, island, 1.8, 165); // as fat, and next to that as a scar; in muscle
+  std::vector<TissueClass> classes = trainingOf(head.truth, 20);
+  classes[3].isContiguous = true;
+  TissueClass scar;
+  scar.name = "scar";
+  scar.label = 8;
+  scar.admission = Admission::Extracranial;
+  for (const double x : { -1, 0, 1 }) scar.points.push_back(scarPlace + Vec3{ x, 0, 0 });
+  classes.push_back(scar);
+  const std::size_t n = voxelsOf(head.truth.grid, { island })[0];
+  ClassificationOptions anywhere;
+  anywhere.useProximity = false;
+  EXPECT_EQ(classifyTissues(headImages({ head.image }), classes, anywhere).map.labels[n], 8);
+  EXPECT_EQ(classifyTissues(headImages({ head.image }), classes, {}).map.labels[n], 5);
+}
+
 TEST(TissueClassification, WhatOneClassLosesNoOtherHasWhereItIsNotReached)
 {
   const HeadPhantom head = headPhantom(14); // noise scatters all classes
