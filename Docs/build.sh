@@ -22,4 +22,5 @@ for page in Docs/*.md; do
   sed -E -e 's#\]\(\.\./README\.md#](index.md#g' -e 's#\]\(\.\./((CONTRIBUTING|CHANGELOG)\.md)#](\1#g' \
     -e "s#\]\(\.\./#]($source/#g" "$page" >"$folder/pages/${page##*/}"
 done
+python3 Docs/options.py . >"$folder/pages/Options.md"
 mkdocs build --quiet --strict --config-file "$folder/mkdocs.yml"

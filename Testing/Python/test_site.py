@@ -2,9 +2,11 @@
 
 Without mkdocs and its theme the status is 77.
 """
+import glob
 import html.parser
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -50,9 +52,19 @@ class SiteTest(unittest.TestCase):
 
     def test_every_page_is_there_and_in_the_contents(self):
         expected = {name.replace(".md", ".html") for name in os.listdir(os.path.join(ROOT, "Docs")) if name.endswith(".md")}
-        self.assertEqual(set(self.pages), expected | {"index.html", "CONTRIBUTING.html", "CHANGELOG.html"})
+        self.assertEqual(set(self.pages), expected | {"index.html", "CONTRIBUTING.html", "CHANGELOG.html", "Options.html"})
         linked = {urldefrag(link)[0] for link in self.pages["index.html"].links}
         self.assertLessEqual(set(self.pages) - {"index.html"}, linked)
+
+    def test_every_option_is_on_the_generated_page(self):
+        with open(os.path.join(SITE, "Options.html"), encoding="utf-8") as file:
+            page = file.read()
+        descriptions = glob.glob(os.path.join(ROOT, "*", "CLI", "*.xml")) + glob.glob(os.path.join(ROOT, "Program", "*.xml"))
+        self.assertEqual(page.count("<h2"), len(descriptions))
+        for file in descriptions:
+            with open(file, encoding="utf-8") as description:
+                for flag in re.findall("<longflag>(.*)</longflag>", description.read()):
+                    self.assertIn(f"<code>--{flag}</code>", page, file)
 
     def test_links_lead_somewhere(self):
         for name, page in self.pages.items():
