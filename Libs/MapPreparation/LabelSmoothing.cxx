@@ -94,15 +94,19 @@ class LabelSmoother
 public:
   LabelSmoother(PaddedMap& map, const ScaleField& scale, const LabelSmoothingOptions& options)
     : m_Map(map), m_Scale(scale), m_Options(options), m_Coarse(options.sigma), m_Fine(0.7 * options.sigma),
-      m_Around(neighbourSteps(map.grid)), m_Constants(labelCount, 0)
+      m_Around(neighbourSteps(map.grid)), m_Gained(labelCount, 0), m_Constants(labelCount, 0)
   {
   }
 
   void run()
   {
     findCandidates();
-    balance();
-    change();
+    // What topology refuses, others make up for.
+    for (int round = 0; round < 3; ++round)
+    {
+      balance();
+      change();
+    }
   }
 
 private:
@@ -172,7 +176,7 @@ private:
     for (const Candidate& c : m_Candidates) ++own[c.own];
     for (int round = 0; round < rounds; ++round)
     {
-      std::fill(gained.begin(), gained.end(), 0);
+      gained = m_Gained;
       for (const Candidate& c : m_Candidates)
         if (const int r = choice(c); r >= 0) --gained[c.own], ++gained[c.labels[r]];
       for (std::size_t label = 1; label < labelCount; ++label)
@@ -183,7 +187,8 @@ private:
     }
   }
 
-  /// One by one, over and over, as every change lets others follow; where none does, with a neighbour.
+  /// One by one, over and over, as every change lets others follow; where none does, with a neighbour. Neither what is
+  /// done nor what is refused is a candidate afterwards.
   void change()
   {
     std::vector<const Candidate*> left;
@@ -197,6 +202,15 @@ private:
       drop([&](const Candidate* c) { return isChanged(*c) || changeAlone(*c); });
       if (left.size() == before) drop([&](const Candidate* c) { return isChanged(*c) || changeWithNeighbour(*c); });
     }
+    const auto isSettled = [&](const Candidate& c) { return isChanged(c) || choice(c) >= 0; };
+    m_Candidates.erase(std::remove_if(m_Candidates.begin(), m_Candidates.end(), isSettled), m_Candidates.end());
+  }
+
+  void give(const Candidate& c, Label label)
+  {
+    m_Map.labels[c.voxel] = label;
+    --m_Gained[c.own];
+    ++m_Gained[label];
   }
 
   bool isChanged(const Candidate& c) const { return m_Map.labels[c.voxel] != c.own; }
@@ -205,7 +219,7 @@ private:
   {
     const Label label = c.labels[choice(c)];
     if (!keepsTopology(around(c.voxel), label)) return false;
-    m_Map.labels[c.voxel] = label;
+    give(c, label);
     return true;
   }
 
@@ -226,8 +240,11 @@ private:
         if (gain(*other, r) > least && mendsContact(c.voxel, other->voxel, other->labels[r]))
           least = gain(*other, r), partner = other, to = other->labels[r];
     }
-    m_Map.labels[partner ? partner->voxel : c.voxel] = partner ? to : c.own;
-    return partner;
+    m_Map.labels[c.voxel] = c.own;
+    if (!partner) return false;
+    give(c, label);
+    give(*partner, to);
+    return true;
   }
 
   /// Whether no contact would be left at `voxel` nor at its neighbour with the neighbour of that label, a simple change.
@@ -254,6 +271,7 @@ private:
   const LabelSmoothingOptions& m_Options;
   const Kernel m_Coarse, m_Fine;
   const std::array<std::ptrdiff_t, 27> m_Around;
+  std::vector<std::int32_t> m_Gained;  ///< voxels, by label
   std::vector<float> m_Constants;      ///< by label, added to its smoothed indicator
   std::vector<Candidate> m_Candidates; ///< by voxel, ascending
 };
