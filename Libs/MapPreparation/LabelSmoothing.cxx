@@ -167,13 +167,15 @@ private:
     return best;
   }
 
-  /// Finds the constants with which tissues keep their volumes; the background's stays 0.
+  /// Finds the constants with which tissues keep their volumes; the background's stays 0. Each goes up or down by a step
+  /// of its own, which grows while that helps and halves when the tissue has come to have too much of what it lacked
+  /// (Riedmiller and Braun 1993): how many voxels a constant moves differs by orders of magnitude between tissues.
   void balance()
   {
     constexpr int rounds = 60;
-    constexpr float step = 0.3F, most = 0.8F;
-    std::vector<std::int32_t> own(labelCount, 0), gained(labelCount);
-    for (const Candidate& c : m_Candidates) ++own[c.own];
+    constexpr float first = 0.05F, longest = 0.1F, most = 0.8F;
+    std::vector<float> steps(labelCount, first);
+    std::vector<std::int32_t> gained, before(labelCount, 0);
     for (int round = 0; round < rounds; ++round)
     {
       gained = m_Gained;
@@ -181,8 +183,12 @@ private:
         if (const int r = choice(c); r >= 0) --gained[c.own], ++gained[c.labels[r]];
       for (std::size_t label = 1; label < labelCount; ++label)
       {
-        const float share = float(gained[label]) / float(std::max(own[label], 1));
-        m_Constants[label] = std::clamp(m_Constants[label] - step * share, -most, most);
+        if (gained[label] == 0) continue;
+        const bool isLess = gained[label] < 0, wasLess = before[label] < 0;
+        if (before[label] != 0)
+          steps[label] = isLess == wasLess ? std::min(1.2F * steps[label], longest) : 0.5F * steps[label];
+        m_Constants[label] = std::clamp(m_Constants[label] + (isLess ? steps[label] : -steps[label]), -most, most);
+        before[label] = gained[label];
       }
     }
   }
