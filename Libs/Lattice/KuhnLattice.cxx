@@ -87,7 +87,9 @@ struct Layout
 
 Layout makeLayout(const Grid& grid, double shortest, const LatticeOptions& options)
 {
-  constexpr int margin = 6; // cells of background on every side at least, so that the box never presses on a tissue
+  // Cells of background on every side at least, so that the box never presses on a tissue; a multiple of it, so that
+  // blocks of so many voxels are cubes of the lattice (UniformBlocks.h).
+  constexpr int margin = 8;
   Layout l;
   const double least = grid.smallestSpacing();
   double cell = 0;
@@ -102,7 +104,7 @@ Layout makeLayout(const Grid& grid, double shortest, const LatticeOptions& optio
   {
     const int cells = grid.size[a] * l.cells[a], root = 1 << l.rootLevels;
     l.roots[a] = (cells + 2 * margin + root - 1) / root;
-    l.pad[a] = (l.roots[a] * root - cells) / 2;
+    l.pad[a] = (l.roots[a] * root - cells) / 2 / margin * margin;
     l.unit[a] = grid.spacing[a] / l.cells[a] / l.cellUnits();
   }
   return l;

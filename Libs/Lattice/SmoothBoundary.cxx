@@ -50,7 +50,7 @@ struct Point
 class VoxelWeight
 {
 public:
-  explicit VoxelWeight(double sigma) : m_Reach(int(std::ceil(3 * sigma)) + 1)
+  explicit VoxelWeight(double sigma) : m_Window(3 * sigma + 0.5), m_Reach(int(std::ceil(3 * sigma)) + 1)
   {
     const int n = m_Reach * perVoxel;
     for (int i = -n - 1; i <= n + 1; ++i)
@@ -61,9 +61,9 @@ public:
     }
   }
 
-  int reach() const { return m_Reach; }
+  double window() const { return m_Window; } ///< voxels farther away have next to no weight
 
-  /// At |x| up to reach().
+  /// At |x| up to window().
   std::pair<double, double> operator()(double x) const
   {
     const double at = std::clamp((x + m_Reach) * perVoxel + 1, 0.0, double(m_Values.size()) - 1.001);
@@ -74,6 +74,7 @@ public:
 
 private:
   static constexpr int perVoxel = 128;
+  double m_Window;
   int m_Reach;
   std::vector<double> m_Values, m_Slopes;
 };
@@ -125,8 +126,8 @@ private:
     Index low, count;
     for (int a = 0; a < 3; ++a)
     {
-      low[a] = int(std::ceil(p[a])) - weight.reach();
-      count[a] = std::min(most, 2 * weight.reach());
+      low[a] = int(std::ceil(p[a] - weight.window()));
+      count[a] = std::min(most, int(std::floor(p[a] + weight.window())) - low[a] + 1);
       for (int i = 0; i < count[a]; ++i) w[a][i] = weight(low[a] + i - p[a]);
     }
     const bool isWithin = isInMap(low, count);

@@ -101,11 +101,14 @@ double Envelope::squaredDistanceNow(const Sheet& sheet, const SheetSample& sampl
 
 /// Finds the sample the nearest new face of its labels; false if there is none. Begins with the face that takes the
 /// place of its own, if there is one, and beyond the line of a side the distance to that line bounds the distance to
-/// the face from below: both spare most faces the full test.
+/// the face from below: both spare most faces the full test. A sample that this first face passes beneath or above, well
+/// within tolerance, stays with it: a nearer one would be a fold of the same sheet.
 bool Envelope::findNearestFace(const Sheet& sheet, SheetSample& sample) const
 {
   sample.to = -1;
   sample.distance2 = std::numeric_limits<double>::max();
+  constexpr double settled = 0.25; // of the squared tolerance
+  const double settled2 = settled * sample.squaredTolerance();
   const LabelPair labels = sheet.faces[sample.from].labels;
   const std::size_t count = m_NewFaces.size();
   std::size_t k = std::size_t(sample.from) < count ? std::size_t(sample.from) : 0;
@@ -125,6 +128,7 @@ bool Envelope::findNearestFace(const Sheet& sheet, SheetSample& sample) const
     if (d2 + beyond >= sample.distance2) continue;
     if (beyond > 0) d2 = squaredDistanceToTriangle(sample.position, f.corners[0], f.corners[1], f.corners[2]);
     if (d2 < sample.distance2) sample.distance2 = d2, sample.to = std::int32_t(k);
+    if (n == 0 && beyond == 0 && d2 <= settled2) break;
   }
   return sample.to >= 0;
 }

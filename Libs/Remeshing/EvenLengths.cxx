@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace surgicalmesher
 {
@@ -57,31 +58,35 @@ private:
   void stretchAt(std::int32_t v)
   {
     constexpr double least = 0.5, most = 1.6; // beyond that no single move makes up for it
+    constexpr double ease = 0.02;
+    std::optional<Quadric> held; // until v moves
     const auto neighbours = m_Operations.neighbours(v);
     for (const auto& n : neighbours)
     {
       if (!n.alongInterface) continue;
       const double r = ratio(v, n.vertex);
-      if (r > least && r < most && !isEven(r)) stretch(v, n.vertex, r);
+      if (r <= least || r >= most || isEven(r)) continue;
+      if (!held) held = heldAt(m_Operations, v, ease);
+      if (stretch(v, n.vertex, r, *held)) held.reset();
     }
   }
 
   /// Moves v so that its edge to u gets an even length.
-  void stretch(std::int32_t v, std::int32_t u, double ratio)
+  bool stretch(std::int32_t v, std::int32_t u, double ratio, const Quadric& held)
   {
-    constexpr double ease = 0.02, margin = 0.005;
+    constexpr double margin = 0.005;
     const Vec3 p = m_Complex.points[v], edge = p - m_Complex.points[u];
-    const Quadric held = heldAt(m_Operations, v, ease);
     const bool isShort = ratio < shortestEven;
     const double lacking = isShort ? shortestEven + margin - ratio : ratio - longestEven + margin;
     const Vec3 direction = easiest(m_Operations, v, held, isShort ? edge : -1.0 * edge);
     const double along = std::abs(dot(direction, edge)) / norm(edge);
-    if (along < 0.3) return;
+    if (along < 0.3) return false;
     for (const double times : { 1.0, 1.25 })
     {
       const Vec3 to = p + (times * lacking * m_Complex.targetLength(v, u) / along) * direction;
-      if (moveNear(v, onSheet(v, u, to), held)) return;
+      if (moveNear(v, onSheet(v, u, to), held)) return true;
     }
+    return false;
   }
 
   /// Where the samples would like v, were it at p, without a change of its distance to u.
@@ -116,6 +121,7 @@ private:
     Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
     quadric.addToDiagonal(0.005 * quadric.trace());
     const Vec3 p = m_Complex.points[v], step = quadric.solve(quadric.g);
+    if (isNegligible(step, m_Complex.lengths[v])) return;
     const double floor = floorAt(v), now = evenEdges(v, p);
     for (const double share : { 1.0, 0.5, 0.25 })
       if (evenEdges(v, p + share * step) >= now && m_Operations.move(v, p + share * step, floor)) return;

@@ -26,7 +26,7 @@ public:
     for (std::int32_t v = 0; v < std::int32_t(m_Start.size()); ++v)
     {
       m_Begin.push_back(std::int32_t(m_Neighbours.size()));
-      if (m_Complex.vertexTet[v] >= 0 && m_Complex.onInterface[v]) addNeighbours(v);
+      if (mayMove(v)) addNeighbours(v);
     }
     m_Begin.push_back(std::int32_t(m_Neighbours.size()));
   }
@@ -45,6 +45,14 @@ public:
   }
 
 private:
+  /// Where more than a seventh of the reach is left: less is not seen.
+  bool mayMove(std::int32_t v) const
+  {
+    constexpr double coarse = 2.6; // fine lengths
+    return m_Complex.vertexTet[v] >= 0 && m_Complex.onInterface[v] &&
+           m_Complex.lengths[v] < coarse * m_Options.fineLength;
+  }
+
   bool hasNeighbours(std::int32_t v) const { return m_Begin[v] < m_Begin[v + 1]; }
 
   /// The vertices next to v on its curve if it is on one, on its sheet otherwise; none where curves meet or end.

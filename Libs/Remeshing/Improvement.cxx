@@ -38,6 +38,23 @@ private:
   std::uint64_t m_State = 88172645463325252ull;
 };
 
+/// What is tried over and over at no small cost, as long as it succeeds now and then.
+class Chance
+{
+public:
+  bool isFair() const { return m_Tries < enough || m_Successes * onceIn >= m_Tries; }
+  bool note(bool success)
+  {
+    ++m_Tries;
+    if (success) ++m_Successes;
+    return success;
+  }
+
+private:
+  static constexpr std::size_t enough = 40, onceIn = 25;
+  std::size_t m_Tries = 0, m_Successes = 0;
+};
+
 class Improvement
 {
 public:
@@ -170,13 +187,16 @@ private:
     {
       double near; ///< tetrahedra up to this many times as good as t take part
       double dip;  ///< share of t's quality that they may fall to on the way
+      Chance& chance;
     };
     if (m_TogetherLeft == 0) return false;
     --m_TogetherLeft;
-    for (const Range& range : { Range{ 1.3, 0.8 }, Range{ 2, 0.6 } })
+    for (const Range& range : { Range{ 1.3, 0.8, m_NearTogether }, Range{ 2, 0.6, m_FarTogether } })
     {
+      if (!range.chance.isFair()) continue;
       const std::vector<std::int32_t> vertices = neighbourhood(t, range.near);
-      if (const double before = worstAt(vertices); before > 0 && moveTogether(vertices, before, range.dip)) return true;
+      const double before = worstAt(vertices);
+      if (before > 0 && range.chance.note(moveTogether(vertices, before, range.dip))) return true;
     }
     return false;
   }
@@ -208,7 +228,7 @@ private:
   /// of an edge, and all around it move together. Taken back if that doesn't help.
   bool splitAndMoveTogether(std::int32_t t)
   {
-    if (!m_Options.split || m_TogetherLeft == 0) return false;
+    if (!m_Options.split || m_TogetherLeft == 0 || !m_SplitTogether.isFair()) return false;
     const auto x = m_Complex.tets[t];
     return forEachEdge(t,
                        [&](std::int32_t a, std::int32_t b)
@@ -229,7 +249,7 @@ private:
     const Vec3 middle = 0.5 * (m_Complex.points[a] + m_Complex.points[b]);
     const auto v = before > 0 ? m_Operations.split(a, b, seed, middle, dip * before) : std::nullopt;
     if (!v) return false;
-    if (moveTogether(around(*v), before, dip)) return true;
+    if (m_SplitTogether.note(moveTogether(around(*v), before, dip))) return true;
     m_Operations.takeBackSplit(*v, a);
     return false;
   }
@@ -377,6 +397,7 @@ private:
   Uphill m_Uphill;
   std::vector<std::uint8_t> m_Touched; ///< per vertex
   std::size_t m_TogetherLeft = 0;      ///< in this pass
+  Chance m_NearTogether, m_FarTogether, m_SplitTogether;
   std::vector<std::int32_t> m_Ring, m_RingVertices;
 };
 

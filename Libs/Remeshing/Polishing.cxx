@@ -38,6 +38,7 @@ private:
     Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
     quadric.addToDiagonal(0.05 * quadric.trace() / m_Options.fit);
     const Vec3 step = m_Operations.alongFeatures(v, quadric.solve(quadric.g));
+    if (isNegligible(step, m_Complex.lengths[v])) return;
     const double before = m_Operations.qualityAt(v);
     for (double share : { 1.0, 0.5, 0.25 })
       if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : std::min(m_Good, before)))

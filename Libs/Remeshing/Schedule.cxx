@@ -68,10 +68,10 @@ Stage withoutSpikes(const MeshTargets& targets, const MeshSizes& sizes, double p
 }
 
 /// Not where L is under two voxels: there the vertices stay where the map wants them.
-Stage evenLengths(const MeshTargets& targets, const MeshSizes& sizes, double goodAngle, std::size_t rounds)
+Stage evenLengths(const MeshTargets& targets, const MeshSizes& sizes, double goodAngle)
 {
   const EvenOut pass{ { .goodAngle = goodAngle, .from = 2 * sizes.voxel, .robust = 0.1 * sizes.voxel } };
-  return { bounds(targets, 0.5, lengthTolerance), std::vector<Pass>(rounds, pass) };
+  return { bounds(targets, 0.5, lengthTolerance), { pass } };
 }
 
 Stage relabelled(const MeshTargets& targets)
@@ -134,7 +134,7 @@ Sweep fitToSamples(double rmsLimit, const MeshTargets& targets, const MeshSizes&
   if (targets.countsTriangles()) sweep.stages.push_back(withoutSpikes(targets, sizes, pullAngle));
   sweep.stages.push_back({ bounds(targets, rmsLimit), { coarsenAll(targets, sizes, kept), relax, polish } });
   if (!targets.countsTriangles()) return sweep;
-  sweep.stages.push_back(evenLengths(targets, sizes, kept, 2));
+  sweep.stages.push_back(evenLengths(targets, sizes, kept));
   sweep.stages.push_back(relabelled(targets));
   return sweep;
 }
@@ -218,7 +218,7 @@ std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes
     sweeps.push_back(
       improvement({ bounds(targets, 0.35), { coarsenAll(targets, sizes), Polish{}, improve(angle, 8, 1) } }));
     if (!targets.countsTriangles()) continue;
-    sweeps.back().stages.push_back(evenLengths(targets, sizes, 20, 2)); // sizes still change
+    sweeps.back().stages.push_back(evenLengths(targets, sizes, 20)); // sizes still change
     sweeps.back().stages.push_back(relabelled(targets));
   }
   return sweeps;
@@ -263,7 +263,7 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& siz
 
 Sweep finishLengths(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  return improvement(evenLengths(targets, sizes, targets.keptAngle, 1));
+  return improvement(evenLengths(targets, sizes, targets.keptAngle));
 }
 
 std::size_t surfaceSweepCount(const MeshSizes& sizes)

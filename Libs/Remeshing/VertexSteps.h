@@ -8,8 +8,11 @@
 namespace surgicalmesher
 {
 
-/// How the samples resist a step of v: a share `ease` of all its resistance in every direction besides.
+/// How the samples, whatever the interface's rigidity, resist a step of v: a share `ease` of all its resistance in every direction besides.
 Quadric heldAt(GuardedOperations& operations, std::int32_t v, double ease);
+
+/// Whether a step is too small to be worth its tests, where L is `length`.
+inline bool isNegligible(const Vec3& step, double length) { return squaredNorm(step) < 1e-4 * length * length; }
 
 /// Turns `direction` at v into one that its samples resist less, along the features there; a unit vector, or zero.
 Vec3 easiest(GuardedOperations& operations, std::int32_t v, const Quadric& held, const Vec3& direction);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SampleTolerances.h"
 
+#include "Parallel.h"
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace surgicalmesher
 {
@@ -23,16 +26,39 @@ std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
   return { labelAt(map, voxels[0]), labelAt(map, voxels[1]) };
 }
 
+/// Voxel faces between two labels inside the map.
+std::size_t boundaryFaces(const TissueMap& map)
+{
+  const auto& size = map.grid.size;
+  const std::array<std::size_t, 3> steps{ 1, std::size_t(size[0]), std::size_t(size[0]) * size[1] };
+  std::vector<std::size_t> counts(size[2], 0);
+  parallelForEach(counts.size(),
+                  [&](std::size_t k)
+                  {
+                    for (int j = 0; j < size[1]; ++j)
+                      for (int i = 0; i < size[0]; ++i)
+                      {
+                        const std::size_t voxel = map.grid.index(i, j, int(k));
+                        const Label own = map.labels[voxel];
+                        counts[k] += i + 1 < size[0] && map.labels[voxel + steps[0]] != own;
+                        counts[k] += j + 1 < size[1] && map.labels[voxel + steps[1]] != own;
+                        counts[k] += int(k) + 1 < size[2] && map.labels[voxel + steps[2]] != own;
+                      }
+                  });
+  return std::accumulate(counts.begin(), counts.end(), std::size_t(0));
+}
+
 /// What share of the usual tolerance a map allows: the voxels that a drift of the surfaces puts into wrong tissues are
 /// as many as their area times the drift, so that a large map whose surfaces lie close together must have less of it.
 /// In a small one they lie close because its bodies are small.
-double roomIn(const BackgroundMesh& background, const TissueMap& map)
+double roomIn(const TissueMap& map)
 {
   constexpr std::size_t large = 600000; // faces between tissues
   constexpr double usual = 3.0;         // voxels of tissue for each
-  if (background.samples.size() < large) return 1;
+  const std::size_t faces = boundaryFaces(map);
+  if (faces < large) return 1;
   const auto tissue = std::count_if(map.labels.begin(), map.labels.end(), [](Label l) { return l != 0; });
-  const double ratio = double(tissue) / (usual * double(background.samples.size()));
+  const double ratio = double(tissue) / (usual * double(faces));
   return std::clamp(ratio * ratio, 0.5, 1.0);
 }
 
@@ -57,7 +83,7 @@ std::map<Label, double> mostDrifts(const std::map<Label, double>& thickness, dou
 void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::map<Label, double>& thickness,
                    const SizingFunction& length, const ToleranceOptions& options)
 {
-  const double voxel = map.grid.largestSpacing(), room = roomIn(background, map), bound = options.maximumDistance;
+  const double voxel = map.grid.largestSpacing(), room = roomIn(map), bound = options.maximumDistance;
   const std::map<Label, double> drifts = mostDrifts(thickness, map.grid.largestSpacing(), options.features);
   const double ofVoxel = options.isSmooth ? 0.25 : 0.42;   // steps take up most of the latter
   const double ofLength = options.isSmooth ? 0.06 : 0.095; // without roughness to follow, closer costs no tetrahedra

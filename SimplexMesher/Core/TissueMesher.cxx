@@ -6,9 +6,11 @@
 #include "LabelSmoothing.h"
 #include "Remesher.h"
 #include "SampleTolerances.h"
+#include "SampleTransfer.h"
 #include "Schedule.h"
 #include "SmoothBoundary.h"
 #include "TissueScale.h"
+#include "UniformBlocks.h"
 #include "VolumeBalance.h"
 
 #include <algorithm>
@@ -30,11 +32,24 @@ SmoothedLabels withoutRoughness(const TissueMap& map, const ScaleField& scale, c
   return smoothLabels(map, scale, { wider * options.smoothing, 1.5, options.features.protectedLabels });
 }
 
-/// The lattice of `map`, its samples with tolerances and its interface smooth.
+/// The lattice of `map`: of its voxels where these are not much smaller than L, of blocks of them elsewhere. Samples stay
+/// those of the map, so many a triangle.
+KuhnLattice latticeOf(const TissueMap& map, const ScaleField& scale, const SizingFunction& length,
+                      const TissueMesherOptions& options, const Progress& progress)
+{
+  constexpr double blockSize = 0.25, samplesPerTriangle = 16; // a larger one costs smoothness, fewer cost accuracy
+  if (!(options.smoothing > 0) || isBounded(options)) return kuhnLattice(map, scale, {}, progress);
+  const TissueMap blocks = withUniformBlocks(map, scale, { blockSize, options.features.protectedLabels });
+  KuhnLattice lattice = kuhnLattice(blocks, scale, {}, progress);
+  transferSamples(lattice, blocks, map, length, { samplesPerTriangle });
+  return lattice;
+}
+
+/// That lattice, its samples with tolerances and its interface smooth.
 BackgroundMesh startingMesh(const TissueMap& map, const ScaleField& scale, const std::map<Label, double>& thickness,
                             const SizingFunction& length, const TissueMesherOptions& options, const Progress& progress)
 {
-  KuhnLattice lattice = kuhnLattice(map, scale, {}, progress);
+  KuhnLattice lattice = latticeOf(map, scale, length, options, progress);
   setTolerances(lattice.background, map, thickness, length,
                 { options.maximumDistance, options.features, options.smoothing > 0 });
   if (options.smoothing > 0) moveToSmoothBoundary(lattice, map, options.smoothing);
