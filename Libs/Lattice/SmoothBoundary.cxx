@@ -450,4 +450,33 @@ void moveToSmoothBoundary(KuhnLattice& lattice, const TissueMap& map, double vox
   moveVertices(lattice.background.mesh, vertices, target, minimumAngle);
 }
 
+std::vector<SmoothBoundaryPoint> smoothBoundaryPoints(const TissueMap& map, double voxels)
+{
+  const Vec3& mm = map.grid.spacing;
+  std::vector<BackgroundMesh::Sample> samples;
+  Index lower;
+  for (lower[2] = -1; lower[2] < map.grid.size[2]; ++lower[2])
+    for (lower[1] = -1; lower[1] < map.grid.size[1]; ++lower[1])
+      for (lower[0] = -1; lower[0] < map.grid.size[0]; ++lower[0])
+        for (int a = 0; a < 3; ++a)
+        {
+          Index upper = lower;
+          ++upper[a];
+          if (labelAt(map, lower) == labelAt(map, upper)) continue;
+          Vec3 centre{ double(lower[0]), double(lower[1]), double(lower[2]) };
+          centre[a] += 0.5;
+          samples.emplace_back().position = scaled(centre, mm);
+        }
+  std::vector<std::pair<std::int64_t, std::int32_t>> order;
+  std::vector<SmoothBoundaryPoint> result;
+  for (const Point& p : smoothPoints(samples, map, voxels, order))
+  {
+    const Vec3 normal = scaled(p.normal, { 1 / mm.x, 1 / mm.y, 1 / mm.z });
+    Index voxel = p.lower;
+    voxel[p.axis] += p.isInsideBelow ? 0 : 1;
+    result.push_back({ voxel, { p.inside, p.outside }, scaled(p.position, mm), normal / norm(normal) });
+  }
+  return result;
+}
+
 } // namespace surgicalmesher

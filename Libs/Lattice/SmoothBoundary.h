@@ -21,4 +21,16 @@ namespace surgicalmesher
 /// standard deviation of G along each axis.
 void moveToSmoothBoundary(KuhnLattice& lattice, const TissueMap& map, double voxels, double minimumAngle = 10);
 
+/// A point of the smooth boundary, mm in the grid frame of the map.
+struct SmoothBoundaryPoint
+{
+  std::array<int, 3> voxel;    ///< beside it, of the larger label
+  std::array<Label, 2> labels; ///< the larger one first
+  Vec3 position;
+  Vec3 normal; ///< unit, out of the larger label
+};
+
+/// One for each face between voxels of two labels, in the order of their rows along the first axis.
+std::vector<SmoothBoundaryPoint> smoothBoundaryPoints(const TissueMap& map, double voxels);
+
 } // namespace surgicalmesher

@@ -192,6 +192,23 @@ ScaleField followThickness(const ScaleField& scale, const TissueMap& map, const 
   return result;
 }
 
+ScaleField followCurvature(const ScaleField& scale, const TissueMap& map, const std::vector<CurvedVoxel>& curvedVoxels,
+                           double chordError, double gradation)
+{
+  const bool isUniform = scale.lengths.size() == 1;
+  const double least =
+    isUniform ? map.grid.smallestSpacing() : double(*std::min_element(scale.lengths.begin(), scale.lengths.end()));
+  ScaleField result = scaleVolume(scale, map.grid);
+  LengthLimits limits(result, map.grid);
+  for (const CurvedVoxel& curved : curvedVoxels)
+  {
+    const float length = float(std::max(least, std::sqrt(8 * chordError / std::max(curved.curvature, 1e-12))));
+    limits.visitAround(curved.voxel, [&](std::size_t n) { limits.maxima[n] = std::min(limits.maxima[n], length); });
+  }
+  limits.apply(result, gradation);
+  return result;
+}
+
 std::map<Label, double> meanThickness(const TissueMap& map)
 {
   constexpr double staircase = 1.5;

@@ -35,6 +35,19 @@ ScaleField followTissues(const ScaleField& scale, const TissueMap& map, const Ti
 ScaleField followThickness(const ScaleField& scale, const TissueMap& map, const std::vector<ThinVoxel>& thinVoxels,
                            double gradation);
 
+/// A voxel at a curved boundary.
+struct CurvedVoxel
+{
+  std::size_t voxel = 0;
+  double curvature = 0; ///< the larger principal one, 1/mm
+};
+
+/// The scale that follows curvature: at every curved voxel L' = min(L, sqrt(8 e / curvature)), by which the middle of an
+/// edge stays within the chord error e (mm) of the boundary; not below the scale's own minimum (the smallest voxel
+/// spacing, if it has one value everywhere), rising from there by at most `gradation` per mm. A volume (scaleVolume).
+ScaleField followCurvature(const ScaleField& scale, const TissueMap& map, const std::vector<CurvedVoxel>& curvedVoxels,
+                           double chordError, double gradation);
+
 /// Mean thickness of each tissue but the background, 2 V / A, mm. The staircase of voxel faces counts as half as large
 /// again as a smooth boundary.
 std::map<Label, double> meanThickness(const TissueMap& map);

@@ -135,7 +135,8 @@ void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const F
 }
 
 /// The lengths that the surface follows on the prepared map.
-ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField& asked, SurfaceReport& results)
+ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField& asked,
+                      const TissueMesherOptions& options, SurfaceReport& results)
 {
   const double gradation = line.number("gradation");
   ScaleField scale = followTissues(asked, map, results.settings, gradation);
@@ -144,6 +145,11 @@ ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField&
   if (results.followsThickness) // the bounds of the table hold all the same
   {
     scale = followThickness(scale, map, results.thickness.thinVoxels, gradation);
+    scale = followTissues(scale, map, results.settings, gradation);
+  }
+  if (const double chordError = line.number("chordError"); chordError > 0)
+  {
+    scale = followBoundary(map, scale, options, chordError, gradation);
     scale = followTissues(scale, map, results.settings, gradation);
   }
   const std::string file = line.outputFile("followedScale");
@@ -269,7 +275,7 @@ void run(CommandLine& line)
   options.rigidity = line.number("rigidity");
   options.features = readFeatures(line, results.settings);
   prepare(line, map, asked, options.features, subProgress(progress, 0.02, 0.06), results);
-  const ScaleField scale = lengthsFor(line, map, asked, results);
+  const ScaleField scale = lengthsFor(line, map, asked, options, results);
   const std::string tooShort = warningOfShortLengths(map, scale, line.text("labelMap"));
   if (!tooShort.empty()) line.warning(tooShort);
   requireMemory(estimateSurfaceMemory(map, scale), availableMemory(), line.text("labelMap"));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueMesher.h"
 
+#include "BoundaryCurvature.h"
 #include "InterfaceSmoothing.h"
 #include "KuhnLattice.h"
 #include "LabelSmoothing.h"
@@ -136,6 +137,14 @@ MeshTargets coarsen(TissueRemesher& remesher, const MeshSizes& sizes)
 }
 
 } // namespace
+
+ScaleField followBoundary(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options,
+                          double chordError, double gradation)
+{
+  const double voxels = options.smoothing > 0 ? options.smoothing : TissueMesherOptions().smoothing;
+  const TissueMap smoothed = withoutRoughness(map, scale, options).map;
+  return followCurvature(scale, map, boundaryCurvatures(smoothed, voxels), chordError, gradation);
+}
 
 MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const TissueMesherOptions& options,
                       const Progress& progress)

@@ -26,6 +26,11 @@ struct TissueMesherOptions
   FeatureOptions features; ///< what the map was simplified by; thin tissues are then held less closely
 };
 
+/// The scale that keeps the middles of edges within `chordError` mm of the boundary that will be meshed
+/// (BoundaryCurvature.h, followCurvature). `scale` is in world coordinates, and so is the result.
+ScaleField followBoundary(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options,
+                          double chordError, double gradation);
+
 struct MeshedMap
 {
   BackgroundMesh background; ///< in the grid frame of the map

@@ -324,6 +324,51 @@ TEST_F(SimplexMesherCLI, ShortensLengthsWhereTissueIsThin)
   EXPECT_NEAR(readScale(folder.file("f.nrrd"))({ 8, 8, 5 }), 2, 1e-5);
 }
 
+TEST_F(SimplexMesherCLI, FollowsCurvatureToTheChordError)
+{
+  const auto ball = [](int i, int j, int k) { return std::hypot(std::hypot(i - 13, j - 13), k - 13) <= 10 ? 1 : 0; };
+  write("ball.nrrd", paintedMap({ 27, 27, 27 }, ball));
+  const auto followedOnBall = [&](const std::string& options)
+  {
+    expectDone(options + " --followedScale f.nrrd ball.nrrd s.vtp");
+    return readScale(folder.file("f.nrrd"));
+  };
+  for (const double chordError : { 0.1, 0.2 })
+  {
+    const ScaleField followed = followedOnBall("--edgeLength 8 --chordError " + std::to_string(chordError));
+    const double wanted = std::sqrt(8 * chordError * 10);
+    for (const Vec3& p : { Vec3{ 3, 13, 13 }, { 13, 23, 13 }, { 13, 13, 3 }, { 18.8, 18.8, 18.8 } })
+      EXPECT_NEAR(followed(p) / wanted, 1, 0.15) << chordError;
+    for (const float length : followed.lengths) EXPECT_LE(length, 8);
+    const SurfaceComplex surface = readSurface(folder.file("s.vtp")).surface;
+    double mean = 0, off = 0; // of middles of edges
+    for (const auto& [a, b, c] : surface.triangles)
+      for (const auto& [from, to] : { std::pair{ a, b }, { b, c }, { c, a } })
+      {
+        mean += norm(surface.points[from] - surface.points[to]) / (3 * double(surface.triangles.size()));
+        off += (10 - norm(0.5 * (surface.points[from] + surface.points[to]) - Vec3{ 13, 13, 13 })) /
+               (3 * double(surface.triangles.size()));
+      }
+    EXPECT_NEAR(mean / wanted, 1, 0.15) << chordError;
+    EXPECT_LT(off, chordError);
+  }
+  // Bounds: the one length, or the scale's.
+  const ScaleField unchanged = followedOnBall("--edgeLength 2 --chordError 1");
+  for (const float length : unchanged.lengths) EXPECT_EQ(length, 2);
+  const Grid grid = paintedMap({ 27, 27, 27 }, ball).grid;
+  std::vector<float> lengths(grid.voxelCount(), 6.f);
+  lengths[0] = 4;
+  folder.write("bounded.nrrd", nrrd("float", nrrdGeometry(grid), lengths));
+  EXPECT_NEAR(followedOnBall("--scale bounded.nrrd --chordError 0.05")({ 3, 13, 13 }), 4, 1e-5);
+
+  const auto box = [](int i, int j, int k) { return std::min({ i, j, k }) >= 4 && std::max({ i, j, k }) < 28 ? 1 : 0; };
+  write("box.nrrd", paintedMap({ 32, 32, 32 }, box));
+  expectDone("--edgeLength 5 --chordError 0.2 --followedScale f.nrrd box.nrrd s.vtp");
+  const ScaleField onBox = readScale(folder.file("f.nrrd"));
+  for (const Vec3& p : { Vec3{ 15.5, 15.5, 3.5 }, { 3.5, 15.5, 16 } }) EXPECT_NEAR(onBox(p), 5, 1e-5);
+  for (const Vec3& p : { Vec3{ 3.5, 10, 20 }, { 15.5, 4, 4 } }) EXPECT_NEAR(onBox(p), 5, 0.5); // corners are round
+}
+
 TEST_F(SimplexMesherCLI, SimplifiesAllButWhatIsProtected)
 {
   // A wall of 1 with a hole of one voxel, a strand of 5, and an island of 1 in the air.

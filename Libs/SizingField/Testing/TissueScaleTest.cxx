@@ -208,3 +208,18 @@ TEST(TissueScale, VolumeOfAUniformScaleCoversTheMap)
     EXPECT_EQ(volume.lengths, std::vector<float>(volume.grid.voxelCount(), 2.5f));
   }
 }
+
+TEST(TissueScale, FollowsCurvatureWithinItsBounds)
+{
+  const TissueMap map = sheetOf(3);
+  const auto voxel = [&](int i, int j, int k) { return map.grid.index(i, j, k); };
+  const std::vector<CurvedVoxel> curved{ { voxel(6, 6, 6), 0.1 }, { voxel(20, 6, 6), 0 }, { voxel(6, 20, 20), 100 } };
+  const ScaleField followed = followCurvature(uniformScale(6), map, curved, 0.2, 0.5);
+  EXPECT_NEAR(followed({ 6, 6, 6 }), 4, 1e-5);   // sqrt(8 0.2 / 0.1)
+  EXPECT_NEAR(followed({ 20, 6, 6 }), 6, 1e-5);  // flat
+  EXPECT_NEAR(followed({ 6, 20, 20 }), 1, 1e-5); // the voxel spacing
+  EXPECT_NEAR(followed({ 6, 6, 10 }), 6, 0.6);   // by the gradation
+  EXPECT_GT(followed({ 6, 6, 10 }), followed({ 6, 6, 8 }));
+  const ScaleField tight = followCurvature(uniformScale(3), map, curved, 0.2, 0.5);
+  EXPECT_NEAR(tight({ 6, 6, 6 }), 3, 1e-5); // it is short enough
+}
