@@ -19,7 +19,7 @@ struct RunPass
   void operator()(const Improve& pass) const { improveBlock(operations, pass.options); }
   void operator()(const RaiseHeights& pass) const { raiseHeightsOfBlock(operations, pass.options); }
   void operator()(const EvenOut& pass) const { evenLengthsOfBlock(operations, pass.options); }
-  void operator()(const Fair& pass) const { fairBlock(operations, pass.options); }
+  void operator()(const MoveInterface& pass) const { moveInterfaceOfBlock(operations, pass.options); }
   void operator()(const RelabelInterface& pass) const { relabelBlock(operations, pass.keptAngle, pass.mostLeft); }
   void operator()(const RemoveSpikes& pass) const { cutSpikesOfBlock(operations, pass.options); }
   void operator()(const RemoveEars& pass) const { removeEarsOfBlock(operations, pass.few); }

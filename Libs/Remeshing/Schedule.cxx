@@ -243,13 +243,16 @@ std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& si
   return sweeps;
 }
 
-std::vector<Sweep> fairingSweeps(const MeshTargets& targets, const MeshSizes& sizes)
+std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity)
 {
-  constexpr std::size_t sweeps = 3;     // vertices on borders of blocks have their turn in the next
-  constexpr double fairTolerance = 1.5; // samples have the voxels' noise that fairing is to take away
-  const Fair fair{ { .leastAngle = 15, .farthest = 0.3 * sizes.voxel, .fineLength = 1.5 * sizes.voxel } };
-  const Sweep sweep{ "improvement",
-                     { { bounds(targets, 1, fairTolerance), { fair } },
+  constexpr std::size_t sweeps = 3;       // vertices on borders of blocks have their turn in the next
+  constexpr double motionTolerance = 1.5; // samples have the voxels' noise that motion is to take away
+  InterfaceMotionOptions options;
+  options.motion.internalForce.continuity = continuity;
+  options.farthest = 0.3 * sizes.voxel;
+  options.fineLength = 1.5 * sizes.voxel;
+  const Sweep sweep{ "motion",
+                     { { bounds(targets, 1, motionTolerance), { MoveInterface{ options } } },
                        { bounds(targets, 1), { improve(targets.keptAngle, 12, 1) } } } };
   return std::vector<Sweep>(sweeps, sweep);
 }
@@ -270,7 +273,8 @@ std::size_t surfaceSweepCount(const MeshSizes& sizes)
 {
   const MeshTargets& t = usualTargets;
   return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() +
-         std::size_t(t.balanceRounds) + fairingSweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + 1;
+         std::size_t(t.balanceRounds) + motionSweeps(t, sizes, Continuity::C2).size() +
+         secondRepairSweeps(t, sizes).size() + 1;
 }
 
 // --- tetrahedral stage ----------------------------------------------------------------------------------------------

@@ -63,9 +63,9 @@ std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes
 std::vector<Sweep> repairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// Vertices go back to their samples as far as angles allow. Tissues' volumes are balanced before each.
 std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// The surface made smooth between the voxels where elements are of their size, each time with an improvement of the
-/// angles that this costs, which keeps to the surface.
-std::vector<Sweep> fairingSweeps(const MeshTargets& targets, const MeshSizes& sizes);
+/// The motion of the simplex mesh, which makes the surface smooth between the voxels where elements are of their size,
+/// each time with an improvement of the angles that this costs, which keeps to the surface.
+std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity);
 /// What resisted before may have got room.
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// After the last balance of volumes.

@@ -4,9 +4,9 @@
 
 #include "Coarsening.h"
 #include "EvenLengths.h"
-#include "Fairing.h"
 #include "HeightRaising.h"
 #include "Improvement.h"
+#include "InterfaceMotion.h"
 #include "InterfaceRelabelling.h"
 #include "Polishing.h"
 #include "Relaxation.h"
@@ -44,9 +44,9 @@ struct EvenOut ///< evenLengthsOfBlock
 {
   EdgeLengthOptions options;
 };
-struct Fair ///< fairBlock
+struct MoveInterface ///< moveInterfaceOfBlock
 {
-  FairingOptions options;
+  InterfaceMotionOptions options;
 };
 struct RelabelInterface ///< relabelBlock
 {
@@ -62,8 +62,8 @@ struct RemoveEars ///< removeEarsOfBlock
   std::size_t few; ///< tetrahedra
 };
 
-using Pass = std::variant<Coarsen, Relax, Polish, Improve, RaiseHeights, EvenOut, Fair, RelabelInterface, RemoveSpikes,
-                          RemoveEars>;
+using Pass = std::variant<Coarsen, Relax, Polish, Improve, RaiseHeights, EvenOut, MoveInterface, RelabelInterface,
+                          RemoveSpikes, RemoveEars>;
 
 struct Stage
 {

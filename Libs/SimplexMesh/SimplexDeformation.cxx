@@ -135,10 +135,20 @@ std::vector<Vec3> hiddenRoughness(const SurfaceComplex& dual)
   return away;
 }
 
-double shortestEdge(const SimplexOperators& mesh, std::int32_t a)
+/// At each point of the surface.
+std::vector<std::vector<std::int32_t>> pointNeighbours(const SurfaceComplex& surface)
+{
+  std::vector<std::vector<std::int32_t>> neighbours(surface.points.size());
+  for (const auto& t : surface.triangles)
+    for (int k = 0; k < 3; ++k)
+      for (const std::int32_t n : { t[(k + 1) % 3], t[(k + 2) % 3] }) neighbours[t[k]].push_back(n);
+  return neighbours;
+}
+
+double shortestEdge(const SurfaceComplex& surface, std::int32_t p, const std::vector<std::int32_t>& neighbours)
 {
   double least = 1e300;
-  for (std::int32_t b : mesh.faceNeighbours(a)) least = std::min(least, norm(mesh.points()[b] - mesh.points()[a]));
+  for (const std::int32_t n : neighbours) least = std::min(least, norm(surface.points[n] - surface.points[p]));
   return least;
 }
 
@@ -179,24 +189,40 @@ double SimplexMotion::step(SimplexOperators& mesh, const TissueBoundary& boundar
 
 double SimplexMotion::step(SimplexOperators& mesh, const OuterForces& outerForces)
 {
-  std::vector<std::int32_t> ids;
-  const SurfaceComplex dual = mesh.surface(&ids);
-  std::vector<Vec3> inner = internalForces(simplexMeshOf(dual), m_Options.internalForce);
-  for (Vec3& f : inner) f = m_Options.internal * f;
-  const std::vector<Vec3> way = meansAround(dual, inner), outer = outerForces(dual), hidden = hiddenRoughness(dual);
+  MovingDual dual;
+  dual.surface = mesh.surface(&dual.ids);
+  dual.simplex = simplexMeshOf(dual.surface);
+  dual.move = [&](std::int32_t id, const Vec3& p) { return mesh.move(id, p); };
   m_Last.resize(mesh.points().size());
+  return step(dual, outerForces(dual.surface));
+}
+
+double SimplexMotion::step(MovingDual& dual, const std::vector<Vec3>& outer)
+{
+  SurfaceComplex& surface = dual.surface;
+  for (std::size_t v = 0; v < surface.triangles.size(); ++v)
+  {
+    const auto& [a, b, c] = surface.triangles[v];
+    dual.simplex.points[v] = (surface.points[a] + surface.points[b] + surface.points[c]) / 3;
+  }
+  std::vector<Vec3> inner = internalForces(dual.simplex, m_Options.internalForce);
+  for (Vec3& f : inner) f = m_Options.internal * f;
+  const std::vector<Vec3> way = meansAround(surface, inner), hidden = hiddenRoughness(surface);
+  const auto neighbours = pointNeighbours(surface);
+  if (!dual.ids.empty()) m_Last.resize(std::max(m_Last.size(), std::size_t(dual.ids.back()) + 1));
   double largest = 0;
   for (std::size_t p = 0; p < way.size(); ++p)
   {
-    const std::int32_t id = ids[p];
-    Vec3 displacement = way[p] + outer[p] + 0.5 * hidden[p] + (1 - m_Options.damping) * m_Last[id];
-    const double limit = shortestEdge(mesh, id) / 3;
+    const std::int32_t id = dual.ids[p];
+    Vec3 displacement = way[p] + outer[p] + m_Options.hidden * hidden[p] + (1 - m_Options.damping) * m_Last[id];
+    const double limit = shortestEdge(surface, std::int32_t(p), neighbours[p]) / 3;
     if (norm(displacement) > limit) displacement = limit / norm(displacement) * displacement;
     m_Last[id] = {};
     if (norm(displacement) < m_Options.least) continue;
     for (int tries = 0; tries < 4; ++tries, displacement = 0.5 * displacement)
     {
-      if (!mesh.move(id, mesh.points()[id] + displacement)) continue;
+      if (!dual.move(id, surface.points[p] + displacement)) continue;
+      surface.points[p] += displacement;
       m_Last[id] = displacement;
       break;
     }

@@ -16,7 +16,8 @@ struct MotionOptions
   double internal = 0.3;
   double image = 0.5;
   InternalForceOptions internalForce;
-  double least = 0; ///< mm; shorter ways are not gone: a mesh at rest costs little
+  double hidden = 0.5; ///< of the dual points' roughness, which no force on vertices sees
+  double least = 0;    ///< mm; shorter ways are not gone: a mesh at rest costs little
 };
 
 struct AdaptationOptions
@@ -43,6 +44,16 @@ struct SimplexStep
   double largestMove = 0;     ///< mm, of a dual point in the last step of motion
 };
 
+/// A simplex mesh as its dual triangles, and what moves their points.
+struct MovingDual
+{
+  SurfaceComplex surface;
+  SimplexMesh simplex;           ///< of the surface; its points follow
+  std::vector<std::int32_t> ids; ///< of the surface's points, as `move` knows them
+  /// Moves a point unless a guard refuses.
+  std::function<bool(std::int32_t id, const Vec3& p)> move;
+};
+
 /// Motion of the whole mesh. Dual points follow the mean of their vertices, so that each vertex stays the centroid of
 /// its triangle.
 class SimplexMotion
@@ -58,6 +69,8 @@ public:
   using OuterForces = std::function<std::vector<Vec3>(const SurfaceComplex& dual)>;
   /// The same with other forces than the image's.
   double step(SimplexOperators& mesh, const OuterForces& outer);
+  /// The same of any mesh, with the outer forces on its dual points.
+  double step(MovingDual& dual, const std::vector<Vec3>& outer);
 
 private:
   MotionOptions m_Options;

@@ -41,7 +41,8 @@ bool touches(const std::array<Label, 2>& labels, Label tissue) { return labels[0
 int sideOf(const std::array<Label, 2>& labels, Label tissue) { return labels[0] == tissue ? 0 : 1; }
 
 /// Joins, for each tissue, the two triangles that its surface has at one edge.
-void joinAtEdge(const SurfaceComplex& surface, const TriangleEdge* begin, const TriangleEdge* end, SimplexMesh& mesh)
+void joinAtEdge(const SurfaceComplex& surface, const TriangleEdge* begin, const TriangleEdge* end, Extent extent,
+                SimplexMesh& mesh)
 {
   for (const TriangleEdge* e = begin; e != end; ++e)
     for (int side = 0; side < 2; ++side)
@@ -52,7 +53,7 @@ void joinAtEdge(const SurfaceComplex& surface, const TriangleEdge* begin, const 
       for (const TriangleEdge* f = begin; f != end; ++f)
         if (f != e && touches(mesh.labels[f->triangle], tissue)) other = f, ++others;
       if (others == 1) mesh.neighbours[e->triangle][side][e->corner] = other->triangle;
-      else if (tissue != 0)
+      else if (tissue != 0 && (others > 1 || extent == Extent::whole))
         throw InputError("simplex mesh: tissue " + std::to_string(tissue) + " has " + std::to_string(others + 1) +
                          " triangles at the edge at " +
                          place(0.5 * (surface.points[e->low] + surface.points[e->high])) + ", expected 2");
@@ -139,7 +140,7 @@ std::vector<std::int32_t> walkAround(const SimplexMesh& mesh, std::int32_t start
 
 } // namespace
 
-SimplexMesh simplexMeshOf(const SurfaceComplex& surface)
+SimplexMesh simplexMeshOf(const SurfaceComplex& surface, Extent extent)
 {
   SimplexMesh mesh;
   const auto& p = surface.points;
@@ -155,7 +156,7 @@ SimplexMesh simplexMeshOf(const SurfaceComplex& surface)
     for (end = begin + 1;
          end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high;)
       ++end;
-    joinAtEdge(surface, &edges[begin], &edges[begin] + (end - begin), mesh);
+    joinAtEdge(surface, &edges[begin], &edges[begin] + (end - begin), extent, mesh);
   }
   for (auto& sides : mesh.neighbours)
     for (auto& three : sides)

@@ -40,9 +40,17 @@ struct SimplexFace
   std::vector<std::int32_t> vertices; ///< counter-clockwise as seen from outside the tissue
 };
 
+/// Whether a surface is whole or a part that ends somewhere.
+enum class Extent
+{
+  whole,
+  part
+};
+
 /// The vertex of each triangle lies at its centroid; triangle i becomes vertex i, and point i the faces of id i. Throws
-/// InputError unless every tissue's surface has two triangles at each of its edges.
-SimplexMesh simplexMeshOf(const SurfaceComplex& surface);
+/// InputError unless every tissue's surface has two triangles at each of its edges; of a part it may have one, which
+/// then has no neighbours on that side.
+SimplexMesh simplexMeshOf(const SurfaceComplex& surface, Extent extent = Extent::whole);
 
 /// The dual triangles, connected as those that simplexMeshOf() was given. Each is to have its vertex as its centroid:
 /// the points are the least-squares solution, found from the mean of the vertices around each by conjugate gradients.

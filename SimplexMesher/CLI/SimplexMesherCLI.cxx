@@ -273,6 +273,7 @@ void run(CommandLine& line)
   options.maximumDistance = line.number("maximumDistance");
   options.smoothing = line.number("smoothing");
   options.rigidity = line.number("rigidity");
+  options.continuity = Continuity(line.integer("continuity"));
   options.features = readFeatures(line, results.settings);
   prepare(line, map, asked, options.features, subProgress(progress, 0.02, 0.06), results);
   const ScaleField scale = lengthsFor(line, map, asked, options, results);

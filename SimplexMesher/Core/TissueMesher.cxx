@@ -164,7 +164,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   remesher.balanceAndRun(improvementSweeps(targets, sizes));
   remesher.run(repairSweeps(targets, sizes));
   remesher.balanceAndRun(fittingSweeps(targets, sizes));
-  if (options.smoothing > 0) remesher.run(fairingSweeps(targets, sizes));
+  if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
   remesher.run(secondRepairSweeps(targets, sizes));
   if (targets.countsTriangles()) remesher.balanceAndRun({ finishLengths(targets, sizes) });
   MeshedMap result = std::move(remesher).result(targets.keptAngle);

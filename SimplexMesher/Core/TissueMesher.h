@@ -7,6 +7,7 @@
 #include "MapChanges.h"
 #include "Progress.h"
 #include "ScaleField.h"
+#include "SimplexForces.h"
 #include "TissueMap.h"
 
 namespace surgicalmesher
@@ -23,6 +24,8 @@ struct TissueMesherOptions
   double smoothing = 0.7;
   /// Resistance of the surface to bending, in that of its samples: 0 none, 0.2 some, 1 as much (Bending.h).
   double rigidity = 0.2;
+  /// What the simplex mesh's internal forces ask of the surface where elements are of the voxels' size, if it is smoothed.
+  Continuity continuity = Continuity::C2;
   FeatureOptions features; ///< what the map was simplified by; thin tissues are then held less closely
 };
 
@@ -40,7 +43,7 @@ struct MeshedMap
 };
 
 /// Labels without roughness, lattice, boundary samples, smooth interface, coarsening by levels of size, improvement, repair, balance of volumes,
-/// fairing, even lengths. `map` must be well-composed (prepareMap); every tissue keeps its topology. `scale` is in world
+/// motion of the simplex mesh, even lengths. `map` must be well-composed (prepareMap); every tissue keeps its topology. `scale` is in world
 /// coordinates. The result depends on neither the number of threads nor their timing. Throws EngineError.
 MeshedMap meshTissues(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options,
                       const Progress& progress = {});

@@ -369,6 +369,17 @@ TEST_F(SimplexMesherCLI, FollowsCurvatureToTheChordError)
   for (const Vec3& p : { Vec3{ 3.5, 10, 20 }, { 15.5, 4, 4 } }) EXPECT_NEAR(onBox(p), 5, 0.5); // corners are round
 }
 
+TEST_F(SimplexMesherCLI, ContinuityIsThatOfTheSurface)
+{
+  std::set<std::string> surfaces;
+  for (const char* options : { "", "--continuity 2", "--continuity 1", "--continuity 0" })
+  {
+    expectDone(std::string("--edgeLength 1 ") + options + " map.nrrd s.vtp");
+    surfaces.insert(readBytes(folder.file("s.vtp")));
+  }
+  EXPECT_EQ(surfaces.size(), 3u); // 2 is the default
+}
+
 TEST_F(SimplexMesherCLI, SimplifiesAllButWhatIsProtected)
 {
   // A wall of 1 with a hole of one voxel, a strand of 5, and an island of 1 in the air.

@@ -70,6 +70,27 @@ TEST(SimplexMesh, VerticesBesideAJunctionHaveOtherNeighboursOnEachSurface)
   EXPECT_GT(other, 0);
 }
 
+TEST(SimplexMesh, WhereAPartEndsVerticesHaveNoNeighbours)
+{
+  SurfaceComplex surface = sphere({}, 1, 2);
+  const std::array<std::int32_t, 3> gone = surface.triangles.back();
+  surface.triangles.pop_back();
+  surface.labels.pop_back();
+  EXPECT_THROW(simplexMeshOf(surface), InputError);
+  const SimplexMesh mesh = simplexMeshOf(surface, Extent::part);
+  int without = 0;
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+  {
+    const auto isThere = [&](std::int32_t p) { return std::count(gone.begin(), gone.end(), p) > 0; };
+    const bool isBeside = std::count_if(mesh.faces[v].begin(), mesh.faces[v].end(), isThere) == 2;
+    EXPECT_EQ(mesh.neighbours[v][0][0] < 0, isBeside);
+    without += isBeside;
+  }
+  EXPECT_EQ(without, 3);
+  const SurfaceComplex boxes = surfaceOf(threeBoxes());
+  EXPECT_EQ(simplexMeshOf(boxes, Extent::part).neighbours, simplexMeshOf(boxes).neighbours);
+}
+
 TEST(SimplexMesh, DualTrianglesAreConnectedAsBefore)
 {
   const SurfaceComplex surface = surfaceOf(threeBoxes());

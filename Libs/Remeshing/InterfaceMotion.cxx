@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "InterfaceMotion.h"
+
+#include "TetQuality.h"
+#include "VertexSteps.h"
+#include "VolumeOffsets.h"
+
+#include <algorithm>
+#include <map>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// The triangles of a complex's interface, out of the larger label, and where their samples are.
+struct InterfaceTriangles
+{
+  SurfaceComplex surface;
+  std::vector<std::int32_t> ids;                     ///< of its points in the complex, ascending
+  std::vector<std::pair<std::int32_t, int>> holders; ///< of each triangle
+
+  explicit InterfaceTriangles(const TetComplex& complex)
+  {
+    for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+      for (int i = 0; complex.alive(t) && complex.mayHaveInterface(t) && i < 4; ++i)
+        if (complex.isInterface(t, i) && complex.labels[t] > complex.labels[complex.neighbours[t][i]])
+          add(complex, t, i);
+    numberPoints(complex);
+  }
+
+private:
+  void add(const TetComplex& complex, std::int32_t t, int i)
+  {
+    const auto& x = complex.tets[t];
+    const auto& p = complex.points;
+    std::array<std::int32_t, 3> v{ x[(i + 1) & 3], x[(i + 2) & 3], x[(i + 3) & 3] };
+    if (orient(p[v[0]], p[v[1]], p[v[2]], p[x[i]]) > 0) std::swap(v[1], v[2]);
+    surface.triangles.push_back(v);
+    surface.labels.push_back({ complex.labels[t], complex.labels[complex.neighbours[t][i]] });
+    holders.push_back(complex.holder(t, i));
+  }
+
+  void numberPoints(const TetComplex& complex)
+  {
+    for (const auto& triangle : surface.triangles) ids.insert(ids.end(), triangle.begin(), triangle.end());
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    for (const std::int32_t v : ids) surface.points.push_back(complex.points[v]);
+    for (auto& triangle : surface.triangles)
+      for (std::int32_t& v : triangle) v = std::int32_t(std::lower_bound(ids.begin(), ids.end(), v) - ids.begin());
+  }
+};
+
+class InterfaceMotion
+{
+public:
+  InterfaceMotion(GuardedOperations& operations, const InterfaceMotionOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Least(sine2OfDegrees(options.leastAngle)), m_Start(m_Complex.points), m_Volumes(volumes())
+  {
+    InterfaceTriangles triangles(m_Complex);
+    m_Holders = std::move(triangles.holders);
+    m_Dual.simplex = simplexMeshOf(triangles.surface, Extent::part);
+    m_Dual.surface = std::move(triangles.surface);
+    m_Dual.ids = std::move(triangles.ids);
+    m_Dual.move = [this](std::int32_t v, const Vec3& p) { return move(v, p); };
+    findCurves();
+  }
+
+  void run()
+  {
+    constexpr int balancingRounds = 2;
+    SimplexMotion motion(m_Options.motion);
+    for (int n = 0; n < m_Options.steps; ++n) motion.step(m_Dual, outerForces());
+    for (int round = 0; round < balancingRounds; ++round) balanceVolumes();
+  }
+
+private:
+  bool move(std::int32_t v, const Vec3& p)
+  {
+    constexpr double least = 0.03; // of the farthest; shorter ways cost as much and show nothing
+    const Vec3 q = withinReach(v, p);
+    return norm(q - m_Complex.points[v]) > least * m_Options.farthest &&
+           m_Operations.move(v, q, std::min(m_Least, m_Operations.qualityAt(v)));
+  }
+
+  // ---- forces from outside
+
+  std::vector<Vec3> outerForces() const
+  {
+    constexpr double factor = 0.4; // of U(U(p)); stable up to 0.5
+    const std::vector<Vec3>& points = m_Dual.surface.points;
+    std::vector<Vec3> forces = meanImageForces(), umbrellas(points.size());
+    for (std::size_t p = 0; p < points.size(); ++p) umbrellas[p] = umbrella(p, points);
+    for (std::size_t p = 0; p < points.size(); ++p) forces[p] -= factor * umbrella(p, umbrellas);
+    return forces;
+  }
+
+  /// At each point, the mean of what the triangles there have that hold samples.
+  std::vector<Vec3> meanImageForces() const
+  {
+    const SurfaceComplex& surface = m_Dual.surface;
+    std::vector<Vec3> forces(surface.points.size());
+    std::vector<int> count(surface.points.size(), 0);
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+    {
+      const auto [tet, face] = m_Holders[t];
+      if (m_Complex.sampleHeads[tet][face] < 0) continue;
+      const Vec3 force = imageForce(t);
+      for (const std::int32_t p : surface.triangles[t]) forces[p] += force, ++count[p];
+    }
+    for (std::size_t p = 0; p < forces.size(); ++p)
+      if (count[p] > 0) forces[p] = m_Options.motion.image / count[p] * forces[p];
+    return forces;
+  }
+
+  Vec3 imageForce(std::size_t t) const
+  {
+    const SurfaceComplex& surface = m_Dual.surface;
+    const auto& [a, b, c] = surface.triangles[t];
+    const Vec3 n = cross(surface.points[b] - surface.points[a], surface.points[c] - surface.points[a]);
+    const auto [tet, face] = m_Holders[t];
+    double way = 0;
+    int count = 0;
+    for (std::int32_t e = m_Complex.sampleHeads[tet][face]; e >= 0; e = m_Complex.samples[e].next, ++count)
+      way += dot(m_Complex.samples[e].position - surface.points[a], n);
+    return way / (count * squaredNorm(n)) * n;
+  }
+
+  // ---- curves between tissues
+
+  /// The two next to each point of a curve; none at other points, and where curves meet or end.
+  void findCurves()
+  {
+    FacesAtNeighbours faces;
+    const std::vector<std::int32_t>& ids = m_Dual.ids;
+    for (const std::int32_t v : ids)
+    {
+      facesAtNeighbours(m_Operations.sheet(v), v, faces);
+      std::vector<std::int32_t> along;
+      for (const auto& [n, count] : faces)
+        if (count > 2) along.push_back(std::int32_t(std::lower_bound(ids.begin(), ids.end(), n) - ids.begin()));
+      m_Along.push_back(along.size() == 2 ? std::array{ along[0], along[1] } : std::array{ -1, -1 });
+    }
+  }
+
+  Vec3 umbrella(std::size_t p, const std::vector<Vec3>& x) const
+  {
+    const auto& [a, b] = m_Along[p];
+    return a < 0 ? Vec3{} : 0.5 * (x[a] + x[b]) - x[p];
+  }
+
+  void step(std::int32_t v, const Vec3& way)
+  {
+    const Vec3 p = m_Complex.points[v];
+    const double floor = std::min(m_Least, m_Operations.qualityAt(v));
+    for (const double share : { 1.0, 0.5, 0.25 })
+      if (m_Operations.move(v, p + share * way, floor)) return;
+  }
+
+  // ---- volumes
+
+  std::map<Label, double> volumes() const
+  {
+    std::map<Label, double> result;
+    const auto& p = m_Complex.points;
+    for (std::size_t t = 0; t < m_Complex.tets.size(); ++t)
+    {
+      if (!m_Complex.alive(std::int32_t(t))) continue;
+      const auto& [a, b, c, d] = m_Complex.tets[t];
+      result[m_Complex.labels[t]] += orient(p[a], p[b], p[c], p[d]) / 6;
+    }
+    return result;
+  }
+
+  /// A face at a vertex, seen from one of its labels.
+  struct Side
+  {
+    Label from, to;
+    Vec3 area; ///< vector, mm^2, from the one to the other
+  };
+
+  Side sideOf(const SheetFace& f) const
+  {
+    const auto at = [&](int k) { return m_Complex.points[f.vertices[k]]; };
+    const Vec3 area = 0.5 * cross(at(1) - at(0), at(2) - at(0));
+    const Vec3 inside = m_Complex.points[m_Complex.tets[f.tet][f.face]];
+    const Label from = m_Complex.labels[f.tet], to = m_Complex.labels[m_Complex.neighbours[f.tet][f.face]];
+    return { from, to, dot(area, inside - at(0)) > 0 ? -1.0 * area : area };
+  }
+
+  /// Of the faces at free vertices, mm^2, by the labels on both sides.
+  std::map<std::pair<Label, Label>, double> areas()
+  {
+    std::map<std::pair<Label, Label>, double> result;
+    for (const std::int32_t v : m_Dual.ids)
+    {
+      if (m_Complex.locked[v]) continue;
+      for (const SheetFace& f : m_Operations.sheet(v).faces)
+      {
+        const Side side = sideOf(f);
+        result[std::minmax(side.from, side.to)] += norm(side.area) / 3;
+      }
+    }
+    return result;
+  }
+
+  /// How far (mm) each tissue's boundary has to go outwards for the volume that it had.
+  std::map<Label, double> offsets()
+  {
+    std::map<Label, double> lacking = m_Volumes;
+    for (const auto& [label, volume] : volumes()) lacking[label] -= volume;
+    return offsetsForVolumes(lacking, areas(), m_Options.farthest);
+  }
+
+  /// Where the boundaries of the tissues at v, each offset, meet.
+  Vec3 meetingStep(std::int32_t v, const std::map<Label, double>& offset)
+  {
+    constexpr double spring = 0.05; // where all are nearly one plane
+    Quadric quadric;
+    for (const SheetFace& f : m_Operations.sheet(v).faces)
+    {
+      const Side side = sideOf(f);
+      const double size = norm(side.area);
+      const Vec3 n = side.area / size;
+      const double m[6] = { n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z };
+      for (int i = 0; i < 6; ++i) quadric.m[i] += size * m[i];
+      quadric.g += (offset.at(side.from) - offset.at(side.to)) * side.area;
+    }
+    quadric.addToDiagonal(spring * quadric.trace());
+    return quadric.solve(quadric.g);
+  }
+
+  void balanceVolumes()
+  {
+    std::map<Label, double> offset = offsets();
+    offset[0] = 0;
+    for (const std::int32_t v : m_Dual.ids)
+    {
+      if (m_Complex.locked[v]) continue;
+      const Vec3 p = m_Complex.points[v];
+      step(v, withinReach(v, p + meetingStep(v, offset)) - p);
+    }
+  }
+
+  Vec3 withinReach(std::int32_t v, const Vec3& p) const
+  {
+    const double length = m_Complex.lengths[v], fineness = std::min(1.0, m_Options.fineLength / length);
+    const double reach = std::min(0.3 * length, m_Options.farthest * fineness * fineness);
+    const Vec3 way = p - m_Start[v];
+    const double distance = norm(way);
+    return distance > reach ? m_Start[v] + (reach / distance) * way : p;
+  }
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const InterfaceMotionOptions& m_Options;
+  const double m_Least;
+  const std::vector<Vec3> m_Start;
+  const std::map<Label, double> m_Volumes;
+  MovingDual m_Dual;
+  std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of the samples of each of its triangles
+  std::vector<std::array<std::int32_t, 2>> m_Along;    ///< of each of its points, see findCurves
+};
+
+} // namespace
+
+void moveInterfaceOfBlock(GuardedOperations& operations, const InterfaceMotionOptions& options)
+{
+  InterfaceMotion(operations, options).run();
+}
+
+} // namespace surgicalmesher
