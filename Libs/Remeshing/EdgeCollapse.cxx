@@ -150,6 +150,7 @@ bool GuardedOperations::collapseWithin(std::int32_t u, std::int32_t v, const Vec
   if (m_Curves) m_Curves->collapsed(u, v);
   if (!inside) m_Envelope.attach();
   ++m_Counts.collapses;
+  m_Counts.t1 += !inside;
   return true;
 }
 

@@ -148,6 +148,7 @@ bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t 
   changed();
   m_Envelope.attach(ids);
   ++m_Counts.flips;
+  m_Counts.t7 += onSheet;
   return true;
 }
 

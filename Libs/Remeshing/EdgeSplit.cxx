@@ -46,6 +46,7 @@ std::optional<std::int32_t> GuardedOperations::split(std::int32_t a, std::int32_
   changed();
   m_Envelope.attach(ids);
   ++m_Counts.splits;
+  m_Counts.t2 += m_Envelope.hasNewFaces();
   return m;
 }
 
@@ -53,11 +54,14 @@ void GuardedOperations::takeBackSplit(std::int32_t v, std::int32_t a)
 {
   const Envelope::Lifted lifted(m_Envelope); // it was so before
   if (m_Curves) m_Curves->setLifted(true);
+  const OperationCounts before = m_Counts;
   const bool done = collapseWithin(v, a, m_Complex.points[a], 0);
   assert(done);
   if (m_Curves) m_Curves->setLifted(false);
-  m_Counts.collapses -= done;
   m_Counts.splits -= done;
+  m_Counts.t2 -= m_Counts.t1 - before.t1;
+  m_Counts.collapses = before.collapses;
+  m_Counts.t1 = before.t1;
 }
 
 } // namespace surgicalmesher

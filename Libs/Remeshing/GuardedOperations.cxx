@@ -19,6 +19,9 @@ OperationCounts& OperationCounts::operator+=(const OperationCounts& more)
   flips += more.flips;
   splits += more.splits;
   relabels += more.relabels;
+  t1 += more.t1;
+  t2 += more.t2;
+  t7 += more.t7;
   return *this;
 }
 

@@ -29,6 +29,7 @@ namespace surgicalmesher
 struct OperationCounts
 {
   long collapses = 0, moves = 0, flips = 0, splits = 0, relabels = 0;
+  long t1 = 0, t2 = 0, t7 = 0; ///< collapses, splits and flips of edges of the interface, among those above
 
   OperationCounts& operator+=(const OperationCounts& more);
 };

@@ -219,6 +219,9 @@ void writeEvolution(JsonWriter& json, const std::vector<EvolutionStep>& evolutio
                  writeMember(json, "faces", step.faces);
                  writeMember(json, "meanDistance", step.meanDistance);
                  writeMember(json, "maximumDistance", step.maximumDistance);
+                 writeMember(json, "T1", step.operations.t1);
+                 writeMember(json, "T2", step.operations.t2);
+                 writeMember(json, "T7", step.operations.t7);
                  writeMember(json, "collapses", step.operations.collapses);
                  writeMember(json, "splits", step.operations.splits);
                  writeMember(json, "flips", step.operations.flips);
@@ -309,13 +312,14 @@ std::string evolutionCsv(const std::vector<EvolutionStep>& evolution)
 {
   std::ostringstream csv;
   csv.imbue(std::locale::classic());
-  csv << "step,stage,tetrahedra,faces,meanDistance,maximumDistance,T1,T2,T7,relabels,moves\n";
+  csv << "step,stage,tetrahedra,faces,meanDistance,maximumDistance,T1,T2,T7,relabels,moves,collapses,splits,flips\n";
   std::size_t number = 0;
   for (const EvolutionStep& step : evolution)
   {
     csv << number++ << ",\"" << step.stage << "\"," << step.tetrahedra << ',' << step.faces << ',' << step.meanDistance
-        << ',' << step.maximumDistance << ',' << step.operations.collapses << ',' << step.operations.splits << ','
-        << step.operations.flips << ',' << step.operations.relabels << ',' << step.operations.moves << '\n';
+        << ',' << step.maximumDistance << ',' << step.operations.t1 << ',' << step.operations.t2 << ',' << step.operations.t7 << ','
+        << step.operations.relabels << ',' << step.operations.moves << ',' << step.operations.collapses << ','
+        << step.operations.splits << ',' << step.operations.flips << '\n';
   }
   return csv.str();
 }

@@ -168,9 +168,9 @@ struct EvolutionColumns
   std::string faces = vtkMRMLTr("SimplexMesher", "Faces");
   std::string meanDistance = vtkMRMLTr("SimplexMesher", "Mean distance (mm)");
   std::string maximumDistance = vtkMRMLTr("SimplexMesher", "Maximum distance (mm)");
-  std::string collapses = vtkMRMLTr("SimplexMesher", "T1 (collapses)");
-  std::string splits = vtkMRMLTr("SimplexMesher", "T2 (splits)");
-  std::string flips = vtkMRMLTr("SimplexMesher", "T7 (flips)");
+  std::string collapses = vtkMRMLTr("SimplexMesher", "T1 (interface collapses)");
+  std::string splits = vtkMRMLTr("SimplexMesher", "T2 (interface splits)");
+  std::string flips = vtkMRMLTr("SimplexMesher", "T7 (interface flips)");
   std::string relabels = vtkMRMLTr("SimplexMesher", "Relabelled tetrahedra");
   std::string moves = vtkMRMLTr("SimplexMesher", "Moves");
 };
@@ -282,9 +282,9 @@ void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* node)
   number(names.faces, "faces");
   distance(names.meanDistance, "meanDistance");
   distance(names.maximumDistance, "maximumDistance");
-  number(names.collapses, "collapses");
-  number(names.splits, "splits");
-  number(names.flips, "flips");
+  number(names.collapses, "T1");
+  number(names.splits, "T2");
+  number(names.flips, "T7");
   number(names.relabels, "relabels");
   number(names.moves, "moves");
 }

@@ -502,7 +502,8 @@ TEST_F(SimplexMesherCLI, WritesEveryTissueApartWhateverItsName)
             std::string::npos);
 
   const std::string table = readBytes(folder.file("e.csv"));
-  EXPECT_EQ(table.rfind("step,stage,tetrahedra,faces,meanDistance,maximumDistance,T1,T2,T7,relabels,moves\n", 0), 0u);
+  EXPECT_EQ(table.rfind("step,stage,tetrahedra,faces,meanDistance,maximumDistance,T1,T2,T7,relabels,moves,"
+                        "collapses,splits,flips\n", 0), 0u);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + report["evolution"].Size());
 }
 

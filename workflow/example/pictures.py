@@ -373,8 +373,8 @@ def draw_evolution(report, file):
     distance.plot(number, [step["meanDistance"] for step in steps], color=BAR_COLOR, marker="o", label="mean")
     distance.set_ylabel("from the map's boundary to the surface (mm)", fontsize=11)
     distance.set_ylim(bottom=0)
-    for name, kind, color in (("edges collapsed (T1)", "collapses", BAR_COLOR), ("edges split (T2)", "splits", INK),
-                              ("edges flipped (T7)", "flips", IDEAL_COLOR),
+    for name, kind, color in (("edges collapsed (T1)", "T1", BAR_COLOR), ("edges split (T2)", "T2", INK),
+                              ("edges flipped (T7)", "T7", IDEAL_COLOR),
                               ("tetrahedra relabelled", "relabels", "#54a24b")):
         operations.plot(number, [step[kind] for step in steps], color=color, marker="o", label=name)
     operations.set_yscale("symlog", linthresh=1)

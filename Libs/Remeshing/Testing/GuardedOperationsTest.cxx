@@ -169,6 +169,13 @@ std::map<FaceVertices, std::array<Vec3, 3>> interfaceTriangles(const TetComplex&
   return result;
 }
 
+std::set<FaceVertices> keysOf(const std::map<FaceVertices, std::array<Vec3, 3>>& triangles)
+{
+  std::set<FaceVertices> keys;
+  for (const auto& triangle : triangles) keys.insert(triangle.first);
+  return keys;
+}
+
 /// Every triangle between labels that is not as it was reaches the quality asked for.
 void expectTriangleQuality(const std::map<FaceVertices, std::array<Vec3, 3>>& before, const TetComplex& c,
                            double minimumQuality)
@@ -305,6 +312,11 @@ TEST_P(RandomOperations, KeepEveryPromise)
       if (a.done && seed % 2) expectTriangleQuality(triangles, complex, a.minimumQuality);
       const OperationCounts now = operations.counts();
       EXPECT_EQ(total(now) - total(counts), a.done);
+      if (a.name != "relabel" && a.name != "move")
+      {
+        const bool hasOtherTriangles = keysOf(triangles) != keysOf(interfaceTriangles(complex));
+        EXPECT_EQ(now.t1 + now.t2 + now.t7 - counts.t1 - counts.t2 - counts.t7, hasOtherTriangles);
+      }
       if (a.done && ++done % 4 == 0)
       {
         EXPECT_TRUE(isKept(topology, topologyOf(complex)));
@@ -319,6 +331,15 @@ TEST_P(RandomOperations, KeepEveryPromise)
     all.flips += operations.counts().flips;
     all.splits += operations.counts().splits;
     all.relabels += operations.counts().relabels;
+    all.t1 += operations.counts().t1;
+    all.t2 += operations.counts().t2;
+    all.t7 += operations.counts().t7;
+  }
+  for (const auto& [ofInterface, ofAll] :
+       { std::pair{ all.t1, all.collapses }, { all.t2, all.splits }, { all.t7, all.flips } })
+  {
+    EXPECT_GT(ofInterface, 0);
+    EXPECT_LT(ofInterface, ofAll);
   }
   EXPECT_GT(all.collapses, 80);
   EXPECT_GT(all.moves, 80);
