@@ -11,12 +11,12 @@ namespace surgicalmesher
 
 struct InterfaceMotionOptions
 {
-  MotionOptions motion{ 0.8, 0.3, 0.2, {}, 1.2 };
+  MotionOptions motion{ 0.8, 0.3, 0.1, {}, 1.2 };
   double leastAngle =
     15;                  ///< degrees; a move may lower the worst angle at its vertex to this, what improves comes after
   double farthest = 0.3; ///< mm, that a vertex moves at most; nor 0.3 of its target length
   double fineLength = 1; ///< mm; beyond this target length it is farthest * (fineLength / length)^2
-  int steps = 5;
+  int steps = 6;
 };
 
 /// Steps of the law of motion on the simplex mesh that is dual to the interface of the block. The image force leads each
