@@ -9,6 +9,7 @@
 #include "InterfaceMotion.h"
 #include "InterfaceRelabelling.h"
 #include "Polishing.h"
+#include "ProximitySplits.h"
 #include "Relaxation.h"
 #include "SpikeRemoval.h"
 
@@ -48,6 +49,10 @@ struct MoveInterface ///< moveInterfaceOfBlock
 {
   InterfaceMotionOptions options;
 };
+struct MeetProximity ///< meetProximityOfBlock
+{
+  ProximityOptions options;
+};
 struct RelabelInterface ///< relabelBlock
 {
   double keptAngle; ///< degrees
@@ -62,8 +67,8 @@ struct RemoveEars ///< removeEarsOfBlock
   std::size_t few; ///< tetrahedra
 };
 
-using Pass = std::variant<Coarsen, Relax, Polish, Improve, RaiseHeights, EvenOut, MoveInterface, RelabelInterface,
-                          RemoveSpikes, RemoveEars>;
+using Pass = std::variant<Coarsen, Relax, Polish, Improve, RaiseHeights, EvenOut, MoveInterface, MeetProximity,
+                          RelabelInterface, RemoveSpikes, RemoveEars>;
 
 struct Stage
 {

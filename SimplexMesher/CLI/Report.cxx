@@ -219,6 +219,7 @@ void writeEvolution(JsonWriter& json, const std::vector<EvolutionStep>& evolutio
                  writeMember(json, "faces", step.faces);
                  writeMember(json, "meanDistance", step.meanDistance);
                  writeMember(json, "maximumDistance", step.maximumDistance);
+                 writeMember(json, "samplesBeyondTolerance", step.beyond);
                  writeMember(json, "T1", step.operations.t1);
                  writeMember(json, "T2", step.operations.t2);
                  writeMember(json, "T7", step.operations.t7);

@@ -120,6 +120,25 @@ FeatureOptions readFeatures(const CommandLine& line, const TissueSettings& setti
   return options;
 }
 
+Proximity readProximity(const CommandLine& line)
+{
+  const std::vector<double> mm = line.numbers("proximity");
+  const bool isNone = mm == std::vector<double>{ 0, 0 };
+  if (!isNone && (mm.size() != 2 || !(mm[0] > 0) || mm[1] < mm[0]))
+    throw UsageError("--proximity: expected NEAR,FAR with 0 < NEAR <= FAR (mm), or 0,0");
+  return { mm[0], mm[1] };
+}
+
+void warnOfProximity(CommandLine& line, const MeshedMap& mesh)
+{
+  const EvolutionStep& last = mesh.evolution.back();
+  if (last.beyond == 0) return;
+  std::ostringstream text;
+  text << "--proximity: " << last.beyond << " of " << mesh.background.samples.size()
+       << " boundary samples are farther from the surface than asked for, the farthest " << last.maximumDistance << " mm";
+  line.warning(text.str());
+}
+
 /// Makes the map what the surface is to be faithful to.
 void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const FeatureOptions& features,
              const Progress& progress, SurfaceReport& results)
@@ -274,6 +293,7 @@ void run(CommandLine& line)
   options.smoothing = line.number("smoothing");
   options.rigidity = line.number("rigidity");
   options.continuity = Continuity(line.integer("continuity"));
+  options.proximity = readProximity(line);
   options.features = readFeatures(line, results.settings);
   prepare(line, map, asked, options.features, subProgress(progress, 0.02, 0.06), results);
   const ScaleField scale = lengthsFor(line, map, asked, options, results);
@@ -292,6 +312,7 @@ void run(CommandLine& line)
   results.points = content.surface.points.size();
   results.triangles = content.surface.triangles.size();
   results.evolution = mesh.evolution;
+  if (options.proximity.isAsked()) warnOfProximity(line, mesh);
   results.smoothing = options.smoothing;
   results.smoothed = mesh.smoothed;
   report(progress, 0.92, "distances");

@@ -15,6 +15,7 @@ namespace
 struct Distances
 {
   double sum = 0, maximum = 0; ///< mm
+  std::size_t beyond = 0;      ///< the samples' tolerances
 };
 
 /// Of samples `from` to `to` to their faces.
@@ -29,6 +30,7 @@ Distances distancesOf(const BackgroundMesh& background, std::size_t from, std::s
     const double d = std::sqrt(squaredDistanceToTriangle(sample.position, corner(1), corner(2), corner(3)));
     result.sum += d;
     result.maximum = std::max(result.maximum, d);
+    result.beyond += d > double(sample.tolerance) * (1 + 1e-6);
   }
   return result;
 }
@@ -46,6 +48,7 @@ Distances distancesOf(const BackgroundMesh& background)
   {
     result.sum += d.sum;
     result.maximum = std::max(result.maximum, d.maximum);
+    result.beyond += d.beyond;
   }
   return result;
 }
@@ -65,6 +68,7 @@ EvolutionStep evolutionStep(const BackgroundMesh& background, const std::string&
     for (const std::int32_t n : neighbours[t]) step.faces += n > std::int32_t(t) && labels[n] != labels[t];
   const Distances distances = distancesOf(background);
   step.maximumDistance = distances.maximum;
+  step.beyond = distances.beyond;
   if (!background.samples.empty()) step.meanDistance = distances.sum / double(background.samples.size());
   return step;
 }

@@ -19,6 +19,7 @@ struct EvolutionStep
   std::size_t faces = 0;      ///< between labels; not counted (0) in the lattice, whose neighbours nobody needs
   double meanDistance = 0;    ///< mm, of the map's smoothed boundary to the surface
   double maximumDistance = 0; ///< mm
+  std::size_t beyond = 0;     ///< samples farther than their tolerance
   OperationCounts operations; ///< since the step before
 };
 

@@ -78,6 +78,14 @@ std::map<Label, double> mostDrifts(const std::map<Label, double>& thickness, dou
   return result;
 }
 
+/// As L is between its least and its most, so is the proximity.
+double proximityAt(double length, const ToleranceOptions& options)
+{
+  const double range = options.longest - options.shortest;
+  const double share = range > 0 ? std::clamp((length - options.shortest) / range, 0., 1.) : 0;
+  return options.proximity.near + share * (options.proximity.far - options.proximity.near);
+}
+
 } // namespace
 
 void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::map<Label, double>& thickness,
@@ -89,7 +97,9 @@ void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::
   const double ofLength = options.isSmooth ? 0.06 : 0.095; // without roughness to follow, closer costs no tetrahedra
   for (auto& sample : background.samples)
   {
-    double tolerance = room * (ofVoxel * voxel + ofLength * length(sample.position));
+    const double at = length(sample.position);
+    double tolerance =
+      options.proximity.isAsked() ? proximityAt(at, options) : room * (ofVoxel * voxel + ofLength * at);
     for (const Label label : labelsBeside(map, sample.position))
       if (label != 0) tolerance = std::min(tolerance, drifts.at(label));
     sample.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);

@@ -11,10 +11,21 @@
 namespace surgicalmesher
 {
 
+/// A distance from the boundary that follows L, mm.
+struct Proximity
+{
+  double near = 0; ///< where L is its least; 0: none is asked for
+  double far = 0;  ///< where L is its most
+  bool isAsked() const { return near > 0; }
+};
+
 struct ToleranceOptions
 {
   double maximumDistance = 0; ///< mm; no tolerance is larger; 0: no bound
   FeatureOptions features;    ///< what the map was simplified by
+  Proximity proximity;        ///< takes the place of c voxel + d L, between `shortest` and `longest`
+  double shortest = 0;        ///< mm
+  double longest = 0;         ///< mm
   bool isSmooth = false;      ///< samples will lie on a smooth boundary, not on the voxels' steps
 };
 

@@ -50,9 +50,11 @@ KuhnLattice latticeOf(const TissueMap& map, const ScaleField& scale, const Sizin
 BackgroundMesh startingMesh(const TissueMap& map, const ScaleField& scale, const std::map<Label, double>& thickness,
                             const SizingFunction& length, const TissueMesherOptions& options, const Progress& progress)
 {
+  const auto [shortest, longest] = std::minmax_element(scale.lengths.begin(), scale.lengths.end());
   KuhnLattice lattice = latticeOf(map, scale, length, options, progress);
-  setTolerances(lattice.background, map, thickness, length,
-                { options.maximumDistance, options.features, options.smoothing > 0 });
+  setTolerances(
+    lattice.background, map, thickness, length,
+    { options.maximumDistance, options.features, options.proximity, *shortest, *longest, options.smoothing > 0 });
   if (options.smoothing > 0) moveToSmoothBoundary(lattice, map, options.smoothing);
   else smoothInterface(lattice, map.grid.spacing);
   return std::move(lattice.background);
@@ -63,7 +65,7 @@ RemesherOptions remesherOptions(const TissueMesherOptions& options, double voxel
   constexpr double betweenFaces = 0.8; // of a voxel: half the diagonal of a face, and what its sample has moved
   RemesherOptions result;
   if (options.smoothing > 0) result.sampleSpacing = betweenFaces * voxel; // tolerances are narrower then
-  result.tolerancesAreHard = isBounded(options);
+  result.tolerancesAreHard = isBounded(options) || options.proximity.isAsked();
   result.separatedFactor = 2;
   result.rigidity = options.rigidity;
   return result;
@@ -164,6 +166,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   remesher.balanceAndRun(improvementSweeps(targets, sizes));
   remesher.run(repairSweeps(targets, sizes));
   remesher.balanceAndRun(fittingSweeps(targets, sizes));
+  if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets));
   if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
   remesher.run(secondRepairSweeps(targets, sizes));
   if (targets.countsTriangles()) remesher.balanceAndRun({ finishLengths(targets, sizes) });

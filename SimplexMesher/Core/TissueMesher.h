@@ -6,6 +6,7 @@
 #include "FeatureSimplification.h"
 #include "MapChanges.h"
 #include "Progress.h"
+#include "SampleTolerances.h"
 #include "ScaleField.h"
 #include "SimplexForces.h"
 #include "TissueMap.h"
@@ -26,6 +27,9 @@ struct TissueMesherOptions
   double rigidity = 0.2;
   /// What the simplex mesh's internal forces ask of the surface where elements are of the voxels' size, if it is smoothed.
   Continuity continuity = Continuity::C2;
+  /// Distance of samples to the surface, in place of the automatic one; where it does not hold, the surface gets more
+  /// triangles.
+  Proximity proximity;
   FeatureOptions features; ///< what the map was simplified by; thin tissues are then held less closely
 };
 

@@ -369,6 +369,56 @@ TEST_F(SimplexMesherCLI, FollowsCurvatureToTheChordError)
   for (const Vec3& p : { Vec3{ 3.5, 10, 20 }, { 15.5, 4, 4 } }) EXPECT_NEAR(onBox(p), 5, 0.5); // corners are round
 }
 
+TEST_F(SimplexMesherCLI, ProximityHoldsByMoreTriangles)
+{
+  const auto waist = [](int i, int j, int k)
+  { return std::hypot(i - 12, j - 12) <= 6 + 3 * std::cos((k - 16) / 2.2) && std::abs(k - 16) < 14 ? 1 : 0; };
+  write("waist.nrrd", paintedMap({ 25, 25, 33 }, waist));
+  std::map<std::string, std::size_t> triangles;
+  for (const std::string options : { "", " --proximity 0.2,0.2" })
+  {
+    EXPECT_EQ(run("--edgeLength 6 --report r.json" + options + " waist.nrrd s.vtp").status, 0);
+    triangles[options] = readSurface(folder.file("s.vtp")).surface.triangles.size();
+    const rapidjson::Document report = parsed("r.json");
+    long t2 = 0;
+    for (const rapidjson::Value& step : report["evolution"].GetArray()) t2 += step["T2"].GetInt();
+    const rapidjson::Value& last = report["evolution"][report["evolution"].Size() - 1];
+    if (options.empty())
+    {
+      EXPECT_GT(last["maximumDistance"].GetDouble(), 0.4);
+      continue;
+    }
+    EXPECT_GT(t2, 0);
+    EXPECT_LT(last["maximumDistance"].GetDouble(), 0.25);
+    EXPECT_LT(last["samplesBeyondTolerance"].GetInt(), 60); // of 2,800
+  }
+  EXPECT_GT(triangles.rbegin()->second, 1.5 * double(triangles.begin()->second));
+  for (const char* wrong : { "1", "0,1", "2,1", "1,2,3" })
+    EXPECT_EQ(run(std::string("--edgeLength 6 --proximity ") + wrong + " waist.nrrd s.vtp").status, 2) << wrong;
+}
+
+TEST_F(SimplexMesherCLI, ProximityFollowsTheScale)
+{
+  const auto rod = [](int i, int j, int k)
+  { return std::hypot(j - 10, k - 10) <= 5 + 2 * std::cos(i / 2.2) && i >= 3 && i < 57 ? 1 : 0; };
+  const TissueMap map = paintedMap({ 60, 21, 21 }, rod);
+  write("rod.nrrd", map);
+  std::vector<float> lengths(map.grid.voxelCount());
+  for (std::size_t v = 0; v < lengths.size(); ++v) lengths[v] = map.grid.voxelAt(v)[0] < 30 ? 3.f : 6.f;
+  folder.write("steps.nrrd", nrrd("float", nrrdGeometry(map.grid), lengths));
+  EXPECT_EQ(run("--scale steps.nrrd --proximity 0.15,1.2 rod.nrrd s.vtp").status, 0);
+  const SurfaceComplex surface = readSurface(folder.file("s.vtp")).surface;
+  std::array<double, 2> farthest{};
+  for (std::size_t p = 0; p < surface.points.size(); ++p)
+  {
+    const Vec3& x = surface.points[p];
+    if (std::abs(x.x - 30) < 4 || x.x < 6 || x.x > 54) continue;
+    const double off = std::abs(std::hypot(x.y - 10, x.z - 10) - (5 + 2 * std::cos(x.x / 2.2)));
+    farthest[x.x > 30] = std::max(farthest[x.x > 30], off);
+  }
+  EXPECT_LT(farthest[0], farthest[1]);
+}
+
 TEST_F(SimplexMesherCLI, ContinuityIsThatOfTheSurface)
 {
   std::set<std::string> surfaces;
@@ -503,7 +553,9 @@ TEST_F(SimplexMesherCLI, WritesEveryTissueApartWhateverItsName)
 
   const std::string table = readBytes(folder.file("e.csv"));
   EXPECT_EQ(table.rfind("step,stage,tetrahedra,faces,meanDistance,maximumDistance,T1,T2,T7,relabels,moves,"
-                        "collapses,splits,flips\n", 0), 0u);
+                        "collapses,splits,flips\n",
+                        0),
+            0u);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + report["evolution"].Size());
 }
 
