@@ -1,5 +1,6 @@
 """Meshes of one body by several meshers, at settings swept from near the surface to far from it."""
 import os
+import resource
 import subprocess
 from types import SimpleNamespace
 
@@ -8,6 +9,7 @@ import vtk
 from scipy import ndimage
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
+import cleaver
 from brain import blocks_of
 from fidelity import boundary_of_map, boundary_of_mesh, boundary_triangles
 from lattice import compressed
@@ -15,7 +17,8 @@ from maps import write_nrrd
 from measures import dihedral_angles
 from meshfiles import interpolated, read_mesh
 
-MESHERS = ("ours, ambient", "ours, surface alone", "CGAL Mesh_3", "CGAL surface + TetGen", "compressed lattice")
+MESHERS = ("ours, ambient", "ours, surface alone", "CGAL Mesh_3", "CGAL surface + TetGen", "compressed lattice",
+           cleaver.NAME)
 
 
 def write_uniform_scale(file, length):
@@ -28,18 +31,22 @@ def write_uniform_scale(file, length):
 
 
 class Programs:
-    """Runs the meshers' programs in a folder and adds up the processor time they take."""
+    """Runs the meshers' programs in a folder and adds up the processor time they take. `cleaver`: a program elsewhere."""
 
-    def __init__(self, programs, folder):
+    def __init__(self, programs, folder, cleaver_program=None):
         self.programs, self.folder, self.seconds = os.path.abspath(programs), folder, 0.0
+        self.cleaver = cleaver_program and os.path.abspath(cleaver_program)
 
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def __call__(self, program, *arguments):
+    def __call__(self, program, *arguments, most=None):
+        """`most`: processor seconds after which the program is ended by SIGXCPU."""
+        def limited():
+            resource.setrlimit(resource.RLIMIT_CPU, (most, most + 1))
         before = os.times()
         subprocess.run([os.path.join(self.programs, program), *map(str, arguments)], check=True, cwd=self.folder,
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, preexec_fn=most and limited)
         after = os.times()
         self.seconds += after.children_user + after.children_system - before.children_user - before.children_system
 
@@ -75,6 +82,9 @@ def mesh_by(run, mesher, body, setting):
         mesh = compressed(body.mask, body.affine, body.surface, side, weight)
         after = os.times()
         run.seconds = after.user + after.system - before.user - before.system
+    elif mesher == cleaver.NAME:
+        rate, features = setting
+        mesh = cleaver.mesh_of(run, body.mask.astype(int), body.affine, "-R", rate, "-F", features)
     elif mesher == "CGAL Mesh_3":
         mesh3(run, setting, False, "mesh.vtu")
         mesh = read_mesh(run.path("mesh.vtu"))

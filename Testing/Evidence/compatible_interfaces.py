@@ -2,17 +2,18 @@
 """Ways to interfaces that contiguous tissues share, after the paper on meshes of the Virtual Family models.
 
 usage: compatible_interfaces.py BIN OUTDIR [--map FILE --groups LABEL=L,L,.. LABEL=..] [--box I:I,J:J,K:K]
-           [--edgeLength MM] [--document]
+           [--edgeLength MM] [--cleaver PROGRAM] [--document]
 
-BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, SurfaceRemesherCLI, Mesh3Driver,
-TetGenDriver and BooleanDriver. The map is jhu189 as it is, or FILE
-(.nii.gz) with groups of its labels joined and all others left out, or only a box of its voxels. Docs/Evidence.md says what is compared. Every
-finished way stays in OUTDIR and is not run again. Writes interfaces.md and interfaces.json; --document puts
-the table into Docs/Evidence.md.
+BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, SurfaceRemesherCLI, Mesh3Driver, TetGenDriver and BooleanDriver;
+PROGRAM is Cleaver's cleaver-cli, without which its row is left out. The map is jhu189 as it is, or FILE (.nii.gz) with
+groups of its labels joined and all others left out, or only a box of its voxels. Docs/Evidence.md says what is compared.
+Every finished way stays in OUTDIR and is not run again. Writes interfaces.md and interfaces.json; --document puts the
+table into Docs/Evidence.md.
 """
 import argparse
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
@@ -28,6 +29,7 @@ from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path[:0] = [os.path.join(ROOT, *folder) for folder in (("workflow", "example"), ("Testing", "Python"),
                                                            ("Testing", "Evidence"))]
+import cleaver  # noqa: E402
 import document  # noqa: E402
 from brain_meshes import Programs, write_uniform_scale  # noqa: E402
 from fidelity import boundary_of_map, boundary_of_mesh, boundary_triangles, hausdorff_by_tissue  # noqa: E402
@@ -235,6 +237,10 @@ def read_surface(file):
             vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3), cell_array(surface, "BoundaryLabels"))
 
 
+def by_cleaver(run, given):
+    return cleaver.uniform_mesh_of(run, given.labels, given.affine, given.length)
+
+
 def ours(run, given):
     run("SimplexMesherCLI", "--edgeLength", given.length, "--minimumIslandVolume", ISLAND, "--ambient", "ambient.vtu",
         "map.nrrd", "surface.vtp")
@@ -247,7 +253,12 @@ WAYS = {"label transfer": (label_transfer, 1), "CGAL Mesh_3": (mesh3, 4),
         "background material, Mesh_3 and TetGen": (background_with_tetgen, 4),
         "background material, ours": (background_ours, 2),
         "marching cubes and sinc, raw map": (cubes_raw, 3), "marching cubes and sinc, smoothed map": (cubes_smoothed, 4),
-        "offset and booleans": (booleans, 4), "ours": (ours, 1)}
+        "offset and booleans": (booleans, 4), cleaver.NAME: (by_cleaver, 2), "ours": (ours, 1)}
+
+
+def ways_of(run):
+    """Those whose programs are there."""
+    return [name for name in WAYS if run.cleaver or name != cleaver.NAME]
 
 
 # ---- measures
@@ -339,7 +350,10 @@ def volume_measures(mesh, given):
 def sentence(failure):
     if isinstance(failure, NoMesh):
         return str(failure)
-    return f"{os.path.basename(failure.cmd[0])} ended with {failure.returncode}"
+    program = os.path.basename(failure.cmd[0])
+    if failure.returncode == -signal.SIGXCPU:
+        return f"{program} does not finish in {cleaver.MOST} s"
+    return f"{program} ended with {failure.returncode}"
 
 
 def measured(name, run, given):
@@ -430,13 +444,14 @@ def main():
     parser.add_argument("--groups", nargs="+")
     parser.add_argument("--box")
     parser.add_argument("--edgeLength", type=float, default=3)
+    parser.add_argument("--cleaver")
     parser.add_argument("--document", action="store_true")
     options = parser.parse_args()
     parts = Parts(options.folder)
-    run = Programs(options.programs, parts.folder)
+    run = Programs(options.programs, parts.folder, options.cleaver)
     given = given_to(run, *tissues_of(options), options.edgeLength)
     rows = []
-    for name in WAYS:
+    for name in ways_of(run):
         file = "way-" + name.replace(" ", "-").replace(",", "")
         rows.append(parts.record(file, lambda name=name: measured(name, run, given)))
         print(rows[-1], flush=True)

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """Fitness of meshes for registration with images, after Chernikov et al.: from a T1 to the error at every brain voxel.
 
-usage: image_registration.py BIN OUTDIR [--shifts MM,MM,..] [--document]
+usage: image_registration.py BIN OUTDIR [--shifts MM,MM,..] [--cleaver PROGRAM] [--document]
 
-BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, Mesh3Driver and TetGenDriver; CalculiX is ccx. Docs/Evidence.md says
-what is done. Every finished part stays in OUTDIR and is not made again; a folder that is empty begins anew. Writes
+BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, Mesh3Driver and TetGenDriver; CalculiX is ccx; PROGRAM is Cleaver's
+cleaver-cli, without which its meshes are left out. Docs/Evidence.md says what is done. Every finished part stays in OUTDIR and is not made again; a folder that is empty begins anew. Writes
 registration.md (tables), registration.json, registration.png and registration-meshes.png; --document puts tables and
 pictures into Docs/.
 """
@@ -19,6 +19,7 @@ import numpy as np
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path[:0] = [os.path.join(ROOT, *folder) for folder in (("workflow", "example"), ("Testing", "Python"),
                                                            ("Testing", "Benchmarks"), ("Testing", "Evidence"))]
+import cleaver  # noqa: E402
 import hidden_truth  # noqa: E402
 import matching  # noqa: E402
 import robust  # noqa: E402
@@ -39,7 +40,9 @@ OURS = [(side, factor * side) for side in range(5, 23) for factor in (2, 3, 3.5,
 CGAL = [(share * length, length) for length in (18, 20, 22, 24, 26, 28, 32, 34, 36, 38, 40, 42, 45, 47, 50, 52, 55, 60)
         for share in (0.25, 0.3, 0.35, 0.4)]
 LATTICE = [(side, weight) for side in (16, 18, 20, 22, 24, 27, 30, 33, 36, 40) for weight in (1, 5)]
-SETTINGS = dict(zip(MESHERS, (OURS, OURS, CGAL, CGAL, LATTICE)))
+CLEAVER = [(rate, features) for rate in (0.05, 0.07, 0.1, 0.15, 0.2, 0.3)
+           for features in (0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.2, 1.5, 2) if features >= 4 * rate]
+SETTINGS = dict(zip(MESHERS, (OURS, OURS, CGAL, CGAL, LATTICE, CLEAVER)))
 
 
 # ---- images and matches
@@ -202,6 +205,7 @@ def main():
     parser.add_argument("programs")
     parser.add_argument("folder")
     parser.add_argument("--shifts", default=",".join(map(str, SHIFTS)))
+    parser.add_argument("--cleaver")
     parser.add_argument("--document", action="store_true")
     options = parser.parse_args()
     import registration_page  # pylint: disable=import-outside-toplevel  # matplotlib, for those who want it
@@ -210,8 +214,9 @@ def main():
     scene = scene_of(parts, shifts)
     durings = {shift: shifted(parts, scene, shift) for shift in shifts}
     matches = [matching_quality(scene, shift, during) for shift, during in durings.items()]
-    body, run = body_of(scene.body, scene.affine), Programs(options.programs, parts.folder)
-    rows = swept(parts, scene, run, body, durings[shifts[len(shifts) // 2]], SETTINGS)
+    body, run = body_of(scene.body, scene.affine), Programs(options.programs, parts.folder, options.cleaver)
+    settings = {mesher: each for mesher, each in SETTINGS.items() if run.cleaver or mesher != cleaver.NAME}
+    rows = swept(parts, scene, run, body, durings[shifts[len(shifts) // 2]], settings)
     table = compared(parts, scene, run, body, durings, rows)
     registration_page.write(parts, matches, rows, table, options.document,
                             lambda row: mesh_by(run, row["mesher"], body, row["setting"])[0])

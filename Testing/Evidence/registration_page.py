@@ -13,7 +13,8 @@ import document
 from fidelity import boundary_triangles
 
 COLORS = {"ours, ambient": ("#c8553d", "o"), "ours, surface alone": ("#e0a458", "v"), "CGAL Mesh_3": ("#4c78a8", "s"),
-          "CGAL surface + TetGen": ("#5a9367", "^"), "compressed lattice": ("#8a6fa8", "D")}
+          "CGAL surface + TetGen": ("#5a9367", "^"), "compressed lattice": ("#8a6fa8", "D"),
+          "Cleaver 2": ("#7f7f7f", "P")}
 PANELS = (("tetrahedra", "tetrahedra", "log"), ("smallestDihedral", "smallest dihedral angle (°)", "linear"),
           ("meanSmallestDihedral", "mean smallest dihedral angle (°)", "linear"),
           ("condition", "condition number of K + H'H", "log"), ("iterations", "iterations, twenty steps", "linear"),
@@ -82,7 +83,7 @@ def draw_measures(rows, file):
         axis.spines[["top", "right"]].set_visible(False)
     for axis in axes[1]:
         axis.set_xlabel("D_H (voxels)")
-    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper center", ncol=5, frameon=False)
+    figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper center", ncol=6, frameon=False)
     figure.tight_layout(rect=(0.01, 0.01, 0.99, 0.94))
     figure.savefig(file)
     plt.close(figure)

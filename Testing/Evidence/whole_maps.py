@@ -3,16 +3,18 @@
 
 usage: whole_maps.py BIN OUTDIR [--case NAME FILE TARGET MIN,MAX,RADIUS,DECAY NAMES [OPTION..]].. [--document]
 
-BIN holds the three modules and Mesh3Driver. A case is a label map (.nii.gz, .nrrd), a target point x,y,z (LPS mm), the
-four lengths of SurgicalPathScaleCLI, a file of names (- for none), and options of SimplexMesherCLI. Without a case: the
-JHU atlas. Finished maps stay in OUTDIR and are not meshed again. Writes maps.md and maps.json; --document puts the
-tables into Docs/Evidence.md.
+BIN holds the three modules and Mesh3Driver. A case is a label map (.nii.gz, .nrrd), a target, which is a point x,y,z
+(LPS mm) or the middle of a label, the four lengths of SurgicalPathScaleCLI, a file of names (- for none), and options of
+SimplexMesherCLI. Without a case: the JHU atlas. Finished maps stay in OUTDIR and are not meshed again. Writes maps.md
+and maps.json; --document puts the tables into Docs/Evidence.md.
 """
 import argparse
 import json
 import os
+import subprocess
 import sys
 
+import nibabel
 import numpy as np
 from scipy import ndimage
 
@@ -22,7 +24,7 @@ sys.path[:0] = [os.path.join(ROOT, *folder) for folder in (("workflow", "example
 import document  # noqa: E402
 from brain_meshes import Programs  # noqa: E402
 from fidelity import around, boundary_of_mesh  # noqa: E402
-from maps import ATLAS  # noqa: E402
+from maps import ATLAS, LPS_FROM_RAS  # noqa: E402
 from measures import (components_of_mesh, dihedral_angles, euler_numbers_of_map, euler_numbers_of_mesh,  # noqa: E402
                       signed_volumes)
 from meshfiles import interpolated, read_mesh, read_nrrd  # noqa: E402
@@ -61,6 +63,23 @@ def read_names(file):
                 if len(fields) > 1 and fields[0].isdigit():
                     names[int(fields[0])] = fields[1]
     return names
+
+
+def read_map(file):
+    """The labels as they are given, and their affine to LPS mm."""
+    if file.endswith(".nrrd"):
+        labels, affine = read_nrrd(file)
+        return labels.astype(int), affine
+    image = nibabel.load(file)
+    return np.rint(np.asanyarray(image.dataobj)).astype(int), LPS_FROM_RAS @ image.affine
+
+
+def target_of(target, labels, affine):
+    """The point as SurgicalPathScaleCLI reads it; of a label, the middle of its voxels."""
+    if "," in target:
+        return target
+    middle = affine[:3, :3] @ np.argwhere(labels == int(target)).mean(axis=0) + affine[:3, 3]
+    return ",".join(f"{x:.3f}" for x in middle)
 
 
 def mean_distances(mesh, labels, affine):
@@ -119,25 +138,40 @@ def mesh_by(mesher, run, scale, file, options):
 def measured(case, mesher, run):
     name, file, target, scale, names, *options = case
     lengths = dict(zip(("--minimumEdgeLength", "--maximumEdgeLength", "--childRadius", "--decayLength"), scale.split(",")))
+    file = os.path.abspath(file)
+    given, affine = read_map(file)
     run.seconds = 0.0
-    run("SurgicalPathScaleCLI", "--targetPoint=" + target, *(word for pair in lengths.items() for word in pair),
-        os.path.abspath(file), "scale.nrrd")
+    run("SurgicalPathScaleCLI", "--targetPoint=" + target_of(target, given, affine),
+        *(word for pair in lengths.items() for word in pair), file, "scale.nrrd")
     if mesher == "ours":
         options += [] if names == "-" else ["--names", os.path.abspath(names)]
-    mesh = mesh_by(mesher, run, scale, os.path.abspath(file), options)
+    mesh = mesh_by(mesher, run, scale, file, options)
     seconds = run.seconds
-    labels, affine = read_nrrd(run.path("prepared.nrrd"))
+    labels, affine = read_map(run.path("prepared.nrrd"))
+    removed = np.setdiff1d(given, labels)
     angles = dihedral_angles(mesh)
     return {"map": name, "mesher": mesher, "seconds": seconds, "tetrahedra": len(mesh.tetrahedra),
             "smallestDihedral": float(angles.min()), "largestDihedral": float(angles.max()),
-            "tissues": tissues_of(mesh, labels.astype(int), affine)}
+            "tissues": tissues_of(mesh, labels, affine),
+            "removed": {str(label): int(np.count_nonzero(given == label)) for label in removed[removed > 0]}}
+
+
+def measured_or_failed(case, mesher, run):
+    try:
+        return measured(case, mesher, run)
+    except subprocess.CalledProcessError as failure:
+        return {"map": case[0], "mesher": mesher, "failed": f"{os.path.basename(failure.cmd[0])} ended with "
+                                                            f"{failure.returncode}"}
 
 
 def row_of(record):
+    if "failed" in record:
+        return [record["map"], record["mesher"], "no mesh: " + record["failed"]] + [""] * 7
     tissues = record["tissues"].values()
     large = [abs(tissue["volume"] - 1) for tissue in tissues if tissue["voxels"] > LARGE]
     distances = [tissue["distance"] for tissue in tissues if np.isfinite(tissue["distance"])]
-    return [record["map"], record["mesher"], len(record["tissues"]), f"{record['tetrahedra']:,}",
+    given = len(tissues) + len(record["removed"])
+    return [record["map"], record["mesher"], f"{len(tissues)} of {given}" if record["removed"] else given, f"{record['tetrahedra']:,}",
             f"{record['smallestDihedral']:.1f} .. {record['largestDihedral']:.1f}",
             sum(not tissue["right"] for tissue in tissues), sum(tissue["volume"] == 0 for tissue in tissues),
             f"{np.median(large):.2%} / {max(large):.1%}", f"{np.median(distances):.2f} / {max(distances):.2f}",
@@ -146,10 +180,20 @@ def row_of(record):
 
 def spoilt(record, names):
     """Tissues lost, and those with another volume, smallest first."""
+    if "failed" in record:
+        return "all"
     found = sorted((tissue["voxels"], tissue["volume"], label) for label, tissue in record["tissues"].items()
                    if abs(tissue["volume"] - 1) > SPOILT)
     return ", ".join(f"{names.get(int(label), label)} ({'lost' if volume == 0 else f'{volume - 1:+.0%}'} of {voxels})"
                      for voxels, volume, label in found) or "none"
+
+
+def lost_rows(record, names):
+    """Before ours, what the map's preparation takes from all meshers."""
+    if record["mesher"] == "ours" and record.get("removed"):
+        removed = sorted((voxels, names.get(int(label), label)) for label, voxels in record["removed"].items())
+        yield [record["map"], "preparation", ", ".join(f"{name} ({voxels} in small islands)" for voxels, name in removed)]
+    yield [record["map"], record["mesher"], spoilt(record, names)]
 
 
 def tables_of(records, names):
@@ -161,7 +205,7 @@ def tables_of(records, names):
             [row_of(record) for record in records]),
         "lost tissues": document.table(
             ["map", "mesher", f"tissues lost or off by more than {SPOILT:.0%} of their volume (of so many voxels)"],
-            [[record["map"], record["mesher"], spoilt(record, names[record["map"]])] for record in records])}
+            [row for record in records for row in lost_rows(record, names[record["map"]])])}
 
 
 def main():
@@ -172,7 +216,7 @@ def main():
         run = Programs(options.programs, Parts(parts.path(case[0])).folder)
         for mesher in ("ours", "CGAL Mesh_3"):
             def make(case=case, mesher=mesher, run=run):
-                return measured(case, mesher, run)
+                return measured_or_failed(case, mesher, run)
             records.append(parts.record(f"{case[0]}-{mesher.split()[-1]}", make))
             print(row_of(records[-1]), flush=True)
     tables = tables_of(records, {case[0]: read_names(case[4]) for case in cases})
