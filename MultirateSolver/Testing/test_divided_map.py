@@ -7,6 +7,7 @@ import sys
 import unittest
 
 import numpy as np
+from PIL import Image, ImageSequence
 from vtk.util.numpy_support import vtk_to_numpy
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -96,6 +97,20 @@ class DividedMapTest(unittest.TestCase):
         held = np.all(found == 0, axis=1)
         self.assertAlmostEqual(held.sum() / len(found), 0.05, 1)
         self.assertTrue(np.all(whole.submesh[np.any(held[whole.tetrahedra], axis=1)] == 0))
+
+    def test_a_replayed_tool_is_shown_moving_the_child(self):
+        example = os.path.join(ROOT, "workflow", "example", "display.py")
+        done_by = subprocess.run([sys.executable, example, os.path.join(ROOT, "workflow", "multirate", "replay.py"),
+                                  "parent.vtu", "child.vtu", "replayed"], capture_output=True, text=True, check=False,
+                                 env={**os.environ, "PATH": os.path.abspath(BIN) + ":" + os.environ["PATH"]})
+        self.assertEqual(done_by.returncode, 0, done_by.stderr)
+        with Image.open("replayed/multirate.gif") as picture:
+            frames = [np.array(frame.convert("L"), float)[20:] for frame in ImageSequence.Iterator(picture)]
+        changes = [np.abs(frame - frames[0]).mean() for frame in frames]
+        self.assertEqual(len(frames), 31)
+        self.assertGreater(np.argmax(changes), 10)
+        self.assertGreater(max(changes), 5 * changes[1])
+        self.assertLess(changes[-1], 0.1 * max(changes), "the tool lets back")
 
     def test_a_mesh_without_child_has_a_parent_alone(self):
         done("FuchsTetrahedralizerCLI", "--edgeLength", "4", "--parentMesh", "all.vtu", "surface.vtp", "uniform.vtu")

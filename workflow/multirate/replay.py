@@ -2,8 +2,9 @@
 """A tool that draws tissue aside in the child of a mesh. usage: replay.py PARENT.vtu CHILD.vtu OUTDIR
 
 The tool takes hold of the child next to its middle, draws 8 mm to the left and up within a second, waits, and lets back.
-Leaves in OUTDIR tool.csv, forces.csv, motion.pvd with its files, report.json and multirate.png. MultirateSolverCLI has to
-be on the PATH; the picture needs a display: run it by ../example/display.py.
+Leaves in OUTDIR tool.csv, forces.csv, motion.pvd with its files, report.json, and what they show: multirate.png and
+multirate.gif, which moves. MultirateSolverCLI has to be on the PATH; pictures need a display: run it by
+../example/display.py.
 """
 import csv
 import json
@@ -21,6 +22,8 @@ MOTION = np.array([7.0, 0, 4])  # mm, LPS
 SECONDS, REACHES = (0, 1, 1.4, 2.4), (0, 1, 1, 0)
 SHOWN = (0, 0.5, 1.2)
 PARENT_RATE = 25
+EVERY = 2  # exchanges, to a frame of the moving picture
+GAP = 24  # pixels between two instants
 
 
 def arrays_of(dataset):
@@ -61,17 +64,36 @@ def displaced_half(frame, tip):
     return half, sizes[corners].mean(axis=1)
 
 
-def put_forces(figure, place, rate):
+def forces():
+    """Seconds and millinewtons of every step."""
     with open("forces.csv", encoding="ascii") as table:
         rows = list(csv.DictReader(table))
-    seconds = [float(row["seconds"]) for row in rows]
     newton = [np.linalg.norm([float(row["force" + axis]) for axis in "XYZ"]) for row in rows]
+    return np.array([float(row["seconds"]) for row in rows]), 1e3 * np.array(newton)
+
+
+def put_forces(figure, place, rate):
+    seconds, millinewton = forces()
     axes = figure.add_axes(place)
-    axes.plot(seconds, 1e3 * np.array(newton), color="#c8102e")
+    axes.plot(seconds, millinewton, color="#c8102e")
     axes.set_xlabel("s")
     axes.set_ylabel("force on the tool, mN")
-    axes.set_title(f"{len(rows)} steps, at most {rate:,.0f} Hz")
+    axes.set_title(f"{len(seconds)} steps, at most {rate:,.0f} Hz")
     axes.spines[["top", "right"]].set_visible(False)
+
+
+def views_of(instants, tip, size):
+    """What is seen at each instant (seconds), all alike in place, scale and colours; and the largest displacement."""
+    import matplotlib
+    from views import View, actor_of, paint
+    halves = [displaced_half(round(seconds * PARENT_RATE), tip) for seconds in instants]
+    largest = max(sizes.max() for _, sizes in halves)
+    reached = np.concatenate([arrays_of(half)[0] for half, _ in halves])
+    views = []
+    for half, sizes in halves:
+        paint(half, (255 * matplotlib.colormaps["viridis"](sizes / largest)[:, :3]).astype(np.uint8))
+        views.append(View([actor_of(half, 0.5)], (0, 1, 0), size, also=reached))
+    return views, largest
 
 
 def draw(tip, rate):
@@ -80,23 +102,41 @@ def draw(tip, rate):
     import matplotlib.pyplot as plt
 
     from PIL import Image
-    from views import View, actor_of, paint, put, save_image
-    frames = [displaced_half(round(seconds * PARENT_RATE), tip) for seconds in SHOWN]
-    largest = max(sizes.max() for _, sizes in frames)
+    from views import put, save_image
     size = (400, 380)
-    figure = plt.figure(figsize=(((len(frames) + 1) * size[0] + 80) / 100, (size[1] + 60) / 100), dpi=100)
-    reached = np.concatenate([arrays_of(half)[0] for half, _ in frames])
-    for i, ((half, sizes), seconds) in enumerate(zip(frames, SHOWN)):
-        paint(half, (255 * plt.get_cmap("viridis")(sizes / largest)[:, :3]).astype(np.uint8))
-        axes = put(figure, View([actor_of(half, 0.5)], (0, 1, 0), size, also=reached), i * size[0], 10)
+    views, largest = views_of(SHOWN, tip, size)
+    pictures = len(views) * (size[0] + GAP)
+    width = pictures + size[0] + 80
+    figure = plt.figure(figsize=(width / 100, (size[1] + 60) / 100), dpi=100)
+    for i, (view, seconds) in enumerate(zip(views, SHOWN)):
+        axes = put(figure, view, i * (size[0] + GAP), 10)
         axes.text(size[0] / 2, size[1] + 8, f"{seconds:g} s", ha="center", va="bottom", fontsize=13, clip_on=False)
-    width = figure.get_figwidth() * 100
     scale = plt.cm.ScalarMappable(plt.Normalize(0, largest), "viridis")
-    bar = figure.add_axes((3 * size[0] / width, 0.2, 10 / width, 0.6))
+    bar = figure.add_axes((pictures / width, 0.2, 10 / width, 0.6))
     figure.colorbar(scale, cax=bar, label="displacement, mm")
-    put_forces(figure, ((3 * size[0] + 150) / width, 0.2, 300 / width, 0.6), rate)
+    put_forces(figure, ((pictures + 150) / width, 0.2, 300 / width, 0.6), rate)
     figure.canvas.draw()
     save_image(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())), "multirate.png")
+
+
+def animate(tip):
+    """The same at every other exchange, with the tool's tip in red."""
+    from matplotlib.font_manager import findfont
+    from PIL import Image, ImageDraw, ImageFont
+    font = ImageFont.truetype(findfont("DejaVu Sans"), 15)
+    instants = np.arange(0, round(SECONDS[-1] * PARENT_RATE) + 1, EVERY) / PARENT_RATE
+    newton = np.interp(instants, *forces())
+    images = []
+    for view, seconds, force in zip(views_of(instants, tip, (360, 340))[0], instants, newton):
+        image = view.image.convert("RGB")
+        x, y = view.pixels(tip + np.interp(seconds, SECONDS, REACHES) * MOTION)[0]
+        pen = ImageDraw.Draw(image)
+        pen.ellipse((x - 5, image.height - y - 5, x + 5, image.height - y + 5), fill="#c8102e", outline="white")
+        pen.text((8, 6), f"{seconds:.2f} s   {force:.0f} mN", fill="#22262e", font=font)
+        images.append(image)
+    palette = Image.fromarray(np.vstack(images)).quantize(96, Image.Quantize.MAXCOVERAGE)
+    images = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+    images[0].save("multirate.gif", save_all=True, append_images=images[1:], duration=1000 * EVERY // PARENT_RATE, loop=0)
 
 
 def main():
@@ -112,6 +152,7 @@ def main():
     print(f"{report['steps']} steps, {1e3 * report['medianStepSeconds']:.2f} ms each ({rate:,.0f} Hz), "
           f"{1e3 * report['medianExchangeSeconds']:.0f} ms an exchange")
     draw(tip, rate)
+    animate(tip)
 
 
 if __name__ == "__main__":
