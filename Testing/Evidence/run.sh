@@ -1,30 +1,65 @@
 #!/usr/bin/env bash
 # All evidence: builds what is measured, measures it, and brings Docs/Evidence.md up to date.
-# usage: run.sh [OUTDIR [DATA]]
-# DATA holds head/head_08.nii.gz, colin27/colin27_tissues.nii.gz and torso/torso_61.nii.gz,
-# which Docs/Evidence.md says where to get; without it, the JHU atlas is in their place.
+# usage: run.sh [OUTDIR [DATA [CLEAVER]]]
+# DATA holds head/head_NN.nii.gz for 01, 02, 03, 04 and 08, head/labels.ctbl with their names, torso/torso_61.nii.gz and
+# colin27/colin27_tissues.nii.gz, which Docs/Evidence.md says where to get; what is missing is left out, and without any
+# the JHU atlas is in their place. CLEAVER is Cleaver's cleaver-cli; without it, it is not compared.
 # What OUTDIR holds already is not made again. SURGICALMESHER_BIN names a folder built already.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
+here=$root/Testing/Evidence
 if [[ -z ${SURGICALMESHER_BIN:-} ]]; then
   "$root/CMake/build.sh" SurgicalPathScaleCLI SimplexMesherCLI SurfaceRemesherCLI FuchsTetrahedralizerCLI \
-    Mesh3Driver TetGenDriver BooleanDriver
+    MultirateSolverCLI MultirateBenchmark Mesh3Driver TetGenDriver BooleanDriver
 fi
-bin=${SURGICALMESHER_BIN:-$root/build/bin}
+bin=$(cd "${SURGICALMESHER_BIN:-$root/build/bin}" && pwd)
 out=${1:-$root/build/evidence}
 data=${2:-}
+cleaver=(${3:+--cleaver "$3"})
 groups=() cases=()
-if [[ -n $data ]]; then
+
+# usage: there FILE        whether DATA has it
+there()
+{
+  [[ -n $data ]] || return 1
+  [[ -f $data/$1 ]] || { echo "run.sh: $data/$1 is not there: left out" >&2; return 1; }
+}
+
+# usage: case_of NAME FILE TARGET LENGTHS NAMES [OPTION]...
+case_of()
+{
+  if there "$2"; then cases+=(--case "$1" "$data/$2" "${@:3}"); fi
+}
+
+names=-
+if there head/labels.ctbl; then names=$data/head/labels.ctbl; fi
+if there head/head_08.nii.gz; then
   groups=(--map "$data/head/head_08.nii.gz" --groups 1=2,41,25,57 2=3,42,17,53,18,54 3=4,5,43,44,14,15,72 4=7,46 5=8,47
     6=10,11,12,13,26,28,49,50,51,52,58,60 7=16 --box 97:161,101:165,74:138)
-  cases=(--case torso "$data/torso/torso_61.nii.gz" -5,-163,262 3,15,30,60 -
-    --case colin27 "$data/colin27/colin27_tissues.nii.gz" 0,0,-10 1,8,10,25 "$root/Testing/Evidence/colin27.txt"
-    --minimumIslandVolume 30)
 fi
+case_of torso torso/torso_61.nii.gz -5,-163,262 3,15,30,60 "$here/torso.txt"
+case_of colin27 colin27/colin27_tissues.nii.gz 0,0,-10 1,8,10,25 "$here/colin27.txt" --minimumIslandVolume 30
+for number in 01 02 03 04 08; do # 85 is the optic chiasm
+  case_of "head_$number" "head/head_$number.nii.gz" 85 1,8,10,25 "$names" --featureScale 0.5 --minimumIslandVolume 30
+done
 
-evidence() { /usr/bin/python3 "$root/Testing/Evidence/$1.py" "${@:2}"; }
-evidence image_registration "$bin" "$out/registration" --document
-evidence compatible_interfaces "$bin" "$out/interfaces" "${groups[@]}" --document
-evidence whole_maps "$bin" "$out/maps" --document "${cases[@]}"
-evidence versions "$bin"
+part=0
+evidence()
+{
+  echo "run.sh: $((++part)) of 6, $1, into $out" >&2
+  /usr/bin/python3 "$here/$1.py" "${@:2}"
+}
+evidence image_registration "$bin" "$out/registration" "${cleaver[@]}" --document
+evidence compatible_interfaces "$bin" "$out/interfaces" "${groups[@]}" "${cleaver[@]}" --document
+evidence whole_maps "$bin" "$out/maps" "${cases[@]}" --document
+evidence child_rates "$bin" "$out/rates" --document
+child=$out/rates/radius-10 # the example's
+echo "run.sh: $((++part)) of 6, the replayed tool, into $out" >&2
+if [[ ! -f $out/replayed/finished ]]; then
+  PATH=$bin:$PATH "$root/workflow/example/display.py" "$root/workflow/multirate/replay.py" "$child/parent.vtu" \
+    "$child/child.vtu" "$out/replayed"
+  touch "$out/replayed/finished"
+fi
+cp "$out"/replayed/multirate.{png,gif} "$root/Docs/images/"
+evidence versions "$bin" ${3:+"$3"}

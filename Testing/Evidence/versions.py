@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the evidence was made with, as a table in Docs/Evidence.md. usage: versions.py BIN"""
+"""What the evidence was made with, as a table in Docs/Evidence.md. usage: versions.py BIN [CLEAVER]"""
 import os
 import re
 import subprocess
@@ -23,16 +23,17 @@ def debian(package):
     return printed("dpkg-query", "-W", "-f", "${Version}", package).strip()
 
 
-def rows(programs):
+def rows(programs, cleaver=None):
     ours = printed(os.path.join(programs, "SimplexMesherCLI"), "--version").strip()
     machine = benchmark.machine()
     calculix = re.search(r"[Vv]ersion\s+([\d.]+)", printed("ccx", "-v"))
+    others = [["Cleaver", printed(cleaver, "--version").strip()]] if cleaver else []
     return [["SurgicalMesher", f"{ours}, commit {benchmark.commit()}"], ["CGAL", debian("libcgal-dev")],
-            ["TetGen", debian("libtet1.5-dev")], ["CalculiX", calculix.group(1) if calculix else "none"],
+            ["TetGen", debian("libtet1.5-dev")], ["CalculiX", calculix.group(1) if calculix else "none"], *others,
             ["VTK, SciPy, NumPy", f"{vtk.VTK_VERSION}, {scipy.__version__}, {numpy.__version__}"],
             ["images and atlas (mricron-data)", debian("mricron-data")],
             ["machine", f"{machine['processors']} processors ({machine['processor']})"]]
 
 
 if __name__ == "__main__":
-    document.put({"versions": document.table(["what", "version"], rows(sys.argv[1]))})
+    document.put({"versions": document.table(["what", "version"], rows(*sys.argv[1:]))})
