@@ -158,6 +158,18 @@ class RejectionTest(unittest.TestCase):
         self.assertLess(np.sqrt(np.mean(errors**2)), 0.3)
 
 
+class ChoiceTest(unittest.TestCase):
+    def test_the_fastest_of_a_meshers_good_meshes_at_the_distance_is_chosen(self):
+        def row(hausdorff, error, iterations, mesher="a"):
+            return {"mesher": mesher, "hausdorff": hausdorff, "error": error, "iterations": iterations, "points": 10}
+        slow, fast, rough, far, other = row(8, 0.2, 90), row(8, 0.21, 50), row(8, 0.3, 10), row(9, 0.1, 1), row(8, 0.1, 1, "b")
+        rows = [slow, fast, rough, far, other, {"mesher": "a", "failed": "crash"}]
+        self.assertIs(evidence.chosen(rows, "a", (7, 8)), fast)
+        self.assertIs(evidence.chosen(rows, "a", (8.5, 9)), far)
+        self.assertEqual(evidence.chosen([row(8, 0.9, 1), row(8, 0.8, 2)], "a", (7, 8))["error"], 0.8)
+        self.assertIsNone(evidence.chosen(rows, "a", (1, 2)))
+
+
 class WholeTest(unittest.TestCase):
     def test_from_image_to_table(self):
         """All parts but CalculiX's, in whose place is a smooth deformation at its nodes."""

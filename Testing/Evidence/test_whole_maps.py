@@ -23,9 +23,8 @@ class BoxTest(unittest.TestCase):
         run = Programs(BIN, Parts(os.path.join(OUTDIR, "maps")).folder)
         labels, affine = cut_out(np.s_[60:84, 90:114, 50:74])
         write_nrrd(run.path("box.nrrd"), labels, affine)
-        centre = affine[:3, :3] @ [12, 12, 12] + affine[:3, 3]
-        target = ",".join(f"{x:g}" for x in centre)
-        case = ["box", run.path("box.nrrd"), target, "1,4,6,10", "-", "--minimumIslandVolume", "30"]
+        inner = str(labels[12, 12, 12])
+        case = ["box", run.path("box.nrrd"), inner, "1,4,6,10", "-", "--minimumIslandVolume", "30"]
         records = [evidence.measured(list(case), mesher, run) for mesher in ("ours", "CGAL Mesh_3")]
         tissues = records[0]["tissues"]
         self.assertGreater(len(tissues), 5)
@@ -33,6 +32,7 @@ class BoxTest(unittest.TestCase):
         self.assertLess(max(tissue["distance"] for tissue in tissues.values()), 0.5)
         self.assertLess(max(abs(t["volume"] - 1) for t in tissues.values() if t["voxels"] > 1000), 0.05)
         self.assertEqual(set(records[1]["tissues"]), set(tissues))
+        self.assertEqual(set(tissues) | set(records[0]["removed"]), set(map(str, np.unique(labels[labels > 0]))))
         tables = evidence.tables_of(records, {"box": {}})
         self.assertIn("| box | ours |", tables["whole maps"])
         self.assertEqual(tables["lost tissues"].splitlines()[2].split("|")[3].strip(), "none")
@@ -61,6 +61,29 @@ class MeasuresTest(unittest.TestCase):
             "2": {"voxels": 30, "volume": 0.6, "right": False, "distance": 0.4},
             "3": {"voxels": 50, "volume": 1.1, "right": True, "distance": 0.1}}}
         self.assertEqual(evidence.spoilt(record, {1: "nerve"}), "2 (-40% of 30), nerve (lost of 900)")
+
+    def test_what_preparation_removed_stands_before_ours_only(self):
+        tissue = {"voxels": 2000, "volume": 1.001, "right": True, "distance": 0.1}
+        record = {"map": "m", "mesher": "ours", "tetrahedra": 9, "smallestDihedral": 20, "largestDihedral": 140,
+                  "seconds": 1, "tissues": {"1": tissue}, "removed": {"7": 12}}
+        self.assertEqual(list(evidence.lost_rows(record, {7: "nerve"})),
+                         [["m", "preparation", "nerve (12 in small islands)"], ["m", "ours", "none"]])
+        self.assertEqual(list(evidence.lost_rows({**record, "mesher": "x"}, {})), [["m", "x", "none"]])
+        self.assertEqual(evidence.row_of(record)[2], "1 of 2")
+
+    def test_a_target_is_a_point_or_the_middle_of_a_label(self):
+        self.assertEqual(evidence.target_of("1,2,3", None, None), "1,2,3")
+        affine = np.diag([-1.0, 1, 2, 1])
+        self.assertEqual(evidence.target_of("2", self.labels, affine), "-7.500,5.500,11.000")
+
+    def test_a_mesher_that_fails_has_a_row_that_says_so(self):
+        folder = Parts(os.path.join(OUTDIR, "failing")).folder
+        write_nrrd(os.path.join(folder, "empty.nrrd"), np.zeros((4, 4, 4), np.uint16), np.eye(4))
+        case = ["empty", os.path.join(folder, "empty.nrrd"), "0,0,0", "1,4,6,10", "-"]
+        record = evidence.measured_or_failed(case, "ours", Programs(BIN, folder))
+        self.assertRegex(evidence.row_of(record)[2], r"no mesh: \w+CLI ended with \d")
+        self.assertEqual(list(evidence.lost_rows(record, {})), [["empty", "ours", "all"]])
+        self.assertEqual(len(evidence.row_of(record)), 10)
 
     def test_names_are_read_and_cases_split_from_options(self):
         options, cases = evidence.options_of(["bin", "out", "--document", "--case", "a", "f.nrrd", "0,0,0", "1,2,3,4", "-",
