@@ -14,23 +14,31 @@ namespace surgicalmesher
 namespace
 {
 
-/// The triangles of a complex's interface, out of the larger label, and where their samples are.
+/// The triangles of a complex's interface with a corner where L is less than `longest`, out of the larger label, and
+/// where their samples are.
 struct InterfaceTriangles
 {
   SurfaceComplex surface;
   std::vector<std::int32_t> ids;                     ///< of its points in the complex, ascending
   std::vector<std::pair<std::int32_t, int>> holders; ///< of each triangle
 
-  explicit InterfaceTriangles(const TetComplex& complex)
+  InterfaceTriangles(const TetComplex& complex, double longest)
   {
     for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
       for (int i = 0; complex.alive(t) && complex.mayHaveInterface(t) && i < 4; ++i)
-        if (complex.isInterface(t, i) && complex.labels[t] > complex.labels[complex.neighbours[t][i]])
+        if (complex.isInterface(t, i) && complex.labels[t] > complex.labels[complex.neighbours[t][i]] &&
+            shortestLength(complex, t, i) < longest)
           add(complex, t, i);
     numberPoints(complex);
   }
 
 private:
+  static double shortestLength(const TetComplex& complex, std::int32_t t, int i)
+  {
+    const auto at = [&](int k) { return complex.lengths[complex.tets[t][k & 3]]; };
+    return std::min({ at(i + 1), at(i + 2), at(i + 3) });
+  }
+
   void add(const TetComplex& complex, std::int32_t t, int i)
   {
     const auto& x = complex.tets[t];
@@ -60,7 +68,8 @@ public:
     : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
       m_Least(sine2OfDegrees(options.leastAngle)), m_Start(m_Complex.points), m_Volumes(volumes())
   {
-    InterfaceTriangles triangles(m_Complex);
+    constexpr double coarse = 2.6; // fine lengths, where a seventh of the reach is left: less is not seen
+    InterfaceTriangles triangles(m_Complex, coarse * options.fineLength);
     m_Holders = std::move(triangles.holders);
     m_Dual.simplex = simplexMeshOf(triangles.surface, Extent::part);
     m_Dual.surface = std::move(triangles.surface);
