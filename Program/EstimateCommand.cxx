@@ -24,8 +24,9 @@ namespace surgicalmesher
 namespace
 {
 
-/// Processor seconds per voxel face between labels, and per tetrahedron: Docs/Benchmarks.md, within a factor of 1.7.
-constexpr double secondsPerFace = 40e-6, secondsPerTetrahedron = 40e-6;
+/// Processor seconds per face that the complex begins with, per tetrahedron and per voxel: Docs/Benchmarks.md, within a
+/// factor of 1.7.
+constexpr double secondsPerFace = 45e-6, secondsPerTetrahedron = 60e-6, secondsPerVoxel = 0.5e-6;
 
 struct Figures
 {
@@ -56,19 +57,6 @@ private:
   fs::path m_Path;
 };
 
-double voxelFaces(const TissueMap& map)
-{
-  double faces = 0;
-  for (std::size_t n = 0; n < map.labels.size(); ++n)
-  {
-    const auto [i, j, k] = map.grid.voxelAt(n);
-    const Label label = map.labels[n];
-    for (const std::array<int, 3>& next : { std::array<int, 3>{ i + 1, j, k }, { i, j + 1, k }, { i, j, k + 1 } })
-      faces += label != labelAt(map, next);
-  }
-  return faces;
-}
-
 void readSize(const std::string& file, Figures& figures)
 {
   rapidjson::Document json;
@@ -94,8 +82,10 @@ Figures estimated(const RunRequest& request)
   Figures figures;
   readSize(request.folder + "/scale.json", figures);
   const TissueMap map = readTissueMap(labelMapOf(request));
-  figures.bytes = double(estimateSurfaceMemory(map, readScale(request.folder + "/scale.nrrd")));
-  figures.seconds = secondsPerFace * voxelFaces(map) + secondsPerTetrahedron * figures.tetrahedra;
+  const ScaleField scale = readScale(request.folder + "/scale.nrrd");
+  figures.bytes = double(estimateSurfaceMemory(map, scale));
+  figures.seconds = secondsPerFace * startingFaces(map, scale) + secondsPerTetrahedron * figures.tetrahedra +
+                    secondsPerVoxel * double(map.grid.voxelCount());
   return figures;
 }
 

@@ -153,13 +153,30 @@ private:
       };
       left.erase(std::remove_if(left.begin(), left.end(), isGiven), left.end());
     }
-    if (!left.empty() || leavesContacts(corner, side))
+    if (!left.empty() || leavesContacts(corner, side) || leavesBehind(changes, side / 2))
     {
       for (const Change& c : changes) m_Map.labels[c.voxel] = c.before;
       return;
     }
     for (const Share& s : shares) lost[s.label] += s.voxels;
     lost[label] -= side * side * side;
+  }
+
+  /// Whether a label has nothing left within `most` voxels along an axis of one that it has lost: the end of something
+  /// thin goes no farther back than a wall does.
+  bool leavesBehind(const std::vector<Change>& changes, int most) const
+  {
+    const auto isNear = [&](const Change& c)
+    {
+      return std::any_of(sixNeighbours.begin(), sixNeighbours.end(),
+                         [&](int face)
+                         {
+                           for (int n = 1; n <= most; ++n)
+                             if (m_Map.labels[c.voxel + n * m_Around[face]] == c.before) return true;
+                           return false;
+                         });
+    };
+    return !std::all_of(changes.begin(), changes.end(), isNear);
   }
 
   /// Whether labels touch themselves only along an edge or a corner around the block.
@@ -193,7 +210,7 @@ TissueMap withUniformBlocks(const TissueMap& map, const ScaleField& scale, const
 {
   TissueMap result = map;
   if (!hasCubicVoxels(map.grid)) return result;
-  PaddedMap work = padded(map, 1);
+  PaddedMap work = padded(map, largestSide / 2);
   Unifier unifier(work, scale, options);
   for (int side = 2; side <= largestSide; side *= 2)
     for (int round = 0; round < 2; ++round) unifier.unify(side); // what a neighbour was in the way of

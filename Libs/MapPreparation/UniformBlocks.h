@@ -5,8 +5,9 @@
 ///
 /// A mixed block takes the label that most of its voxels have, voxel by voxel, each a simple point of the label that
 /// loses it and of the one that gains it (Bertrand and Malandain 1994). It is left as it was if that does not succeed
-/// to its last voxel, or leaves a contact (MapPreparation.h). So every label, the background included, keeps its
-/// topology and its manifold boundary; how far its boundary moves is less than a block.
+/// to its last voxel, leaves a contact (MapPreparation.h), or leaves nothing of a label within half a block of a voxel that
+/// it has lost. So every label, the background included, keeps its topology and its manifold boundary, which
+/// moves by less than the largest block: by half a block for each size.
 
 #include "ScaleField.h"
 #include "TissueMap.h"

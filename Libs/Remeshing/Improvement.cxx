@@ -51,7 +51,7 @@ public:
   }
 
 private:
-  static constexpr std::size_t enough = 40, onceIn = 25;
+  static constexpr std::size_t enough = 60, onceIn = 25;
   std::size_t m_Tries = 0, m_Successes = 0;
 };
 

@@ -2,11 +2,13 @@
 #include "MemoryEstimate.h"
 
 #include "Errors.h"
+#include "Parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <locale>
+#include <numeric>
 #include <sstream>
 
 namespace surgicalmesher
@@ -18,28 +20,29 @@ constexpr double kBytes = 25e6, kBytesPerFace = 750, kBytesPerCube = 370, kBytes
 constexpr double kRelativeSize = 0.8;       ///< of a cube to L
 constexpr int kSmallest = -2, kLargest = 5; ///< powers of two of a cube's side, in voxels
 
-/// Faces between voxels of different labels along one axis, and those of tissue at the map's ends.
-std::size_t facesAcross(const TissueMap& map, int axis)
+/// What a voxel face counts where blocks of voxels stand for them (UniformBlocks.h).
+double shareOfFace(double length, double voxel)
 {
-  const auto& size = map.grid.size;
-  const std::array<std::size_t, 3> strides{ 1, std::size_t(size[0]), std::size_t(size[0]) * size[1] };
-  std::size_t faces = 0;
-  for (int k = 0; k < size[2]; ++k)
+  constexpr double relativeSize = 0.25; // of a block to L
+  constexpr int largest = 8;            // voxels
+  int side = 1;
+  while (side < largest && 2 * side * voxel <= relativeSize * length) side *= 2;
+  return 1.0 / (side * side);
+}
+
+/// Of a voxel, its faces to voxels of another label below it along the axes, and those of tissue at the map's ends; `f`
+/// gets the axis of each.
+template <class F>
+void forEachFaceOf(const TissueMap& map, const std::array<int, 3>& at, F&& f)
+{
+  const Label label = labelAt(map, at);
+  for (int axis = 0; axis < 3; ++axis)
   {
-    for (int j = 0; j < size[1]; ++j)
-    {
-      for (int i = 0; i < size[0]; ++i)
-      {
-        const std::array<int, 3> at{ i, j, k };
-        const std::size_t n = map.grid.index(i, j, k);
-        const Label label = map.labels[n];
-        const bool isFirst = at[axis] == 0, isLast = at[axis] == size[axis] - 1;
-        faces += isFirst ? label != 0 : label != map.labels[n - strides[axis]];
-        faces += isLast && label != 0;
-      }
-    }
+    std::array<int, 3> below = at;
+    --below[axis];
+    if (labelAt(map, below) != label) f(axis);
+    if (at[axis] == map.grid.size[axis] - 1 && label != 0) f(axis);
   }
-  return faces;
 }
 
 /// Cubes per voxel where the target edge length is `length`.
@@ -82,19 +85,44 @@ std::string inGigabytes(std::uint64_t bytes)
   return text.str();
 }
 
+/// A long voxel is cut into several cells, and its faces with it.
+std::array<double, 3> cellsOfFaces(const Grid& grid)
+{
+  const double voxel = grid.smallestSpacing();
+  std::array<double, 3> cells;
+  for (int axis = 0; axis < 3; ++axis)
+    cells[axis] = std::round(grid.spacing[(axis + 1) % 3] / voxel) * std::round(grid.spacing[(axis + 2) % 3] / voxel);
+  return cells;
+}
+
 } // namespace
 
-std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale)
+double startingFaces(const TissueMap& map, const ScaleField& scale, bool hasBlocks)
 {
-  const double voxel = map.grid.smallestSpacing();
-  double faces = 0;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    // A long voxel is cut into several cells, and its faces with it.
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const double cells = std::round(map.grid.spacing[u] / voxel) * std::round(map.grid.spacing[v] / voxel);
-    faces += cells * double(facesAcross(map, axis));
-  }
+  const Grid& grid = map.grid;
+  const double voxel = grid.smallestSpacing();
+  const std::array<double, 3> cells = cellsOfFaces(grid);
+  const bool mayHaveBlocks = hasBlocks && std::max({ cells[0], cells[1], cells[2] }) == 1;
+  std::vector<double> sums(std::size_t(grid.size[2]), 0.0);
+  parallelForEach(sums.size(),
+                  [&](std::size_t k)
+                  {
+                    for (int j = 0; j < grid.size[1]; ++j)
+                      for (int i = 0; i < grid.size[0]; ++i)
+                      {
+                        double faces = 0;
+                        forEachFaceOf(map, { i, j, int(k) }, [&](int axis) { faces += cells[axis]; });
+                        if (faces > 0 && mayHaveBlocks)
+                          faces *= shareOfFace(scale(grid.gridToWorld(grid.position(i, j, int(k)))), voxel);
+                        sums[k] += faces;
+                      }
+                  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, bool hasBlocks)
+{
+  const double faces = startingFaces(map, scale, hasBlocks);
   return std::uint64_t(kBytes + kBytesPerFace * faces + kBytesPerCube * countCubes(map, scale) +
                        kBytesPerVoxel * double(map.grid.voxelCount()));
 }

@@ -12,14 +12,19 @@
 namespace surgicalmesher
 {
 
+/// Voxel faces between labels (those towards the outside included) that the complex begins with. With `hasBlocks`, as it
+/// is by default, blocks of up to L / 4 stand for voxels (UniformBlocks.h), and a face counts by the share of a block's
+/// that it is.
+double startingFaces(const TissueMap& map, const ScaleField& scale, bool hasBlocks = true);
+
 /// Expected peak of the surface stage, bytes. The complex begins as cubes of a power of two times the voxel and at most
-/// 0.8 L, of voxels where tissues meet; nothing later is as large. With F the voxel faces between labels (those towards
-/// the outside included), K the number of these cubes in tissue, and N the voxels,
+/// 0.8 L, of voxels or blocks of them where tissues meet; nothing later is as large. With F the startingFaces(), K the
+/// number of these cubes in tissue, and N the voxels,
 ///
 ///     bytes = 25 MB + 750 F + 370 K + 40 N
 ///
 /// The constants err on the safe side: Docs/Benchmarks.md#estimates.
-std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale);
+std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, bool hasBlocks = true);
 
 /// Throws InputError, with the map's name and both figures, if less than `needed` bytes are available. Does nothing
 /// where `available` is unknown (see availableMemory()).

@@ -135,7 +135,8 @@ void warnOfProximity(CommandLine& line, const MeshedMap& mesh)
   if (last.beyond == 0) return;
   std::ostringstream text;
   text << "--proximity: " << last.beyond << " of " << mesh.background.samples.size()
-       << " boundary samples are farther from the surface than asked for, the farthest " << last.maximumDistance << " mm";
+       << " boundary samples are farther from the surface than asked for, the farthest " << last.maximumDistance
+       << " mm";
   line.warning(text.str());
 }
 
@@ -299,7 +300,7 @@ void run(CommandLine& line)
   const ScaleField scale = lengthsFor(line, map, asked, options, results);
   const std::string tooShort = warningOfShortLengths(map, scale, line.text("labelMap"));
   if (!tooShort.empty()) line.warning(tooShort);
-  requireMemory(estimateSurfaceMemory(map, scale), availableMemory(), line.text("labelMap"));
+  requireMemory(estimateSurfaceMemory(map, scale, leavesVoxels(options)), availableMemory(), line.text("labelMap"));
 
   const Grid world = map.grid;
   map.grid = inOwnFrame(world);

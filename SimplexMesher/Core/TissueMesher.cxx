@@ -29,7 +29,7 @@ bool isBounded(const TissueMesherOptions& options) { return options.maximumDista
 SmoothedLabels withoutRoughness(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options)
 {
   constexpr double wider = 1.43; // a crack of one voxel is still there after the Gaussian that makes walls smooth
-  if (!(options.smoothing > 0) || isBounded(options)) return { map, {} };
+  if (!leavesVoxels(options)) return { map, {} };
   return smoothLabels(map, scale, { wider * options.smoothing, 1.5, options.features.protectedLabels });
 }
 
@@ -39,7 +39,7 @@ KuhnLattice latticeOf(const TissueMap& map, const ScaleField& scale, const Sizin
                       const TissueMesherOptions& options, const Progress& progress)
 {
   constexpr double blockSize = 0.25, samplesPerTriangle = 16; // a larger one costs smoothness, fewer cost accuracy
-  if (!(options.smoothing > 0) || isBounded(options)) return kuhnLattice(map, scale, {}, progress);
+  if (!leavesVoxels(options)) return kuhnLattice(map, scale, {}, progress);
   const TissueMap blocks = withUniformBlocks(map, scale, { blockSize, options.features.protectedLabels });
   KuhnLattice lattice = kuhnLattice(blocks, scale, {}, progress);
   transferSamples(lattice, blocks, map, length, { samplesPerTriangle });

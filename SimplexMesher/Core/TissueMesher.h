@@ -33,6 +33,12 @@ struct TissueMesherOptions
   FeatureOptions features; ///< what the map was simplified by; thin tissues are then held less closely
 };
 
+/// Whether the surface may leave the voxels' own boundary; then the mesh begins with blocks of voxels where L is long.
+inline bool leavesVoxels(const TissueMesherOptions& options)
+{
+  return options.smoothing > 0 && !(options.maximumDistance > 0);
+}
+
 /// The scale that keeps the middles of edges within `chordError` mm of the boundary that will be meshed
 /// (BoundaryCurvature.h, followCurvature). `scale` is in world coordinates, and so is the result.
 ScaleField followBoundary(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options,

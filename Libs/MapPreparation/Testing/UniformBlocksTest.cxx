@@ -94,6 +94,22 @@ TEST(UniformBlocks, leaveMapsAloneWhereElementsAreSmall)
   EXPECT_NE(graded.labels, map.labels);
 }
 
+TEST(UniformBlocks, leaveTheEndsOfThinTissues)
+{
+  const auto isPlate = [](int i, int j, int k) { return i < 9 && j < 9 && k == 10; };
+  const TissueMap map = paintedMap({ 24, 24, 24 }, isPlate);
+  const TissueMap blocks = withUniformBlocks(map, uniformScale(100));
+  for (int j = 0; j < 9; ++j)
+    for (int i = 0; i < 9; ++i)
+    {
+      int nearest = 24; // along any axis
+      for (int n = -7; n <= 7; ++n)
+        for (const std::array<int, 3>& at : { std::array<int, 3>{ i + n, j, 10 }, { i, j + n, 10 }, { i, j, 10 + n } })
+          if (labelAt(blocks, at) == 1) nearest = std::min(nearest, std::abs(n));
+      EXPECT_LE(nearest, 7) << i << ", " << j;
+    }
+}
+
 TEST(UniformBlocks, leaveProtectedLabelsAlone)
 {
   const TissueMap map = ball(9);

@@ -34,7 +34,7 @@ TissueMap slabs(int size, int count, const Vec3& spacing = { 1, 1, 1 })
 
 double estimate(const TissueMap& map, double length)
 {
-  return double(estimateSurfaceMemory(map, uniformScale(length)));
+  return double(estimateSurfaceMemory(map, uniformScale(length), false));
 }
 
 TEST(MemoryEstimate, GrowsWithTheInterfaceBetweenTissues)
@@ -71,6 +71,24 @@ TEST(MemoryEstimate, TakesFewSamplesOfLargeMaps)
   const double whole = estimate(slabs(64, 1), 1) - estimate(slabs(64, 1), 8);
   const double sampled = estimate(slabs(160, 1), 1) - estimate(slabs(160, 1), 8);
   EXPECT_NEAR(sampled / whole, std::pow(156.0 / 60.0, 3), 0.1 * std::pow(156.0 / 60.0, 3));
+}
+
+TEST(StartingFaces, AreThoseOfBlocksWhereElementsAreLong)
+{
+  const TissueMap map = slabs(44, 2);
+  const double voxels = startingFaces(map, uniformScale(16), false);
+  EXPECT_EQ(startingFaces(map, uniformScale(7), true), voxels);
+  EXPECT_EQ(startingFaces(map, uniformScale(8), true), voxels / 4);
+  EXPECT_EQ(startingFaces(map, uniformScale(16), true), voxels / 16);
+  EXPECT_EQ(startingFaces(map, uniformScale(1000), true), voxels / 64);
+}
+
+TEST(StartingFaces, CountThoseOfACube)
+{
+  TissueMap map;
+  map.grid.size = { 3, 3, 3 };
+  map.labels.assign(27, 1);
+  EXPECT_EQ(startingFaces(map, uniformScale(1)), 6 * 9);
 }
 
 TEST(RequireMemory, RefusesWithBothFigures)
