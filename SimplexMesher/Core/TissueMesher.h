@@ -21,7 +21,7 @@ struct TissueMesherOptions
   /// that keeps a tissue's volume.
   double maximumDistance = 0;
   /// Scale, in voxels, of the smooth boundary that the surface is driven to (SmoothBoundary.h); without a
-  /// maximumDistance the map's roughness of that scale goes first (LabelSmoothing.h). 0: the voxels' steps.
+  /// maximumDistance or a proximity the map's roughness of that scale goes first (LabelSmoothing.h). 0: the voxels' steps.
   double smoothing = 0.7;
   /// Resistance of the surface to bending, in that of its samples: 0 none, 0.2 some, 1 as much (Bending.h).
   double rigidity = 0.2;
@@ -36,7 +36,7 @@ struct TissueMesherOptions
 /// Whether the surface may leave the voxels' own boundary; then the mesh begins with blocks of voxels where L is long.
 inline bool leavesVoxels(const TissueMesherOptions& options)
 {
-  return options.smoothing > 0 && !(options.maximumDistance > 0);
+  return options.smoothing > 0 && !(options.maximumDistance > 0) && !options.proximity.isAsked();
 }
 
 /// The scale that keeps the middles of edges within `chordError` mm of the boundary that will be meshed

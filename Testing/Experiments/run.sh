@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# Runs the surface experiments and draws them: pictures and a table.
-# usage: Testing/Experiments/run.sh [OUTDIR]      (default build/experiments)
+# Runs the surface experiments, by the command line and on the surface alone, and draws them: pictures and tables.
+# usage: Testing/Experiments/run.sh [OUTDIR [HEAD]]      (default build/experiments; HEAD: see surfaces.py)
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
 folder=${1:-$root/build/experiments}
+python=/usr/bin/python3
 mkdir -p "$folder"
-"$root/CMake/build.sh" SimplexExperiments
+"$root/CMake/build.sh" SimplexExperiments SurgicalPathScaleCLI SimplexMesherCLI
+"$python" "$root/workflow/example/display.py" "$python" "$root/Testing/Experiments/surfaces.py" "$folder" ${2:+--head "$2"}
 "$root/build/Testing/Experiments/SimplexExperiments" "$folder" /usr/share/mricron/templates
-/usr/bin/python3 "$root/workflow/example/display.py" /usr/bin/python3 "$root/Testing/Experiments/pictures.py" "$folder"
+"$python" "$root/workflow/example/display.py" "$python" "$root/Testing/Experiments/pictures.py" "$folder"
