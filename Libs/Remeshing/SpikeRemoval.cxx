@@ -2,6 +2,7 @@
 #include "SpikeRemoval.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace surgicalmesher
@@ -18,6 +19,31 @@ std::vector<std::int32_t> tissuesAt(GuardedOperations& operations, std::int32_t 
   for (std::int32_t t : operations.star(v))
     if (operations.complex().labels[t] != 0) result.push_back(t);
   return result;
+}
+
+/// The solid angle of t at its corner v (Van Oosterom and Strackee 1983), in parts of the sphere.
+double shareOfSphere(const TetComplex& complex, std::int32_t t, std::int32_t v)
+{
+  Vec3 ways[3];
+  int found = 0;
+  for (const std::int32_t x : complex.tets[t])
+    if (x != v) ways[found++] = complex.points[x] - complex.points[v];
+  const auto& [a, b, c] = ways;
+  const double la = norm(a), lb = norm(b), lc = norm(c);
+  const double within = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
+  return std::atan2(std::abs(dot(a, cross(b, c))), within) / (2 * M_PI);
+}
+
+/// Whether tissues have at most `few` tetrahedra at v, and these stick out: in a wall they are half the sphere, however
+/// few, and without them it has a dent.
+bool isEar(GuardedOperations& operations, std::int32_t v, std::size_t few)
+{
+  constexpr double sharp = 0.375; // of the sphere
+  const std::vector<std::int32_t> tissues = tissuesAt(operations, v);
+  if (tissues.size() > few) return false;
+  double share = 0;
+  for (std::int32_t t : tissues) share += shareOfSphere(operations.complex(), t, v);
+  return share < sharp;
 }
 
 /// Gives all at v to `label`, in whatever order that allows. What leads nowhere is given back, unless the samples have
@@ -97,7 +123,7 @@ void removeEarsOfBlock(GuardedOperations& operations, std::size_t few)
 {
   const TetComplex& c = operations.complex();
   for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
-    if (c.vertexTet[v] >= 0 && !c.locked[v] && c.onInterface[v] && tissuesAt(operations, v).size() <= few)
+    if (c.vertexTet[v] >= 0 && !c.locked[v] && c.onInterface[v] && isEar(operations, v, few))
       if (!takeOff(operations, v, 0, anyQuality)) fillBeside(operations, v, few);
 }
 
