@@ -36,7 +36,8 @@ struct FacesToSamples
 Envelope::Envelope(TetComplex& complex, const EnvelopeBounds& bounds)
   : m_Complex(complex), m_Held(bounds.interfaceHeld), m_MeanSquareLimit(bounds.rmsLimit * bounds.rmsLimit),
     m_SquaredToleranceFactor(bounds.toleranceFactor * bounds.toleranceFactor), m_TriangleWeight(bounds.triangleWeight),
-    m_VertexDistance(bounds.vertexDistance), m_SquaredSpacing(bounds.sampleSpacing * bounds.sampleSpacing),
+    m_VertexDistance(bounds.vertexDistance), m_PlaneDistance(bounds.planeDistance),
+    m_SquaredSpacing(bounds.sampleSpacing * bounds.sampleSpacing),
     m_SquaredSeparatedFactor(bounds.separatedFactor * bounds.separatedFactor), m_Sides(bounds.featureAngle)
 {
 }
@@ -216,8 +217,21 @@ bool Envelope::growsSpike(const Vec3& p) const
 {
   if (m_VertexDistance == 0) return false;
   const auto [sample, distance2] = nearestSample(m_Sheet, p);
+  if (sample && leavesPlane(*sample, p)) return true;
   return sample && isBeyond(*sample, distance2, m_VertexDistance) &&
          distance2 > nearestSample(m_Sheet, m_Complex.points[m_SheetVertex]).second;
+}
+
+/// Whether the vertex of the sheet, at p, is beyond planeDistance from the sample's plane, and farther than now.
+bool Envelope::leavesPlane(const SheetSample& sample, const Vec3& p) const
+{
+  if (m_PlaneDistance == 0) return false;
+  const auto normal = m_Complex.sampleNormal(sample.id);
+  const Vec3 n{ normal[0], normal[1], normal[2] }, way = p - sample.position;
+  const double perRadius2 = squaredNorm(n), height = std::abs(dot(n, way));
+  if (perRadius2 == 0 || squaredNorm(way) * perRadius2 > 1) return false;
+  const double most2 = m_PlaneDistance * m_PlaneDistance * sample.squaredTolerance() * perRadius2;
+  return height * height > most2 && height > std::abs(dot(n, m_Complex.points[m_SheetVertex] - sample.position));
 }
 
 bool Envelope::spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) const

@@ -31,7 +31,11 @@ struct EnvelopeBounds
   /// to lie on the interface beyond it. Prevents spikes: they have good angles, and their sides pass the samples at
   /// their foot however long they grow. 0: no bound.
   double vertexDistance = 0;
-  /// mm; that bound is this at least: between samples so far apart a vertex of the smoothest surface is that far from
+  /// Bound, in tolerances, on the distance of an interface vertex that moves from the plane of the nearest sample of its
+  /// faces, if that has a normal and the boundary is plane between them, unless it does not grow. vertexDistance leaves a
+  /// vertex between samples as far off as these are apart. 0: no bound.
+  double planeDistance = 0;
+  /// mm; vertexDistance is this at least: between samples so far apart a vertex of the smoothest surface is that far from
   /// the nearest.
   double sampleSpacing = 0;
   /// Factor, at least 1, on the tolerance to faces of its own pair for a sample whose two labels others have come
@@ -141,6 +145,7 @@ private:
   bool sampleStays(const Sheet& sheet, SheetSample& sample);
   bool meanSquareStays(const Sheet& sheet);
   bool growsSpike(const Vec3& p) const;
+  bool leavesPlane(const SheetSample& sample, const Vec3& p) const;
   bool spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) const;
   void addMovedFaces(const Vec3& p);
   void attachMoved();
@@ -152,7 +157,7 @@ private:
   double m_MeanSquareLimit;
   const double m_SquaredToleranceFactor, m_TriangleWeight;
   double m_VertexDistance;
-  const double m_SquaredSpacing, m_SquaredSeparatedFactor;
+  const double m_PlaneDistance, m_SquaredSpacing, m_SquaredSeparatedFactor;
   double m_LeastTolerance2 = 0;
   FeatureSides m_Sides; ///< of the faces asked about last
   Sheet m_Old;          ///< the faces that an operation takes away

@@ -254,8 +254,24 @@ private:
     }
   }
 
-  Vec3 withinReach(std::int32_t v, const Vec3& p) const
+  /// p, or what is nearest to it where the plane of the nearest sample is within reach: from sweep to sweep, edges of a
+  /// box get rounder, and what that takes would swell its walls.
+  Vec3 nearSamples(std::int32_t v, const Vec3& p)
   {
+    constexpr double share = 0.6; // of the reach
+    const SheetSample* sample = nearestSample(m_Operations.sheet(v), p).first;
+    if (!sample) return p;
+    const auto normal = m_Complex.sampleNormal(sample->id);
+    const Vec3 n{ normal[0], normal[1], normal[2] };
+    const double length = norm(n), most = share * m_Options.farthest;
+    if (length == 0) return p;
+    const double height = dot(n, p - sample->position) / length;
+    return p + ((std::clamp(height, -most, most) - height) / length) * n;
+  }
+
+  Vec3 withinReach(std::int32_t v, const Vec3& to)
+  {
+    const Vec3 p = nearSamples(v, to);
     const double length = m_Complex.lengths[v], fineness = std::min(1.0, m_Options.fineLength / length);
     const double reach = std::min(0.3 * length, m_Options.farthest * fineness * fineness);
     const Vec3 way = p - m_Start[v];

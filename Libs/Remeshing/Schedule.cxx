@@ -20,6 +20,7 @@ constexpr double as28Degrees = 1.033; // triangles of 28 degrees count like dihe
 
 constexpr double earTolerance = 1.1;    // beyond that the surface withdraws where it is to be finest
 constexpr double spikeTolerance = 2.1;  // of what a spike leaves behind
+constexpr double planeDistance = 0.6;   // 0.2 voxel where L is one
 constexpr double lengthTolerance = 1.1; // what even lengths are worth
 constexpr double labelTolerance = 1.6;  // of relabelling
 constexpr double vertexDistance = 1.4;  // spikes begin there
@@ -38,7 +39,8 @@ EnvelopeBounds bounds(const MeshTargets& targets, double rmsLimit, double tolera
   return { .rmsLimit = rmsLimit,
            .toleranceFactor = toleranceFactor,
            .triangleWeight = targets.triangleWeight,
-           .vertexDistance = vertexDistanceOf(targets) };
+           .vertexDistance = vertexDistanceOf(targets),
+           .planeDistance = targets.countsTriangles() ? planeDistance : 0 };
 }
 
 /// Without splits and moves together.
@@ -91,11 +93,12 @@ Sweep improvement(Stage stage) { return { "improvement", { std::move(stage) } };
 /// How far a repair goes.
 struct Repair
 {
-  double angle;     ///< aimed at
-  double tolerance; ///< factor
-  double splitEdge; ///< 0: no splits
-  double ease;      ///< see ImprovementOptions
-  int together;     ///< see ImprovementOptions
+  double angle;         ///< aimed at
+  double tolerance;     ///< factor
+  double splitEdge;     ///< 0: no splits
+  double ease;          ///< see ImprovementOptions
+  int together;         ///< see ImprovementOptions
+  bool isFirst = false; ///< fits come after it: vertices may leave their samples' planes
 };
 
 ImprovementOptions optionsOf(const Repair& repair)
@@ -111,7 +114,9 @@ ImprovementOptions optionsOf(const Repair& repair)
 
 Sweep repairBlocks(const MeshTargets& targets, const Repair& repair)
 {
-  return improvement({ bounds(targets, 1, repair.tolerance), { Improve{ optionsOf(repair) } } });
+  EnvelopeBounds within = bounds(targets, 1, repair.tolerance);
+  if (repair.isFirst) within.planeDistance = 0;
+  return improvement({ within, { Improve{ optionsOf(repair) } } });
 }
 
 Sweep repairWhole(const MeshTargets& targets, const MeshSizes& sizes, const Repair& repair)
@@ -230,8 +235,10 @@ std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
   return { improvement({ bounds(t, 0.5), { Polish{}, improve(aim, t.trials, 2) } }),
            improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, 2) } }),
            repairBlocks(t, { .angle = aim, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0 }),
-           repairBlocks(t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 20 }),
-           repairBlocks(t, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }),
+           repairBlocks(
+             t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 20, .isFirst = true }),
+           repairBlocks(
+             t, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20, .isFirst = true }),
            repairWhole(t, sizes, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
 }
 
