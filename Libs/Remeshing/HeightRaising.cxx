@@ -131,14 +131,15 @@ private:
     const Quadric held = heldAt(m_Operations, v, 0.02);
     for (int trial = 0; trial < m_Options.trials && least < m_Options.height && step > 0.004 * size; ++trial)
     {
-      const Vec3 q = m_Complex.points[v] + step * easiest(m_Operations, v, held, uphill(v, least));
+      const Vec3 way = trial % 3 == 2 ? m_Directions.next() : uphill(v, least);
+      const Vec3 q = m_Complex.points[v] + step * easiest(m_Operations, v, held, way);
       const double after = leastAt(v, q);
       if (after > least && m_Operations.move(v, q, floor))
       {
         least = after;
         step *= 1.3;
       }
-      else step *= 0.7;
+      else step *= 0.8;
     }
     return least > start * (1 + 1e-3);
   }
@@ -147,6 +148,7 @@ private:
   TetComplex& m_Complex;
   const HeightOptions& m_Options;
   const double m_Good;
+  Directions m_Directions;
 };
 
 } // namespace

@@ -10,11 +10,11 @@ namespace surgicalmesher
 struct HeightOptions
 {
   double height = 0;         ///< mm; tetrahedra of tissues with a smaller height than this are worked on
-  double goodAngle = 32;     ///< degrees; no dihedral angle falls below this, or falls if it is below
+  double goodAngle = 28.6;   ///< degrees; no dihedral angle falls below this, or falls if it is below
   double longEdge = 1.4;     ///< collapses leave no edge longer than this share of its target
-  int trials = 24;           ///< positions tried for each vertex
+  int trials = 40;           ///< positions tried for each vertex
   double worstShare = 0.005; ///< of the tetrahedra, the lowest, that are worked on in one pass; a hundred at least
-  int passes = 3;
+  int passes = 6;
 };
 
 /// Lowest first: merges one end of a short edge into the other, or moves vertices, where that raises the least height of

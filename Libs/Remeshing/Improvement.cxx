@@ -15,29 +15,6 @@ namespace surgicalmesher
 namespace
 {
 
-/// A fixed sequence of directions, for reproducible trials.
-class Directions
-{
-public:
-  Vec3 next()
-  {
-    for (;;)
-    {
-      const Vec3 d{ uniform(), uniform(), uniform() };
-      const double n = squaredNorm(d);
-      if (n > 1e-3 && n <= 1) return d / std::sqrt(n);
-    }
-  }
-
-private:
-  double uniform()
-  {
-    m_State = m_State * 6364136223846793005ull + 1442695040888963407ull;
-    return double(std::int64_t(m_State) >> 11) / 4503599627370496.0;
-  }
-  std::uint64_t m_State = 88172645463325252ull;
-};
-
 /// What is tried over and over at no small cost, as long as it succeeds now and then.
 class Chance
 {

@@ -5,6 +5,9 @@
 #include "GuardedOperations.h"
 #include "Quadric.h"
 
+#include <cmath>
+#include <cstdint>
+
 namespace surgicalmesher
 {
 
@@ -25,6 +28,29 @@ void facesAtNeighbours(const Sheet& sheet, std::int32_t v, FacesAtNeighbours& re
 /// Whether v lies inside a label among 24 tetrahedra, none of them with a dihedral angle below 45 degrees or above 135:
 /// what Fuchs's lattice, of 60 and 90 degrees, makes of a vertex, or nearly so. To move it can only harm the lattice.
 bool isWhole(GuardedOperations& operations, std::int32_t v);
+
+/// A fixed sequence of directions, for reproducible trials.
+class Directions
+{
+public:
+  Vec3 next()
+  {
+    for (;;)
+    {
+      const Vec3 d{ uniform(), uniform(), uniform() };
+      const double n = squaredNorm(d);
+      if (n > 1e-3 && n <= 1) return d / std::sqrt(n);
+    }
+  }
+
+private:
+  double uniform()
+  {
+    m_State = m_State * 6364136223846793005ull + 1442695040888963407ull;
+    return double(std::int64_t(m_State) >> 11) / 4503599627370496.0;
+  }
+  std::uint64_t m_State = 88172645463325252ull;
+};
 
 /// The way up from the worst tetrahedra at a vertex.
 class Uphill
