@@ -48,33 +48,27 @@ public:
   {
   }
 
-  /// Newton's method, shortened where tetrahedra would turn over, from the last solution; the residual is at most 1e-10 of the largest force.
+  /// Newton's method with steps halved until the energy falls, from the last solution; the residual is at most 1e-10 of
+  /// the largest force.
   const Eigen::VectorXd& solve(const std::vector<PointSpring>& springs)
   {
     for (int iteration = 0; iteration < 50; ++iteration)
     {
       Eigen::VectorXd inner = m_Linear.selfadjointView<Eigen::Lower>() * m_Displacement, outer = m_Weight;
-      SymmetricMatrix tangent = m_Linear;
-      if (m_NeoHookean)
-      {
-        inner += NeoHookean::forces(m_Child, m_Displacement);
-        tangent += NeoHookean::tangent(m_Child, m_Displacement);
-      }
+      if (m_NeoHookean) inner += NeoHookean::forces(m_Child, m_Displacement);
       for (const PointSpring& spring : springs)
       {
         for (int i = 0; i < 3; ++i)
         {
           const Eigen::Index u = 3 * m_Mesh.whole.unknowns[std::size_t(spring.point)] + i;
           outer[u] += spring.stiffness * (spring.pull[i] - m_Displacement[u]);
-          tangent.coeffRef(u, u) += spring.stiffness;
         }
       }
       const Eigen::VectorXd residual = outer - inner;
       if (residual.lpNorm<Eigen::Infinity>() <= 1e-10 * inner.lpNorm<Eigen::Infinity>()) return m_Displacement;
-      SparseCholesky factor(tangent);
-      if (!factor.factorize(tangent)) break;
-      Eigen::VectorXd step = factor.solve(residual);
-      while (m_NeoHookean && std::isinf(NeoHookean::energy(m_Child, m_Displacement + step))) step /= 2;
+      Eigen::VectorXd step = newtonStep(residual, springs);
+      const double before = energy(m_Displacement, springs), rounding = 1e-12 * std::abs(before);
+      for (int k = 0; k < 40 && !(energy(m_Displacement + step, springs) <= before + rounding); ++k) step /= 2;
       m_Displacement += step;
     }
     throw EngineError("the whole mesh does not settle");
@@ -104,6 +98,39 @@ public:
   }
 
 private:
+  double energy(const Eigen::VectorXd& displacement, const std::vector<PointSpring>& springs) const
+  {
+    const Eigen::VectorXd inner = m_Linear.selfadjointView<Eigen::Lower>() * displacement;
+    double sum = 0.5 * displacement.dot(inner) - m_Weight.dot(displacement);
+    if (m_NeoHookean) sum += NeoHookean::energy(m_Child, displacement);
+    for (const PointSpring& spring : springs)
+      for (int i = 0; i < 3; ++i)
+      {
+        const Eigen::Index u = 3 * m_Mesh.whole.unknowns[std::size_t(spring.point)] + i;
+        sum += 0.5 * spring.stiffness * (spring.pull[i] - displacement[u]) * (spring.pull[i] - displacement[u]);
+      }
+    return sum;
+  }
+
+  /// With each tetrahedron's tangent made definite where the whole one is not.
+  Eigen::VectorXd newtonStep(const Eigen::VectorXd& residual, const std::vector<PointSpring>& springs) const
+  {
+    for (const bool definite : { false, true })
+    {
+      SymmetricMatrix tangent = m_Linear;
+      if (m_NeoHookean) tangent += NeoHookean::tangent(m_Child, m_Displacement, definite);
+      for (const PointSpring& spring : springs)
+        for (int i = 0; i < 3; ++i)
+        {
+          const Eigen::Index u = 3 * m_Mesh.whole.unknowns[std::size_t(spring.point)] + i;
+          tangent.coeffRef(u, u) += spring.stiffness;
+        }
+      SparseCholesky factor(tangent);
+      if (factor.factorize(tangent)) return factor.solve(residual);
+    }
+    throw EngineError("the whole mesh's equations are singular");
+  }
+
   const CoupledMesh& m_Mesh;
   bool m_NeoHookean;
   SymmetricMatrix m_Linear;

@@ -161,12 +161,13 @@ class RejectionTest(unittest.TestCase):
 class ChoiceTest(unittest.TestCase):
     def test_the_fastest_of_a_meshers_good_meshes_at_the_distance_is_chosen(self):
         def row(hausdorff, error, iterations, mesher="a"):
-            return {"mesher": mesher, "hausdorff": hausdorff, "error": error, "iterations": iterations, "points": 10}
+            return {"mesher": mesher, "hausdorff": hausdorff, "errors": {"5": error - 0.02, "10": error + 0.02},
+                    "iterations": iterations, "points": 10}
         slow, fast, rough, far, other = row(8, 0.2, 90), row(8, 0.21, 50), row(8, 0.3, 10), row(9, 0.1, 1), row(8, 0.1, 1, "b")
         rows = [slow, fast, rough, far, other, {"mesher": "a", "failed": "crash"}]
         self.assertIs(evidence.chosen(rows, "a", (7, 8)), fast)
         self.assertIs(evidence.chosen(rows, "a", (8.5, 9)), far)
-        self.assertEqual(evidence.chosen([row(8, 0.9, 1), row(8, 0.8, 2)], "a", (7, 8))["error"], 0.8)
+        self.assertEqual(evidence.chosen([row(8, 0.9, 1), row(8, 0.8, 2)], "a", (7, 8))["iterations"], 2)
         self.assertIsNone(evidence.chosen(rows, "a", (1, 2)))
 
 
@@ -186,7 +187,7 @@ class WholeTest(unittest.TestCase):
         matches = [evidence.matching_quality(scene, 4, during)]
         self.assertGreater(matches[0]["withinVoxel"], 0.85)
         body, run = body_of(scene.body, AFFINE), Programs(BIN, parts.folder)
-        rows = evidence.swept(parts, scene, run, body, during, SETTINGS)
+        rows = evidence.swept(parts, scene, run, body, {4: during}, SETTINGS)
         table = evidence.compared(parts, scene, run, body, {4: during}, rows, BINS)
         for (_, mesher), row in table.items():
             self.assertIsNotNone(row, mesher)
