@@ -93,13 +93,15 @@ void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::
 {
   const double voxel = map.grid.largestSpacing(), room = roomIn(map), bound = options.maximumDistance;
   const std::map<Label, double> drifts = mostDrifts(thickness, map.grid.largestSpacing(), options.features);
-  const double ofVoxel = options.isSmooth ? 0.25 : 0.42;   // steps take up most of the latter
-  const double ofLength = options.isSmooth ? 0.06 : 0.095; // without roughness to follow, closer costs no tetrahedra
+  const double ofVoxel = options.isSmooth ? 0.25 : 0.42;    // steps take up most of the latter
+  const double ofLength = options.isSmooth ? 0.06 : 0.095;  // without roughness to follow, closer costs no tetrahedra
+  const double ofLengthAlone = options.isSmooth ? 0.09 : 0; // of eight voxels or more: finer maps have no finer meshes
   for (auto& sample : background.samples)
   {
     const double at = length(sample.position);
-    double tolerance =
-      options.proximity.isAsked() ? proximityAt(at, options) : room * (ofVoxel * voxel + ofLength * at);
+    double tolerance = options.proximity.isAsked()
+                         ? proximityAt(at, options)
+                         : room * std::max(ofVoxel * voxel + ofLength * at, ofLengthAlone * at);
     for (const Label label : labelsBeside(map, sample.position))
       if (label != 0) tolerance = std::min(tolerance, drifts.at(label));
     sample.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
