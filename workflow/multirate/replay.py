@@ -127,14 +127,14 @@ def animate(tip):
     instants = np.arange(0, round(SECONDS[-1] * PARENT_RATE) + 1, EVERY) / PARENT_RATE
     newton = np.interp(instants, *forces())
     images = []
-    for view, seconds, force in zip(views_of(instants, tip, (360, 340))[0], instants, newton):
+    for view, seconds, force in zip(views_of(instants, tip, (300, 284))[0], instants, newton):
         image = view.image.convert("RGB")
         x, y = view.pixels(tip + np.interp(seconds, SECONDS, REACHES) * MOTION)[0]
         pen = ImageDraw.Draw(image)
         pen.ellipse((x - 5, image.height - y - 5, x + 5, image.height - y + 5), fill="#c8102e", outline="white")
         pen.text((8, 6), f"{seconds:.2f} s   {force:.0f} mN", fill="#22262e", font=font)
         images.append(image)
-    palette = Image.fromarray(np.vstack(images)).quantize(96, Image.Quantize.MAXCOVERAGE)
+    palette = Image.fromarray(np.vstack(images)).quantize(64, Image.Quantize.MAXCOVERAGE)
     images = [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
     images[0].save("multirate.gif", save_all=True, append_images=images[1:], duration=1000 * EVERY // PARENT_RATE, loop=0)
 
