@@ -17,9 +17,10 @@ Quadric heldAt(GuardedOperations& operations, std::int32_t v, double ease)
 
 Vec3 easiest(GuardedOperations& operations, std::int32_t v, const Quadric& held, const Vec3& direction)
 {
-  const Vec3 d = operations.alongFeatures(v, held.solve(direction));
+  constexpr double rounding = 1e-9;
+  const Vec3 wanted = held.solve(direction), d = operations.alongFeatures(v, wanted);
   const double n = norm(d);
-  return n > 0 ? d / n : Vec3{};
+  return n > rounding * norm(wanted) ? d / n : Vec3{}; // of what features leave nothing of, only rounding is left
 }
 
 void facesAtNeighbours(const Sheet& sheet, std::int32_t v, FacesAtNeighbours& result)
