@@ -127,21 +127,30 @@ std::vector<std::int32_t> faceRegions(const FaceAdjacency& neighbours,
   return region;
 }
 
-SurfaceComplex interfaceOf(const TetMesh& mesh, std::vector<std::int32_t>* pointIds)
+std::vector<InterfaceFace> interfaceFaces(const TetMesh& mesh)
 {
   const FaceAdjacency neighbours = faceAdjacency(mesh);
-  SurfaceComplex surface;
+  std::vector<InterfaceFace> faces;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
     for (int f = 0; f < 4; ++f)
     {
       const std::int32_t beyond = neighbours.across[t][f];
       const Label front = beyond < 0 ? Label(0) : mesh.labels[beyond];
-      if (mesh.labels[t] <= front) continue;
-      std::array<std::int32_t, 3> triangle;
-      for (int c = 0; c < 3; ++c) triangle[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
-      surface.triangles.push_back(triangle);
-      surface.labels.push_back({ mesh.labels[t], front });
+      if (mesh.labels[t] > front) faces.push_back({ std::int32_t(t), f, front });
     }
+  return faces;
+}
+
+SurfaceComplex interfaceOf(const TetMesh& mesh, std::vector<std::int32_t>* pointIds)
+{
+  SurfaceComplex surface;
+  for (const auto& [t, f, front] : interfaceFaces(mesh))
+  {
+    std::array<std::int32_t, 3> triangle;
+    for (int c = 0; c < 3; ++c) triangle[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];
+    surface.triangles.push_back(triangle);
+    surface.labels.push_back({ mesh.labels[t], front });
+  }
   std::vector<std::int32_t> ids = compactPoints(surface.triangles, mesh.points.size());
   surface.points = valuesAt(mesh.points, ids);
   if (pointIds) *pointIds = std::move(ids);

@@ -38,8 +38,18 @@ std::vector<std::int32_t> matchOpenFaces(const std::vector<std::array<std::int32
 std::vector<std::int32_t> faceRegions(const FaceAdjacency& neighbours,
                                       const std::function<bool(std::int32_t t, int f)>& joined);
 
-/// The triangles between different labels (0 beyond the mesh), in the order of the tetrahedra, wound so that the higher
-/// label is behind. `pointIds`, if given, receives for each point of the surface its id in the mesh, ascending.
+/// A face between different labels (0 beyond the mesh), of the tetrahedron of the higher one.
+struct InterfaceFace
+{
+  std::int32_t tetrahedron;
+  int face; ///< opposite this corner
+  Label front;
+};
+
+/// In the order of the tetrahedra.
+std::vector<InterfaceFace> interfaceFaces(const TetMesh& mesh);
+
+/// The triangles of interfaceFaces(), in their order, wound so that the higher label is behind. `pointIds`, if given, receives for each point of the surface its id in the mesh, ascending.
 SurfaceComplex interfaceOf(const TetMesh& mesh, std::vector<std::int32_t>* pointIds = nullptr);
 
 /// The tetrahedra of `mesh` with a label other than 0, and the points they use, both in the same order. `pointIds`, if
