@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 namespace surgicalmesher
 {
@@ -173,7 +174,8 @@ std::vector<HangingPiece> hangingPieces(const TetMesh& mesh, double largestShare
     }
   }
   std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const HangingPiece& a, const HangingPiece& b) { return a.volume > b.volume; });
+                   [](const HangingPiece& a, const HangingPiece& b)
+                   { return std::tie(a.isFree, a.volume) > std::tie(b.isFree, b.volume); });
   return pieces;
 }
 

@@ -19,7 +19,7 @@ struct HangingPiece
 /// A face that is a bridge of the graph of a tissue's tetrahedra, joined through faces (R. E. Tarjan, "A note on finding
 /// the bridges of a graph", 1974), parts its component in two. The smaller part hangs on the larger one if it has at
 /// most `largestShare` of the tissue's tetrahedra, or a single one; pieces within others are not counted apart. Label 0
-/// is left out. The largest volume comes first. In linear time, but for that order.
+/// is left out. Free ones come first, then the largest. In linear time, but for that order.
 std::vector<HangingPiece> hangingPieces(const TetMesh& mesh, double largestShare = 0.02);
 
 } // namespace surgicalmesher

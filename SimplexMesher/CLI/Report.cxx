@@ -153,6 +153,24 @@ void writeSimplification(JsonWriter& json, const SurfaceReport& report)
   json.EndObject();
 }
 
+/// Pieces of one kind that labels have lost.
+void writeRoughness(JsonWriter& json, const char* key, const std::vector<MapChange>& changes,
+                    const std::function<bool(const MapChange&)>& holds)
+{
+  std::size_t pieces = 0, voxels = 0;
+  for (const MapChange& change : changes)
+  {
+    if (change.kind >= ChangeKind::Cavity || !holds(change)) continue;
+    ++pieces;
+    voxels += change.voxels;
+  }
+  json.Key(key);
+  json.StartObject();
+  writeMember(json, "count", pieces);
+  writeMember(json, "voxels", voxels);
+  json.EndObject();
+}
+
 /// Without places: they are as many as the map is rough.
 void writeSmoothing(JsonWriter& json, const SurfaceReport& report)
 {
@@ -160,6 +178,9 @@ void writeSmoothing(JsonWriter& json, const SurfaceReport& report)
   json.StartObject();
   writeMember(json, "voxels", report.smoothing);
   writeMember(json, "voxelsChanged", voxelsLost(report.smoothed));
+  writeRoughness(json, "cracks", report.smoothed, [](const auto& lost) { return lost.label == 0 && lost.voxels > 1; });
+  writeRoughness(json, "ears", report.smoothed, [](const auto& lost) { return lost.label != 0 && lost.voxels > 1; });
+  writeRoughness(json, "singleSteps", report.smoothed, [](const auto& lost) { return lost.voxels == 1; });
   writeObjects(json, "changes", byTissueAndKind(report.smoothed),
                [&](const PieceRange& pieces) { writePieces(json, pieces, report.tissues); });
   json.EndObject();
@@ -279,6 +300,90 @@ void writeFidelity(JsonWriter& json, const SurfaceReport& report)
                });
 }
 
+constexpr std::size_t mostListed = 20;
+
+template <class Item>
+std::vector<Item> listed(const std::vector<Item>& items)
+{
+  return { items.begin(), items.begin() + std::ptrdiff_t(std::min(items.size(), mostListed)) };
+}
+
+void writeFoldedLength(JsonWriter& json, const char* key, const FoldedLength& edges)
+{
+  json.Key(key);
+  json.StartObject();
+  writeMember(json, "length", edges.length);
+  writeMember(json, "folded", edges.folded);
+  writeMember(json, "share", edges.length > 0 ? edges.folded / edges.length : 0.0);
+  json.EndObject();
+}
+
+void writeFold(JsonWriter& json, const Fold& fold, const Grid& world)
+{
+  json.Key("place");
+  writePlace(json, world.gridToWorld(fold.place));
+  writeMember(json, "length", fold.length);
+  writeMember(json, "edges", fold.edges);
+  writeMember(json, "labels", fold.labels);
+  writeMember(json, "outer", fold.isOuter);
+  writeMember(json, "shape", fold.isConcave ? "concave" : "convex");
+  if (fold.boundaryTurn >= 0) writeMember(json, "boundaryTurn", fold.boundaryTurn);
+  writeMember(json, "reason", nameOf(fold.reason));
+}
+
+void writeReason(JsonWriter& json, FoldReason reason, const std::vector<Fold>& folds)
+{
+  std::size_t count = 0;
+  double length = 0;
+  for (const Fold& fold : folds)
+  {
+    if (fold.reason != reason) continue;
+    ++count;
+    length += fold.length;
+  }
+  writeMember(json, "reason", nameOf(reason));
+  writeMember(json, "count", count);
+  writeMember(json, "length", length);
+}
+
+void writeFolds(JsonWriter& json, const SurfaceReport& report)
+{
+  json.Key("folds");
+  json.StartObject();
+  writeMember(json, "count", report.folds.folds.size());
+  writeFoldedLength(json, "sheets", report.folds.sheets);
+  writeFoldedLength(json, "outer", report.folds.outer);
+  std::vector<FoldReason> reasons;
+  for (int reason = 0; reason < foldReasons; ++reason) reasons.push_back(FoldReason(reason));
+  writeObjects(json, "reasons", reasons, [&](FoldReason reason) { writeReason(json, reason, report.folds.folds); });
+  writeObjects(json, "longest", listed(report.folds.folds),
+               [&](const Fold& fold) { writeFold(json, fold, report.world); });
+  json.EndObject();
+}
+
+void writeEars(JsonWriter& json, const SurfaceReport& report)
+{
+  double volume = 0;
+  for (const HangingPiece& ear : report.ears) volume += ear.volume;
+  json.Key("ears");
+  json.StartObject();
+  writeMember(json, "count", report.ears.size());
+  writeMember(json, "free",
+              std::count_if(report.ears.begin(), report.ears.end(), [](auto& ear) { return ear.isFree; }));
+  writeMember(json, "volume", volume);
+  writeObjects(json, "largest", listed(report.ears),
+               [&](const HangingPiece& ear)
+               {
+                 writeTissue(json, ear.label, report.tissues);
+                 json.Key("place");
+                 writePlace(json, report.world.gridToWorld(ear.place));
+                 writeMember(json, "volume", ear.volume);
+                 writeMember(json, "tetrahedra", ear.tetrahedra);
+                 writeMember(json, "free", ear.isFree);
+               });
+  json.EndObject();
+}
+
 } // namespace
 
 std::string reportJson(const SurfaceReport& report)
@@ -301,6 +406,8 @@ std::string reportJson(const SurfaceReport& report)
     writeStructures(json, report.structures);
     writeThickness(json, report);
     writeFidelity(json, report);
+    writeFolds(json, report);
+    writeEars(json, report);
     writeEvolution(json, report.evolution);
     writeWarnings(json, report.warnings);
   };

@@ -2,9 +2,11 @@
 #pragma once
 /// What a run of the surface stage did, as JSON, and the evolution of its mesh as CSV.
 
+#include "HangingPieces.h"
 #include "LocalThickness.h"
 #include "ScaledPreparation.h"
 #include "Structures.h"
+#include "SurfaceFolds.h"
 #include "TissueFidelity.h"
 #include "TissueMesher.h"
 #include "TissueSettings.h"
@@ -31,9 +33,11 @@ struct SurfaceReport
   std::vector<EvolutionStep> evolution;
   double smoothing = 0;                     ///< voxels
   std::vector<MapChange> smoothed;          ///< between the prepared map and the one whose boundary was meshed
-  Grid world;                               ///< the frame of the files; the fidelity's places are in the map's own
+  Grid world;                               ///< the frame of the files; places below are in the map's own
   double maximumDistance = 0;               ///< mm, as asked for; 0: nothing was
   std::map<Label, TissueFidelity> fidelity; ///< to the prepared map; empty: not assessed
+  SurfaceFolds folds;                       ///< of the surface, assessed with its fidelity
+  std::vector<HangingPiece> ears;           ///< of its tissues' ambient tetrahedra, free ones first
   std::vector<std::string> warnings;
 };
 

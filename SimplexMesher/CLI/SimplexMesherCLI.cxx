@@ -259,6 +259,33 @@ void assessDistances(CommandLine& line, const SurfaceComplex& surface, const Tis
   for (const std::string& warning : warningsOfDistance(results.fidelity, bound, world)) line.warning(warning);
 }
 
+/// Whether `tissue` has a voxel thinner than L at a place in the map's own frame, or beside it.
+bool isThinAt(const TissueMap& map, const std::vector<ThinVoxel>& thinVoxels, Label tissue, const Vec3& place)
+{
+  std::array<int, 3> at;
+  for (int axis = 0; axis < 3; ++axis) at[axis] = int(std::lround(place[axis] / map.grid.spacing[axis]));
+  for (int n = 0; n < 27; ++n)
+  {
+    const int i = at[0] + n % 3 - 1, j = at[1] + n / 3 % 3 - 1, k = at[2] + n / 9 - 1;
+    if (!map.grid.contains(i, j, k)) continue;
+    const std::size_t voxel = map.grid.index(i, j, k);
+    const bool isThin = std::binary_search(thinVoxels.begin(), thinVoxels.end(), ThinVoxel{ voxel, 0 },
+                                           [](const auto& a, const auto& b) { return a.voxel < b.voxel; });
+    if (isThin && map.labels[voxel] == tissue) return true;
+  }
+  return false;
+}
+
+/// Only for the report; `map` in its own frame.
+void assessShape(CommandLine& line, const BackgroundMesh& background, const TissueMap& map, SurfaceReport& results)
+{
+  if (line.outputFile("report").empty()) return;
+  const auto isThin = [&](Label tissue, const Vec3& place)
+  { return isThinAt(map, results.thickness.thinVoxels, tissue, place); };
+  results.folds = surfaceFolds(interfaceOf(background.mesh), boundaryNormals(background), isThin);
+  results.ears = hangingPieces(background.mesh);
+}
+
 void returnFigures(CommandLine& line, const SurfaceReport& results)
 {
   line.returnValue("tissueCount", std::to_string(results.topology.size()));
@@ -318,6 +345,7 @@ void run(CommandLine& line)
   results.smoothed = mesh.smoothed;
   report(progress, 0.92, "distances");
   assessDistances(line, content.surface, map, world, results);
+  assessShape(line, mesh.background, map, results);
 
   report(progress, 0.95, "writing");
   writeSurface(content, line.outputFile("surface"));

@@ -737,3 +737,50 @@ TEST_F(SimplexMesherCLI, Trial_3a_TheReportHasBothVolumesAndBothDistancesOfEvery
   const std::string triangles = "triangleCount = " + std::to_string(report["triangles"].GetInt());
   EXPECT_NE(readBytes(folder.file("r.txt")).find(triangles), std::string::npos);
 }
+
+// Issue 31, item 3: where the surface is folded and why, what roughness went, and the ears that are left.
+TEST_F(SimplexMesherCLI, Issue31_3_TheReportHasFoldsRoughnessAndEars)
+{
+  const TissueMap wedges = paintedMap({ 24, 18, 18 },
+                                      [](int i, int j, int k)
+                                      {
+                                        const bool inBox = std::min({ i, j, k }) >= 3 && i < 21 && std::max(j, k) < 15;
+                                        if (!inBox || (i == 8 && k >= 9 && j == 9)) return 0; // a pit of one voxel
+                                        return std::abs(k - 8.5) < 0.35 * (i - 9) ? 7 : 1;    // a wedge, 39 degrees
+                                      });
+  write("wedges.nrrd", wedges);
+  expectDone("--edgeLength 2 --report r.json wedges.nrrd s.vtp");
+  const rapidjson::Document report = parsed("r.json");
+  const rapidjson::Value& folds = report["folds"];
+  for (const char* edges : { "sheets", "outer" })
+  {
+    EXPECT_GT(folds[edges]["length"].GetDouble(), 0) << edges;
+    EXPECT_NEAR(folds[edges]["share"].GetDouble() * folds[edges]["length"].GetDouble(),
+                folds[edges]["folded"].GetDouble(), 1e-9);
+  }
+  bool hasWedge = false;
+  for (const rapidjson::Value& fold : folds["longest"].GetArray())
+  {
+    const std::string reason = fold["reason"].GetString(), shape = fold["shape"].GetString();
+    const bool isOfOne = fold["labels"][0].GetInt() == fold["labels"][1].GetInt();
+    EXPECT_EQ(shape == "concave", reason == "crack" || reason == "groove between two tissues");
+    EXPECT_EQ(shape == "concave" && isOfOne, reason == "crack");
+    EXPECT_TRUE(fold["outer"].GetBool() || shape == "convex");
+    const rapidjson::Value& place = fold["place"];
+    hasWedge |= fold["labels"][0].GetInt() == 7 && fold["labels"][1].GetInt() == 1 && !fold["outer"].GetBool() &&
+                std::abs(place[0].GetDouble() - 9.5) < 2 && std::abs(place[2].GetDouble() - 8.5) < 1;
+  }
+  EXPECT_TRUE(hasWedge);
+  unsigned count = 0;
+  for (const rapidjson::Value& reason : folds["reasons"].GetArray()) count += reason["count"].GetUint();
+  EXPECT_EQ(count, folds["count"].GetUint());
+
+  const rapidjson::Value& smoothing = report["smoothing"];
+  std::size_t voxels = 0;
+  for (const char* kind : { "cracks", "ears", "singleSteps" }) voxels += smoothing[kind]["voxels"].GetUint64();
+  EXPECT_EQ(voxels, smoothing["voxelsChanged"].GetUint64());
+  EXPECT_GT(smoothing["cracks"]["count"].GetUint(), 0u) << "the pit";
+  const rapidjson::Value& ears = report["ears"];
+  EXPECT_LE(ears["free"].GetUint(), ears["count"].GetUint());
+  EXPECT_EQ(ears["largest"].Size(), std::min(ears["count"].GetUint(), 20u));
+}
