@@ -8,7 +8,6 @@ are 1 mm within each of RADII around the example's target. Finished meshes and f
 rates.json; --document puts the tables into Docs/Evidence.md.
 """
 import argparse
-import json
 import os
 import re
 import subprocess
@@ -103,13 +102,7 @@ def main():
         records.append(parts.record(f"rates-{radius}", make))
         print(records[-1], flush=True)
     tables = tables_of(records)
-    with open(parts.path("rates.json"), "w", encoding="utf-8") as file:
-        json.dump(records, file, indent=1)
-    with open(parts.path("rates.md"), "w", encoding="utf-8") as file:
-        file.write("\n".join(tables.values()))
-    if options.document:
-        document.put(tables)
-    print("\n".join(tables.values()))
+    document.leave(records, tables, parts.path("rates"), options.document)
 
 
 if __name__ == "__main__":

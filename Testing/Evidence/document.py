@@ -1,4 +1,5 @@
 """Puts tables and pictures into Docs/Evidence.md, each table between the page's two marks of its name."""
+import json
 import os
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -25,3 +26,15 @@ def put(tables):
         text = with_tables(file.read(), tables)
     with open(PAGE, "w", encoding="utf-8") as file:
         file.write(text)
+
+
+def leave(records, tables, path, is_for_page):
+    """Records into path.json, tables into path.md, onto the terminal and, if wanted, into the page."""
+    text = "\n".join(tables.values())
+    with open(f"{path}.json", "w", encoding="utf-8") as file:
+        json.dump(records, file, indent=1)
+    with open(f"{path}.md", "w", encoding="utf-8") as file:
+        file.write(text)
+    if is_for_page:
+        put(tables)
+    print(text)

@@ -9,7 +9,6 @@ SimplexMesherCLI. Without a case: the JHU atlas. Finished maps stay in OUTDIR an
 and maps.json; --document puts the tables into Docs/Evidence.md.
 """
 import argparse
-import json
 import os
 import subprocess
 import sys
@@ -220,13 +219,7 @@ def main():
             records.append(parts.record(f"{case[0]}-{mesher.split()[-1]}", make))
             print(row_of(records[-1]), flush=True)
     tables = tables_of(records, {case[0]: read_names(case[4]) for case in cases})
-    with open(parts.path("maps.json"), "w", encoding="utf-8") as file:
-        json.dump(records, file, indent=1)
-    with open(parts.path("maps.md"), "w", encoding="utf-8") as file:
-        file.write("\n".join(tables.values()))
-    if options.document:
-        document.put(tables)
-    print("\n".join(tables.values()))
+    document.leave(records, tables, parts.path("maps"), options.document)
 
 
 if __name__ == "__main__":
