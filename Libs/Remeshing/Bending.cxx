@@ -12,7 +12,35 @@ namespace
 /// Of the angle between x and y.
 double cotangent(const Vec3& x, const Vec3& y) { return dot(x, y) / norm(cross(x, y)); }
 
-/// The corner of the triangle that goes on from `face` beyond its edge ab; -1 if there is none.
+/// The energy of edge ab with the opposite corners c and d: |s_a a + s_b b - s_c c - s_d d|^2 / area.
+struct Hinge
+{
+  Vec3 bent;
+  double atA, atB, atC; ///< s
+  double area;          ///< of both triangles, twice
+
+  Hinge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+  {
+    const Vec3 edge = b - a;
+    const double ca = cotangent(edge, c - a), cb = cotangent(-1.0 * edge, c - b);
+    const double da = cotangent(edge, d - a), db = cotangent(-1.0 * edge, d - b);
+    atA = cb + db;
+    atB = ca + da;
+    atC = -(ca + cb);
+    bent = atA * a + atB * b + atC * c - (da + db) * d;
+    area = norm(cross(edge, c - a)) + norm(cross(edge, d - a));
+  }
+
+  /// Of its part in the sum, with the angle that it is bent by now.
+  double weight(const Vec3& edge) const
+  {
+    constexpr double sharp = 0.7; // radians
+    return 1 / (area * (1 + squaredNorm(bent) / (squaredNorm(edge) * sharp * sharp)));
+  }
+};
+
+} // namespace
+
 std::int32_t cornerBeyond(const TetComplex& complex, const SheetFace& face, std::int32_t a, std::int32_t b)
 {
   std::int32_t t = face.tet;
@@ -43,34 +71,11 @@ std::int32_t cornerBeyond(const TetComplex& complex, const SheetFace& face, std:
   }
 }
 
-/// The energy of edge ab with the opposite corners c and d: |s_a a + s_b b - s_c c - s_d d|^2 / area.
-struct Hinge
+double deflection(const Vec3& edge, const Vec3& c, const Vec3& d)
 {
-  Vec3 bent;
-  double atA, atB, atC; ///< s
-  double area;          ///< of both triangles, twice
-
-  Hinge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
-  {
-    const Vec3 edge = b - a;
-    const double ca = cotangent(edge, c - a), cb = cotangent(-1.0 * edge, c - b);
-    const double da = cotangent(edge, d - a), db = cotangent(-1.0 * edge, d - b);
-    atA = cb + db;
-    atB = ca + da;
-    atC = -(ca + cb);
-    bent = atA * a + atB * b + atC * c - (da + db) * d;
-    area = norm(cross(edge, c - a)) + norm(cross(edge, d - a));
-  }
-
-  /// Of its part in the sum, with the angle that it is bent by now.
-  double weight(const Vec3& edge) const
-  {
-    constexpr double sharp = 0.7; // radians
-    return 1 / (area * (1 + squaredNorm(bent) / (squaredNorm(edge) * sharp * sharp)));
-  }
-};
-
-} // namespace
+  const Vec3 n = cross(edge, c), m = cross(d, edge);
+  return std::atan2(norm(cross(n, m)), dot(n, m));
+}
 
 Quadric bendingOf(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet)
 {

@@ -15,4 +15,12 @@ namespace surgicalmesher
 /// nothing.
 Quadric bendingOf(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet);
 
+/// The corner of the triangle that goes on from `face` beyond its edge ab, if it belongs together with it; -1 if there is
+/// none.
+std::int32_t cornerBeyond(const TetComplex& complex, const SheetFace& face, std::int32_t a, std::int32_t b);
+
+/// The angle, radians, between the normals of the triangles on both sides of `edge`, whose third corners lie at c and d
+/// from its begin.
+double deflection(const Vec3& edge, const Vec3& c, const Vec3& d);
+
 } // namespace surgicalmesher

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "Bending.h"
 #include "GuardedOperations.h"
+#include "MeshQuality.h"
 #include "TetQuality.h"
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 
 namespace surgicalmesher
 {
@@ -12,26 +16,75 @@ namespace
 
 constexpr int maximumRing = 10;
 
+constexpr double none = -std::numeric_limits<double>::infinity();
+
+/// Of a tetrahedron.
+using Corners = std::array<const Vec3*, 4>;
+
+/// The worst quality counts.
+struct WorstCounts
+{
+  static constexpr double ofNothing = std::numeric_limits<double>::max();
+  double joined(double x, double y) const { return std::min(x, y); }
+  double with(double soFar, double quality, const Corners&) const { return std::min(soFar, quality); }
+  bool mayExceed(double soFar, double best) const { return soFar > best; }
+  const WorstCounts& inLabel(Label) const { return *this; }
+};
+
+/// The least height counts, mm; the background's does not.
+struct HeightCounts
+{
+  bool counts = true;
+  static constexpr double ofNothing = std::numeric_limits<double>::max();
+  double joined(double x, double y) const { return std::min(x, y); }
+  double with(double soFar, double, const Corners& c) const
+  {
+    return counts ? std::min(soFar, leastHeight(*c[0], *c[1], *c[2], *c[3])) : soFar;
+  }
+  bool mayExceed(double soFar, double best) const { return soFar > best; }
+  HeightCounts inLabel(Label label) const { return { label != 0 }; }
+};
+
+/// The sum of the sines counts, of which each tetrahedron more takes away what one usually has. The background's count
+/// nothing.
+struct SumCounts
+{
+  double usualSine;
+  double share = 1; ///< that counts
+  static constexpr double ofNothing = 0;
+  double joined(double x, double y) const { return x + y; }
+  double with(double soFar, double quality, const Corners& = {}) const
+  {
+    return soFar + share * (std::sqrt(quality) - usualSine);
+  }
+  bool mayExceed(double soFar, double) const { return soFar > none; }
+  SumCounts inLabel(Label label) const { return { usualSine, label == 0 ? 0.0 : 1.0 }; }
+};
+
 /// The best triangulation of a polygon of the ring of edge ab, each triangle of which makes a tetrahedron with either
 /// end: by dynamic programming over its diagonals (G. Klincsek, Annals of Discrete Mathematics 9, 1980).
+template <class Measure>
 class RingTriangulation
 {
 public:
   /// `vertices`: of the whole ring; `weight`: of qualities in the label that the polygon lies in.
   RingTriangulation(const TetComplex& complex, std::int32_t a, std::int32_t b,
-                    const std::vector<std::int32_t>& vertices, double weight, double minimumQuality)
-    : m_A(a), m_B(b), m_Complex(complex), m_Vertices(vertices), m_Weight(weight), m_Minimum(minimumQuality)
+                    const std::vector<std::int32_t>& vertices, double weight, double minimumQuality,
+                    const Measure& measure)
+    : m_A(a), m_B(b), m_Complex(complex), m_Vertices(vertices), m_Weight(weight),
+      m_Minimum(std::max(0.0, minimumQuality)), m_Measure(measure)
   {
   }
 
-  /// Finds the best one of the polygon from, from + 1, ..., to (ring numbers); false if none reaches the minimum.
-  bool find(int from, int to)
+  /// What the best one of the polygon from, from + 1, ..., to (ring numbers) measures; `none` if in every one some
+  /// tetrahedron is below the minimum.
+  double find(int from, int to)
   {
     m_From = from;
-    for (int i = from; i < to; ++i) best(i, i + 1) = std::numeric_limits<double>::max();
+    for (int i = from; i < to; ++i) best(i, i + 1) = Measure::ofNothing;
     for (int gap = 2; gap <= to - from; ++gap)
       for (int i = from; i + gap <= to; ++i) choose(i, i + gap);
-    return to - from < 2 || (best(from, to) != none && best(from, to) >= m_Minimum);
+    return best(from, to);
   }
 
   /// The tetrahedra of the polygon found between corners i and k.
@@ -46,8 +99,6 @@ public:
   }
 
 private:
-  static constexpr double none = -1; ///< all are flat or wound negatively: no better than what may be there
-
   std::int32_t id(int i) const { return m_Vertices[i % m_Vertices.size()]; }
   const Vec3& at(int i) const { return m_Complex.points[id(i)]; }
   double& best(int i, int k) { return m_Best[i - m_From][k - m_From]; }
@@ -59,19 +110,26 @@ private:
     value = none;
     for (int j = i + 1; j < k; ++j)
     {
-      double q = std::min(best(i, j), best(j, k));
-      if (q <= value || q < m_Minimum) continue;
-      q = std::min(q, m_Weight * worstSine2(at(i), at(j), at(k), m_Complex.points[m_B]));
-      if (q <= value || q < m_Minimum) continue;
-      q = std::min(q, m_Weight * worstSine2(at(i), at(k), at(j), m_Complex.points[m_A]));
-      if (q > value) value = q, m_Choice[i - m_From][k - m_From] = j;
+      double x = m_Measure.joined(best(i, j), best(j, k));
+      if (!m_Measure.mayExceed(x, value)) continue;
+      x = withTetrahedron(x, { &at(i), &at(j), &at(k), &m_Complex.points[m_B] });
+      if (!m_Measure.mayExceed(x, value)) continue;
+      x = withTetrahedron(x, { &at(i), &at(k), &at(j), &m_Complex.points[m_A] });
+      if (x > value) value = x, m_Choice[i - m_From][k - m_From] = j;
     }
+  }
+
+  double withTetrahedron(double soFar, const Corners& c) const
+  {
+    const double quality = m_Weight * worstSine2(*c[0], *c[1], *c[2], *c[3]);
+    return quality < m_Minimum ? none : m_Measure.with(soFar, quality, c);
   }
 
   const std::int32_t m_A, m_B;
   const TetComplex& m_Complex;
   const std::vector<std::int32_t>& m_Vertices;
   const double m_Weight, m_Minimum;
+  const Measure m_Measure;
   int m_From = 0;
   double m_Best[maximumRing + 1][maximumRing + 1];
   int m_Choice[maximumRing + 1][maximumRing + 1];
@@ -100,56 +158,144 @@ std::optional<RingCuts> cutsOf(const TetComplex& complex, const std::vector<std:
 
 } // namespace
 
-bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double minimumQuality)
+bool GuardedOperations::openRing(std::int32_t a, std::int32_t b, std::int32_t seed, int largest)
 {
-  auto& c = m_Complex;
+  const auto& c = m_Complex;
   if (m_Curves && m_Curves->isEdge(a, b)) return false;
   if (!c.ring(a, b, seed, m_Ring, m_RingVertices)) return false;
   const int n = int(m_Ring.size());
-  if (n < 3 || n > maximumRing) return false;
+  if (n < 3 || n > largest) return false;
   const std::optional<RingCuts> cuts = cutsOf(c, m_Ring);
   if (!cuts) return false;
-  // Rotate so that the ring begins at a cut: one polygon inside a label, two on the sheet between two labels.
-  const bool onSheet = cuts->count > 0;
-  const int first = onSheet ? cuts->at[0] : 0, second = onSheet ? cuts->at[1] - cuts->at[0] : n - 1;
-  if (onSheet && m_Envelope.isHeld()) return false;
-  if (onSheet && (second < 2 || n - second < 2)) return false;
+  m_RingIsOnSheet = cuts->count > 0;
+  const int first = m_RingIsOnSheet ? cuts->at[0] : 0;
+  m_RingEnd = m_RingIsOnSheet ? cuts->at[1] - cuts->at[0] : n - 1;
+  if (m_RingIsOnSheet && (m_Envelope.isHeld() || m_RingEnd < 2 || n - m_RingEnd < 2)) return false;
   std::rotate(m_Ring.begin(), m_Ring.begin() + first, m_Ring.end());
   std::rotate(m_RingVertices.begin(), m_RingVertices.begin() + first, m_RingVertices.end());
+  return true;
+}
 
-  std::vector<TetComplex::Tet> fresh;
-  std::vector<Label> labels;
-  const auto triangulate = [&](int from, int to)
+template <class Measure>
+std::optional<double> GuardedOperations::fillRing(std::int32_t a, std::int32_t b, double minimumQuality,
+                                                  const Measure& measure)
+{
+  m_Fresh.clear();
+  m_FreshLabels.clear();
+  double result = Measure::ofNothing;
+  const auto fill = [&](int from, int to)
   {
-    const Label label = c.labels[m_Ring[from]];
-    RingTriangulation triangulation(c, a, b, m_RingVertices, lenient(label, 1), minimumQuality);
-    if (!triangulation.find(from, to)) return false;
-    triangulation.tetrahedra(from, to, fresh);
-    labels.resize(fresh.size(), label);
+    const Label label = m_Complex.labels[m_Ring[from]];
+    RingTriangulation triangulation(m_Complex, a, b, m_RingVertices, lenient(label, 1), minimumQuality,
+                                    measure.inLabel(label));
+    const double found = triangulation.find(from, to);
+    if (found == none) return false;
+    result = measure.joined(result, found);
+    triangulation.tetrahedra(from, to, m_Fresh);
+    m_FreshLabels.resize(m_Fresh.size(), label);
     return true;
   };
+  if (!fill(0, m_RingEnd)) return {};
+  if (m_RingIsOnSheet && !fill(m_RingEnd, int(m_Ring.size()))) return {};
+  return result;
+}
+
+/// The sheet's edge ab becomes the other diagonal of its two triangles, if the envelope allows it.
+bool GuardedOperations::mayFlipSheet(std::int32_t a, std::int32_t b, double minimumQuality)
+{
+  const auto& c = m_Complex;
+  const int n = int(m_Ring.size());
+  for (int i : { 0, m_RingEnd })
+    for (int k = 0; k < 4; ++k)
+      if (c.neighbours[m_Ring[i]][k] == m_Ring[(i + n - 1) % n]) m_Envelope.addOldFace(m_Ring[i], k);
+  const std::int32_t p = m_RingVertices[0], q = m_RingVertices[m_RingEnd];
+  for (std::int32_t end : { a, b })
+    m_Envelope.addNewFace(c.points[end], c.points[p], c.points[q], { end, p, q }, c.labels[m_Ring[0]],
+                          c.labels[m_Ring[m_RingEnd]]);
+  return m_Envelope.trianglesReach(minimumQuality) && m_Envelope.featuresStay() && m_Envelope.samplesStay();
+}
+
+/// Puts what fillRing() has found in the ring's place, if it may be there.
+bool GuardedOperations::closeRing(std::int32_t a, std::int32_t b, double minimumQuality)
+{
   m_Envelope.clear();
-  if (!triangulate(0, second)) return false;
-  if (onSheet)
+  if (m_RingIsOnSheet)
   {
-    if (!triangulate(second, n)) return false;
-    for (int i : { 0, second })
-      for (int k = 0; k < 4; ++k)
-        if (c.neighbours[m_Ring[i]][k] == m_Ring[(i + n - 1) % n]) m_Envelope.addOldFace(m_Ring[i], k);
-    const std::int32_t p = m_RingVertices[0], q = m_RingVertices[second];
-    for (std::int32_t end : { a, b })
-      m_Envelope.addNewFace(c.points[end], c.points[p], c.points[q], { end, p, q }, c.labels[m_Ring[0]],
-                            c.labels[m_Ring[second]]);
-    if (!m_Envelope.trianglesReach(minimumQuality) || !m_Envelope.featuresStay() || !m_Envelope.samplesStay())
-      return false;
+    if (!mayFlipSheet(a, b, minimumQuality)) return false;
     m_Envelope.detach();
   }
-  const auto ids = c.replace(m_Ring, fresh, labels);
+  const auto ids = m_Complex.replace(m_Ring, m_Fresh, m_FreshLabels);
   changed();
   m_Envelope.attach(ids);
   ++m_Counts.flips;
-  m_Counts.t7 += onSheet;
+  m_Counts.t7 += m_RingIsOnSheet;
   return true;
+}
+
+bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double minimumQuality)
+{
+  return openRing(a, b, seed, maximumRing) && fillRing(a, b, minimumQuality, WorstCounts{}) &&
+         closeRing(a, b, minimumQuality);
+}
+
+bool GuardedOperations::removeLowEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double goodQuality)
+{
+  if (!openRing(a, b, seed, maximumRing)) return false;
+  double least = goodQuality, lowest = HeightCounts::ofNothing;
+  for (const std::int32_t t : m_Ring)
+  {
+    least = std::min(least, quality(t));
+    const auto& x = m_Complex.tets[t];
+    const auto at = [&](int i) { return &m_Complex.points[x[i]]; };
+    lowest = HeightCounts().inLabel(m_Complex.labels[t]).with(lowest, 0, { at(0), at(1), at(2), at(3) });
+  }
+  const std::optional<double> height = fillRing(a, b, least, HeightCounts());
+  return height && *height > 1.001 * lowest && closeRing(a, b, least);
+}
+
+bool GuardedOperations::swapEdge(std::int32_t a, std::int32_t b, std::int32_t seed, const SwapGoal& goal)
+{
+  constexpr int largest = 7; // larger ones hardly ever get better
+  if (!openRing(a, b, seed, largest)) return false;
+  if (!m_RingIsOnSheet && m_Complex.labels[seed] == 0) return false;
+  const SumCounts measure{ goal.usualSine };
+  double before = 0, least = goal.goodQuality;
+  for (const std::int32_t t : m_Ring)
+  {
+    least = std::min(least, quality(t));
+    before = measure.inLabel(m_Complex.labels[t]).with(before, std::max(0.0, m_Complex.quality(t)));
+  }
+  const std::optional<double> after = fillRing(a, b, least, measure);
+  if (!after) return false;
+  double gain = *after - before;
+  if (m_RingIsOnSheet) gain += goal.smoothness * flatterBy(a, b);
+  return gain > goal.leastGain && closeRing(a, b, least);
+}
+
+/// How much less (radians times edge lengths, in units of the target) the sheet would be bent with its edge ab flipped.
+double GuardedOperations::flatterBy(std::int32_t a, std::int32_t b) const
+{
+  const auto& c = m_Complex;
+  const std::int32_t p = m_RingVertices[0], q = m_RingVertices[m_RingEnd];
+  const auto faceAt = [&](int i)
+  {
+    const std::int32_t t = m_Ring[i], before = m_Ring[(i + m_Ring.size() - 1) % m_Ring.size()];
+    SheetFace face{ t, 0, labelPair(c.labels[t], c.labels[before]), {}, {} };
+    while (c.neighbours[t][face.face] != before) ++face.face;
+    return face;
+  };
+  const auto bent = [&](std::int32_t x, std::int32_t y, std::int32_t one, std::int32_t other)
+  {
+    const Vec3& from = c.points[x];
+    const Vec3 edge = c.points[y] - from;
+    return norm(edge) * deflection(edge, c.points[one] - from, c.points[other] - from);
+  };
+  double change = bent(a, b, p, q) - bent(p, q, a, b);
+  for (const auto& [face, apex, other] : { std::tuple(faceAt(0), p, q), std::tuple(faceAt(m_RingEnd), q, p) })
+    for (const auto& [end, opposite] : { std::pair(a, b), std::pair(b, a) })
+      if (const std::int32_t beyond = cornerBeyond(c, face, end, apex); beyond >= 0)
+        change += bent(end, apex, opposite, beyond) - bent(end, apex, other, beyond);
+  return change / c.targetLength(a, b);
 }
 
 } // namespace surgicalmesher

@@ -132,6 +132,20 @@ public:
   /// inside the sheet between two labels becomes the other diagonal of its two triangles.
   bool removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double minimumQuality);
 
+  /// The same for the least height of the tissues' tetrahedra, whose worst quality may fall to `goodQuality`.
+  bool removeLowEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double goodQuality);
+
+  struct SwapGoal
+  {
+    double goodQuality; ///< the worst quality may fall to this
+    double usualSine;   ///< of a tetrahedron's worst angle
+    double smoothness;  ///< what a radian of bending along an edge of the target length counts, in sines
+    double leastGain;   ///< in sines
+  };
+  /// The same for the sum over the tetrahedra of the sines of their worst angles, over the usual one, and for the
+  /// sheet's bending.
+  bool swapEdge(std::int32_t a, std::int32_t b, std::int32_t seed, const SwapGoal& goal);
+
   // --- edge split (EdgeSplit.cxx)
   /// Splits edge ab at p. Returns the new vertex, nothing if it may not be.
   std::optional<std::int32_t> split(std::int32_t a, std::int32_t b, std::int32_t seed, const Vec3& p,
@@ -178,6 +192,12 @@ private:
   bool meetsLabels(const std::vector<std::int32_t>& star) const;
   bool keepsLength(std::int32_t end, std::int32_t x, std::int32_t v, const Vec3& p, double maximumRatio) const;
   bool keepsTissues(std::int32_t u, std::int32_t v);
+  bool openRing(std::int32_t a, std::int32_t b, std::int32_t seed, int largest);
+  template <class Measure>
+  std::optional<double> fillRing(std::int32_t a, std::int32_t b, double minimumQuality, const Measure& measure);
+  bool closeRing(std::int32_t a, std::int32_t b, double minimumQuality);
+  bool mayFlipSheet(std::int32_t a, std::int32_t b, double minimumQuality);
+  double flatterBy(std::int32_t a, std::int32_t b) const;
   bool gatherCollapsingFaces(std::int32_t u, std::int32_t v, const Vec3& p);
   void place(std::int32_t v, const Vec3& p);
 
@@ -201,7 +221,13 @@ private:
   std::uint32_t m_Search = 0;
   std::int32_t m_RefusedVertex = -1; ///< whose collapses onto m_Refused would change a tissue's topology; -1: nobody's
   std::vector<std::int32_t> m_Refused;
+  /// Around the edge worked on: tetrahedra and the vertices between them, beginning at a change of labels if there is
+  /// one; the first label, or all of the polygon, ends at m_RingEnd.
   std::vector<std::int32_t> m_Ring, m_RingVertices;
+  int m_RingEnd = 0;
+  bool m_RingIsOnSheet = false;
+  std::vector<TetComplex::Tet> m_Fresh; ///< to take the ring's place
+  std::vector<Label> m_FreshLabels;
 };
 
 } // namespace surgicalmesher

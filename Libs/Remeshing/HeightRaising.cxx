@@ -30,7 +30,8 @@ public:
     {
       bool any = false;
       for (const auto& [height, t] : lowTetrahedra())
-        if (m_Complex.alive(t) && heightOf(t) < m_Options.height) any = (collapseAnEdge(t) || moveVertices(t)) || any;
+        if (m_Complex.alive(t) && heightOf(t) < m_Options.height)
+          any = (collapseAnEdge(t) || removeAnEdge(t) || moveVertices(t)) || any;
       if (!any) return;
     }
   }
@@ -88,6 +89,13 @@ private:
     const Vec3& p = m_Complex.points[v];
     return leastAt(u, p, v) > 1.001 * leastAt(u, m_Complex.points[u]) &&
            m_Operations.collapse(u, v, p, floorAt(u), m_Options.longEdge);
+  }
+
+  bool removeAnEdge(std::int32_t t)
+  {
+    const auto x = m_Complex.tets[t];
+    return std::any_of(kEdgeCorners.begin(), kEdgeCorners.end(),
+                       [&](const auto& e) { return m_Operations.removeLowEdge(x[e[0]], x[e[1]], t, m_Good); });
   }
 
   bool moveVertices(std::int32_t t)

@@ -14,7 +14,7 @@ struct HeightOptions
   double longEdge = 1.4;     ///< collapses leave no edge longer than this share of its target
   int trials = 40;           ///< positions tried for each vertex
   double worstShare = 0.005; ///< of the tetrahedra, the lowest, that are worked on in one pass; a hundred at least
-  int passes = 6;
+  int passes = 16;
 };
 
 /// Lowest first: merges one end of a short edge into the other, or moves vertices, where that raises the least height of

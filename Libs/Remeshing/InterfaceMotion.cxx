@@ -6,6 +6,7 @@
 #include "VolumeOffsets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace surgicalmesher
@@ -68,7 +69,7 @@ public:
     : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
       m_Least(sine2OfDegrees(options.leastAngle)), m_Start(m_Complex.points), m_Volumes(volumes())
   {
-    constexpr double coarse = 2.6; // fine lengths, where a seventh of the reach is left: less is not seen
+    constexpr double coarse = 4; // fine lengths, where an eighth of the reach is left: less is not seen
     InterfaceTriangles triangles(m_Complex, coarse * options.fineLength);
     m_Holders = std::move(triangles.holders);
     m_Dual.simplex = simplexMeshOf(triangles.surface, Extent::part);
@@ -273,7 +274,7 @@ private:
   {
     const Vec3 p = nearSamples(v, to);
     const double length = m_Complex.lengths[v], fineness = std::min(1.0, m_Options.fineLength / length);
-    const double reach = std::min(0.3 * length, m_Options.farthest * fineness * fineness);
+    const double reach = std::min(0.3 * length, m_Options.farthest * fineness * std::sqrt(fineness));
     const Vec3 way = p - m_Start[v];
     const double distance = norm(way);
     return distance > reach ? m_Start[v] + (reach / distance) * way : p;

@@ -15,7 +15,7 @@ struct InterfaceMotionOptions
   double leastAngle =
     15;                  ///< degrees; a move may lower the worst angle at its vertex to this, what improves comes after
   double farthest = 0.3; ///< mm, that a vertex moves at most; nor 0.3 of its target length
-  double fineLength = 1; ///< mm; beyond this target length it is farthest * (fineLength / length)^2
+  double fineLength = 1; ///< mm; beyond this target length it is farthest * (fineLength / length)^1.5
   int steps = 6;
 };
 

@@ -17,6 +17,7 @@ struct RunPass
   void operator()(const Relax& pass) const { relaxBlock(operations, pass.options); }
   void operator()(const Polish& pass) const { polishBlock(operations, pass.options); }
   void operator()(const Improve& pass) const { improveBlock(operations, pass.options); }
+  void operator()(const SwapEdges& pass) const { swapEdgesOfBlock(operations, pass.options); }
   void operator()(const RaiseHeights& pass) const { raiseHeightsOfBlock(operations, pass.options); }
   void operator()(const EvenOut& pass) const { evenLengthsOfBlock(operations, pass.options); }
   void operator()(const MoveInterface& pass) const { moveInterfaceOfBlock(operations, pass.options); }

@@ -137,7 +137,8 @@ Sweep fitToSamples(double rmsLimit, const MeshTargets& targets, const MeshSizes&
   const Polish polish{ { .goodAngle = kept, .fit = 10, .robust = robust } };
   Sweep sweep{ "improvement", {} };
   if (targets.countsTriangles()) sweep.stages.push_back(withoutSpikes(targets, sizes, pullAngle));
-  sweep.stages.push_back({ bounds(targets, rmsLimit), { coarsenAll(targets, sizes, kept), relax, polish } });
+  sweep.stages.push_back(
+    { bounds(targets, rmsLimit), { coarsenAll(targets, sizes, kept), relax, SwapEdges{}, polish } });
   if (!targets.countsTriangles()) return sweep;
   sweep.stages.push_back(evenLengths(targets, sizes, kept));
   sweep.stages.push_back(relabelled(targets));
@@ -193,7 +194,11 @@ Sweep coarsenTo(double level, const MeshSizes& sizes)
   const bool isFirst = level < 2 * sizes.voxel, isFine = level <= 3 * sizes.voxel;
   Stage stage{ { .rmsLimit = 0.45, .vertexDistance = vertexDistance }, {} };
   stage.passes.push_back(Coarsen{ level, { .minimumAngle = 5, .fit = !isFirst, .thorough = level > 7 * sizes.voxel } });
-  if (isCoarse(level, sizes)) stage.passes.push_back(Relax{});
+  if (isCoarse(level, sizes))
+  {
+    stage.passes.push_back(Relax{});
+    stage.passes.push_back(SwapEdges{});
+  }
   if (!isFine) stage.passes.push_back(improve(15, 8, 1));
   return { .name = "coarsening", .stages = { stage }, .stiff = false };
 }
@@ -201,7 +206,8 @@ Sweep coarsenTo(double level, const MeshSizes& sizes)
 Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly)
 {
   const Coarsen coarsen{ sizes.longest, { .minimumAngle = 5, .quarters = thoroughly } };
-  const Stage stage{ { .rmsLimit = 0.45, .vertexDistance = vertexDistance }, { coarsen, Relax{}, improve(15, 8, 1) } };
+  const Stage stage{ { .rmsLimit = 0.45, .vertexDistance = vertexDistance },
+                     { coarsen, Relax{}, SwapEdges{}, improve(15, 8, 1) } };
   return { .name = "coarsening", .stages = { stage }, .stiff = false };
 }
 
@@ -210,7 +216,7 @@ Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly)
 Sweep firstImprovement(const MeshTargets& targets, const MeshSizes& sizes)
 {
   return improvement(
-    { bounds(targets, 0.4), { coarsenAll(targets, sizes), Polish{}, improve(targets.firstAngle, 8, 1) } });
+    { bounds(targets, 0.4), { coarsenAll(targets, sizes), SwapEdges{}, Polish{}, improve(targets.firstAngle, 8, 1) } });
 }
 
 std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes& sizes)
@@ -220,8 +226,8 @@ std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes
   for (int n = 1; n < targets.coarseningSweeps; ++n)
   {
     const double angle = n == 1 ? between : targets.aimedAngle;
-    sweeps.push_back(
-      improvement({ bounds(targets, 0.35), { coarsenAll(targets, sizes), Polish{}, improve(angle, 8, 1) } }));
+    sweeps.push_back(improvement(
+      { bounds(targets, 0.35), { coarsenAll(targets, sizes), SwapEdges{}, Polish{}, improve(angle, 8, 1) } }));
     if (!targets.countsTriangles()) continue;
     sweeps.back().stages.push_back(evenLengths(targets, sizes, 20)); // sizes still change
     sweeps.back().stages.push_back(relabelled(targets));
@@ -232,7 +238,7 @@ std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes
 std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
 {
   const double aim = t.aimedAngle, kept = t.keptAngle, widest = t.widestTolerance;
-  return { improvement({ bounds(t, 0.5), { Polish{}, improve(aim, t.trials, 2) } }),
+  return { improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(aim, t.trials, 2) } }),
            improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, 2) } }),
            repairBlocks(t, { .angle = aim, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0 }),
            repairBlocks(
@@ -259,7 +265,7 @@ std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& siz
   options.farthest = 0.3 * sizes.voxel;
   options.fineLength = 1.5 * sizes.voxel;
   const Sweep sweep{ "motion",
-                     { { bounds(targets, 1, motionTolerance), { MoveInterface{ options } } },
+                     { { bounds(targets, 1, motionTolerance), { MoveInterface{ options }, SwapEdges{} } },
                        { bounds(targets, 1), { improve(targets.keptAngle, 12, 1) } } } };
   return std::vector<Sweep>(sweeps, sweep);
 }
@@ -321,7 +327,11 @@ struct VolumeRow
 ConditionalSweep sweepOf(const VolumeRow& row)
 {
   Stage stage{ { .rmsLimit = row.rmsLimit, .toleranceFactor = row.tolerance, .interfaceHeld = row.held }, {} };
-  stage.passes.insert(stage.passes.end(), row.polishes, Polish{ row.polishing });
+  for (std::size_t n = 0; n < row.polishes; ++n)
+  {
+    stage.passes.push_back(SwapEdges{});
+    stage.passes.push_back(Polish{ row.polishing });
+  }
   if (row.angle > 0)
     stage.passes.push_back(Improve{ { .targetAngle = row.angle,
                                       .split = row.splitEdge > 0,

@@ -3,6 +3,7 @@
 /// What a remesher does to every block of a mesh: passes, grouped into stages that share an envelope.
 
 #include "Coarsening.h"
+#include "EdgeSwaps.h"
 #include "EvenLengths.h"
 #include "HeightRaising.h"
 #include "Improvement.h"
@@ -37,6 +38,10 @@ struct Improve ///< improveBlock
 {
   ImprovementOptions options;
 };
+struct SwapEdges ///< swapEdgesOfBlock
+{
+  SwapOptions options;
+};
 struct RaiseHeights ///< raiseHeightsOfBlock
 {
   HeightOptions options;
@@ -67,8 +72,8 @@ struct RemoveEars ///< removeEarsOfBlock
   std::size_t few; ///< tetrahedra
 };
 
-using Pass = std::variant<Coarsen, Relax, Polish, Improve, RaiseHeights, EvenOut, MoveInterface, MeetProximity,
-                          RelabelInterface, RemoveSpikes, RemoveEars>;
+using Pass = std::variant<Coarsen, Relax, Polish, Improve, SwapEdges, RaiseHeights, EvenOut, MoveInterface,
+                          MeetProximity, RelabelInterface, RemoveSpikes, RemoveEars>;
 
 struct Stage
 {
