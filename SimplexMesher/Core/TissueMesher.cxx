@@ -91,6 +91,7 @@ VolumeBalance balanceOf(const TissueMap& map)
 class TissueRemesher
 {
 public:
+  /// `map`: whose volumes tissues keep.
   TissueRemesher(BackgroundMesh start, const TissueMap& map, const SizingFunction& length,
                  const TissueMesherOptions& options, const Progress& progress, std::size_t sweeps)
     : m_Remesher(std::move(start), length, remesherOptions(options, map.grid.smallestSpacing()), progress, sweeps),
@@ -165,8 +166,8 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   const SizingFunction length = [&](const Vec3& p) { return double(float(scale(map.grid.gridToWorld(p)))); };
   const MeshSizes sizes{ map.grid.smallestSpacing(), *std::max_element(scale.lengths.begin(), scale.lengths.end()),
                          mostOfSpikes(options) };
-  TissueRemesher remesher(startingMesh(map, scale, thickness, length, options, subProgress(progress, 0, 0.06)), map,
-                          length, options, subProgress(progress, 0.1, 1), surfaceSweepCount(sizes));
+  TissueRemesher remesher(startingMesh(map, scale, thickness, length, options, subProgress(progress, 0, 0.06)),
+                          prepared, length, options, subProgress(progress, 0.1, 1), surfaceSweepCount(sizes));
 
   const MeshTargets targets = coarsen(remesher, sizes);
   remesher.run(firstImprovement(targets, sizes));
