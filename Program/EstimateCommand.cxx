@@ -5,11 +5,9 @@
 #include "Commands.h"
 #include "Errors.h"
 #include "JsonReport.h"
-#include "MemoryEstimate.h"
 #include "Platform.h"
 #include "StageRun.h"
 #include "TextFile.h"
-#include "TissueMapIO.h"
 
 #include <rapidjson/document.h>
 
@@ -57,14 +55,6 @@ private:
   fs::path m_Path;
 };
 
-void readSize(const std::string& file, Figures& figures)
-{
-  rapidjson::Document json;
-  json.Parse(text::readTextFile(file).c_str());
-  figures.triangles = json["estimate"]["triangles"].GetDouble();
-  figures.tetrahedra = json["estimate"]["tetrahedra"].GetDouble();
-}
-
 void runStages(const RunRequest& request, const std::string& programs, CommandLine& line, const Progress& progress)
 {
   const std::vector<Stage> stages = stagesToScale(request);
@@ -77,15 +67,20 @@ void runStages(const RunRequest& request, const std::string& programs, CommandLi
   }
 }
 
-Figures estimated(const RunRequest& request)
+/// From the report of the scale's stage, which has seen the map.
+Figures readFigures(const std::string& file)
 {
+  rapidjson::Document json;
+  json.Parse(text::readTextFile(file).c_str());
+  const auto& estimate = json["estimate"];
+  double voxels = 1;
+  for (const auto& size : json["map"]["size"].GetArray()) voxels *= size.GetDouble();
   Figures figures;
-  readSize(request.folder + "/scale.json", figures);
-  const TissueMap map = readTissueMap(labelMapOf(request));
-  const ScaleField scale = readScale(request.folder + "/scale.nrrd");
-  figures.bytes = double(estimateSurfaceMemory(map, scale));
-  figures.seconds = secondsPerFace * startingFaces(map, scale) + secondsPerTetrahedron * figures.tetrahedra +
-                    secondsPerVoxel * double(map.grid.voxelCount());
+  figures.triangles = estimate["triangles"].GetDouble();
+  figures.tetrahedra = estimate["tetrahedra"].GetDouble();
+  figures.bytes = estimate["surfaceMemoryBytes"].GetDouble();
+  figures.seconds = secondsPerFace * estimate["startingFaces"].GetDouble() +
+                    secondsPerTetrahedron * figures.tetrahedra + secondsPerVoxel * voxels;
   return figures;
 }
 
@@ -113,7 +108,7 @@ void estimateCommand(CommandLine& line, const std::string& programs, const std::
   const Progress progress = line.progress();
   try
   {
-    runStages(request, programs, line, subProgress(progress, 0, 0.6));
+    runStages(request, programs, line, progress);
   }
   catch (const Interrupted& end)
   {
@@ -122,8 +117,7 @@ void estimateCommand(CommandLine& line, const std::string& programs, const std::
     std::signal(end.signal, SIG_DFL);
     std::raise(end.signal);
   }
-  report(progress, 0.6, "memory and time");
-  const Figures figures = estimated(request);
+  const Figures figures = readFigures(folder.path() + "/scale.json");
   line.message("memory: about " + text::rounded(figures.bytes / 1e6) + " MB at most");
   line.message("time: about " + text::rounded(figures.seconds, 2) + " s on one processor");
   const std::string file = line.outputFile("estimate");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SampleTransfer.h"
 
-#include "Parallel.h"
+#include "BoundaryFaces.h"
 #include "Triangle.h"
 
 #include <algorithm>
@@ -23,26 +23,6 @@ constexpr int reach = 3;   // bins, beyond which no face is near
 
 using Index = std::array<int, 3>;
 using Sample = BackgroundMesh::Sample;
-
-/// The face between a voxel and the next one up along `axis`.
-struct VoxelFace
-{
-  Index lower;
-  int axis;
-
-  Index upper() const
-  {
-    Index u = lower;
-    ++u[axis];
-    return u;
-  }
-  Vec3 centre(const Vec3& spacing) const
-  {
-    Vec3 c{ double(lower[0]), double(lower[1]), double(lower[2]) };
-    c[axis] += 0.5;
-    return { c.x * spacing.x, c.y * spacing.y, c.z * spacing.z };
-  }
-};
 
 VoxelFace voxelFaceAt(const Vec3& centre, const Vec3& spacing)
 {
@@ -183,20 +163,6 @@ double shareAt(double length, double perTriangle, const Vec3& spacing)
   const double voxelFace = std::min({ spacing.x * spacing.y, spacing.y * spacing.z, spacing.z * spacing.x });
   const double triangle = 0.25 * std::sqrt(3.0) * length * length;
   return perTriangle * voxelFace / triangle;
-}
-
-/// Calls f for every voxel face of `map` between two labels, its own boundary included, in slices and in order.
-template <class F>
-void forEachBoundaryFace(const TissueMap& map, int k, F&& f)
-{
-  const auto& size = map.grid.size;
-  for (int j = -1; j < size[1]; ++j)
-    for (int i = -1; i < size[0]; ++i)
-    {
-      const Label own = labelAt(map, { i, j, k });
-      for (int axis = 0; axis < 3; ++axis)
-        if (const VoxelFace face{ { i, j, k }, axis }; labelAt(map, face.upper()) != own) f(face);
-    }
 }
 
 } // namespace

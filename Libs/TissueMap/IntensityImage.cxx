@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "IntensityImage.h"
 
+#include "BoundaryFaces.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 
@@ -16,38 +17,63 @@ constexpr std::size_t kFewestLabels = 32; ///< of an image with values to speak 
 constexpr double kUnlikeNeighbours = 0.5; ///< share among all; maps of many small tissues come to a third
 constexpr double kSmallSteps = 0.5;       ///< share among the unlike: labels of neighbouring tissues may be any
 
+/// Pairs of voxels of tissue, one beside the other.
 struct Neighbours
 {
   std::size_t pairs = 0, unlike = 0, smallSteps = 0;
+
+  Neighbours& operator+=(const Neighbours& more)
+  {
+    pairs += more.pairs;
+    unlike += more.unlike;
+    smallSteps += more.smallSteps;
+    return *this;
+  }
 };
 
+std::size_t countPairs(const Label* some, const Label* others, std::size_t count)
+{
+  std::size_t pairs = 0;
+  for (std::size_t n = 0; n < count; ++n) pairs += std::size_t((some[n] != 0) & (others[n] != 0));
+  return pairs;
+}
+
+/// Those whose first voxel is in slice k.
+std::size_t countPairs(const TissueMap& map, int k)
+{
+  if (k < 0) return 0;
+  const auto [ni, nj, nk] = map.grid.size;
+  const Label* slice = &map.labels[map.grid.index(0, 0, k)];
+  const std::size_t row = std::size_t(ni), area = row * std::size_t(nj);
+  std::size_t pairs = countPairs(slice, slice + row, area - row);
+  if (k + 1 < nk) pairs += countPairs(slice, slice + area, area);
+  for (std::size_t j = 0; j < std::size_t(nj); ++j) pairs += countPairs(slice + j * row, slice + j * row + 1, row - 1);
+  return pairs;
+}
+
+/// In some slices of a large map: it is the shares that count.
 Neighbours countNeighbours(const TissueMap& map, int smallStep)
 {
-  Neighbours count;
-  const std::array<int, 3>& size = map.grid.size;
-  const std::array<std::size_t, 3> stride{ 1, std::size_t(size[0]), std::size_t(size[0]) * size[1] };
-  for (int k = 0; k < size[2]; ++k)
-  {
-    for (int j = 0; j < size[1]; ++j)
-    {
-      for (int i = 0; i < size[0]; ++i)
-      {
-        const std::array<int, 3> voxel{ i, j, k };
-        const std::size_t index = map.grid.index(i, j, k);
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          if (map.labels[index] == 0 || voxel[axis] + 1 == size[axis]) continue;
-          const Label other = map.labels[index + stride[axis]];
-          if (other == 0) continue;
-          const int step = std::abs(int(map.labels[index]) - int(other));
-          ++count.pairs;
-          count.unlike += step > 0;
-          count.smallSteps += step > 0 && step <= smallStep;
-        }
-      }
-    }
-  }
-  return count;
+  constexpr std::size_t many = 1 << 24; // voxels
+  const int step = 1 + int(map.labels.size() / many);
+  return sumOverBoundarySlices<Neighbours>(map,
+                                           [&](int k)
+                                           {
+                                             Neighbours count;
+                                             if (k % step != 0) return count;
+                                             count.pairs = countPairs(map, k);
+                                             forEachBoundaryFace(map, k,
+                                                                 [&](const VoxelFace& face)
+                                                                 {
+                                                                   const int own = labelAt(map, face.lower),
+                                                                             other = labelAt(map, face.upper());
+                                                                   if (own == 0 || other == 0) return;
+                                                                   ++count.unlike;
+                                                                   count.smallSteps +=
+                                                                     std::abs(own - other) <= smallStep;
+                                                                 });
+                                             return count;
+                                           });
 }
 
 } // namespace

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MemoryEstimate.h"
 
+#include "BoundaryFaces.h"
 #include "Errors.h"
-#include "Parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <locale>
-#include <numeric>
 #include <sstream>
 
 namespace surgicalmesher
@@ -28,21 +27,6 @@ double shareOfFace(double length, double voxel)
   int side = 1;
   while (side < largest && 2 * side * voxel <= relativeSize * length) side *= 2;
   return 1.0 / (side * side);
-}
-
-/// Of a voxel, its faces to voxels of another label below it along the axes, and those of tissue at the map's ends; `f`
-/// gets the axis of each.
-template <class F>
-void forEachFaceOf(const TissueMap& map, const std::array<int, 3>& at, F&& f)
-{
-  const Label label = labelAt(map, at);
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    std::array<int, 3> below = at;
-    --below[axis];
-    if (labelAt(map, below) != label) f(axis);
-    if (at[axis] == map.grid.size[axis] - 1 && label != 0) f(axis);
-  }
 }
 
 /// Cubes per voxel where the target edge length is `length`.
@@ -103,27 +87,25 @@ double startingFaces(const TissueMap& map, const ScaleField& scale, bool hasBloc
   const double voxel = grid.smallestSpacing();
   const std::array<double, 3> cells = cellsOfFaces(grid);
   const bool mayHaveBlocks = hasBlocks && std::max({ cells[0], cells[1], cells[2] }) == 1;
-  std::vector<double> sums(std::size_t(grid.size[2]), 0.0);
-  parallelForEach(sums.size(),
-                  [&](std::size_t k)
-                  {
-                    for (int j = 0; j < grid.size[1]; ++j)
-                      for (int i = 0; i < grid.size[0]; ++i)
-                      {
-                        double faces = 0;
-                        forEachFaceOf(map, { i, j, int(k) }, [&](int axis) { faces += cells[axis]; });
-                        if (faces > 0 && mayHaveBlocks)
-                          faces *= shareOfFace(scale(grid.gridToWorld(grid.position(i, j, int(k)))), voxel);
-                        sums[k] += faces;
-                      }
-                  });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
+  const auto share = [&](const VoxelFace& face)
+  {
+    if (!mayHaveBlocks) return 1.0;
+    const auto [i, j, k] = voxelInside(grid, face);
+    return shareOfFace(scale(grid.gridToWorld(grid.position(i, j, k))), voxel);
+  };
+  return sumOverBoundarySlices<double>(
+    map,
+    [&](int k)
+    {
+      double faces = 0;
+      forEachBoundaryFace(map, k, [&](const VoxelFace& face) { faces += cells[face.axis] * share(face); });
+      return faces;
+    });
 }
 
-std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, bool hasBlocks)
+std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, double startingFaces)
 {
-  const double faces = startingFaces(map, scale, hasBlocks);
-  return std::uint64_t(kBytes + kBytesPerFace * faces + kBytesPerCube * countCubes(map, scale) +
+  return std::uint64_t(kBytes + kBytesPerFace * startingFaces + kBytesPerCube * countCubes(map, scale) +
                        kBytesPerVoxel * double(map.grid.voxelCount()));
 }
 

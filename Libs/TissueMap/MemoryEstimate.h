@@ -18,13 +18,13 @@ namespace surgicalmesher
 double startingFaces(const TissueMap& map, const ScaleField& scale, bool hasBlocks = true);
 
 /// Expected peak of the surface stage, bytes. The complex begins as cubes of a power of two times the voxel and at most
-/// 0.8 L, of voxels or blocks of them where tissues meet; nothing later is as large. With F the startingFaces(), K the
+/// 0.8 L, of voxels or blocks of them where tissues meet; nothing later is as large. With F the startingFaces, K the
 /// number of these cubes in tissue, and N the voxels,
 ///
 ///     bytes = 25 MB + 750 F + 370 K + 16 N
 ///
 /// The constants err on the safe side: Docs/Benchmarks.md#estimates.
-std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, bool hasBlocks = true);
+std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, double startingFaces);
 
 /// Throws InputError, with the map's name and both figures, if less than `needed` bytes are available. Does nothing
 /// where `available` is unknown (see availableMemory()).

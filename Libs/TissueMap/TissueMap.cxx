@@ -1,10 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueMap.h"
 
+#include "Parallel.h"
+
 #include <algorithm>
 
 namespace surgicalmesher
 {
+
+namespace
+{
+
+/// Run by run: one voxel after the other would wait for its label's count to be written.
+void countRuns(std::vector<Label>::const_iterator begin, std::vector<Label>::const_iterator end,
+               std::vector<std::size_t>& counts)
+{
+  while (begin != end)
+  {
+    const Label label = *begin;
+    const auto next = std::find_if(begin, end, [label](Label other) { return other != label; });
+    counts[label] += std::size_t(next - begin);
+    begin = next;
+  }
+}
+
+} // namespace
 
 std::vector<Label> presentLabels(const TissueMap& map)
 {
@@ -26,12 +46,22 @@ bool fillBackground(TissueMap& map, Label label)
 
 std::map<Label, std::size_t> countVoxels(const TissueMap& map)
 {
-  std::vector<std::size_t> counts(labelCount, 0);
-  for (const Label label : map.labels) ++counts[label];
+  constexpr std::size_t most = 16, worthwhile = 1 << 20; // parts, voxels of each
+  const std::size_t parts = std::clamp(map.labels.size() / worthwhile, std::size_t(1), most);
+  std::vector<std::vector<std::size_t>> counts(parts, std::vector<std::size_t>(labelCount, 0));
+  parallelForEach(parts,
+                  [&](std::size_t n)
+                  {
+                    const auto begin = map.labels.begin() + std::ptrdiff_t(n * map.labels.size() / parts);
+                    const auto end = map.labels.begin() + std::ptrdiff_t((n + 1) * map.labels.size() / parts);
+                    countRuns(begin, end, counts[n]);
+                  });
   std::map<Label, std::size_t> result;
-  for (std::size_t label = 0; label < counts.size(); ++label)
+  for (std::size_t label = 0; label < labelCount; ++label)
   {
-    if (counts[label] > 0) result[Label(label)] = counts[label];
+    std::size_t count = 0;
+    for (const std::vector<std::size_t>& part : counts) count += part[label];
+    if (count > 0) result[Label(label)] = count;
   }
   return result;
 }

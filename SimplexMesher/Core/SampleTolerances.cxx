@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SampleTolerances.h"
 
-#include "Parallel.h"
+#include "BoundaryFaces.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace surgicalmesher
 {
@@ -29,23 +28,17 @@ std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
 /// Voxel faces between two labels inside the map.
 std::size_t boundaryFaces(const TissueMap& map)
 {
-  const auto& size = map.grid.size;
-  const std::array<std::size_t, 3> steps{ 1, std::size_t(size[0]), std::size_t(size[0]) * size[1] };
-  std::vector<std::size_t> counts(size[2], 0);
-  parallelForEach(counts.size(),
-                  [&](std::size_t k)
-                  {
-                    for (int j = 0; j < size[1]; ++j)
-                      for (int i = 0; i < size[0]; ++i)
-                      {
-                        const std::size_t voxel = map.grid.index(i, j, int(k));
-                        const Label own = map.labels[voxel];
-                        counts[k] += i + 1 < size[0] && map.labels[voxel + steps[0]] != own;
-                        counts[k] += j + 1 < size[1] && map.labels[voxel + steps[1]] != own;
-                        counts[k] += int(k) + 1 < size[2] && map.labels[voxel + steps[2]] != own;
-                      }
-                  });
-  return std::accumulate(counts.begin(), counts.end(), std::size_t(0));
+  return sumOverBoundarySlices<std::size_t>(map,
+                                            [&](int k)
+                                            {
+                                              std::size_t count = 0;
+                                              forEachBoundaryFace(map, k,
+                                                                  [&](const VoxelFace& face) {
+                                                                    count += isInside(map.grid, face.lower) &&
+                                                                             isInside(map.grid, face.upper());
+                                                                  });
+                                              return count;
+                                            });
 }
 
 /// What share of the usual tolerance a map allows: the voxels that a drift of the surfaces puts into wrong tissues are

@@ -5,6 +5,7 @@
 #include "Errors.h"
 #include "IntensityImage.h"
 #include "JsonReport.h"
+#include "MemoryEstimate.h"
 #include "MeshSizeEstimate.h"
 #include "NullDisplacement.h"
 #include "Place.h"
@@ -33,6 +34,8 @@ struct Results
   float longest = 0;
   NullDisplacement nullDisplacement;
   MeshSizeEstimate estimate;
+  double startingFaces = 0;
+  std::uint64_t surfaceMemory = 0; ///< bytes
 };
 
 /// To three significant digits, without an exponent.
@@ -202,6 +205,8 @@ void writeResults(JsonWriter& json, const Results& results, const std::vector<st
               {
                 writeMember(json, "triangles", std::int64_t(std::llround(results.estimate.triangles)));
                 writeMember(json, "tetrahedra", std::int64_t(std::llround(results.estimate.tetrahedra)));
+                writeMember(json, "startingFaces", std::int64_t(std::llround(results.startingFaces)));
+                writeMember(json, "surfaceMemoryBytes", std::int64_t(results.surfaceMemory));
               });
   writeWarnings(json, warnings);
 }
@@ -291,6 +296,8 @@ void run(CommandLine& line)
   markFarTissue(line, map, focus, named, results);
   report(progress, 0.8, "estimating the size of the mesh");
   results.estimate = estimateMeshSize(map, scale);
+  results.startingFaces = startingFaces(map, scale);
+  results.surfaceMemory = estimateSurfaceMemory(map, scale, results.startingFaces);
 
   line.message("edge lengths: " + text::rounded(results.shortest, 4) + " to " + text::rounded(results.longest, 4) +
                " mm");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "MeshSizeEstimate.h"
 
-#include <vtkSMPTools.h>
+#include "BoundaryFaces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,11 +28,14 @@ struct Share
   double area;   ///< mm^2 of smooth boundary
 };
 
+using Index = std::array<int, 3>;
+using Shares = std::vector<Share>; ///< of one block
+
 /// The map in blocks of about 4 mm side.
 class Blocks
 {
 public:
-  explicit Blocks(const TissueMap& map) : m_Map(map)
+  explicit Blocks(const TissueMap& map) : m_Grid(map.grid)
   {
     const Vec3& spacing = map.grid.spacing;
     for (int axis = 0; axis < 3; ++axis)
@@ -44,42 +47,31 @@ public:
     m_VoxelVolume = spacing.x * spacing.y * spacing.z;
   }
 
-  int count() const { return m_Size[0] * m_Size[1] * m_Size[2]; }
-  std::array<int, 3> size() const { return m_Size; }
-  std::array<int, 3> position(int block) const
-  {
-    return { block % m_Size[0], block / m_Size[0] % m_Size[1], block / m_Size[0] / m_Size[1] };
-  }
+  const Index& size() const { return m_Size; }
+  const Index& side() const { return m_Side; } ///< voxels
+  std::size_t perLayer() const { return std::size_t(m_Size[0]) * m_Size[1]; }
   double voxelVolume() const { return m_VoxelVolume; }
   double faceArea(int axis) const { return m_FaceArea[axis]; }
 
-  Label label(int i, int j, int k) const { return labelAt(m_Map, { i, j, k }); }
+  /// The first voxel of a block, and the one after its last, along an axis.
+  int begin(int block, int axis) const { return block * m_Side[axis]; }
+  int end(int block, int axis) const { return std::min((block + 1) * m_Side[axis], m_Grid.size[axis]); }
 
-  /// visit(i, j, k, label) of the block's voxels.
-  template <typename Visit>
-  void forEachVoxel(int block, Visit visit) const
+  /// The number within its layer of the block of a voxel.
+  std::size_t inLayer(const Index& voxel) const
   {
-    const std::array<int, 3> p = position(block);
-    std::array<int, 3> end;
-    for (int axis = 0; axis < 3; ++axis) end[axis] = std::min((p[axis] + 1) * m_Side[axis], m_Map.grid.size[axis]);
-    for (int k = p[2] * m_Side[2]; k < end[2]; ++k)
-    {
-      for (int j = p[1] * m_Side[1]; j < end[1]; ++j)
-      {
-        for (int i = p[0] * m_Side[0]; i < end[0]; ++i) visit(i, j, k, m_Map.labels[m_Map.grid.index(i, j, k)]);
-      }
-    }
+    return std::size_t(voxel[1] / m_Side[1]) * m_Size[0] + voxel[0] / m_Side[0];
   }
 
 private:
-  const TissueMap& m_Map;
-  std::array<int, 3> m_Side;
-  std::array<int, 3> m_Size;
+  const Grid& m_Grid;
+  Index m_Side;
+  Index m_Size;
   std::array<double, 3> m_FaceArea;
   double m_VoxelVolume;
 };
 
-Share& shareOf(std::vector<Share>& shares, Label label)
+Share& shareOf(Shares& shares, Label label)
 {
   for (Share& share : shares)
   {
@@ -89,50 +81,60 @@ Share& shareOf(std::vector<Share>& shares, Label label)
   return shares.back();
 }
 
-std::vector<Share> sharesOf(const Blocks& blocks, int block)
+/// Adds the voxels of a block's layer to their tissues' volumes.
+void addVolumes(const TissueMap& map, const Blocks& blocks, int layer, Shares* shares)
 {
-  std::vector<Share> shares;
-  blocks.forEachVoxel(block,
-                      [&](int i, int j, int k, Label label)
-                      {
-                        Share& share = shareOf(shares, label);
-                        share.volume += blocks.voxelVolume();
-                        for (int axis = 0; axis < 3; ++axis)
-                        {
-                          for (const int step : { -1, 1 })
-                          {
-                            const Label other = blocks.label(i + (axis == 0 ? step : 0), j + (axis == 1 ? step : 0),
-                                                             k + (axis == 2 ? step : 0));
-                            if (other != label) share.area += blocks.faceArea(axis);
-                          }
-                        }
-                      });
-  return shares;
+  for (int k = blocks.begin(layer, 2); k < blocks.end(layer, 2); ++k)
+    for (int j = 0; j < map.grid.size[1]; ++j)
+      for (int i = 0; i < map.grid.size[0]; i += blocks.side()[0])
+      {
+        Shares& own = shares[blocks.inLayer({ i, j, k })];
+        const Label *at = &map.labels[map.grid.index(0, j, k)] + i,
+                    *end = at + std::min(blocks.side()[0], map.grid.size[0] - i);
+        while (at != end)
+        {
+          const Label* const next = std::find_if(at, end, [at](Label label) { return label != *at; });
+          shareOf(own, *at).volume += double(next - at) * blocks.voxelVolume();
+          at = next;
+        }
+      }
 }
 
-std::vector<Share> neighbourhood(const Blocks& blocks, const std::vector<std::vector<Share>>& shares, int block)
+/// Adds the faces of a block's layer to the areas of the tissues in it.
+void addAreas(const TissueMap& map, const Blocks& blocks, int layer, Shares* shares)
 {
-  std::vector<Share> sum;
-  const std::array<int, 3> p = blocks.position(block);
-  const std::array<int, 3> size = blocks.size();
-  for (int n = 0; n < 27; ++n)
-  {
-    const std::array<int, 3> q{ p[0] + n % 3 - 1, p[1] + n / 3 % 3 - 1, p[2] + n / 9 - 1 };
-    bool inside = true;
-    for (int axis = 0; axis < 3; ++axis) inside = inside && q[axis] >= 0 && q[axis] < size[axis];
-    if (!inside) continue;
-    for (const Share& share : shares[(q[2] * size[1] + q[1]) * size[0] + q[0]])
-    {
-      Share& total = shareOf(sum, share.label);
-      total.volume += share.volume;
-      total.area += share.area;
-    }
-  }
+  const int begin = blocks.begin(layer, 2), end = blocks.end(layer, 2);
+  for (int k = begin - 1; k < end; ++k)
+    forEachBoundaryFace(map, k,
+                        [&](const VoxelFace& face)
+                        {
+                          for (const Index& voxel : { face.lower, face.upper() })
+                            if (voxel[2] >= begin && voxel[2] < end && isInside(map.grid, voxel))
+                              shareOf(shares[blocks.inLayer(voxel)], labelAt(map, voxel)).area +=
+                                blocks.faceArea(face.axis);
+                        });
+}
+
+/// What is in the block of that number and those around it.
+Shares neighbourhood(const Blocks& blocks, const std::vector<Shares>& shares, std::size_t block)
+{
+  Shares sum;
+  const Index& size = blocks.size();
+  const auto [x, y, z] = Index{ int(block % size[0]), int(block / size[0] % size[1]), int(block / blocks.perLayer()) };
+  for (int k = std::max(0, z - 1); k <= std::min(z + 1, size[2] - 1); ++k)
+    for (int j = std::max(0, y - 1); j <= std::min(y + 1, size[1] - 1); ++j)
+      for (int i = std::max(0, x - 1); i <= std::min(x + 1, size[0] - 1); ++i)
+        for (const Share& share : shares[(std::size_t(k) * size[1] + j) * size[0] + i])
+        {
+          Share& total = shareOf(sum, share.label);
+          total.volume += share.volume;
+          total.area += share.area;
+        }
   return sum;
 }
 
 /// The longest edge that the tissue's thickness allows; background outside the map allows any.
-double longestEdge(const std::vector<Share>& shares, Label label)
+double longestEdge(const Shares& shares, Label label)
 {
   for (const Share& share : shares)
   {
@@ -141,32 +143,48 @@ double longestEdge(const std::vector<Share>& shares, Label label)
   return HUGE_VAL;
 }
 
-MeshSizeEstimate estimateBlock(const Blocks& blocks, int block, const std::vector<Share>& shares, const Grid& grid,
-                               const ScaleField& scale)
+/// Tetrahedra inside the tissues of a layer, from some of its voxels where these are many to a millimetre: L varies
+/// slowly.
+double tetrahedraInside(const TissueMap& map, const ScaleField& scale, const Blocks& blocks, int layer,
+                        const std::vector<Shares>& around)
 {
-  MeshSizeEstimate sum;
-  blocks.forEachVoxel(
-    block,
-    [&](int i, int j, int k, Label label)
-    {
-      const double L = scale(grid.gridToWorld({ i * grid.spacing.x, j * grid.spacing.y, k * grid.spacing.z }));
-      const double thickness = longestEdge(shares, label);
-      const double edge = std::min(L, thickness);
-      if (label != 0) sum.tetrahedra += blocks.voxelVolume() / (tetrahedronVolume * edge * edge * edge);
-      for (int axis = 0; axis < 3; ++axis)
+  constexpr int samplesPerSide = 4; // of a block
+  Index step;
+  for (int axis = 0; axis < 3; ++axis) step[axis] = std::max(1, blocks.side()[axis] / samplesPerSide);
+  const Grid& grid = map.grid;
+  double sum = 0;
+  for (int k = blocks.begin(layer, 2) + step[2] / 2; k < blocks.end(layer, 2); k += step[2])
+    for (int j = step[1] / 2; j < grid.size[1]; j += step[1])
+      for (int i = step[0] / 2; i < grid.size[0]; i += step[0])
       {
-        for (const int step : { -1, 1 })
-        {
-          const std::array<int, 3> q{ i + (axis == 0 ? step : 0), j + (axis == 1 ? step : 0),
-                                      k + (axis == 2 ? step : 0) };
-          const Label other = blocks.label(q[0], q[1], q[2]);
-          if (other == label || (step < 0 && grid.contains(q[0], q[1], q[2])))
-            continue; // a face within the map counts once
-          const double faceEdge = surfaceEdge * std::min(edge, longestEdge(shares, other));
-          sum.triangles += blocks.faceArea(axis) / (std::sqrt(3.0) / 4 * faceEdge * faceEdge);
-        }
+        const Label label = map.labels[grid.index(i, j, k)];
+        if (label == 0) continue;
+        const double thickness = longestEdge(around[blocks.inLayer({ i, j, k })], label);
+        const double edge = std::min(scale(grid.gridToWorld(grid.position(i, j, k))), thickness);
+        sum += 1 / (edge * edge * edge);
       }
-    });
+  return sum * step[0] * step[1] * step[2] * blocks.voxelVolume() / tetrahedronVolume;
+}
+
+/// Triangles of the faces whose inner, or else lower, voxel is in a layer.
+double trianglesOf(const TissueMap& map, const ScaleField& scale, const Blocks& blocks, int layer,
+                   const std::vector<Shares>& around)
+{
+  const Grid& grid = map.grid;
+  double sum = 0;
+  for (int k = layer == 0 ? -1 : blocks.begin(layer, 2); k < blocks.end(layer, 2); ++k)
+    forEachBoundaryFace(map, k,
+                        [&](const VoxelFace& face)
+                        {
+                          const Index voxel = voxelInside(grid, face);
+                          const Shares& shares = around[blocks.inLayer(voxel)];
+                          const double edge =
+                            surfaceEdge *
+                            std::min({ scale(grid.gridToWorld(grid.position(voxel[0], voxel[1], voxel[2]))),
+                                       longestEdge(shares, labelAt(map, face.lower)),
+                                       longestEdge(shares, labelAt(map, face.upper())) });
+                          sum += blocks.faceArea(face.axis) / (std::sqrt(3.0) / 4 * edge * edge);
+                        });
   return sum;
 }
 
@@ -175,24 +193,25 @@ MeshSizeEstimate estimateBlock(const Blocks& blocks, int block, const std::vecto
 MeshSizeEstimate estimateMeshSize(const TissueMap& map, const ScaleField& scale)
 {
   const Blocks blocks(map);
-  std::vector<std::vector<Share>> shares(blocks.count());
-  vtkSMPTools::For(0, blocks.count(),
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (int block = int(begin); block < int(end); ++block) shares[block] = sharesOf(blocks, block);
-                   });
-  std::vector<MeshSizeEstimate> parts(blocks.count());
-  vtkSMPTools::For(0, blocks.count(),
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (int block = int(begin); block < int(end); ++block)
-                     {
-                       const std::vector<Share> around = neighbourhood(blocks, shares, block);
-                       if (around.size() == 1 && around[0].label == 0) continue;
-                       parts[block] = estimateBlock(blocks, block, around, map.grid, scale);
-                     }
-                   });
-  MeshSizeEstimate sum; // in the order of the blocks, whatever the threads
+  const std::size_t layers = std::size_t(blocks.size()[2]), perLayer = blocks.perLayer();
+  std::vector<Shares> shares(layers * perLayer);
+  parallelForEach(layers,
+                  [&](std::size_t layer)
+                  {
+                    addVolumes(map, blocks, int(layer), &shares[layer * perLayer]);
+                    addAreas(map, blocks, int(layer), &shares[layer * perLayer]);
+                  });
+  std::vector<MeshSizeEstimate> parts(layers);
+  parallelForEach(layers,
+                  [&](std::size_t layer)
+                  {
+                    std::vector<Shares> around;
+                    for (std::size_t n = 0; n < perLayer; ++n)
+                      around.push_back(neighbourhood(blocks, shares, layer * perLayer + n));
+                    parts[layer] = { trianglesOf(map, scale, blocks, int(layer), around),
+                                     tetrahedraInside(map, scale, blocks, int(layer), around) };
+                  });
+  MeshSizeEstimate sum; // in the order of the layers, whatever the threads
   for (const MeshSizeEstimate& part : parts)
   {
     sum.triangles += part.triangles;

@@ -71,6 +71,28 @@ TEST(MeshSizeEstimate, GivesSmallTissuesTheElementsTheyNeed)
   EXPECT_GT(estimate.tetrahedra, 64);
 }
 
+TEST(MeshSizeEstimate, DoesNotDependOnHowFineTheVoxelsAre)
+{
+  TissueMap map = plate(0);
+  for (std::size_t n = 0; n < map.labels.size(); ++n)
+  {
+    const auto [i, j, k] = map.grid.voxelAt(n);
+    const int x = i - 30, y = j - 33, z = k - 32;
+    map.labels[n] = Label(x * x + y * y + z * z < 400 ? 1 : i > 40 && k > 11 && k < 14 ? 2 : 0); // a ball and a sheet
+  }
+  TissueMap fine;
+  fine.grid.size = { 128, 128, 128 };
+  fine.grid.spacing = { 0.5, 0.5, 0.5 };
+  for (std::size_t n = 0; n < fine.grid.voxelCount(); ++n)
+  {
+    const auto [i, j, k] = fine.grid.voxelAt(n);
+    fine.labels.push_back(map.labels[map.grid.index(i / 2, j / 2, k / 2)]);
+  }
+  const MeshSizeEstimate one = estimateMeshSize(map, uniformScale(3)), other = estimateMeshSize(fine, uniformScale(3));
+  EXPECT_NEAR(other.triangles / one.triangles, 1, 1e-6);
+  EXPECT_NEAR(other.tetrahedra / one.tetrahedra, 1, 1e-6);
+}
+
 TEST(MeshSizeEstimate, IsZeroForAnEmptyMap)
 {
   const MeshSizeEstimate none = estimateMeshSize(plate(0), uniformScale(1));

@@ -34,7 +34,8 @@ TissueMap slabs(int size, int count, const Vec3& spacing = { 1, 1, 1 })
 
 double estimate(const TissueMap& map, double length)
 {
-  return double(estimateSurfaceMemory(map, uniformScale(length), false));
+  const ScaleField scale = uniformScale(length);
+  return double(estimateSurfaceMemory(map, scale, startingFaces(map, scale, false)));
 }
 
 TEST(MemoryEstimate, GrowsWithTheInterfaceBetweenTissues)
