@@ -15,7 +15,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double kBytes = 25e6, kBytesPerFace = 750, kBytesPerCube = 370, kBytesPerVoxel = 16;
+constexpr double kBytes = 25e6, kBytesPerFace = 750, kBytesPerCube = 370, kBytesPerVoxel = 12;
 constexpr double kRelativeSize = 0.8;       ///< of a cube to L
 constexpr int kSmallest = -2, kLargest = 5; ///< powers of two of a cube's side, in voxels
 

@@ -21,7 +21,7 @@ double startingFaces(const TissueMap& map, const ScaleField& scale, bool hasBloc
 /// 0.8 L, of voxels or blocks of them where tissues meet; nothing later is as large. With F the startingFaces, K the
 /// number of these cubes in tissue, and N the voxels,
 ///
-///     bytes = 25 MB + 750 F + 370 K + 16 N
+///     bytes = 25 MB + 750 F + 370 K + 12 N
 ///
 /// The constants err on the safe side: Docs/Benchmarks.md#estimates.
 std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, double startingFaces);
