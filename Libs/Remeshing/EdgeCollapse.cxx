@@ -52,10 +52,10 @@ double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, c
     if (n.vertex != v && !keepsLength(u, n.vertex, v, p, maximumRatio)) return tooLong;
   const double worst = measured(u).worst(p, atLeast, v);
   if (worst < atLeast || p == m_Complex.points[v]) return worst;
-  for (std::int32_t t : starOfTarget(v))
-    for (std::int32_t x : m_Complex.tets[t])
-      if (x != u && x != v && !keepsLength(v, x, v, p, maximumRatio)) return tooLong;
-  return std::min(worst, measured(v, m_StarOfV).worst(p, atLeast, u));
+  Star& star = target(v);
+  for (const std::int32_t x : endsAt(star))
+    if (x != u && !keepsLength(v, x, v, p, maximumRatio)) return tooLong;
+  return std::min(worst, measured(v, star).worst(p, atLeast, u));
 }
 
 /// Whether every tissue keeps its topology; refusals are remembered until the star of u changes.
@@ -106,9 +106,9 @@ bool GuardedOperations::gatherCollapsingFaces(std::int32_t u, std::int32_t v, co
       }
     }
   };
-  facesAt(u, v, m_Star.tets, true);
+  facesAt(u, v, star(u), true);
   // Faces at v that stay as they are keep their samples, and may take others.
-  facesAt(v, u, m_StarOfV.tets, !(p == c.points[v]));
+  facesAt(v, u, starOfTarget(v), !(p == c.points[v]));
   for (std::int32_t t : m_Ring)
   {
     const int iu = c.indexOf(t, u), iv = c.indexOf(t, v);

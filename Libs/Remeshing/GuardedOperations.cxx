@@ -34,7 +34,8 @@ GuardedOperations::GuardedOperations(TetComplex& complex, SizingFunction length,
 
 void GuardedOperations::changed()
 {
-  m_Star.vertex = m_StarOfV.vertex = m_NeighboursVertex = m_RefusedVertex = -1;
+  m_Star.vertex = m_NeighboursVertex = m_RefusedVertex = -1;
+  for (Star& star : m_Targets) star.vertex = -1;
   m_Envelope.forgetSheet();
 }
 
@@ -64,8 +65,32 @@ const std::vector<std::int32_t>& GuardedOperations::starOf(std::int32_t v, Star&
     m_Complex.star(v, star.tets);
     star.vertex = v;
     star.isMeasured = false;
+    star.ends.clear();
   }
   return star.tets;
+}
+
+GuardedOperations::Star& GuardedOperations::target(std::int32_t v)
+{
+  auto known = std::find_if(m_Targets.begin(), m_Targets.end(), [v](const Star& star) { return star.vertex == v; });
+  if (known == m_Targets.end()) known = m_Targets.begin() + std::ptrdiff_t(m_NextTarget++ % m_Targets.size());
+  starOf(v, *known);
+  return *known;
+}
+
+const std::vector<std::int32_t>& GuardedOperations::endsAt(Star& star)
+{
+  if (!star.ends.empty()) return star.ends;
+  m_Seen.resize(m_Complex.points.size());
+  m_Seen[star.vertex].search = ++m_Search;
+  for (const std::int32_t t : star.tets)
+    for (const std::int32_t x : m_Complex.tets[t])
+      if (m_Seen[x].search != m_Search)
+      {
+        m_Seen[x].search = m_Search;
+        star.ends.push_back(x);
+      }
+  return star.ends;
 }
 
 StarQuality& GuardedOperations::measured(std::int32_t v, Star& star)

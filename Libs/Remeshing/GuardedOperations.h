@@ -51,10 +51,10 @@ public:
   /// Tetrahedra at v; kept until the next operation that changes anything, so asking again costs nothing.
   const std::vector<std::int32_t>& star(std::int32_t v) { return starOf(v, m_Star); }
 
-  /// The same, kept apart, for the vertex that another one may go into.
+  /// The same, kept apart, for the vertices that another one may go into.
   const std::vector<std::int32_t>& starOfTarget(std::int32_t v)
   {
-    return v == m_Star.vertex ? m_Star.tets : starOf(v, m_StarOfV);
+    return v == m_Star.vertex ? m_Star.tets : target(v).tets;
   }
 
   struct Neighbour
@@ -182,10 +182,13 @@ private:
     std::vector<std::int32_t> tets;
     bool isMeasured = false;
     StarQuality quality;
+    std::vector<std::int32_t> ends; ///< of the edges at the vertex; empty until somebody has asked
   };
 
   const std::vector<std::int32_t>& starOf(std::int32_t v, Star& star);
   StarQuality& measured(std::int32_t v, Star& star);
+  Star& target(std::int32_t v);
+  const std::vector<std::int32_t>& endsAt(Star& star);
   void changed();
   double lenient(std::int32_t t, double q) const { return lenient(m_Complex.labels[t], q); }
   static double lenient(Label label, double q) { return label == 0 ? q * backgroundLeniency : q; }
@@ -208,7 +211,9 @@ private:
   CollapseTopology m_Topology;
   const double m_TriangleWeight, m_Rigidity;
   OperationCounts m_Counts;
-  Star m_Star, m_StarOfV;               ///< of the vertex worked on, and of the one it may go into
+  Star m_Star;                          ///< of the vertex worked on
+  std::array<Star, 8> m_Targets;        ///< of those it may go into, which come by turns
+  std::size_t m_NextTarget = 0;         ///< whose place goes to the next
   std::int32_t m_NeighboursVertex = -1; ///< whose m_Neighbours are; -1: nobody's
   std::vector<Neighbour> m_Neighbours;
   struct Seen
@@ -217,7 +222,7 @@ private:
     std::int32_t at = 0; ///< in m_Neighbours
     Label label = 0;
   };
-  std::vector<Seen> m_Seen; ///< per vertex, by the search of that number
+  std::vector<Seen> m_Seen; ///< per vertex, by the search of that number (label and place: of neighbours() alone)
   std::uint32_t m_Search = 0;
   std::int32_t m_RefusedVertex = -1; ///< whose collapses onto m_Refused would change a tissue's topology; -1: nobody's
   std::vector<std::int32_t> m_Refused;

@@ -41,8 +41,9 @@ void GuardedOperations::place(std::int32_t v, const Vec3& p)
   m_Complex.points[v] = p;
   m_Complex.lengths[v] = float(m_Length(p));
   if (m_Curves) m_Curves->moved(v);
-  for (Star* star : { &m_Star, &m_StarOfV })
-    if (star->vertex != v) star->isMeasured = false;
+  if (m_Star.vertex != v) m_Star.isMeasured = false;
+  for (Star& star : m_Targets)
+    if (star.vertex != v) star.isMeasured = false;
 }
 
 } // namespace surgicalmesher
