@@ -54,6 +54,7 @@ public:
   PanelObstacle obstacle(const vtkSlicerSimplexMesherLogic::Check& check);
   PanelObstacle scaleObstacle(Problem problem);
   PanelObstacle tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check);
+  PanelObstacle proximityObstacle();
 };
 
 void qSlicerSimplexMesherModuleWidgetPrivate::setParameterNode(vtkMRMLSimplexMesherNode* node)
@@ -112,6 +113,13 @@ void qSlicerSimplexMesherModuleWidgetPrivate::bindControls()
   this->bind(this->MinimumIslandVolumeSpinBox, &Node::GetMinimumIslandVolume, &Node::SetMinimumIslandVolume);
   this->bind(this->MinimumCavityVolumeSpinBox, &Node::GetMinimumCavityVolume, &Node::SetMinimumCavityVolume);
   this->bind(this->FeatureScaleSlider, &Node::GetFeatureScale, &Node::SetFeatureScale);
+  this->bind(this->SmoothingSlider, &Node::GetSmoothing, &Node::SetSmoothing);
+  this->bind(this->RigiditySlider, &Node::GetRigidity, &Node::SetRigidity);
+  this->bind(this->ContinuityComboBox, &Node::GetContinuity, &Node::SetContinuity);
+  this->bind(this->ProximityNearSpinBox, &Node::GetProximityNear, &Node::SetProximityNear);
+  this->bind(this->ProximityFarSpinBox, &Node::GetProximityFar, &Node::SetProximityFar);
+  this->bind(this->ChordErrorSpinBox, &Node::GetChordError, &Node::SetChordError);
+  this->bind(this->BackgroundSpinBox, &Node::GetBackground, &Node::SetBackground);
   this->bind(this->MaximumDistanceSpinBox, &Node::GetMaximumDistance, &Node::SetMaximumDistance);
   this->bind(this->GradationSlider, &Node::GetGradation, &Node::SetGradation);
   this->bind(this->FollowThicknessCheckBox, &Node::GetFollowThickness, &Node::SetFollowThickness);
@@ -173,6 +181,8 @@ PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::obstacle(const vtkSlicerS
   case Problem::TissueMap:
     return surgicalmesher::tissueMapObstacle(check.tissueMap, this->Parameters->GetNodeReference(Node::TissueMapRole()),
                                              this->TissueMapSelector);
+  case Problem::ProximityUnfit: return this->proximityObstacle();
+  case Problem::LabelTaken:
   case Problem::NothingToMesh:
   case Problem::LengthsContradict:
   case Problem::LengthsOfShellDiffer: return this->tissueObstacle(check);
@@ -202,6 +212,19 @@ PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::scaleObstacle(Problem pro
   }
 }
 
+PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::proximityObstacle()
+{
+  const auto makeEqual = [this]
+  {
+    const double larger = qMax(this->Parameters->GetProximityNear(), this->Parameters->GetProximityFar());
+    this->Parameters->SetProximityNear(larger);
+    this->Parameters->SetProximityFar(larger);
+  };
+  return { qSlicerSimplexMesherModuleWidget::tr(
+             "The proximity where edges are shortest has to be above 0, and not above that where they are longest."),
+           qSlicerSimplexMesherModuleWidget::tr("Make them equal"), makeEqual };
+}
+
 PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueObstacle(const vtkSlicerSimplexMesherLogic::Check& check)
 {
   if (check.problem == Problem::NothingToMesh)
@@ -214,6 +237,10 @@ PanelObstacle qSlicerSimplexMesherModuleWidgetPrivate::tissueObstacle(const vtkS
     this->Parameters->SetTissueSetting(id, setting);
   };
   const QString tissue = QString::fromStdString(check.tissue.name);
+  if (check.problem == Problem::LabelTaken)
+    return { qSlicerSimplexMesherModuleWidget::tr("%1 has the label that the surroundings are to have.").arg(tissue),
+             qSlicerSimplexMesherModuleWidget::tr("Leave the surroundings out"),
+             [this] { this->Parameters->SetBackground(0); } };
   const QString sentence =
     check.problem == Problem::LengthsContradict
       ? qSlicerSimplexMesherModuleWidget::tr("The minimum edge length of %1 is above its maximum.").arg(tissue)
@@ -235,6 +262,9 @@ void qSlicerSimplexMesherModuleWidget::setup()
   this->Superclass::setup();
   d->ReportTableComboBox->addItem(tr("Tissues"), QByteArray(Node::TissueTableRole()));
   d->ReportTableComboBox->addItem(tr("Evolution, step by step"), QByteArray(Node::EvolutionTableRole()));
+  d->ReportTableComboBox->addItem(tr("Roughness, folds and ears"), QByteArray(Node::ShapeTableRole()));
+  d->ReportTableComboBox->addItem(tr("The longest folds"), QByteArray(Node::FoldTableRole()));
+  d->ReportTableComboBox->addItem(tr("The largest ears"), QByteArray(Node::EarTableRole()));
   d->ListTimer.setSingleShot(true);
   d->ListTimer.setInterval(300);
   connect(&d->ListTimer, SIGNAL(timeout()), this, SLOT(listTissues()));

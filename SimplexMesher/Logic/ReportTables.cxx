@@ -25,6 +25,7 @@
 
 #include <array>
 #include <map>
+#include <utility>
 
 namespace surgicalmesher
 {
@@ -39,11 +40,13 @@ rapidjson::Document readReport(const std::string& file)
   return report;
 }
 
+using Value = rapidjson::Value;
+
 /// Members of a path; an empty array where the report lacks one.
-const rapidjson::Value& itemsOf(const rapidjson::Value& report, std::initializer_list<const char*> path)
+const Value& itemsOf(const Value& report, std::initializer_list<const char*> path)
 {
-  static const rapidjson::Value nothing(rapidjson::kArrayType);
-  const rapidjson::Value* at = &report;
+  static const Value nothing(rapidjson::kArrayType);
+  const Value* at = &report;
   for (const char* name : path)
   {
     if (!at->IsObject() || !at->HasMember(name)) return nothing;
@@ -52,16 +55,22 @@ const rapidjson::Value& itemsOf(const rapidjson::Value& report, std::initializer
   return at->IsArray() ? *at : nothing;
 }
 
-double numberOf(const rapidjson::Value& item, const char* name)
+double numberOf(const Value& item, const char* name)
 {
   const auto found = item.FindMember(name);
   return found != item.MemberEnd() && found->value.IsNumber() ? found->value.GetDouble() : 0;
 }
 
-/// The object of that name, or an empty one.
-const rapidjson::Value& memberOf(const rapidjson::Value& item, const char* name)
+std::string textOf(const Value& item, const char* name)
 {
-  static const rapidjson::Value nothing(rapidjson::kObjectType);
+  const auto found = item.FindMember(name);
+  return found != item.MemberEnd() && found->value.IsString() ? found->value.GetString() : std::string();
+}
+
+/// The object of that name, or an empty one.
+const Value& memberOf(const Value& item, const char* name)
+{
+  static const Value nothing(rapidjson::kObjectType);
   const auto found = item.FindMember(name);
   return found != item.MemberEnd() && found->value.IsObject() ? found->value : nothing;
 }
@@ -97,7 +106,7 @@ void addSurface(vtkPolyData* surface, std::map<Label, Report>& tissues)
   }
 }
 
-std::map<Label, Report> reportByTissue(const rapidjson::Value& report, vtkPolyData* surface)
+std::map<Label, Report> reportByTissue(const Value& report, vtkPolyData* surface)
 {
   std::map<Label, Report> tissues;
   for (const auto& item : itemsOf(report, { "topology" }).GetArray())
@@ -168,12 +177,115 @@ struct EvolutionColumns
   std::string faces = vtkMRMLTr("SimplexMesher", "Faces");
   std::string meanDistance = vtkMRMLTr("SimplexMesher", "Mean distance (mm)");
   std::string maximumDistance = vtkMRMLTr("SimplexMesher", "Maximum distance (mm)");
-  std::string collapses = vtkMRMLTr("SimplexMesher", "T1 (interface collapses)");
-  std::string splits = vtkMRMLTr("SimplexMesher", "T2 (interface splits)");
-  std::string flips = vtkMRMLTr("SimplexMesher", "T7 (interface flips)");
+  std::string beyond = vtkMRMLTr("SimplexMesher", "Samples beyond tolerance");
+  std::string t1 = vtkMRMLTr("SimplexMesher", "T1 (interface collapses)");
+  std::string t2 = vtkMRMLTr("SimplexMesher", "T2 (interface splits)");
+  std::string t7 = vtkMRMLTr("SimplexMesher", "T7 (interface flips)");
   std::string relabels = vtkMRMLTr("SimplexMesher", "Relabelled tetrahedra");
   std::string moves = vtkMRMLTr("SimplexMesher", "Moves");
+  std::string collapses = vtkMRMLTr("SimplexMesher", "Collapses of any edge");
+  std::string splits = vtkMRMLTr("SimplexMesher", "Splits of any edge");
+  std::string flips = vtkMRMLTr("SimplexMesher", "Flips of any edge");
 };
+
+/// A row of the shape table.
+struct ShapeRow
+{
+  std::string what;
+  double count = 0;
+  double voxels = 0;
+  double length = 0; ///< mm
+  double volume = 0; ///< mm^3
+};
+
+/// What smoothing took from the map.
+void addRoughness(const Value& report, std::vector<ShapeRow>& rows)
+{
+  const std::array<std::pair<const char*, std::string>, 3> kinds{
+    { { "cracks", vtkMRMLTr("SimplexMesher", "Cracks of the map, smoothed") },
+      { "ears", vtkMRMLTr("SimplexMesher", "Ears of the map, smoothed") },
+      { "singleSteps", vtkMRMLTr("SimplexMesher", "Single steps of the map, smoothed") } }
+  };
+  for (const auto& [member, what] : kinds)
+  {
+    const Value& kind = memberOf(memberOf(report, "smoothing"), member);
+    rows.push_back({ what, numberOf(kind, "count"), numberOf(kind, "voxels") });
+  }
+}
+
+/// The report's words for a reason, in the user's language.
+std::string reasonText(const std::string& reason)
+{
+  const std::array<std::pair<const char*, std::string>, 5> reasons{
+    { { "groove between two tissues", vtkMRMLTr("SimplexMesher", "Groove between two tissues") },
+      { "crack", vtkMRMLTr("SimplexMesher", "Crack") },
+      { "edge of a thin tissue", vtkMRMLTr("SimplexMesher", "Edge of a thin tissue") },
+      { "edge in the map", vtkMRMLTr("SimplexMesher", "Edge in the map") },
+      { "edge of the surface alone", vtkMRMLTr("SimplexMesher", "Edge of the surface alone") } }
+  };
+  for (const auto& [word, translated] : reasons)
+  {
+    if (reason == word) return translated;
+  }
+  return reason;
+}
+
+void addFolds(const Value& report, std::vector<ShapeRow>& rows)
+{
+  for (const auto& item : itemsOf(report, { "folds", "reasons" }).GetArray())
+  {
+    rows.push_back({ vtkMRMLTr("SimplexMesher", "Folds: ") + reasonText(textOf(item, "reason")),
+                     numberOf(item, "count"), 0, numberOf(item, "length") });
+  }
+}
+
+void addEars(const Value& report, std::vector<ShapeRow>& rows)
+{
+  const Value& ears = memberOf(report, "ears");
+  rows.push_back(
+    { vtkMRMLTr("SimplexMesher", "Ears of the mesh"), numberOf(ears, "count"), 0, 0, numberOf(ears, "volume") });
+  rows.push_back({ vtkMRMLTr("SimplexMesher", "Ears of the mesh, held by no other tissue"), numberOf(ears, "free") });
+}
+
+std::string tissueName(const TissueTable& names, Label label)
+{
+  if (label == 0) return vtkMRMLTr("SimplexMesher", "outside");
+  const auto found = names.find(label);
+  return found != names.end() && !found->second.name.empty() ? found->second.name : std::to_string(label);
+}
+
+/// "a, b" of the item's labels.
+std::string tissueNames(const Value& item, const TissueTable& names)
+{
+  std::string text;
+  for (const auto& label : itemsOf(item, { "labels" }).GetArray())
+    text += (text.empty() ? "" : ", ") + tissueName(names, Label(label.GetInt()));
+  return text;
+}
+
+/// Of `place`, which the report has in LPS; the host shows RAS.
+double coordinateOf(const Value& item, int axis)
+{
+  const auto place = itemsOf(item, { "place" }).GetArray();
+  if (int(place.Size()) <= axis || !place[axis].IsNumber()) return 0;
+  return (axis < 2 ? -1 : 1) * place[axis].GetDouble();
+}
+
+std::string yesOrNo(const Value& item, const char* name)
+{
+  const auto found = item.FindMember(name);
+  const bool isSo = found != item.MemberEnd() && found->value.IsBool() && found->value.GetBool();
+  return isSo ? vtkMRMLTr("SimplexMesher", "yes") : vtkMRMLTr("SimplexMesher", "no");
+}
+
+template <class Items>
+void addPlaces(TableFiller& table, const Items& items)
+{
+  const std::array<std::string, 3> names{ vtkMRMLTr("SimplexMesher", "R (mm)"), vtkMRMLTr("SimplexMesher", "A (mm)"),
+                                          vtkMRMLTr("SimplexMesher", "S (mm)") };
+  for (int axis = 0; axis < 3; ++axis)
+    table.add<vtkDoubleArray>(names[axis], items, [axis](const auto& item) { return coordinateOf(item, axis); });
+}
 
 struct Plot
 {
@@ -226,12 +338,6 @@ void fillTissueTable(const std::string& reportFile, vtkMRMLModelNode* surface, v
   const rapidjson::Document report = readReport(reportFile);
   const std::map<Label, Report> tissues = reportByTissue(report, surface->GetPolyData());
   const TissueTable names = tissuesOf(surface->GetPolyData()->GetFieldData());
-  const auto nameOf = [&](const auto& entry)
-  {
-    const auto found = names.find(entry.first);
-    const bool known = found != names.end() && !found->second.name.empty();
-    return known ? found->second.name : std::to_string(entry.first);
-  };
   const auto count = [&](TableFiller& table, const std::string& name, const auto& valueOf)
   { table.add<vtkIntArray>(name, tissues, [&](const auto& entry) { return int(valueOf(entry.second)); }); };
   const auto measure = [&](TableFiller& table, const std::string& name, const auto& valueOf)
@@ -239,7 +345,8 @@ void fillTissueTable(const std::string& reportFile, vtkMRMLModelNode* surface, v
 
   TableFiller table(node);
   table.add<vtkIntArray>(vtkMRMLTr("SimplexMesher", "Label"), tissues, [](const auto& entry) { return entry.first; });
-  table.add<vtkStringArray>(vtkMRMLTr("SimplexMesher", "Tissue"), tissues, nameOf);
+  table.add<vtkStringArray>(vtkMRMLTr("SimplexMesher", "Tissue"), tissues,
+                            [&](const auto& entry) { return tissueName(names, entry.first); });
   measure(table, vtkMRMLTr("SimplexMesher", "Area (mm²)"), [](const Report& r) { return r.area; });
   count(table, vtkMRMLTr("SimplexMesher", "Triangles"), [](const Report& r) { return r.triangles; });
   count(table, vtkMRMLTr("SimplexMesher", "Components"), [](const Report& r) { return r.topology[0]; });
@@ -271,22 +378,72 @@ void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* node)
   { table.add<vtkIntArray>(name, steps, [&](const auto& step) { return int(numberOf(step, member)); }); };
   int count = 0;
   table.add<vtkIntArray>(names.step, steps, [&](const auto&) { return count++; });
-  table.add<vtkStringArray>(names.stage, steps,
-                            [](const auto& step)
-                            {
-                              const auto stage = step.FindMember("stage");
-                              const bool known = stage != step.MemberEnd() && stage->value.IsString();
-                              return std::string(known ? stage->value.GetString() : "");
-                            });
+  table.add<vtkStringArray>(names.stage, steps, [](const auto& step) { return textOf(step, "stage"); });
   number(names.tetrahedra, "tetrahedra");
   number(names.faces, "faces");
   distance(names.meanDistance, "meanDistance");
   distance(names.maximumDistance, "maximumDistance");
-  number(names.collapses, "T1");
-  number(names.splits, "T2");
-  number(names.flips, "T7");
+  number(names.beyond, "samplesBeyondTolerance");
+  number(names.t1, "T1");
+  number(names.t2, "T2");
+  number(names.t7, "T7");
   number(names.relabels, "relabels");
   number(names.moves, "moves");
+  number(names.collapses, "collapses");
+  number(names.splits, "splits");
+  number(names.flips, "flips");
+}
+
+void fillShapeTable(const std::string& reportFile, vtkMRMLTableNode* node)
+{
+  const rapidjson::Document report = readReport(reportFile);
+  std::vector<ShapeRow> rows;
+  addRoughness(report, rows);
+  addFolds(report, rows);
+  addEars(report, rows);
+  TableFiller table(node);
+  table.add<vtkStringArray>(vtkMRMLTr("SimplexMesher", "What"), rows, [](const ShapeRow& row) { return row.what; });
+  table.add<vtkIntArray>(vtkMRMLTr("SimplexMesher", "Count"), rows, [](const ShapeRow& row) { return int(row.count); });
+  table.add<vtkIntArray>(vtkMRMLTr("SimplexMesher", "Voxels"), rows,
+                         [](const ShapeRow& row) { return int(row.voxels); });
+  table.add<vtkDoubleArray>(vtkMRMLTr("SimplexMesher", "Length (mm)"), rows,
+                            [](const ShapeRow& row) { return row.length; });
+  table.add<vtkDoubleArray>(vtkMRMLTr("SimplexMesher", "Volume (mm³)"), rows,
+                            [](const ShapeRow& row) { return row.volume; });
+}
+
+void fillFoldTable(const std::string& reportFile, vtkMRMLModelNode* surface, vtkMRMLTableNode* node)
+{
+  const rapidjson::Document report = readReport(reportFile);
+  const auto folds = itemsOf(report, { "folds", "longest" }).GetArray();
+  const TissueTable names = tissuesOf(surface->GetPolyData()->GetFieldData());
+  TableFiller table(node);
+  table.add<vtkStringArray>(vtkMRMLTr("SimplexMesher", "Tissues"), folds,
+                            [&](const auto& fold) { return tissueNames(fold, names); });
+  addPlaces(table, folds);
+  table.add<vtkDoubleArray>(vtkMRMLTr("SimplexMesher", "Length (mm)"), folds,
+                            [](const auto& fold) { return numberOf(fold, "length"); });
+  table.add<vtkStringArray>(vtkMRMLTr("SimplexMesher", "Reason"), folds,
+                            [](const auto& fold) { return reasonText(textOf(fold, "reason")); });
+  table.add<vtkStringArray>(vtkMRMLTr("SimplexMesher", "On the outer surface"), folds,
+                            [](const auto& fold) { return yesOrNo(fold, "outer"); });
+}
+
+void fillEarTable(const std::string& reportFile, vtkMRMLModelNode* surface, vtkMRMLTableNode* node)
+{
+  const rapidjson::Document report = readReport(reportFile);
+  const auto ears = itemsOf(report, { "ears", "largest" }).GetArray();
+  const TissueTable names = tissuesOf(surface->GetPolyData()->GetFieldData());
+  TableFiller table(node);
+  table.add<vtkStringArray>(vtkMRMLTr("SimplexMesher", "Tissue"), ears,
+                            [&](const auto& ear) { return tissueName(names, Label(numberOf(ear, "label"))); });
+  addPlaces(table, ears);
+  table.add<vtkDoubleArray>(vtkMRMLTr("SimplexMesher", "Volume (mm³)"), ears,
+                            [](const auto& ear) { return numberOf(ear, "volume"); });
+  table.add<vtkIntArray>(vtkMRMLTr("SimplexMesher", "Tetrahedra"), ears,
+                         [](const auto& ear) { return int(numberOf(ear, "tetrahedra")); });
+  table.add<vtkStringArray>(vtkMRMLTr("SimplexMesher", "Held by no other tissue"), ears,
+                            [](const auto& ear) { return yesOrNo(ear, "free"); });
 }
 
 std::vector<vtkMRMLPlotChartNode*> plotEvolution(vtkMRMLTableNode* table,
@@ -299,7 +456,7 @@ std::vector<vtkMRMLPlotChartNode*> plotEvolution(vtkMRMLTableNode* table,
                                        { names.meanDistance, names.maximumDistance } },
                                      { vtkMRMLTr("SimplexMesher", "Operations"),
                                        vtkMRMLTr("SimplexMesher", "Operations per step"),
-                                       { names.collapses, names.splits, names.flips } } } };
+                                       { names.t1, names.t2, names.t7 } } } };
   std::vector<vtkMRMLPlotChartNode*> result = charts;
   for (std::size_t i = 0; i < plots.size(); ++i)
   {

@@ -19,9 +19,20 @@ namespace surgicalmesher
 /// of SimplexMesherCLI; throws InputError if it isn't one.
 void fillTissueTable(const std::string& reportFile, vtkMRMLModelNode* surface, vtkMRMLTableNode* table);
 
-/// One row per step: number, stage, tetrahedra, mean and maximum distance to the tissue boundary (mm), and the
-/// operations by their names in the simplex mesh. Throws InputError likewise.
+/// One row per step: number, stage, tetrahedra, faces, mean and maximum distance to the tissue boundary (mm), boundary
+/// samples beyond their tolerance, the operations on the interface by their names in the simplex mesh, and those on any
+/// edge of the tetrahedra. Throws InputError likewise.
 void fillEvolutionTable(const std::string& reportFile, vtkMRMLTableNode* table);
+
+/// One row per kind of roughness that smoothing took from the map, per reason for folds of the surface, and for pieces
+/// of tissues that hang by one face: count, voxels, length (mm) and volume (mm^3), 0 where a kind has no such figure.
+/// Throws InputError likewise.
+void fillShapeTable(const std::string& reportFile, vtkMRMLTableNode* table);
+
+/// The report's longest folds and its largest ears, a row each, with the names that `surface` has of tissues, and their
+/// places in RAS. Throw InputError likewise.
+void fillFoldTable(const std::string& reportFile, vtkMRMLModelNode* surface, vtkMRMLTableNode* table);
+void fillEarTable(const std::string& reportFile, vtkMRMLModelNode* surface, vtkMRMLTableNode* table);
 
 /// Plots of the evolution table: faces, distance, operations. `charts` are those of an earlier run, to be filled
 /// again, or empty; new ones are called after the table.

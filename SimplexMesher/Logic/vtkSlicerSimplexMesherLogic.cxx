@@ -91,6 +91,26 @@ Problem lengthProblem(const TissueSetting& setting)
   return differ ? Problem::LengthsOfShellDiffer : Problem::None;
 }
 
+/// What SimplexMesherCLI refuses.
+Problem proximityProblem(Node* parameters)
+{
+  const double near = parameters->GetProximityNear();
+  const double far = parameters->GetProximityFar();
+  return (near == 0 && far == 0) || (near > 0 && near <= far) ? Problem::None : Problem::ProximityUnfit;
+}
+
+Check surroundingsProblem(Node* parameters, const std::vector<TissueRow>& tissues)
+{
+  Check check;
+  for (const TissueRow& tissue : tissues)
+  {
+    if (tissue.label != Label(parameters->GetBackground()) || tissue.voxels == 0) continue;
+    check.problem = Problem::LabelTaken;
+    check.tissue = tissue;
+  }
+  return check;
+}
+
 Check tissueProblem(Node* parameters, const std::vector<TissueRow>& tissues)
 {
   Check check;
@@ -104,6 +124,14 @@ Check tissueProblem(Node* parameters, const std::vector<TissueRow>& tissues)
     if (check.problem != Problem::None) return check;
   }
   check.problem = isAnyMeshed || tissues.empty() ? Problem::None : Problem::NothingToMesh;
+  return check;
+}
+
+Check surfaceProblem(Node* parameters, const std::vector<TissueRow>& tissues)
+{
+  Check check = tissueProblem(parameters, tissues);
+  if (check.problem == Problem::None) check = surroundingsProblem(parameters, tissues);
+  if (check.problem == Problem::None && !tissues.empty()) check.problem = proximityProblem(parameters);
   return check;
 }
 
@@ -227,7 +255,7 @@ Check vtkSlicerSimplexMesherLogic::FindProblem(vtkMRMLSimplexMesherNode* paramet
   if (!this->GetModuleLogic("SimplexMesherCLI")) check.problem = Problem::NoModule;
   else if (check.tissueMap != TissueMapProblem::None) check.problem = Problem::TissueMap;
   else check.problem = scaleProblem(parameters);
-  return check.problem == Problem::None ? tissueProblem(parameters, tissues) : check;
+  return check.problem == Problem::None ? surfaceProblem(parameters, tissues) : check;
 }
 
 void vtkSlicerSimplexMesherLogic::SetMRMLSceneInternal(vtkMRMLScene* scene)
@@ -278,16 +306,28 @@ bool vtkSlicerSimplexMesherLogic::Prepare(vtkMRMLSimplexMesherNode* parameters)
   setInput("tissues", settingsTable(parameters, tissues, map.labelMap->GetImageData()));
   if (parameters->GetUseScale()) setInput("scale", copyForRun(parameters->GetScalarVolumeNode(Node::ScaleRole())));
   else this->Run->SetParameter("edgeLength", parameters->GetEdgeLength());
-  this->Run->SetParameter("minimumIslandVolume", parameters->GetMinimumIslandVolume());
-  this->Run->SetParameter("minimumCavityVolume", parameters->GetMinimumCavityVolume());
-  this->Run->SetParameter("featureScale", parameters->GetFeatureScale());
-  this->Run->SetParameter("maximumDistance", parameters->GetMaximumDistance());
-  this->Run->SetParameter("followThickness", parameters->GetFollowThickness());
-  this->Run->SetParameter("gradation", parameters->GetGradation());
-  this->Run->SetParameter("threads", parameters->GetThreads());
+  this->PrepareOptions(parameters);
   this->PrepareOutputs(parameters);
   this->Parameters = parameters;
   return true;
+}
+
+void vtkSlicerSimplexMesherLogic::PrepareOptions(vtkMRMLSimplexMesherNode* parameters)
+{
+  this->Run->SetParameter("minimumIslandVolume", parameters->GetMinimumIslandVolume());
+  this->Run->SetParameter("minimumCavityVolume", parameters->GetMinimumCavityVolume());
+  this->Run->SetParameter("featureScale", parameters->GetFeatureScale());
+  this->Run->SetParameter("smoothing", parameters->GetSmoothing());
+  this->Run->SetParameter("rigidity", parameters->GetRigidity());
+  this->Run->SetParameter("continuity", parameters->GetContinuity());
+  this->Run->SetParameter("maximumDistance", parameters->GetMaximumDistance());
+  this->Run->SetParameter("proximity", text::rounded(parameters->GetProximityNear(), 17) + "," +
+                                         text::rounded(parameters->GetProximityFar(), 17));
+  this->Run->SetParameter("followThickness", parameters->GetFollowThickness());
+  this->Run->SetParameter("chordError", parameters->GetChordError());
+  this->Run->SetParameter("gradation", parameters->GetGradation());
+  this->Run->SetParameter("background", parameters->GetBackground());
+  this->Run->SetParameter("threads", parameters->GetThreads());
 }
 
 void vtkSlicerSimplexMesherLogic::PrepareOutputs(vtkMRMLSimplexMesherNode* parameters)
@@ -367,14 +407,16 @@ void vtkSlicerSimplexMesherLogic::FinishSurface(vtkMRMLModelNode* surface)
 
 void vtkSlicerSimplexMesherLogic::FinishReport(vtkMRMLModelNode* surface)
 {
-  const std::string name = surface->GetName();
+  const auto table = [&](const char* role, const std::string& what)
+  { return ownNode<vtkMRMLTableNode>(this->Parameters, role, surface->GetName() + (": " + what)); };
   try
   {
-    auto* tissues = ownNode<vtkMRMLTableNode>(this->Parameters, Node::TissueTableRole(),
-                                              name + ": " + vtkMRMLTr("SimplexMesher", "tissues"));
-    fillTissueTable(this->ReportFile, surface, tissues);
-    auto* evolution = ownNode<vtkMRMLTableNode>(this->Parameters, Node::EvolutionTableRole(),
-                                                name + ": " + vtkMRMLTr("SimplexMesher", "evolution"));
+    fillTissueTable(this->ReportFile, surface, table(Node::TissueTableRole(), vtkMRMLTr("SimplexMesher", "tissues")));
+    fillShapeTable(this->ReportFile,
+                   table(Node::ShapeTableRole(), vtkMRMLTr("SimplexMesher", "roughness, folds and ears")));
+    fillFoldTable(this->ReportFile, surface, table(Node::FoldTableRole(), vtkMRMLTr("SimplexMesher", "longest folds")));
+    fillEarTable(this->ReportFile, surface, table(Node::EarTableRole(), vtkMRMLTr("SimplexMesher", "largest ears")));
+    vtkMRMLTableNode* evolution = table(Node::EvolutionTableRole(), vtkMRMLTr("SimplexMesher", "evolution"));
     fillEvolutionTable(this->ReportFile, evolution);
     std::vector<vtkMRMLPlotChartNode*> charts;
     for (int i = 0; i < this->Parameters->GetNumberOfNodeReferences(Node::EvolutionChartRole()); ++i)

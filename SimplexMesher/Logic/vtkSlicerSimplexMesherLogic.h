@@ -43,6 +43,8 @@ public:
     ScaleWarped,         ///< the scale volume is under a transform that isn't linear
     ScaleTooSmall,       ///< the scale volume leaves out part of the map
     NoEdgeLength,        ///< the one length isn't positive
+    ProximityUnfit,      ///< nearest where the edge length is least: 0, or more than where it is most
+    LabelTaken,          ///< `tissue` has the label that the surroundings are to have
     NothingToMesh,       ///< every tissue is left out
     LengthsContradict,   ///< `tissue` has a minimum above its maximum
     LengthsOfShellDiffer ///< `tissue` is a shell with two lengths
@@ -54,7 +56,8 @@ public:
     surgicalmesher::TissueRow tissue;
   };
 
-  /// `tissues` as surgicalmesher::listTissues gives them for the parameter node's map.
+  /// `tissues` as surgicalmesher::listTissues gives them for the parameter node's map; without any, only what balloons
+  /// need as well is looked at.
   Check FindProblem(vtkMRMLSimplexMesherNode* parameters, const std::vector<surgicalmesher::TissueRow>& tissues);
 
   /// Starts a run, unless there is a problem or a run is busy. A surface that isn't chosen is made for it, and put into
@@ -83,6 +86,7 @@ protected:
 
 private:
   bool Prepare(vtkMRMLSimplexMesherNode* parameters);
+  void PrepareOptions(vtkMRMLSimplexMesherNode* parameters);
   void PrepareOutputs(vtkMRMLSimplexMesherNode* parameters);
   void PrepareVolume(const char* parameter, vtkMRMLVolumeNode* chosen);
   void FinishRun();

@@ -83,8 +83,9 @@ vtkMRMLNodeNewMacro(vtkMRMLSimplexMesherNode);
 vtkMRMLSimplexMesherNode::vtkMRMLSimplexMesherNode()
 {
   this->AddRoles({ TissueMapRole(), ScaleRole(), SurfaceRole(), PreparedLabelMapRole(), SimplexMeshRole(),
-                   FollowedScaleRole(), TissueTableRole(), EvolutionTableRole(), EvolutionChartRole(),
-                   BalloonSeedsRole(), BalloonSurfaceRole(), BalloonLabelMapRole() },
+                   FollowedScaleRole(), TissueTableRole(), EvolutionTableRole(), ShapeTableRole(), FoldTableRole(),
+                   EarTableRole(), EvolutionChartRole(), BalloonSeedsRole(), BalloonSurfaceRole(),
+                   BalloonLabelMapRole() },
                  "NodeRef");
 }
 
@@ -97,7 +98,14 @@ std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLSimplexMesherNode:
            { "minimumIslandVolume", &this->MinimumIslandVolume },
            { "minimumCavityVolume", &this->MinimumCavityVolume },
            { "featureScale", &this->FeatureScale },
+           { "smoothing", &this->Smoothing },
+           { "rigidity", &this->Rigidity },
+           { "continuity", Choice{ &this->Continuity, { "C0", "C1", "C2" } } },
            { "maximumDistance", &this->MaximumDistance },
+           { "proximityNear", &this->ProximityNear },
+           { "proximityFar", &this->ProximityFar },
+           { "chordError", &this->ChordError },
+           { "background", &this->Background },
            { "followThickness", &this->FollowThickness },
            { "gradation", &this->Gradation },
            { "threads", &this->Threads },
@@ -108,6 +116,13 @@ std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLSimplexMesherNode:
            { "balloonStops", stops },
            { "balloonLimit", &this->BalloonLimit },
            { "balloonRigidity", &this->BalloonRigidity } };
+}
+
+void vtkMRMLSimplexMesherNode::SetContinuity(int continuity)
+{
+  if (continuity == this->Continuity || continuity < 0 || continuity >= Continuity_Last) return;
+  this->Continuity = continuity;
+  this->Modified();
 }
 
 void vtkMRMLSimplexMesherNode::SetBalloonStops(const std::set<std::string>& ids)

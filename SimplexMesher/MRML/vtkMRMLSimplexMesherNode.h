@@ -30,6 +30,9 @@ public:
   static const char* FollowedScaleRole() { return "followedScale"; }       ///< scalar volume; none: not wanted
   static const char* TissueTableRole() { return "tissueTable"; }           ///< table: the report by tissue
   static const char* EvolutionTableRole() { return "evolutionTable"; }     ///< table: the report step by step
+  static const char* ShapeTableRole() { return "shapeTable"; }             ///< table: what is rough, folded, or hangs
+  static const char* FoldTableRole() { return "foldTable"; }               ///< table: the longest folds
+  static const char* EarTableRole() { return "earTable"; }                 ///< table: the largest ears
   static const char* EvolutionChartRole() { return "evolutionChart"; }     ///< plot of the latter
   static const char* BalloonSeedsRole() { return "balloonSeeds"; }         ///< list of points
   static const char* BalloonSurfaceRole() { return "balloonSurface"; }     ///< model; a new one where there is none
@@ -50,8 +53,32 @@ public:
   vtkSetMacro(MinimumCavityVolume, double);
   vtkGetMacro(FeatureScale, double);
   vtkSetMacro(FeatureScale, double);
+  vtkGetMacro(Smoothing, double); ///< voxels
+  vtkSetMacro(Smoothing, double);
+  vtkGetMacro(Rigidity, double);
+  vtkSetMacro(Rigidity, double);
+  /// What the internal force of the simplex mesh asks for.
+  enum ContinuityType
+  {
+    EvenEdges,     ///< C0
+    NoBend,        ///< C1
+    MeanCurvature, ///< C2
+    Continuity_Last
+  };
+  vtkGetMacro(Continuity, int);
+  void SetContinuity(int continuity);
   vtkGetMacro(MaximumDistance, double);
   vtkSetMacro(MaximumDistance, double);
+  /// Where the edge length is least, and where it is most; none is asked for where both are 0.
+  vtkGetMacro(ProximityNear, double);
+  vtkSetMacro(ProximityNear, double);
+  vtkGetMacro(ProximityFar, double);
+  vtkSetMacro(ProximityFar, double);
+  vtkGetMacro(ChordError, double);
+  vtkSetMacro(ChordError, double);
+  /// The label that the surroundings become a tissue with; 0 leaves them out.
+  vtkGetMacro(Background, int);
+  vtkSetMacro(Background, int);
   vtkGetMacro(FollowThickness, bool);
   vtkSetMacro(FollowThickness, bool);
   vtkBooleanMacro(FollowThickness, bool);
@@ -111,7 +138,14 @@ protected:
   double MinimumIslandVolume = 0;
   double MinimumCavityVolume = 0;
   double FeatureScale = 0;
+  double Smoothing = 0.7;
+  double Rigidity = 0.2;
+  int Continuity = MeanCurvature;
   double MaximumDistance = 0;
+  double ProximityNear = 0;
+  double ProximityFar = 0;
+  double ChordError = 0;
+  int Background = 0;
   bool FollowThickness = false;
   double Gradation = 0.3;
   int Threads = 0;

@@ -109,7 +109,7 @@ def main():
     sources, includes = ([os.path.abspath(f) for f in folders] for folders in (arguments.sources, arguments.include))
     files = [os.path.abspath(f) for f in arguments.files] or own_sources()
     paths = ("SURGICALMESHER_HOST", "SURGICALMESHER_LOADABLE_MODULES", "SURGICALMESHER_CLI_MODULES",
-             "SURGICALMESHER_TEST_FOLDER")
+             "SURGICALMESHER_SOURCES", "SURGICALMESHER_TEST_FOLDER")
     defines = [f'-D{p}=""' for p in paths] + [f"-D{d}" for d in arguments.define]
     failed = 0
     with tempfile.TemporaryDirectory() as stand_ins:

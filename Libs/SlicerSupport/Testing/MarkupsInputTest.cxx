@@ -95,7 +95,10 @@ int checkFile()
   const std::string file = std::string(SURGICALMESHER_TEST_FOLDER) + "/MarkupsInputTest.mrk.json";
   writeMarkups(lists, file);
   CHECK_BOOL(readMarkups(file) == lists, true); // to the last bit
-  writeLabelledMarkups({ { lists[0], { "a \"b\" \\", "ö" }, {} } }, file);
+  Markup named;
+  named.points = lists[0];
+  named.labels = { "a \"b\" \\", "ö" };
+  writeLabelledMarkups({ named }, file);
   CHECK_BOOL(readLabelledMarkups(file)[0].points == lists[0], true);
   CHECK_STD_STRING(readLabelledMarkups(file)[0].labels[0], "a \"b\" \\");
   CHECK_STD_STRING(readLabelledMarkups(file)[0].labels[1], "ö");

@@ -7,6 +7,7 @@
 #include "Panel.h"
 
 #include <ctkSliderWidget.h>
+#include <qMRMLTableView.h>
 
 #include <vtkMRMLColorTableNode.h>
 #include <vtkMRMLCoreTestingMacros.h>
@@ -35,7 +36,9 @@
 #include <QDoubleSpinBox>
 #include <QKeyEvent>
 #include <QRadioButton>
+#include <QSpinBox>
 
+#include <algorithm>
 #include <fstream>
 
 using namespace surgicalmesher;
@@ -60,6 +63,28 @@ int testSentencesAndFixes(Panel& panel)
   CHECK_BOOL(panel.child<QRadioButton>("EdgeLengthRadioButton")->isChecked(), true);
   CHECK_STD_STRING(panel.problem(), "");
   CHECK_BOOL(panel.child<QPushButton>("ApplyButton")->isEnabled(), true);
+  return EXIT_SUCCESS;
+}
+
+int testProximityAndSurroundings(Panel& panel)
+{
+  CHECK_DOUBLE(panel.child<ctkSliderWidget>("SmoothingSlider")->value(), 0.7);
+  CHECK_DOUBLE(panel.child<ctkSliderWidget>("RigiditySlider")->value(), 0.2);
+  CHECK_INT(panel.child<QComboBox>("ContinuityComboBox")->currentIndex(), 2);
+  CHECK_INT(panel.child<QComboBox>("ContinuityComboBox")->count(), 3);
+  auto* far = panel.child<QDoubleSpinBox>("ProximityFarSpinBox");
+  far->setValue(1.5);
+  CHECK_BOOL(panel.problem().find("proximity") != std::string::npos, true);
+  panel.press("FixButton");
+  CHECK_DOUBLE(panel.node()->GetProximityNear(), 1.5);
+  CHECK_STD_STRING(panel.problem(), "");
+  panel.child<QSpinBox>("BackgroundSpinBox")->setValue(1);
+  CHECK_BOOL(panel.problem().find("tumour") != std::string::npos, true);
+  panel.press("FixButton");
+  CHECK_INT(panel.node()->GetBackground(), 0);
+  CHECK_STD_STRING(panel.problem(), "");
+  for (const char* box : { "ProximityNearSpinBox", "ProximityFarSpinBox" })
+    panel.child<QDoubleSpinBox>(box)->setValue(0);
   return EXIT_SUCCESS;
 }
 
@@ -162,6 +187,97 @@ int testSameMesh(Panel& panel)
   return EXIT_SUCCESS;
 }
 
+/// Options of the surface's shape reach the command line, each with a value that isn't its default.
+int testSameShape(Panel& panel)
+{
+  const std::string folder = newFolder("SimplexMesherShapeTest");
+  auto* balls = vtkMRMLLabelMapVolumeNode::SafeDownCast(panel.node()->GetNodeReference(Node::TissueMapRole()));
+  const std::string map = savedByHost(balls, folder + "/map.nrrd");
+  const std::string names = savedByHost(balls->GetDisplayNode()->GetColorNode(), folder + "/names.ctbl");
+  std::ofstream(folder + "/tissues.csv") << "name,maximum,protected\ntumour,2,yes\n"; // of the run before
+  panel.child<ctkSliderWidget>("SmoothingSlider")->setValue(0.5);
+  panel.child<ctkSliderWidget>("RigiditySlider")->setValue(0.4);
+  panel.child<QComboBox>("ContinuityComboBox")->setCurrentIndex(1);
+  panel.child<QDoubleSpinBox>("ProximityNearSpinBox")->setValue(0.5);
+  panel.child<QDoubleSpinBox>("ProximityFarSpinBox")->setValue(1);
+  panel.child<QDoubleSpinBox>("ChordErrorSpinBox")->setValue(0.1);
+  panel.child<QSpinBox>("BackgroundSpinBox")->setValue(9);
+  CHECK_BOOL(panel.apply(), true);
+  CHECK_STD_STRING(panel.run->GetErrorText(), "");
+  runCommandLine("SimplexMesherCLI", { "--edgeLength",
+                                       "3",
+                                       "--names",
+                                       names,
+                                       "--tissues",
+                                       folder + "/tissues.csv",
+                                       "--smoothing",
+                                       "0.5",
+                                       "--rigidity",
+                                       "0.4",
+                                       "--continuity",
+                                       "1",
+                                       "--proximity",
+                                       "0.5,1",
+                                       "--chordError",
+                                       "0.1",
+                                       "--background",
+                                       "9",
+                                       map,
+                                       folder + "/surface.vtp" });
+  CHECK_STD_STRING(differenceOf(folder + "/surface.vtp", panel.node()->GetModelNode(Node::SurfaceRole())), "");
+  CHECK_INT(panel.node()->GetTableNode(Node::TissueTableRole())->GetNumberOfRows(), 3); // the surroundings are one
+  return EXIT_SUCCESS;
+}
+
+/// As a panel has them that nobody has touched.
+int testShapeAtDefaults(Panel& panel)
+{
+  const vtkNew<vtkMRMLSimplexMesherNode> fresh;
+  panel.node()->SetSmoothing(fresh->GetSmoothing());
+  panel.node()->SetRigidity(fresh->GetRigidity());
+  panel.node()->SetContinuity(fresh->GetContinuity());
+  panel.node()->SetProximityNear(0);
+  panel.node()->SetProximityFar(0);
+  panel.node()->SetChordError(0);
+  panel.node()->SetBackground(0);
+  CHECK_DOUBLE(panel.child<ctkSliderWidget>("SmoothingSlider")->value(), fresh->GetSmoothing());
+  CHECK_BOOL(panel.apply(), true);
+  CHECK_STD_STRING(panel.run->GetErrorText(), "");
+  return EXIT_SUCCESS;
+}
+
+int testShapeTables(Panel& panel)
+{
+  vtkMRMLTableNode* shape = panel.node()->GetTableNode(Node::ShapeTableRole());
+  CHECK_INT(shape->GetNumberOfRows(), 10); // three kinds of roughness, five reasons for folds, ears and free ones
+  CHECK_INT(shape->GetNumberOfColumns(), 5);
+  double folds = 0, rough = 0;
+  for (int row = 0; row < 8; ++row) (row < 3 ? rough : folds) += shape->GetTable()->GetValue(row, 1).ToDouble();
+  CHECK_BOOL(rough > 0, true); // a ball of voxels has single steps
+  vtkMRMLTableNode* longest = panel.node()->GetTableNode(Node::FoldTableRole());
+  CHECK_DOUBLE(double(longest->GetNumberOfRows()), std::min(20., folds));
+  CHECK_INT(longest->GetNumberOfColumns(), 7);
+  vtkMRMLTableNode* ears = panel.node()->GetTableNode(Node::EarTableRole());
+  CHECK_DOUBLE(double(ears->GetNumberOfRows()), std::min(20., shape->GetTable()->GetValue(8, 1).ToDouble()));
+  auto* tables = panel.child<QComboBox>("ReportTableComboBox");
+  CHECK_INT(tables->count(), 5);
+  tables->setCurrentIndex(2);
+  CHECK_POINTER(panel.child<qMRMLTableView>("ReportTableView")->mrmlTableNode(), shape);
+  return EXIT_SUCCESS;
+}
+
+/// Operations on the interface are among those on any edge.
+int testEvolutionTable(vtkTable* evolution)
+{
+  CHECK_INT(int(evolution->GetNumberOfColumns()), 15);
+  constexpr int t1 = 7, t7 = 9, collapses = 12;
+  for (vtkIdType step = 0; step < evolution->GetNumberOfRows(); ++step)
+    for (int column = t1; column <= t7; ++column)
+      CHECK_BOOL(
+        evolution->GetValue(step, column).ToInt() <= evolution->GetValue(step, column + collapses - t1).ToInt(), true);
+  return EXIT_SUCCESS;
+}
+
 int testNodesOfRun(Panel& panel)
 {
   vtkMRMLModelNode* surface = panel.node()->GetModelNode(Node::SurfaceRole());
@@ -185,6 +301,7 @@ int testNodesOfRun(Panel& panel)
   CHECK_INT(tissues->GetTable()->GetValue(1, 6).ToInt(), 1);                      // the ball in the shell: a cavity
   vtkMRMLTableNode* evolution = panel.node()->GetTableNode(Node::EvolutionTableRole());
   CHECK_BOOL(evolution->GetNumberOfRows() > 3, true);
+  CHECK_EXIT_SUCCESS(testEvolutionTable(evolution->GetTable()));
   CHECK_INT(panel.node()->GetNumberOfNodeReferences(Node::EvolutionChartRole()), 3);
   CHECK_POINTER(panel.node()->GetPlotChartNode(Node::EvolutionChartRole())->GetNthPlotSeriesNode(0)->GetTableNode(),
                 evolution);
@@ -283,7 +400,11 @@ int qSlicerSimplexMesherModuleWidgetTest(int, char*[])
   CHECK_EXIT_SUCCESS(testSentencesAndFixes(panel));
   CHECK_EXIT_SUCCESS(testTissueTable(panel));
   CHECK_EXIT_SUCCESS(testEditors(panel));
+  CHECK_EXIT_SUCCESS(testProximityAndSurroundings(panel));
   CHECK_EXIT_SUCCESS(testSameMesh(panel));
+  CHECK_EXIT_SUCCESS(testSameShape(panel));
+  CHECK_EXIT_SUCCESS(testShapeAtDefaults(panel));
+  CHECK_EXIT_SUCCESS(testShapeTables(panel));
   CHECK_EXIT_SUCCESS(testNodesOfRun(panel));
   CHECK_EXIT_SUCCESS(testTissueModels(panel));
   CHECK_EXIT_SUCCESS(testSegmentation(panel));

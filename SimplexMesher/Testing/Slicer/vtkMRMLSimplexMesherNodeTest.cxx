@@ -39,7 +39,14 @@ void fill(vtkMRMLSimplexMesherNode* node)
   node->SetMinimumIslandVolume(30);
   node->SetMinimumCavityVolume(5);
   node->SetFeatureScale(0.5);
+  node->SetSmoothing(0.9);
+  node->SetRigidity(0.35);
+  node->SetContinuity(Node::NoBend);
   node->SetMaximumDistance(1.25);
+  node->SetProximityNear(0.4);
+  node->SetProximityFar(2.5);
+  node->SetChordError(0.15);
+  node->SetBackground(77);
   node->FollowThicknessOn();
   node->SetGradation(0.4);
   node->SetThreads(3);
@@ -63,7 +70,14 @@ int checkFilled(vtkMRMLSimplexMesherNode* node)
   CHECK_DOUBLE(node->GetMinimumIslandVolume(), 30);
   CHECK_DOUBLE(node->GetMinimumCavityVolume(), 5);
   CHECK_DOUBLE(node->GetFeatureScale(), 0.5);
+  CHECK_DOUBLE(node->GetSmoothing(), 0.9);
+  CHECK_DOUBLE(node->GetRigidity(), 0.35);
+  CHECK_INT(node->GetContinuity(), Node::NoBend);
   CHECK_DOUBLE(node->GetMaximumDistance(), 1.25);
+  CHECK_DOUBLE(node->GetProximityNear(), 0.4);
+  CHECK_DOUBLE(node->GetProximityFar(), 2.5);
+  CHECK_DOUBLE(node->GetChordError(), 0.15);
+  CHECK_INT(node->GetBackground(), 77);
   CHECK_BOOL(node->GetFollowThickness(), true);
   CHECK_DOUBLE(node->GetGradation(), 0.4);
   CHECK_INT(node->GetThreads(), 3);
@@ -94,6 +108,7 @@ int checkSettings()
   fill(node);
   CHECK_EXIT_SUCCESS(checkFilled(node));
   events->ResetNumberOfEvents();
+  node->SetContinuity(Node::Continuity_Last); // there is no such
   node->SetTissueSettings(node->GetTissueSettings());
   CHECK_INT(events->GetTotalNumberOfEvents(), 0);
   node->SetTissueSetting("17", TissueSetting()); // as it is: forgotten
@@ -144,7 +159,8 @@ int checkSavedScene()
     R"(<MRML version="Slicer5.0.3" userTags=""><Model id="vtkMRMLModelNode1" name="surface"></Model>
 <SimplexMesher id="vtkMRMLSimplexMesherNode1" name="SimplexMesher" hideFromEditors="true"
  references="surface:vtkMRMLModelNode1;" useScale="false" edgeLength="3.123456789" minimumIslandVolume="30"
- minimumCavityVolume="5" featureScale="0.5" maximumDistance="1.25" followThickness="true" gradation="0.4" threads="3"
+ minimumCavityVolume="5" featureScale="0.5" smoothing="0.9" rigidity="0.35" continuity="C1" maximumDistance="1.25"
+ proximityNear="0.4" proximityFar="2.5" chordError="0.15" background="77" followThickness="true" gradation="0.4" threads="3"
  tissueModels="true" keepAmbient="false" report="false"
  tissues="17|leave||0|0|no|-1|-1;Segment_1%7C50%25%3B7C%2525 &amp; &quot;&lt;ä&gt;&quot;|)"
     R"(group|vessels%3B 'left' %7C 100 %25|0.5|3.25|yes|0|12;"
@@ -157,6 +173,28 @@ int checkSavedScene()
   return checkFilled(node);
 }
 
+/// A scene that was saved before there were a smooth boundary and its forces.
+int checkOlderScene()
+{
+  vtkNew<vtkMRMLScene> scene;
+  scene->RegisterNodeClass(vtkNew<vtkMRMLSimplexMesherNode>());
+  scene->SetLoadFromXMLString(1);
+  scene->SetSceneXMLString(
+    R"(<MRML version="Slicer5.0.3" userTags=""><SimplexMesher id="vtkMRMLSimplexMesherNode1" name="SimplexMesher"
+ hideFromEditors="true" useScale="false" edgeLength="3" maximumDistance="1.25"></SimplexMesher></MRML>)");
+  scene->Import();
+  auto* node = Node::SafeDownCast(scene->GetFirstNodeByClass("vtkMRMLSimplexMesherNode"));
+  CHECK_NOT_NULL(node);
+  CHECK_DOUBLE(node->GetMaximumDistance(), 1.25);
+  CHECK_DOUBLE(node->GetSmoothing(), 0.7);
+  CHECK_DOUBLE(node->GetRigidity(), 0.2);
+  CHECK_INT(node->GetContinuity(), Node::MeanCurvature);
+  CHECK_DOUBLE(node->GetProximityFar(), 0);
+  CHECK_DOUBLE(node->GetChordError(), 0);
+  CHECK_INT(node->GetBackground(), 0);
+  return EXIT_SUCCESS;
+}
+
 } // namespace
 
 int vtkMRMLSimplexMesherNodeTest(int, char*[])
@@ -166,5 +204,6 @@ int vtkMRMLSimplexMesherNodeTest(int, char*[])
   CHECK_EXIT_SUCCESS(checkSettings());
   CHECK_EXIT_SUCCESS(checkSceneRoundTrip());
   CHECK_EXIT_SUCCESS(checkSavedScene());
+  CHECK_EXIT_SUCCESS(checkOlderScene());
   return EXIT_SUCCESS;
 }

@@ -8,6 +8,7 @@
 #include "vtkMRMLSimplexMesherNode.h"
 #include "vtkSurgicalMesherRun.h"
 
+#include <vtkMRMLCommandLineModuleNode.h>
 #include <vtkMRMLCoreTestingMacros.h>
 #include <vtkMRMLLabelMapVolumeNode.h>
 #include <vtkMRMLModelNode.h>
@@ -19,6 +20,10 @@
 #include <vtkDataArray.h>
 #include <vtkPolyData.h>
 #include <vtkSegmentation.h>
+#include <vtkSlicerCLIModuleLogic.h>
+
+#include <string>
+#include <utility>
 
 using namespace surgicalmesher;
 using namespace surgicalmesher::test;
@@ -90,10 +95,48 @@ int testSettings(Logic* logic)
   return EXIT_SUCCESS;
 }
 
+/// Whoever leaves the panel as it is gets what the command line makes without options.
+int testDefaults(Logic* logic)
+{
+  auto* module = vtkSlicerCLIModuleLogic::SafeDownCast(logic->GetModuleLogic("SimplexMesherCLI"));
+  CHECK_NOT_NULL(module);
+  const auto line = vtkSmartPointer<vtkMRMLCommandLineModuleNode>::Take(module->CreateNode());
+  const auto number = [&](const char* name) { return std::stod(line->GetParameterAsString(name)); };
+  vtkNew<vtkMRMLSimplexMesherNode> node;
+  CHECK_DOUBLE(node->GetMinimumIslandVolume(), number("minimumIslandVolume"));
+  CHECK_DOUBLE(node->GetMinimumCavityVolume(), number("minimumCavityVolume"));
+  CHECK_DOUBLE(node->GetFeatureScale(), number("featureScale"));
+  CHECK_DOUBLE(node->GetSmoothing(), number("smoothing"));
+  CHECK_DOUBLE(node->GetRigidity(), number("rigidity"));
+  CHECK_DOUBLE(node->GetContinuity(), number("continuity"));
+  CHECK_DOUBLE(node->GetMaximumDistance(), number("maximumDistance"));
+  CHECK_DOUBLE(node->GetChordError(), number("chordError"));
+  CHECK_DOUBLE(node->GetGradation(), number("gradation"));
+  CHECK_DOUBLE(node->GetBackground(), number("background"));
+  CHECK_DOUBLE(node->GetThreads(), number("threads"));
+  CHECK_STD_STRING(line->GetParameterAsString("proximity"), "0,0");
+  CHECK_BOOL(node->GetProximityNear() == 0 && node->GetProximityFar() == 0, true);
+  return EXIT_SUCCESS;
+}
+
 int testProblems(Logic* logic)
 {
   vtkMRMLSimplexMesherNode* node = logic->ParameterNode();
   const std::vector<TissueRow> rows = listTissues(node->GetNodeReference(Node::TissueMapRole()));
+  CHECK_BOOL(logic->FindProblem(node, rows).problem == Logic::Problem::None, true);
+  for (const auto& [near, far] : { std::pair{ 0., 2. }, std::pair{ 2., 1. }, std::pair{ 2., 0. } })
+  {
+    node->SetProximityNear(near);
+    node->SetProximityFar(far);
+    CHECK_BOOL(logic->FindProblem(node, rows).problem == Logic::Problem::ProximityUnfit, true);
+    CHECK_BOOL(logic->FindProblem(node, {}).problem == Logic::Problem::None, true); // no matter to balloons
+  }
+  node->SetProximityFar(2);
+  CHECK_BOOL(logic->FindProblem(node, rows).problem == Logic::Problem::None, true);
+  node->SetBackground(3);
+  CHECK_BOOL(logic->FindProblem(node, rows).problem == Logic::Problem::LabelTaken, true);
+  CHECK_INT(logic->FindProblem(node, rows).tissue.label, 3);
+  node->SetBackground(5);
   CHECK_BOOL(logic->FindProblem(node, rows).problem == Logic::Problem::None, true);
   TissueSetting wrong;
   wrong.minimumEdgeLength = 3;
@@ -121,6 +164,7 @@ int vtkSlicerSimplexMesherLogicTest(int, char*[])
   Logic* logic = Logic::SafeDownCast(host.logic("SimplexMesher"));
   EXERCISE_BASIC_OBJECT_METHODS(logic);
   CHECK_EXIT_SUCCESS(testRows(host.scene()));
+  CHECK_EXIT_SUCCESS(testDefaults(logic));
   CHECK_EXIT_SUCCESS(testSettings(logic));
   CHECK_EXIT_SUCCESS(testProblems(logic));
   CHECK_STD_STRING(host.complaints(), "");
