@@ -109,6 +109,9 @@ Advice adviceOnClasses(const Logic::Check& check)
     return { Panel::tr("There is a distance at the target end of paths, but none at their entry."),
              Panel::tr("The same at the entry"),
              [](Node* p) { p->SetNullDisplacementPathDistance(p->GetNullDisplacementPathDistanceAtTarget()); } };
+  case Problem::NoNonlinearEntry:
+    return { Panel::tr("There is a nonlinear distance at the target end of paths, but no path, or none at its entry."),
+             Panel::tr("The same all along"), [](Node* p) { p->SetNonlinearDistanceAtTarget(0); } };
   default: return {};
   }
 }
@@ -149,7 +152,8 @@ Advice adviceOn(const Logic::Check& check, Logic* logic)
   case Problem::NoPaths:
   case Problem::NoPlaces:
   case Problem::NoDistance:
-  case Problem::NoEntryDistance: return adviceOnClasses(check);
+  case Problem::NoEntryDistance:
+  case Problem::NoNonlinearEntry: return adviceOnClasses(check);
   case Problem::OutputIsInput:
   case Problem::UnknownShell:
   case Problem::ShellsUnused:

@@ -127,12 +127,17 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindParameters()
   this->bind(this->TargetComboBox, Node::TargetRole());
   this->bind(this->PathComboBox, Node::PathRole());
   this->bind(this->NonlinearDistanceSlider, &Node::GetNonlinearDistance, &Node::SetNonlinearDistance);
+  this->bind(this->NonlinearDistanceAtTargetSlider, &Node::GetNonlinearDistanceAtTarget,
+             &Node::SetNonlinearDistanceAtTarget);
   this->bind(this->NullDisplacementRadiusSlider, &Node::GetNullDisplacementRadius, &Node::SetNullDisplacementRadius);
   this->bind(this->NullDisplacementPathDistanceSlider, &Node::GetNullDisplacementPathDistance,
              &Node::SetNullDisplacementPathDistance);
   this->bind(this->NullDisplacementPathDistanceAtTargetSlider, &Node::GetNullDisplacementPathDistanceAtTarget,
              &Node::SetNullDisplacementPathDistanceAtTarget);
   this->bind(this->ConditioningCheckBox, &Node::GetConditioning, &Node::SetConditioning);
+  this->bind(this->FeatureAngleSlider, &Node::GetFeatureAngle, &Node::SetFeatureAngle);
+  this->bind(this->ExportElementsComboBox, &Node::GetExportElements, &Node::SetExportElements);
+  this->bind(this->ExportUnitsComboBox, &Node::GetExportUnits, &Node::SetExportUnits);
   this->bind(this->ThreadsSpinBox, &Node::GetThreads, &Node::SetThreads);
 }
 

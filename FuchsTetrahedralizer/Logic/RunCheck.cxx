@@ -83,6 +83,8 @@ Check checkConstitutiveClasses(Parameters* parameters)
   if (rule.nullTargetRadius > 0 && rule.targets.empty()) return { Problem::NoTargets, nullptr, {} };
   if (rule.nullPathDistance > 0 && rule.paths.empty()) return { Problem::NoPaths, nullptr, {} };
   if (rule.nullPathDistanceAtTarget > 0 && rule.nullPathDistance == 0) return { Problem::NoEntryDistance, nullptr, {} };
+  if (rule.nonlinearDistanceAtTarget > 0 && (rule.nonlinearDistance == 0 || rule.paths.empty()))
+    return { Problem::NoNonlinearEntry, nullptr, {} };
   if (hasPlace && !hasDistance) return { Problem::NoDistance, nullptr, {} };
   return {};
 }

@@ -51,6 +51,7 @@ ConstitutiveRule ruleOf(Parameters* parameters)
   for (vtkMRMLNode* node : parameters->GetNodes(Parameters::PathRole()))
     rule.paths.push_back(markupsPath(vtkMRMLMarkupsNode::SafeDownCast(node)));
   rule.nonlinearDistance = parameters->GetNonlinearDistance();
+  rule.nonlinearDistanceAtTarget = parameters->GetNonlinearDistanceAtTarget();
   rule.nullTargetRadius = parameters->GetNullDisplacementRadius();
   rule.nullPathDistance = parameters->GetNullDisplacementPathDistance();
   rule.nullPathDistanceAtTarget = parameters->GetNullDisplacementPathDistanceAtTarget();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "vtkSlicerFuchsTetrahedralizerLogic.h"
 
+#include "CurvedSides.h"
 #include "Errors.h"
 #include "Export.h"
 #include "HostDifferences.h"
@@ -12,7 +13,9 @@
 #include "OutputFiles.h"
 #include "RunCheck.h"
 #include "RunInputs.h"
+#include "SecondOrder.h"
 #include "ShellChoices.h"
+#include "Units.h"
 #include "VolumeNodes.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 #include "vtkSurgicalMesherRun.h"
@@ -37,6 +40,7 @@
 #include <functional>
 #include <set>
 #include <sstream>
+#include <utility>
 
 using namespace surgicalmesher;
 using Parameters = vtkMRMLFuchsTetrahedralizerNode;
@@ -53,6 +57,16 @@ FiniteElementOptions optionsOf(Parameters* parameters, const TissueTable& tissue
     options.materials = readMaterialTable(parameters->GetMaterialsFile(), tissues, present);
   options.shells = shellChoices(shellTextsOf(parameters), tissues, present, parameters->GetShellThickness());
   return options;
+}
+
+/// With the elements and in the units that the parameters ask for.
+FiniteElementModel asExported(FiniteElementModel model, Parameters* parameters)
+{
+  const int elements = parameters->GetExportElements();
+  if (elements != Parameters::FourNodes) model = withMidSideNodes(std::move(model));
+  if (elements == Parameters::TenNodesCurved) model = withCurvedSides(std::move(model));
+  const bool isSI = parameters->GetExportUnits() == Parameters::SI;
+  return inUnits(std::move(model), isSI ? Units::SI : Units::Millimetres);
 }
 
 // ---- nodes for a run ------------------------------------------------------------------------------------------------
@@ -213,6 +227,7 @@ bool vtkSlicerFuchsTetrahedralizerLogic::Prepare(vtkMRMLFuchsTetrahedralizerNode
   if (parameters->GetModelNode(Parameters::ShellsRole()))
     this->Run->SetParameter("shell", parameters->GetShellTissues());
   this->Run->SetParameter("conditioning", parameters->GetConditioning());
+  this->Run->SetParameter("featureAngle", parameters->GetFeatureAngle());
   this->Run->SetParameter("threads", parameters->GetThreads());
   return true;
 }
@@ -252,6 +267,7 @@ void vtkSlicerFuchsTetrahedralizerLogic::PrepareConstitutiveClasses(vtkMRMLFuchs
   if (!rule.targets.empty()) this->Run->SetParameter("targets", fileOf({ rule.targets }));
   if (!rule.paths.empty()) this->Run->SetParameter("path", fileOf(rule.paths));
   this->Run->SetParameter("nonlinearDistance", rule.nonlinearDistance);
+  this->Run->SetParameter("nonlinearDistanceAtTarget", rule.nonlinearDistanceAtTarget);
   this->Run->SetParameter("nullDisplacementRadius", rule.nullTargetRadius);
   this->Run->SetParameter("nullDisplacementPathDistance", rule.nullPathDistance);
   this->Run->SetParameter("nullDisplacementPathDistanceAtTarget", rule.nullPathDistanceAtTarget);
@@ -445,7 +461,9 @@ std::string vtkSlicerFuchsTetrahedralizerLogic::Export(vtkMRMLFuchsTetrahedraliz
       if (!mesh) throw InputError("no mesh is chosen");
       const MeshFile content = meshOfModel(mesh);
       const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
-      const FiniteElementModel model = finiteElementModel(content, optionsOf(parameters, content.tissues, present));
+      requireOrder(file, parameters->GetExportElements() == Parameters::FourNodes ? 1 : 2);
+      const FiniteElementModel model =
+        asExported(finiteElementModel(content, optionsOf(parameters, content.tissues, present)), parameters);
       OutputFiles outputs;
       exportModel(model, file, [&outputs](const std::string& finalPath) { return outputs.temporary(finalPath); });
       outputs.commit();

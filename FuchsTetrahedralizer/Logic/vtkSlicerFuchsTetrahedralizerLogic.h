@@ -57,6 +57,7 @@ public:
     NoPlaces,            ///< a nonlinear distance is asked for, but neither target nor path is chosen
     NoDistance,          ///< targets or paths are chosen, but no distance from them
     NoEntryDistance,     ///< a distance at the target end of paths is asked for, but none at the entry
+    NoNonlinearEntry,    ///< the same of the nonlinear distance, or without a path
     UnknownShell,        ///< `text` is no tissue of the surface
     ShellsUnused,        ///< a model of shells is asked for, but no tissue becomes one
     BadMaterials         ///< `text` says what is wrong with the materials file

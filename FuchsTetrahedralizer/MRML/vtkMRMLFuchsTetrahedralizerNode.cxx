@@ -14,6 +14,8 @@ constexpr std::array<const char*, Node::EdgeLengthSource_Last> edgeLengthSources
 constexpr std::array<const char*, Node::ColorBy_Last> colors{ "tissue", "subMesh", "constitutiveClass",
                                                               "minimumDihedralAngle", "radiusRatio" };
 constexpr std::array<const char*, Node::ClipPlane_Last> planes{ "none", "axial", "sagittal", "coronal" };
+constexpr std::array<const char*, Node::ExportElements_Last> elements{ "fourNodes", "tenNodes", "tenNodesCurved" };
+constexpr std::array<const char*, Node::ExportUnits_Last> units{ "mm", "si" };
 
 } // namespace
 
@@ -36,11 +38,15 @@ std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLFuchsTetrahedraliz
            { "shellThickness", &this->ShellThickness },
            { "materialsFile", &this->MaterialsFile },
            { "nonlinearDistance", &this->NonlinearDistance },
+           { "nonlinearDistanceAtTarget", &this->NonlinearDistanceAtTarget },
            { "nullDisplacementRadius", &this->NullDisplacementRadius },
            { "nullDisplacementPathDistance", &this->NullDisplacementPathDistance },
            { "nullDisplacementPathDistanceAtTarget", &this->NullDisplacementPathDistanceAtTarget },
            { "conditioning", &this->Conditioning },
+           { "featureAngle", &this->FeatureAngle },
            { "threads", &this->Threads },
+           { "exportElements", choice(&this->ExportElements, elements) },
+           { "exportUnits", choice(&this->ExportUnits, units) },
            { "colorBy", choice(&this->ColorBy, colors) },
            { "clipPlane", choice(&this->ClipPlane, planes) },
            { "clipFlipped", &this->ClipFlipped },
@@ -51,6 +57,20 @@ void vtkMRMLFuchsTetrahedralizerNode::SetEdgeLengthSource(int source)
 {
   if (source < 0 || source >= EdgeLengthSource_Last || source == this->EdgeLengthSource) return;
   this->EdgeLengthSource = source;
+  this->Modified();
+}
+
+void vtkMRMLFuchsTetrahedralizerNode::SetExportElements(int elements)
+{
+  if (elements < 0 || elements >= ExportElements_Last || elements == this->ExportElements) return;
+  this->ExportElements = elements;
+  this->Modified();
+}
+
+void vtkMRMLFuchsTetrahedralizerNode::SetExportUnits(int units)
+{
+  if (units < 0 || units >= ExportUnits_Last || units == this->ExportUnits) return;
+  this->ExportUnits = units;
   this->Modified();
 }
 

@@ -50,6 +50,23 @@ public:
     ClipPlane_Last
   };
 
+  /// Tetrahedra in exports.
+  enum ExportElementsType
+  {
+    FourNodes,
+    TenNodes,       ///< with straight sides
+    TenNodesCurved, ///< that follow the boundaries of tissues
+    ExportElements_Last
+  };
+
+  /// As surgicalmesher::Units.
+  enum ExportUnitsType
+  {
+    Millimetres,
+    SI,
+    ExportUnits_Last
+  };
+
   /// Roles of the nodes referred to. Inputs:
   static const char* SurfaceRole() { return "surface"; } ///< a model with BoundaryLabels, or closed ones, in this order
   static const char* ScaleRole() { return "scale"; }     ///< scalar volume of edge lengths
@@ -87,6 +104,9 @@ public:
 
   vtkGetMacro(NonlinearDistance, double);
   vtkSetMacro(NonlinearDistance, double);
+  /// At the target end of paths; 0: as at their entry.
+  vtkGetMacro(NonlinearDistanceAtTarget, double);
+  vtkSetMacro(NonlinearDistanceAtTarget, double);
   vtkGetMacro(NullDisplacementRadius, double);
   vtkSetMacro(NullDisplacementRadius, double);
   vtkGetMacro(NullDisplacementPathDistance, double);
@@ -98,8 +118,16 @@ public:
   vtkGetMacro(Conditioning, bool);
   vtkSetMacro(Conditioning, bool);
   vtkBooleanMacro(Conditioning, bool);
+  /// Degrees; of surfaces from elsewhere.
+  vtkGetMacro(FeatureAngle, double);
+  vtkSetMacro(FeatureAngle, double);
   vtkGetMacro(Threads, int);
   vtkSetMacro(Threads, int);
+
+  vtkGetMacro(ExportElements, int);
+  void SetExportElements(int elements);
+  vtkGetMacro(ExportUnits, int);
+  void SetExportUnits(int units);
 
   vtkGetMacro(ColorBy, int);
   void SetColorBy(int colorBy);
@@ -128,11 +156,15 @@ protected:
   double ShellThickness = 1;
   std::string MaterialsFile;
   double NonlinearDistance = 0;
+  double NonlinearDistanceAtTarget = 0;
   double NullDisplacementRadius = 0;
   double NullDisplacementPathDistance = 0;
   double NullDisplacementPathDistanceAtTarget = 0;
   bool Conditioning = false;
+  double FeatureAngle = 40;
   int Threads = 0;
+  int ExportElements = FourNodes;
+  int ExportUnits = Millimetres;
   int ColorBy = Tissue;
   int ClipPlane = Coronal; // seen from in front, as by default, it shows the inside
   bool ClipFlipped = false;

@@ -120,6 +120,9 @@ int testParameterProblems(Panel& panel, const std::string& folder)
   node->SetNullDisplacementPathDistanceAtTarget(5);
   CHECK_PROBLEM(NoEntryDistance);
   node->SetNullDisplacementPathDistanceAtTarget(0);
+  node->SetNonlinearDistanceAtTarget(5);
+  CHECK_PROBLEM(NoNonlinearEntry);
+  node->SetNonlinearDistanceAtTarget(0);
   node->SetNode(Node::TargetRole(), addMarkups(scene, "vtkMRMLMarkupsFiducialNode", { { 0, 0, 0 } }));
   CHECK_FIXED(NoDistance);
   node->SetNode(Node::PathRole(), addMarkups(scene, "vtkMRMLMarkupsLineNode", { { 0, 0, 0 } }));

@@ -107,6 +107,10 @@ int testRun(Panel& panel, const MeshedBalls& balls, vtkMRMLScalarVolumeNode* sca
   runCommandLine("FuchsTetrahedralizerCLI", { "--scale", balls.scale, "--ambient", balls.ambient, "--childMesh", child,
                                               "--shell", "1", "--shell", "2:outside", "--shells", shells, "--export",
                                               balls.folder + "/cli.inp", balls.surface, balls.folder + "/mesh.vtu" });
+  runCommandLine("FuchsTetrahedralizerCLI",
+                 { "--scale", balls.scale, "--ambient", balls.ambient, "--shell", "1", "--shell", "2:outside",
+                   "--elementOrder", "2", "--curvedSides", "--units", "si", "--export", balls.folder + "/curved.inp",
+                   balls.surface, balls.folder + "/again.vtu" });
   vtkMRMLModelNode* mesh = panel.node->GetModelNode(Node::MeshRole());
   CHECK_STD_STRING(differenceOf(balls.folder + "/mesh.vtu", mesh), "");
   CHECK_STD_STRING(differenceOf(child, panel.node->GetModelNode(Node::ChildMeshRole())), "");
@@ -200,6 +204,13 @@ int testExport(Panel& panel, const MeshedBalls& balls)
              true);
   CHECK_BOOL(sameBytes(file, again), true);
   CHECK_BOOL(sameBytes(file + ".names.json", again + ".names.json"), true);
+  panel.child<QComboBox>("ExportElementsComboBox")->setCurrentIndex(2);
+  panel.child<QComboBox>("ExportUnitsComboBox")->setCurrentIndex(1);
+  const std::string curved = balls.folder + "/panel/curved.inp";
+  CHECK_STD_STRING(panel.logic->Export(panel.node, curved), "");
+  CHECK_BOOL(sameBytes(balls.folder + "/curved.inp", curved), true);
+  panel.node->SetExportElements(Node::FourNodes);
+  panel.node->SetExportUnits(Node::Millimetres);
   for (const Logic::Format& format : Logic::GetExportFormats())
     CHECK_STD_STRING(panel.logic->Export(panel.node, balls.folder + "/panel/all" + format.extension), "");
   CHECK_BOOL(panel.logic->Export(panel.node, balls.folder + "/panel/mesh.xyz").empty(), false);

@@ -25,11 +25,15 @@ void fill(Node* node)
   node->SetShellThickness(0.5);
   node->SetMaterialsFile("/data/materials of the head.csv");
   node->SetNonlinearDistance(25);
+  node->SetNonlinearDistanceAtTarget(8);
   node->SetNullDisplacementRadius(60);
   node->SetNullDisplacementPathDistance(40);
   node->SetNullDisplacementPathDistanceAtTarget(10);
   node->ConditioningOn();
+  node->SetFeatureAngle(55);
   node->SetThreads(3);
+  node->SetExportElements(Node::TenNodesCurved);
+  node->SetExportUnits(Node::SI);
   node->SetColorBy(Node::MinimumDihedralAngle);
   node->SetClipPlane(Node::Sagittal);
   node->ClipFlippedOn();
@@ -45,11 +49,15 @@ int checkFilled(Node* node)
   CHECK_DOUBLE(node->GetShellThickness(), 0.5);
   CHECK_STD_STRING(node->GetMaterialsFile(), "/data/materials of the head.csv");
   CHECK_DOUBLE(node->GetNonlinearDistance(), 25);
+  CHECK_DOUBLE(node->GetNonlinearDistanceAtTarget(), 8);
   CHECK_DOUBLE(node->GetNullDisplacementRadius(), 60);
   CHECK_DOUBLE(node->GetNullDisplacementPathDistance(), 40);
   CHECK_DOUBLE(node->GetNullDisplacementPathDistanceAtTarget(), 10);
   CHECK_BOOL(node->GetConditioning(), true);
+  CHECK_DOUBLE(node->GetFeatureAngle(), 55);
   CHECK_INT(node->GetThreads(), 3);
+  CHECK_INT(node->GetExportElements(), Node::TenNodesCurved);
+  CHECK_INT(node->GetExportUnits(), Node::SI);
   CHECK_INT(node->GetColorBy(), Node::MinimumDihedralAngle);
   CHECK_INT(node->GetClipPlane(), Node::Sagittal);
   CHECK_BOOL(node->GetClipFlipped(), true);
@@ -100,8 +108,10 @@ int testSavedScene()
 <FuchsTetrahedralizer id="vtkMRMLFuchsTetrahedralizerNode1" name="FuchsTetrahedralizer" hideFromEditors="true"
  references="surface:vtkMRMLModelNode1 vtkMRMLModelNode2;" edgeLengthSource="uniform" edgeLength="3.123456789"
  useAmbient="false" shellTissues="dura mater, &quot;falx&quot; &amp; &lt;tentorium&gt;:outside" shellThickness="0.5"
- materialsFile="/data/materials of the head.csv" nonlinearDistance="25" nullDisplacementRadius="60"
- nullDisplacementPathDistance="40" nullDisplacementPathDistanceAtTarget="10" conditioning="true" threads="3"
+ materialsFile="/data/materials of the head.csv" nonlinearDistance="25" nonlinearDistanceAtTarget="8"
+ nullDisplacementRadius="60"
+ nullDisplacementPathDistance="40" nullDisplacementPathDistanceAtTarget="10" conditioning="true" featureAngle="55" threads="3"
+ exportElements="tenNodesCurved" exportUnits="si"
  colorBy="minimumDihedralAngle" clipPlane="sagittal" clipFlipped="true"
  showEdges="false"></FuchsTetrahedralizer></MRML>)");
   CHECK_INT(scene->Import(), 1);
@@ -119,6 +129,8 @@ int testCopyAndRefusals()
   CHECK_EXIT_SUCCESS(checkFilled(copy));
   copy->SetEdgeLengthSource(17);
   copy->SetColorBy(-1);
+  copy->SetExportElements(Node::ExportElements_Last);
+  copy->SetExportUnits(-1);
   copy->SetClipPlane(Node::ClipPlane_Last);
   CHECK_EXIT_SUCCESS(checkFilled(copy));
   const char* unknown[] = { "colorBy", "no such thing", "threads", "many", nullptr };
