@@ -87,6 +87,8 @@ void qSlicerTissueMapperModuleWidgetPrivate::bindControls()
   this->bind(this->DenoiseCheckBox, &Node::GetDenoise, &Node::SetDenoise);
   this->bind(this->UseCompartmentsCheckBox, &Node::GetUseCompartments, &Node::SetUseCompartments);
   this->bind(this->UseContiguityCheckBox, &Node::GetUseContiguity, &Node::SetUseContiguity);
+  this->bind(this->UseProximityCheckBox, &Node::GetUseProximity, &Node::SetUseProximity);
+  this->onShow([this] { this->UseProximityCheckBox->setEnabled(this->Parameters->GetUseContiguity()); });
   this->onShow(
     [this]
     {

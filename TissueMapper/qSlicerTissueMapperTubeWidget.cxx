@@ -50,6 +50,9 @@ void qSlicerTissueMapperTubeWidgetPrivate::bindControls()
   this->bind(this->TubePathSelector, Node::TubePathRole());
   this->bind(this->TubeNameLineEdit, &QLineEdit::editingFinished, &Node::GetTubeName, &Node::SetTubeName);
   this->bindData(this->PolarityComboBox, &Node::GetPolarity, &Node::SetPolarity);
+  this->bindData(this->PotentialComboBox, &Node::GetTubePotential, &Node::SetTubePotential);
+  this->bind(this->SnapSpinBox, &Node::GetTubeSnap, &Node::SetTubeSnap);
+  this->bind(this->MarginSpinBox, &Node::GetTubeMargin, &Node::SetTubeMargin);
   this->bind(this->MinimumRadiusSpinBox, &Node::GetMinimumRadius, &Node::SetMinimumRadius);
   this->bind(this->MaximumRadiusSpinBox, &Node::GetMaximumRadius, &Node::SetMaximumRadius);
   this->bind(this->TraceAtOnceCheckBox, &Node::GetTraceAtOnce, &Node::SetTraceAtOnce);
@@ -113,6 +116,9 @@ qSlicerTissueMapperTubeWidget::qSlicerTissueMapperTubeWidget(QWidget* parent)
   d->PolarityComboBox->addItem(tr("as at the points"), "auto");
   d->PolarityComboBox->addItem(tr("brighter than around it"), "bright");
   d->PolarityComboBox->addItem(tr("darker than around it"), "dark");
+  d->PotentialComboBox->addItem(tr("axis of the tube (flux)"), "flux");
+  d->PotentialComboBox->addItem(tr("edges (gradient)"), "gradient");
+  d->PotentialComboBox->addItem(tr("brightness (intensity)"), "intensity");
   d->TubePlaceWidget->setButtonsVisible(false);
   d->TubePlaceWidget->placeButton()->setVisible(true);
   d->TubePlaceWidget->deleteButton()->setVisible(true);

@@ -128,6 +128,7 @@ void ClassificationTask::prepare(vtkMRMLTissueMapperNode* parameters)
   run->SetParameter("denoise", parameters->GetDenoise());
   run->SetParameter("noCompartments", m_Wanted == Tissues && !parameters->GetUseCompartments());
   run->SetParameter("noContiguity", !parameters->GetUseContiguity());
+  run->SetParameter("noProximity", !parameters->GetUseProximity());
   m_NamesFile = run->NewTemporaryFile(".ctbl");
   run->SetParameter("names", m_NamesFile);
   m_LabelMap.request(run, "labelMap", vtkSmartPointer<vtkMRMLLabelMapVolumeNode>::New());

@@ -101,6 +101,9 @@ void TubeTask::prepare(vtkMRMLTissueMapperNode* parameters)
   run->SetParameter("radius", text::rounded(parameters->GetMinimumRadius(), 12) + "," +
                                 text::rounded(parameters->GetMaximumRadius(), 12));
   run->SetParameter("polarity", parameters->GetPolarity());
+  run->SetParameter("potential", parameters->GetTubePotential());
+  run->SetParameter("snap", parameters->GetTubeSnap());
+  run->SetParameter("margin", parameters->GetTubeMargin());
   m_Name = tubeName(parameters);
   run->SetParameter("name", m_Name);
   m_PathFile = run->NewTemporaryFile(".mrk.json");

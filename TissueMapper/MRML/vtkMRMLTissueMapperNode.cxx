@@ -30,6 +30,7 @@ std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLTissueMapperNode::
            { "denoise", &this->Denoise },
            { "useCompartments", &this->UseCompartments },
            { "useContiguity", &this->UseContiguity },
+           { "useProximity", &this->UseProximity },
            { "compartmentsAtOnce", &this->CompartmentsAtOnce },
            { "targetRadius", &this->TargetRadius },
            { "registrationStart", &this->RegistrationStart },
@@ -37,6 +38,9 @@ std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLTissueMapperNode::
            { "minimumRadius", &this->MinimumRadius },
            { "maximumRadius", &this->MaximumRadius },
            { "polarity", &this->Polarity },
+           { "tubePotential", &this->TubePotential },
+           { "tubeSnap", &this->TubeSnap },
+           { "tubeMargin", &this->TubeMargin },
            { "traceAtOnce", &this->TraceAtOnce } };
 }
 

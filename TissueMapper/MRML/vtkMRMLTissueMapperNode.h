@@ -73,6 +73,9 @@ public:
   /// Whether contiguity and limits of the table count.
   vtkGetMacro(UseContiguity, bool);
   vtkSetMacro(UseContiguity, bool);
+  /// Whether what contiguity takes away goes only to classes that are near.
+  vtkGetMacro(UseProximity, bool);
+  vtkSetMacro(UseProximity, bool);
 
   /// Whether compartments follow the points and options at once.
   vtkGetMacro(CompartmentsAtOnce, bool);
@@ -98,6 +101,14 @@ public:
   /// "auto", "bright" or "dark".
   vtkGetMacro(Polarity, std::string);
   vtkSetMacro(Polarity, std::string);
+  /// "flux", "gradient" or "intensity": what the path follows.
+  vtkGetMacro(TubePotential, std::string);
+  vtkSetMacro(TubePotential, std::string);
+  /// mm; how far points may be moved onto the tube, and by how much the box that the path lies in is larger than theirs.
+  vtkGetMacro(TubeSnap, double);
+  vtkSetMacro(TubeSnap, double);
+  vtkGetMacro(TubeMargin, double);
+  vtkSetMacro(TubeMargin, double);
   /// Whether the path follows the points at once.
   vtkGetMacro(TraceAtOnce, bool);
   vtkSetMacro(TraceAtOnce, bool);
@@ -116,6 +127,7 @@ protected:
   bool Denoise = false;
   bool UseCompartments = true;
   bool UseContiguity = true;
+  bool UseProximity = true;
   bool CompartmentsAtOnce = false;
   double TargetRadius = 40;
   std::string RegistrationStart = "centre";
@@ -123,5 +135,8 @@ protected:
   double MinimumRadius = 0;
   double MaximumRadius = 0;
   std::string Polarity = "auto";
+  std::string TubePotential = "flux";
+  double TubeSnap = 2;
+  double TubeMargin = 30;
   bool TraceAtOnce = true;
 };

@@ -25,6 +25,7 @@ void fill(Node* node)
   node->SetDenoise(true);
   node->SetUseCompartments(false);
   node->SetUseContiguity(false);
+  node->SetUseProximity(false);
   node->SetCompartmentsAtOnce(true);
   node->SetTargetRadius(27.5);
   node->SetRegistrationStart("principal");
@@ -32,6 +33,9 @@ void fill(Node* node)
   node->SetMinimumRadius(0.75);
   node->SetMaximumRadius(3.5);
   node->SetPolarity("dark");
+  node->SetTubePotential("gradient");
+  node->SetTubeSnap(1.25);
+  node->SetTubeMargin(45);
   node->SetTraceAtOnce(false);
 }
 
@@ -43,6 +47,7 @@ int checkFilled(Node* node)
   CHECK_BOOL(node->GetDenoise(), true);
   CHECK_BOOL(node->GetUseCompartments(), false);
   CHECK_BOOL(node->GetUseContiguity(), false);
+  CHECK_BOOL(node->GetUseProximity(), false);
   CHECK_BOOL(node->GetCompartmentsAtOnce(), true);
   CHECK_DOUBLE(node->GetTargetRadius(), 27.5);
   CHECK_STD_STRING(node->GetRegistrationStart(), "principal");
@@ -50,6 +55,9 @@ int checkFilled(Node* node)
   CHECK_DOUBLE(node->GetMinimumRadius(), 0.75);
   CHECK_DOUBLE(node->GetMaximumRadius(), 3.5);
   CHECK_STD_STRING(node->GetPolarity(), "dark");
+  CHECK_STD_STRING(node->GetTubePotential(), "gradient");
+  CHECK_DOUBLE(node->GetTubeSnap(), 1.25);
+  CHECK_DOUBLE(node->GetTubeMargin(), 45);
   CHECK_BOOL(node->GetTraceAtOnce(), false);
   return EXIT_SUCCESS;
 }
