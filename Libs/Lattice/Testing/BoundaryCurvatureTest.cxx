@@ -15,11 +15,15 @@ using namespace test;
 
 TissueMap ball(double radius, const Vec3& spacing = { 1, 1, 1 })
 {
-  std::array<int, 3> size;
-  for (int a = 0; a < 3; ++a) size[a] = 2 * int(std::ceil(radius / spacing[a])) + 5;
+  std::array<int, 3> middle, size;
+  for (int a = 0; a < 3; ++a)
+  {
+    middle[a] = int(std::ceil(radius / spacing[a])) + 2;
+    size[a] = 2 * middle[a] + 1;
+  }
   const auto paint = [&](int i, int j, int k)
   {
-    const Vec3 p{ (i - size[0] / 2) * spacing.x, (j - size[1] / 2) * spacing.y, (k - size[2] / 2) * spacing.z };
+    const Vec3 p{ (i - middle[0]) * spacing.x, (j - middle[1]) * spacing.y, (k - middle[2]) * spacing.z };
     return norm(p) <= radius ? 1 : 0;
   };
   return paintedMap(size, paint, spacing);

@@ -106,12 +106,12 @@ TEST(SampleTransfer, thinsEvenly)
   constexpr double perTriangle = 3;
   const double share = perTriangle / (0.25 * std::sqrt(3.0) * edgeLength * edgeLength);
   transferSamples(lattice, map, map, length, { perTriangle });
-  constexpr int side = 10;
+  constexpr std::size_t side = 10;
   std::array<int, 36> counts{}; // on squares of the wall
+  const auto row = [](double x) { return std::size_t(x) / side; };
   for (const Sample& sample : lattice.background.samples)
-    if (sample.position.x == 19.5)
-      ++counts[std::size_t(int(sample.position.y) / side + 6 * (int(sample.position.z) / side))];
-  for (const int count : counts) EXPECT_NEAR(count, share * side * side, 0.15 * share * side * side);
+    if (sample.position.x == 19.5) ++counts[row(sample.position.y) + 6 * row(sample.position.z)];
+  for (const int count : counts) EXPECT_NEAR(count, share * double(side * side), 0.15 * share * double(side * side));
 }
 
 } // namespace
