@@ -53,9 +53,15 @@ KuhnLattice latticeOf(const TissueMap& map, const ScaleField& scale, const Sizin
   return lattice;
 }
 
+struct StartingMesh
+{
+  BackgroundMesh background; ///< does not know its neighbours
+  std::size_t faces = 0;     ///< between labels
+};
+
 /// That lattice, its samples with tolerances and its interface smooth.
-BackgroundMesh startingMesh(const TissueMap& map, const ScaleField& scale, const std::map<Label, double>& thickness,
-                            const SizingFunction& length, const TissueMesherOptions& options, const Progress& progress)
+StartingMesh startingMesh(const TissueMap& map, const ScaleField& scale, const std::map<Label, double>& thickness,
+                          const SizingFunction& length, const TissueMesherOptions& options, const Progress& progress)
 {
   const auto [shortest, longest] = std::minmax_element(scale.lengths.begin(), scale.lengths.end());
   KuhnLattice lattice = latticeOf(map, scale, length, options, progress);
@@ -64,7 +70,7 @@ BackgroundMesh startingMesh(const TissueMap& map, const ScaleField& scale, const
     { options.maximumDistance, options.features, options.proximity, *shortest, *longest, options.smoothing > 0 });
   if (options.smoothing > 0) moveToSmoothBoundary(lattice, map, options.smoothing);
   else smoothInterface(lattice, map.grid.spacing);
-  return std::move(lattice.background);
+  return { std::move(lattice.background), lattice.interfaceFaces.size() };
 }
 
 RemesherOptions remesherOptions(const TissueMesherOptions& options, double voxel)
@@ -92,12 +98,14 @@ class TissueRemesher
 {
 public:
   /// `map`: whose volumes tissues keep.
-  TissueRemesher(BackgroundMesh start, const TissueMap& map, const SizingFunction& length,
+  TissueRemesher(StartingMesh start, const TissueMap& map, const SizingFunction& length,
                  const TissueMesherOptions& options, const Progress& progress, std::size_t sweeps)
-    : m_Remesher(std::move(start), length, remesherOptions(options, map.grid.smallestSpacing()), progress, sweeps),
+    : m_Remesher(std::move(start.background), length, remesherOptions(options, map.grid.smallestSpacing()), progress,
+                 sweeps),
       m_Balance(balanceOf(map)), m_Balances(!isBounded(options))
   {
     m_Evolution.push_back(evolutionStep(m_Remesher.background(), "lattice", {}));
+    m_Evolution.back().faces = start.faces;
   }
 
   void run(const Sweep& sweep)

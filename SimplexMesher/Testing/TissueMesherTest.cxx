@@ -193,6 +193,7 @@ TEST_P(MeshedShape, IsSoundAndHasTheMapsTopology)
     const MeshedMap mesh = meshed(shape.map, uniformScale(GetParam()));
     EXPECT_EQ(faultOf(mesh, shape.map), "");
     ASSERT_FALSE(mesh.evolution.empty());
+    EXPECT_GT(mesh.evolution.front().faces, 0u);
     EXPECT_EQ(mesh.evolution.back().tetrahedra, withoutOutside(mesh.background.mesh).tetrahedra.size());
     if (GetParam() != 1.5) continue;
     EXPECT_EQ(faultOf(meshedInSteps(shape.map, uniformScale(GetParam())), shape.map), "");

@@ -129,6 +129,11 @@ def evolution(file):
         return [{key: float(value) for key, value in row.items() if key != "stage"} for row in csv.DictReader(stream)]
 
 
+def from_first_level(files):
+    """Without the lattice, whose faces are the voxels'."""
+    return evolution(files["evolution"])[1:]
+
+
 # ---- measures
 
 def read_polydata(file):
@@ -226,7 +231,7 @@ def measured(case_, files):
             result["near" + kind].append(distance[at <= 1.02 * low])
             result["excess"].append((distance / bounds).max())
     figures = {key: np.concatenate(value) for key, value in result.items() if key != "excess"}
-    steps = evolution(files["evolution"])
+    steps = from_first_level(files)
     return {"faces": len(points), "triangles": len(triangles), "tissues": len(tissues),
             "startFaces": int(max(step["faces"] for step in steps) / 2),
             "excess": max(result["excess"]), "T1": sum(s["T1"] for s in steps), "T2": sum(s["T2"] for s in steps),
@@ -265,7 +270,7 @@ def draw(case_, files, folder):
 
     surface = read_polydata(files["surface"])
     simplex = pictures.with_distance(read_polydata(files["simplex"]), surface)
-    steps = evolution(files["evolution"])[1:]
+    steps = from_first_level(files)
     shown = pictures.those(simplex, pictures.each_once(simplex, surface))
     panels = [("simplex mesh", pictures.picture(shown, *case_.view, by_distance=True)),
               ("its dual", pictures.picture(surface, *case_.view))]
