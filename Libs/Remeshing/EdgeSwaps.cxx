@@ -20,7 +20,7 @@ public:
 
   void run()
   {
-    static const double mediocre = sine2OfDegrees(45); // around better ones little is to be had
+    const double mediocre = sine2OfDegrees(60); // around better ones little is to be had
     for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
     {
       if (m_Complex.alive(t) && m_Operations.quality(t) < mediocre) swapEdgesOf(t);
@@ -29,8 +29,8 @@ public:
   }
 
 private:
-  static constexpr double usualSine = 0.7; // 45 degrees: fewer tetrahedra are as welcome as better ones
-  static constexpr double leastGain = 0.01;
+  static constexpr double usualSine = 0.75; // 49 degrees: fewer tetrahedra are as welcome as better ones
+  static constexpr double leastGain = 0.03;
 
   bool swap(std::int32_t t, std::int32_t a, std::int32_t b)
   {

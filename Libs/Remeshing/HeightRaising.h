@@ -17,7 +17,7 @@ struct HeightOptions
   int passes = 16;
 };
 
-/// Lowest first: merges one end of a short edge into the other, or moves vertices, where that raises the least height of
+/// Lowest first: merges one end of a short edge into the other, removes an edge, or moves vertices, where that raises the least height of
 /// all tetrahedra of tissues that change. Vertices of the interface move as far as the envelope allows.
 void raiseHeightsOfBlock(GuardedOperations& operations, const HeightOptions& options);
 

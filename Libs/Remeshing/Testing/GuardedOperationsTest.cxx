@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GuardedOperations.h"
 #include "ComplexInvariants.h"
+#include "MeshQuality.h"
 #include "RandomMaps.h"
 #include "Triangle.h"
 
@@ -80,6 +81,18 @@ TetComplex octahedron(const std::array<Label, 4>& labels, float tolerance = 0.5f
   return complexOf(mesh, 1, tolerance);
 }
 
+/// The ends of the edge within the octahedron.
+std::array<std::int32_t, 2> endsAlongX(const TetComplex& octahedron)
+{
+  std::array<std::int32_t, 2> ends{ -1, -1 };
+  for (std::int32_t v = 0; v < 6; ++v)
+  {
+    if (octahedron.points[v].x > 0) ends[0] = v;
+    if (octahedron.points[v].x < 0) ends[1] = v;
+  }
+  return ends;
+}
+
 TetComplex withoutSamples(const TetMesh& mesh)
 {
   return TetComplex(mesh.points, std::vector<float>(mesh.points.size(), 1), mesh.tetrahedra, mesh.labels);
@@ -115,7 +128,7 @@ Attempt attempt(GuardedOperations& operations, std::mt19937& random, const Attem
   a.minimumQuality = sine2OfDegrees(uniform(0.5, 15));
   const Vec3 from = c.points[a.u], to = c.points[a.v], middle = 0.5 * (from + to);
   const std::int32_t seed = tetrahedronAt(c, a.u, a.v);
-  const auto kind = random() % 6;
+  const auto kind = random() % 8;
   if (kind <= 1)
   {
     a.name = "collapse";
@@ -132,6 +145,15 @@ Attempt attempt(GuardedOperations& operations, std::mt19937& random, const Attem
   {
     a.name = "removeEdge";
     a.done = operations.removeEdge(a.u, a.v, seed, a.minimumQuality);
+  }
+  else if (kind == 6 || kind == 7)
+  {
+    a.name = kind == 6 ? "swapEdge" : "removeLowEdge";
+    std::vector<std::int32_t> ring, vertices;
+    const double good = a.minimumQuality;
+    if (c.ring(a.u, a.v, seed, ring, vertices)) a.minimumQuality = std::min(good, operations.worstQuality(ring));
+    a.done = kind == 6 ? operations.swapEdge(a.u, a.v, seed, { good, 0.5, 1, 0.01 })
+                       : operations.removeLowEdge(a.u, a.v, seed, good);
   }
   else if (kind == 4)
   {
@@ -838,12 +860,7 @@ TEST(EdgeRemoval, RefusesWhatQualityOrSamplesForbid)
   {
     TetComplex bent = complexOf(mesh, 1, tolerance);
     GuardedOperations operations(bent, unitScale);
-    std::int32_t a = -1, b = -1;
-    for (std::int32_t v = 0; v < 6; ++v)
-    {
-      if (bent.points[v].x > 0) a = v;
-      if (bent.points[v].x < 0) b = v;
-    }
+    const auto [a, b] = endsAlongX(bent);
     EXPECT_EQ(operations.removeEdge(a, b, tetrahedronAt(bent, a, b), anyQuality), tolerance > 0.1f);
   }
 }
@@ -863,6 +880,94 @@ TEST(EdgeRemoval, NeedsAPositiveTriangulationWhateverQualityIsAskedFor)
     EXPECT_FALSE(operations.removeEdge(0, 1, 0, -100)); // as beside a flat tetrahedron
     EXPECT_EQ(operations.counts().flips, 0);
   }
+}
+
+/// Sum over the tissues' tetrahedra of the sines of their worst angles, above `usualSine`.
+double sumOfSines(const TetComplex& c, double usualSine)
+{
+  double sum = 0;
+  for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
+    if (c.alive(t) && c.labels[t] != 0) sum += std::sqrt(std::max(0.0, c.quality(t))) - usualSine;
+  return sum;
+}
+
+double leastHeight(const TetComplex& c)
+{
+  double least = 1e9;
+  for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
+    if (const auto& x = c.tets[t]; c.alive(t) && c.labels[t] != 0)
+      least = std::min(least, leastHeight(c.points[x[0]], c.points[x[1]], c.points[x[2]], c.points[x[3]]));
+  return least;
+}
+
+TEST(EdgeSwap, HappensForALargerSumOfSinesAlone)
+{
+  constexpr double usualSine = 0.7, leastGain = 0.01;
+  int done = 0;
+  for (double width = 0.5; width < 2; width += 0.1)
+  {
+    SCOPED_TRACE(width);
+    const auto stretched = [&](int axis) // the edge lies along the first
+    {
+      TetMesh mesh = meshOf(octahedron({ 1, 1, 1, 1 }));
+      for (Vec3& p : mesh.points) p[axis] *= width;
+      return withoutSamples(mesh);
+    };
+    TetComplex complex = stretched(0);
+    const double before = sumOfSines(complex, usualSine), otherwise = sumOfSines(stretched(1), usualSine);
+    GuardedOperations operations(complex, unitScale);
+    const auto [a, b] = endsAlongX(complex);
+    const bool swapped =
+      operations.swapEdge(a, b, tetrahedronAt(complex, a, b), { anyQuality, usualSine, 0, leastGain });
+    EXPECT_EQ(swapped, otherwise > before + leastGain);
+    EXPECT_NEAR(sumOfSines(complex, usualSine), swapped ? otherwise : before, 1e-12);
+    EXPECT_TRUE(isConsistent(complex));
+    done += swapped;
+  }
+  EXPECT_GT(done, 3);
+  EXPECT_LT(done, 13);
+}
+
+TEST(EdgeSwap, BetweenTwoLabelsIsForAFlatterSheetToo)
+{
+  constexpr double moreThanSines = 5;
+  for (const double width : { 0.6, 1.6 })
+    for (const double smoothness : { 0, 10 })
+    {
+      SCOPED_TRACE(std::to_string(width) + " " + std::to_string(smoothness));
+      TetMesh mesh = meshOf(octahedron({ 1, 1, 2, 2 }));
+      for (Vec3& p : mesh.points)
+        if (p.x != 0) p = { width * p.x, p.y, -0.3 }; // the sheet folds along its edge, whose length this is
+      TetComplex complex = withoutSamples(mesh);
+      GuardedOperations operations(complex, unitScale);
+      const auto [a, b] = endsAlongX(complex);
+      const bool swapped =
+        operations.swapEdge(a, b, tetrahedronAt(complex, a, b), { anyQuality, 0.7, smoothness, moreThanSines });
+      EXPECT_EQ(swapped, width > 1 && smoothness > 0);
+      EXPECT_TRUE(isConsistent(complex));
+    }
+}
+
+TEST(EdgeRemoval, RaisesTheLeastHeightOrDoesNothing)
+{
+  int done = 0;
+  for (double width = 0.5; width < 2; width += 0.1)
+  {
+    TetMesh mesh = meshOf(octahedron({ 1, 1, 1, 1 }));
+    for (Vec3& p : mesh.points)
+    {
+      p.x *= width;
+      if (p.z > 0) p.z *= 0.8;
+    }
+    TetComplex complex = withoutSamples(mesh);
+    GuardedOperations operations(complex, unitScale);
+    const auto [a, b] = endsAlongX(complex);
+    const double before = leastHeight(complex);
+    const bool removed = operations.removeLowEdge(a, b, tetrahedronAt(complex, a, b), anyQuality);
+    EXPECT_EQ(leastHeight(complex) > before, removed);
+    done += removed;
+  }
+  EXPECT_GT(done, 3);
 }
 
 TEST(EdgeRemoval, RefusesAnEdgeOnTheBorder)

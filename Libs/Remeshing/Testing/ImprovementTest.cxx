@@ -2,6 +2,7 @@
 #include "Improvement.h"
 #include "Coarsening.h"
 #include "ComplexInvariants.h"
+#include "EdgeSwaps.h"
 #include "EvenLengths.h"
 #include "HeightRaising.h"
 #include "InterfaceRelabelling.h"
@@ -142,6 +143,39 @@ TEST(Heights, KeepEveryPromiseAndTheLeastRises)
   };
   expectPromisesKept(sine2OfDegrees(options.goodAngle), false, raise);
   EXPECT_GE(raised, 9);
+}
+
+TEST(EdgeSwaps, KeepEveryPromiseAndRaiseTheMeanAngle)
+{
+  const auto meanOf = [](const TetComplex& complex)
+  {
+    double sum = 0, count = 0;
+    for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+      if (complex.alive(t) && complex.labels[t] != 0) sum += std::sqrt(complex.quality(t)), ++count;
+    return sum / count;
+  };
+  const SwapOptions options;
+  int raised = 0;
+  const auto swap = [&](GuardedOperations& operations)
+  {
+    const double before = meanOf(operations.complex());
+    swapEdgesOfBlock(operations, options);
+    EXPECT_GT(operations.counts().flips, 0);
+    EXPECT_GE(meanOf(operations.complex()), before);
+    raised += meanOf(operations.complex()) > 1.02 * before;
+  };
+  expectPromisesKept(sine2OfDegrees(options.goodAngle), false, swap);
+  EXPECT_EQ(raised, 10);
+}
+
+TEST(EdgeSwaps, FindNothingMoreTheSecondTime)
+{
+  TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int, int, int) { return 1; })), 1.5f);
+  GuardedOperations operations(complex, scale);
+  swapEdgesOfBlock(operations);
+  const long flips = operations.counts().flips;
+  swapEdgesOfBlock(operations);
+  EXPECT_EQ(operations.counts().flips, flips);
 }
 
 TEST(Heights, AreLeftWhereTheyAreHighEnough)
