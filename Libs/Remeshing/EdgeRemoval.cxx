@@ -262,14 +262,24 @@ bool GuardedOperations::swapEdge(std::int32_t a, std::int32_t b, std::int32_t se
   double before = 0, least = goal.goodQuality;
   for (const std::int32_t t : m_Ring)
   {
-    least = std::min(least, quality(t));
-    before = measure.inLabel(m_Complex.labels[t]).with(before, std::max(0.0, m_Complex.quality(t)));
+    const double q = m_Complex.quality(t);
+    least = std::min(least, m_RingIsOnSheet ? quality(t) : q);
+    before = measure.inLabel(m_Complex.labels[t]).with(before, std::max(0.0, q));
   }
   const std::optional<double> after = fillRing(a, b, least, measure);
   if (!after) return false;
   double gain = *after - before;
   if (m_RingIsOnSheet) gain += goal.smoothness * flatterBy(a, b);
-  return gain > goal.leastGain && closeRing(a, b, least);
+  return gain > goal.leastGain && (!m_RingIsOnSheet || staysBroad(a, b)) && closeRing(a, b, least);
+}
+
+/// Whether both ends of the sheet's edge ab keep four triangles or more: with three left a vertex is a peak, which bends
+/// few edges.
+bool GuardedOperations::staysBroad(std::int32_t a, std::int32_t b)
+{
+  constexpr std::size_t broad = 4;
+  const auto trianglesAt = [&](std::int32_t v) { return m_Envelope.sheet(v, star(v)).faces.size(); };
+  return trianglesAt(a) > broad && trianglesAt(b) > broad;
 }
 
 /// How much less (radians times edge lengths, in units of the target) the sheet would be bent with its edge ab flipped.

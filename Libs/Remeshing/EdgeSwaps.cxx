@@ -20,7 +20,7 @@ public:
 
   void run()
   {
-    const double mediocre = sine2OfDegrees(60); // around better ones little is to be had
+    const double mediocre = sine2OfDegrees(44); // around better ones little is to be had
     for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
     {
       if (m_Complex.alive(t) && m_Operations.quality(t) < mediocre) swapEdgesOf(t);

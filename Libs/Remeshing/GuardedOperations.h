@@ -200,6 +200,7 @@ private:
   std::optional<double> fillRing(std::int32_t a, std::int32_t b, double minimumQuality, const Measure& measure);
   bool closeRing(std::int32_t a, std::int32_t b, double minimumQuality);
   bool mayFlipSheet(std::int32_t a, std::int32_t b, double minimumQuality);
+  bool staysBroad(std::int32_t a, std::int32_t b);
   double flatterBy(std::int32_t a, std::int32_t b) const;
   bool gatherCollapsingFaces(std::int32_t u, std::int32_t v, const Vec3& p);
   void place(std::int32_t v, const Vec3& p);

@@ -182,10 +182,11 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   remesher.balanceAndRun(improvementSweeps(targets, sizes));
   remesher.run(repairSweeps(targets, sizes));
   remesher.balanceAndRun(fittingSweeps(targets, sizes));
-  if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets, sizes));
   if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
+  if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets, sizes));
   remesher.run(secondRepairSweeps(targets, sizes));
-  if (targets.countsTriangles()) remesher.balanceAndRun({ finishLengths(targets, sizes) });
+  if (targets.countsTriangles())
+    remesher.balanceAndRun({ finishLengths(targets, sizes), finishLengths(targets, sizes) });
   MeshedMap result = std::move(remesher).result(targets.keptAngle);
   result.smoothed = smoothed.changes;
   return result;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Improvement.h"
+#include "Bending.h"
 #include "Coarsening.h"
 #include "ComplexInvariants.h"
 #include "EdgeSwaps.h"
@@ -166,6 +167,44 @@ TEST(EdgeSwaps, KeepEveryPromiseAndRaiseTheMeanAngle)
   };
   expectPromisesKept(sine2OfDegrees(options.goodAngle), false, swap);
   EXPECT_EQ(raised, 10);
+}
+
+/// Sum over the edges of two triangles of length times angle.
+double bendingOfInterface(const TetComplex& complex)
+{
+  const SurfaceComplex surface = interfaceOf(meshOf(complex));
+  std::map<std::array<std::int32_t, 2>, std::vector<std::int32_t>> apexes;
+  for (const auto& t : surface.triangles)
+    for (int k = 0; k < 3; ++k)
+    {
+      const auto [a, b] = std::minmax(t[k], t[(k + 1) % 3]);
+      apexes[{ a, b }].push_back(t[(k + 2) % 3]);
+    }
+  double sum = 0;
+  for (const auto& [ends, others] : apexes)
+  {
+    if (others.size() != 2) continue;
+    const Vec3 &from = surface.points[ends[0]], edge = surface.points[ends[1]] - from;
+    sum += norm(edge) * deflection(edge, surface.points[others[0]] - from, surface.points[others[1]] - from);
+  }
+  return sum;
+}
+
+TEST(EdgeSwaps, LeaveASheetFlatterIfAskedFor)
+{
+  const TissueMap halves = paintedMap({ 8, 8, 8 }, [](int, int, int k) { return k < 4 ? 1 : 2; });
+  std::mt19937 random(1);
+  const TetMesh rough = shaken(tetrahedraOf(halves), random, 0.35);
+  std::vector<double> after;
+  for (const double smoothness : { 0.0, 3.0 })
+  {
+    TetComplex complex = complexOf(rough, 1.5f, 0.4f);
+    GuardedOperations operations(complex, scale);
+    swapEdgesOfBlock(operations, { 5, smoothness });
+    ASSERT_TRUE(isConsistent(complex));
+    after.push_back(bendingOfInterface(complex));
+  }
+  EXPECT_LT(after[1], 0.97 * after[0]);
 }
 
 TEST(EdgeSwaps, FindNothingMoreTheSecondTime)
