@@ -181,6 +181,8 @@ private:
   /// To better than `before`, never falling to less than a share of it.
   bool moveTogether(const std::vector<std::int32_t>& vertices, double before, double dip)
   {
+    // Of what is not better by then, a tenth would come to be; that has another chance where edges are split, too.
+    const int hopeless = m_Options.split ? m_Options.together : 8;
     std::vector<std::pair<std::int32_t, Vec3>> moves;
     double after = worstAt(vertices);
     for (int round = 0; round < m_Options.together && after < m_Target; ++round)
@@ -190,6 +192,7 @@ private:
         if (const Vec3 p = m_Complex.points[v]; descend(v, dip * before)) moves.push_back({ v, p });
       if (moves.size() == soFar) break;
       after = worstAt(vertices);
+      if (round + 1 == hopeless && !(after > before)) break;
     }
     if (after > before * (1 + 1e-3))
     {
