@@ -159,15 +159,14 @@ class RejectionTest(unittest.TestCase):
 
 
 class ChoiceTest(unittest.TestCase):
-    def test_the_fastest_of_a_meshers_good_meshes_at_the_distance_is_chosen(self):
-        def row(hausdorff, error, iterations, mesher="a"):
-            return {"mesher": mesher, "hausdorff": hausdorff, "errors": {"5": error - 0.02, "10": error + 0.02},
-                    "iterations": iterations, "points": 10}
-        slow, fast, rough, far, other = row(8, 0.2, 90), row(8, 0.21, 50), row(8, 0.3, 10), row(9, 0.1, 1), row(8, 0.1, 1, "b")
-        rows = [slow, fast, rough, far, other, {"mesher": "a", "failed": "crash"}]
-        self.assertIs(evidence.chosen(rows, "a", (7, 8)), fast)
-        self.assertIs(evidence.chosen(rows, "a", (8.5, 9)), far)
-        self.assertEqual(evidence.chosen([row(8, 0.9, 1), row(8, 0.8, 2)], "a", (7, 8))["iterations"], 2)
+    def test_of_a_meshers_meshes_at_the_distance_the_one_with_the_least_of_the_largest_errors_is_chosen(self):
+        def row(hausdorff, small, large, setting, mesher="a"):
+            return {"mesher": mesher, "hausdorff": hausdorff, "errors": {"5": small, "10": large}, "setting": [setting]}
+        rows = [row(8, 0.1, 0.3, 1), row(8, 0.24, 0.25, 2), row(8, 0.3, 0.2, 3), row(9, 0.1, 0.1, 4),
+                row(8, 0.1, 0.1, 5, "b"), {"mesher": "a", "failed": "crash"}]
+        near, far = evidence.chosen(rows, "a", (7, 8)), evidence.chosen(rows, "a", (8.5, 9))
+        self.assertEqual((near["setting"], near["meshesThere"]), ([2], 3))
+        self.assertEqual((far["setting"], far["meshesThere"]), ([4], 1))
         self.assertIsNone(evidence.chosen(rows, "a", (1, 2)))
 
 

@@ -24,7 +24,7 @@ class BoxTest(unittest.TestCase):
         labels, affine = cut_out(np.s_[60:84, 90:114, 50:74])
         write_nrrd(run.path("box.nrrd"), labels, affine)
         inner = str(labels[12, 12, 12])
-        case = ["box", run.path("box.nrrd"), inner, "1,4,6,10", "-", "--minimumIslandVolume", "30"]
+        case = ["box", run.path("box.nrrd"), inner, "1,4,6,10", "-", "--minimumIslandVolume", "30", "--fine", "300"]
         records = [evidence.measured(list(case), mesher, run) for mesher in ("ours", "CGAL Mesh_3")]
         tissues = records[0]["tissues"]
         self.assertGreater(len(tissues), 5)
@@ -75,6 +75,17 @@ class MeasuresTest(unittest.TestCase):
         self.assertEqual(evidence.target_of("1,2,3", None, None), "1,2,3")
         affine = np.diag([-1.0, 1, 2, 1])
         self.assertEqual(evidence.target_of("2", self.labels, affine), "-7.500,5.500,11.000")
+
+    def test_small_tissues_get_the_least_length(self):
+        run = Programs(BIN, Parts(os.path.join(OUTDIR, "fine")).folder)
+        self.labels[0, 0, :3] = 5
+        options = ["--featureScale", "0.5", "--fine", "4", "--smoothing", "0"]
+        self.assertEqual(evidence.with_fine_tissues(options, run, self.labels, "1"),
+                         ["--featureScale", "0.5", "--tissues", "fine.csv", "--smoothing", "0"])
+        with open(run.path("fine.csv"), encoding="utf-8") as table:
+            self.assertEqual(table.read().split(), ["label,maximum", "5,1"])
+        self.assertEqual(evidence.with_fine_tissues(["--fine", "3"], run, self.labels, "1"), [])
+        self.assertEqual(evidence.with_fine_tissues(options[:2], run, self.labels, "1"), options[:2])
 
     def test_a_mesher_that_fails_has_a_row_that_says_so(self):
         folder = Parts(os.path.join(OUTDIR, "failing")).folder

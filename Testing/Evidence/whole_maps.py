@@ -5,8 +5,9 @@ usage: whole_maps.py BIN OUTDIR [--case NAME FILE TARGET MIN,MAX,RADIUS,DECAY NA
 
 BIN holds the three modules and Mesh3Driver. A case is a label map (.nii.gz, .nrrd), a target, which is a point x,y,z
 (LPS mm) or the middle of a label, the four lengths of SurgicalPathScaleCLI, a file of names (- for none), and options of
-SimplexMesherCLI. Without a case: the JHU atlas. Finished maps stay in OUTDIR and are not meshed again. Writes maps.md
-and maps.json; --document puts the tables into Docs/Evidence.md.
+SimplexMesherCLI; with --fine VOXELS among them, tissues of fewer voxels have edges of the least length. Without a case:
+the JHU atlas. Finished maps stay in OUTDIR and are not meshed again. Writes maps.md and maps.json; --document puts the
+tables into Docs/Evidence.md.
 """
 import argparse
 import os
@@ -122,14 +123,26 @@ def tissues_of(mesh, labels, affine):
     return result
 
 
+def with_fine_tissues(options, run, labels, length):
+    """The options, with a table of small tissues, whose edges are at most `length` (mm), in place of --fine VOXELS."""
+    if "--fine" not in options:
+        return options
+    at = options.index("--fine")
+    voxels = np.bincount(labels.ravel())
+    small = [label for label in range(1, len(voxels)) if 0 < voxels[label] < int(options[at + 1])]
+    with open(run.path("fine.csv"), "w", encoding="utf-8") as table:
+        table.write("\n".join(["label,maximum", *(f"{label},{length}" for label in small)]))
+    return options[:at] + (["--tissues", "fine.csv"] if small else []) + options[at + 2:]
+
+
 def mesh_by(mesher, run, scale, file, options):
-    """The mesh, from OUTDIR's prepared.nrrd for others."""
+    """The mesh; of others, of the map that ours prepared and at the scale that it followed."""
     if mesher == "ours":
-        run("SimplexMesherCLI", "--scale", "scale.nrrd", *options, "--preparedLabelMap", "prepared.nrrd", "--ambient",
-            "ambient.vtu", file, "surface.vtp")
+        run("SimplexMesherCLI", "--scale", "scale.nrrd", *options, "--preparedLabelMap", "prepared.nrrd",
+            "--followedScale", "followed.nrrd", "--ambient", "ambient.vtu", file, "surface.vtp")
         run("FuchsTetrahedralizerCLI", "--scale", "scale.nrrd", "--ambient", "ambient.vtu", "surface.vtp", "mesh.vtu")
         return read_mesh(run.path("mesh.vtu"))
-    run("Mesh3Driver", "prepared.nrrd", "scale.nrrd", "mesh3.vtu", "--perturb", "--exude", "--facetDistance",
+    run("Mesh3Driver", "prepared.nrrd", "followed.nrrd", "mesh3.vtu", "--perturb", "--exude", "--facetDistance",
         scale.split(",")[0])
     return read_mesh(run.path("mesh3.vtu"))
 
@@ -144,6 +157,7 @@ def measured(case, mesher, run):
         *(word for pair in lengths.items() for word in pair), file, "scale.nrrd")
     if mesher == "ours":
         options += [] if names == "-" else ["--names", os.path.abspath(names)]
+        options = with_fine_tissues(options, run, given, lengths["--minimumEdgeLength"])
     mesh = mesh_by(mesher, run, scale, file, options)
     seconds = run.seconds
     labels, affine = read_map(run.path("prepared.nrrd"))
@@ -168,12 +182,16 @@ def row_of(record):
         return [record["map"], record["mesher"], "no mesh: " + record["failed"]] + [""] * 7
     tissues = record["tissues"].values()
     large = [abs(tissue["volume"] - 1) for tissue in tissues if tissue["voxels"] > LARGE]
-    distances = [tissue["distance"] for tissue in tissues if np.isfinite(tissue["distance"])]
+    there = [tissue for tissue in tissues if np.isfinite(tissue["distance"])]
+    distances = [tissue["distance"] for tissue in there]
+    of_large = [tissue["distance"] for tissue in there if tissue["voxels"] > LARGE]
     given = len(tissues) + len(record["removed"])
-    return [record["map"], record["mesher"], f"{len(tissues)} of {given}" if record["removed"] else given, f"{record['tetrahedra']:,}",
+    return [record["map"], record["mesher"], f"{len(tissues)} of {given}" if record["removed"] else given,
+            f"{record['tetrahedra']:,}",
             f"{record['smallestDihedral']:.1f} .. {record['largestDihedral']:.1f}",
             sum(not tissue["right"] for tissue in tissues), sum(tissue["volume"] == 0 for tissue in tissues),
-            f"{np.median(large):.2%} / {max(large):.1%}", f"{np.median(distances):.2f} / {max(distances):.2f}",
+            f"{np.median(large):.2%} / {max(large):.1%}",
+            f"{np.median(distances):.2f} / {max(of_large):.2f} / {max(distances):.2f}",
             f"{record['seconds']:.0f}"]
 
 
@@ -200,7 +218,8 @@ def tables_of(records, names):
     return {
         "whole maps": document.table(
             ["map", "mesher", "tissues", "tetrahedra", "dihedral angles (°)", "wrong", "lost",
-             "volume of large tissues, median / worst", "mean distance, median / worst tissue (voxels)", "processor s"],
+             "volume of large tissues, median / worst", "mean distance, median / worst large / worst tissue (voxels)",
+             "processor s"],
             [row_of(record) for record in records]),
         "lost tissues": document.table(
             ["map", "mesher", f"tissues lost or off by more than {SPOILT:.0%} of their volume (of so many voxels)"],
