@@ -45,7 +45,6 @@ for number in 01 02 03 04 08; do # 85 is the optic chiasm
   case_of "head_$number" "head/head_$number.nii.gz" 85 1,4,10,25 "$names" --featureScale 0.5 --minimumIslandVolume 30 \
     --fine 1000
 done
-case_of head_01-8mm head/head_01.nii.gz 85 1,8,10,25 "$names" --featureScale 0.5 --minimumIslandVolume 30
 
 part=0
 evidence()
