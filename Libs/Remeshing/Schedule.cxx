@@ -313,6 +313,7 @@ struct VolumeRow
   double rmsLimit = 1;
   double tolerance = 1; ///< factor
   std::size_t polishes = 0;
+  bool swaps = true; ///< edges, before each polish
   PolishingOptions polishing = {};
   double angle = 0;     ///< aimed at; 0: no improvement
   int trials = 0;       ///< see ImprovementOptions
@@ -329,7 +330,7 @@ ConditionalSweep sweepOf(const VolumeRow& row)
   Stage stage{ { .rmsLimit = row.rmsLimit, .toleranceFactor = row.tolerance, .interfaceHeld = row.held }, {} };
   for (std::size_t n = 0; n < row.polishes; ++n)
   {
-    stage.passes.push_back(SwapEdges{});
+    if (row.swaps) stage.passes.push_back(SwapEdges{});
     stage.passes.push_back(Polish{ row.polishing });
   }
   if (row.angle > 0)
@@ -397,24 +398,35 @@ std::vector<ConditionalSweep> sweepsForRawMesh(double t, double smallestLength)
   return sweepsOf(rows);
 }
 
+namespace
+{
+
 /// The surface gives way only where no angle comes right without.
-std::vector<ConditionalSweep> sweepsForImprovedMesh(double t, double smallestLength)
+std::vector<ConditionalSweep> repairsOfImprovedMesh(double t, double smallestLength, bool swaps)
 {
   const PolishingOptions polishing{ .sparesWhole = true };
   std::vector<VolumeRow> rows = repairRows(t);
   // clang-format off
   rows.insert(rows.begin(), {
-    { .held = true, .polishes = 2, .polishing = polishing, .angle = t, .trials = 12, .worthwhileShare = always },
-    { .held = true, .polishes = 2, .polishing = polishing, .angle = t, .trials = 16, .worthwhileShare = always },
+    { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 12, .worthwhileShare = always },
+    { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 16, .worthwhileShare = always },
     { .rmsLimit = 0.8, .tolerance = 1.5, .angle = t, .trials = 20, .passes = 3, .whole = true },
   });
   // clang-format on
-  rows.push_back({ .tolerance = 4, .angle = t, .trials = 40, .passes = 6, .splitEdge = 0.2, .whole = true });
+  const VolumeRow last{ .tolerance = 4, .angle = t, .trials = 40, .passes = 6, .splitEdge = 0.2, .whole = true };
+  rows.insert(rows.end(), 2, last); // the second mends what the first has made room for
   rows.push_back(heightsRow(smallestLength));
   return sweepsOf(rows);
 }
 
-/// Only what tracing has cut is short: collapses leave the rest of the lattice alone.
+} // namespace
+
+std::vector<ConditionalSweep> sweepsForImprovedMesh(double t, double smallestLength)
+{
+  return repairsOfImprovedMesh(t, smallestLength, true);
+}
+
+/// Only what tracing has cut is short: collapses leave the rest of the lattice alone, and so do swaps.
 std::vector<ConditionalSweep> sweepsForCurves(double t, double smallestLength)
 {
   constexpr double shortEdge = 0.6, anyLevel = 1e9;
@@ -425,7 +437,7 @@ std::vector<ConditionalSweep> sweepsForCurves(double t, double smallestLength)
     const Stage stage{ { .rmsLimit = 1 }, { coarsen, improve(t, 12, 2) } };
     sweeps.push_back({ { "curves", { stage } }, always });
   }
-  const std::vector<ConditionalSweep> repairs = sweepsForImprovedMesh(t, smallestLength);
+  const std::vector<ConditionalSweep> repairs = repairsOfImprovedMesh(t, smallestLength, false);
   sweeps.insert(sweeps.end(), repairs.begin(), repairs.end());
   return sweeps;
 }
