@@ -296,7 +296,7 @@ std::size_t surfaceSweepCount(const MeshSizes& sizes)
   const MeshTargets& t = usualTargets;
   return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() +
          std::size_t(t.balanceRounds) + motionSweeps(t, sizes, Continuity::C2).size() +
-         proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + 1;
+         proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + 2;
 }
 
 // --- tetrahedral stage ----------------------------------------------------------------------------------------------
