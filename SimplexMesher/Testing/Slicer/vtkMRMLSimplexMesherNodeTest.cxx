@@ -40,7 +40,7 @@ void fill(vtkMRMLSimplexMesherNode* node)
   node->SetMinimumCavityVolume(5);
   node->SetFeatureScale(0.5);
   node->SetSmoothing(0.9);
-  node->SetRigidity(0.35);
+  node->SetRigidity(0.45);
   node->SetContinuity(Node::NoBend);
   node->SetMaximumDistance(1.25);
   node->SetProximityNear(0.4);
@@ -71,7 +71,7 @@ int checkFilled(vtkMRMLSimplexMesherNode* node)
   CHECK_DOUBLE(node->GetMinimumCavityVolume(), 5);
   CHECK_DOUBLE(node->GetFeatureScale(), 0.5);
   CHECK_DOUBLE(node->GetSmoothing(), 0.9);
-  CHECK_DOUBLE(node->GetRigidity(), 0.35);
+  CHECK_DOUBLE(node->GetRigidity(), 0.45);
   CHECK_INT(node->GetContinuity(), Node::NoBend);
   CHECK_DOUBLE(node->GetMaximumDistance(), 1.25);
   CHECK_DOUBLE(node->GetProximityNear(), 0.4);
@@ -159,7 +159,7 @@ int checkSavedScene()
     R"(<MRML version="Slicer5.0.3" userTags=""><Model id="vtkMRMLModelNode1" name="surface"></Model>
 <SimplexMesher id="vtkMRMLSimplexMesherNode1" name="SimplexMesher" hideFromEditors="true"
  references="surface:vtkMRMLModelNode1;" useScale="false" edgeLength="3.123456789" minimumIslandVolume="30"
- minimumCavityVolume="5" featureScale="0.5" smoothing="0.9" rigidity="0.35" continuity="C1" maximumDistance="1.25"
+ minimumCavityVolume="5" featureScale="0.5" smoothing="0.9" rigidity="0.45" continuity="C1" maximumDistance="1.25"
  proximityNear="0.4" proximityFar="2.5" chordError="0.15" background="77" followThickness="true" gradation="0.4" threads="3"
  tissueModels="true" keepAmbient="false" report="false"
  tissues="17|leave||0|0|no|-1|-1;Segment_1%7C50%25%3B7C%2525 &amp; &quot;&lt;ä&gt;&quot;|)"
@@ -187,7 +187,7 @@ int checkOlderScene()
   CHECK_NOT_NULL(node);
   CHECK_DOUBLE(node->GetMaximumDistance(), 1.25);
   CHECK_DOUBLE(node->GetSmoothing(), 0.7);
-  CHECK_DOUBLE(node->GetRigidity(), 0.2);
+  CHECK_DOUBLE(node->GetRigidity(), 0.35);
   CHECK_INT(node->GetContinuity(), Node::MeanCurvature);
   CHECK_DOUBLE(node->GetProximityFar(), 0);
   CHECK_DOUBLE(node->GetChordError(), 0);
