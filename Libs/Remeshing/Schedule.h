@@ -70,8 +70,8 @@ std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& siz
 std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// What resisted before may have got room.
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// After the last balance of volumes.
-Sweep finishLengths(const MeshTargets& targets, const MeshSizes& sizes);
+/// Lengths once more, at volumes that are balanced before each.
+std::vector<Sweep> finishingSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// How many sweeps there are at most.
 std::size_t surfaceSweepCount(const MeshSizes& sizes);
 

@@ -49,7 +49,8 @@ struct InterfaceFace
 /// In the order of the tetrahedra.
 std::vector<InterfaceFace> interfaceFaces(const TetMesh& mesh);
 
-/// The triangles of interfaceFaces(), in their order, wound so that the higher label is behind. `pointIds`, if given, receives for each point of the surface its id in the mesh, ascending.
+/// The triangles of interfaceFaces(), in their order, wound so that the higher label is behind. `pointIds`, if given,
+/// receives for each point of the surface its id in the mesh, ascending.
 SurfaceComplex interfaceOf(const TetMesh& mesh, std::vector<std::int32_t>* pointIds = nullptr);
 
 /// The tetrahedra of `mesh` with a label other than 0, and the points they use, both in the same order. `pointIds`, if

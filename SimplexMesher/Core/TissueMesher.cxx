@@ -185,8 +185,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
   if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets, sizes));
   remesher.run(secondRepairSweeps(targets, sizes));
-  if (targets.countsTriangles())
-    remesher.balanceAndRun({ finishLengths(targets, sizes), finishLengths(targets, sizes) });
+  if (targets.countsTriangles()) remesher.balanceAndRun(finishingSweeps(targets, sizes));
   MeshedMap result = std::move(remesher).result(targets.keptAngle);
   result.smoothed = smoothed.changes;
   return result;
