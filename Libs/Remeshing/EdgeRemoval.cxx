@@ -3,6 +3,7 @@
 #include "GuardedOperations.h"
 #include "MeshQuality.h"
 #include "TetQuality.h"
+#include "VertexSteps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -270,7 +271,14 @@ bool GuardedOperations::swapEdge(std::int32_t a, std::int32_t b, std::int32_t se
   if (!after) return false;
   double gain = *after - before;
   if (m_RingIsOnSheet) gain += goal.smoothness * flatterBy(a, b);
-  return gain > goal.leastGain && (!m_RingIsOnSheet || staysBroad(a, b)) && closeRing(a, b, least);
+  if (gain <= goal.leastGain || (m_RingIsOnSheet && !staysBroad(a, b))) return false;
+  return !(goal.sparesWhole && ringHasWhole()) && closeRing(a, b, least);
+}
+
+bool GuardedOperations::ringHasWhole()
+{
+  return std::any_of(m_RingVertices.begin(), m_RingVertices.end(),
+                     [&](std::int32_t v) { return isWhole(*this, v); });
 }
 
 /// Whether both ends of the sheet's edge ab keep four triangles or more: with three left a vertex is a peak, which bends

@@ -14,7 +14,8 @@ class EdgeSwaps
 public:
   EdgeSwaps(GuardedOperations& operations, const SwapOptions& options)
     : m_Operations(operations), m_Complex(operations.complex()), m_Goal{ sine2OfDegrees(options.goodAngle), usualSine,
-                                                                         options.smoothness, leastGain }
+                                                                         options.smoothness, leastGain,
+                                                                         options.sparesWhole }
   {
   }
 

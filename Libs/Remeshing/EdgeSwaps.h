@@ -14,6 +14,7 @@ struct SwapOptions
   double goodAngle = usualAngle; ///< degrees; a swap may lower the worst angle around its edge to this
   double smoothness = 3; ///< what a radian of bending along an edge of the target length counts beside the sine of an
                          ///< angle
+  bool sparesWhole = false; ///< keep the tetrahedra of vertices that are the lattice's: see isWhole
 };
 
 /// Removes each edge whose tetrahedra others with a larger sum of sines, above the usual one, can replace; between two

@@ -141,6 +141,7 @@ public:
     double usualSine;   ///< of a tetrahedron's worst angle
     double smoothness;  ///< what a radian of bending along an edge of the target length counts, in sines
     double leastGain;   ///< in sines
+    bool sparesWhole = false; ///< leave edges alone around which a vertex isWhole()
   };
   /// The same for the sum over the tetrahedra of the sines of their worst angles, over the usual one, and for the
   /// sheet's bending.
@@ -200,6 +201,7 @@ private:
   std::optional<double> fillRing(std::int32_t a, std::int32_t b, double minimumQuality, const Measure& measure);
   bool closeRing(std::int32_t a, std::int32_t b, double minimumQuality);
   bool mayFlipSheet(std::int32_t a, std::int32_t b, double minimumQuality);
+  bool ringHasWhole();
   bool staysBroad(std::int32_t a, std::int32_t b);
   double flatterBy(std::int32_t a, std::int32_t b) const;
   bool gatherCollapsingFaces(std::int32_t u, std::int32_t v, const Vec3& p);

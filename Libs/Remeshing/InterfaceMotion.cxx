@@ -2,6 +2,7 @@
 #include "InterfaceMotion.h"
 
 #include "TetQuality.h"
+#include "TissueOffsets.h"
 #include "VertexSteps.h"
 #include "VolumeOffsets.h"
 
@@ -162,14 +163,6 @@ private:
     return a < 0 ? Vec3{} : 0.5 * (x[a] + x[b]) - x[p];
   }
 
-  void step(std::int32_t v, const Vec3& way)
-  {
-    const Vec3 p = m_Complex.points[v];
-    const double floor = std::min(m_Least, m_Operations.qualityAt(v));
-    for (const double share : { 1.0, 0.5, 0.25 })
-      if (m_Operations.move(v, p + share * way, floor)) return;
-  }
-
   // ---- volumes
 
   std::map<Label, double> volumes() const
@@ -185,22 +178,6 @@ private:
     return result;
   }
 
-  /// A face at a vertex, seen from one of its labels.
-  struct Side
-  {
-    Label from, to;
-    Vec3 area; ///< vector, mm^2, from the one to the other
-  };
-
-  Side sideOf(const SheetFace& f) const
-  {
-    const auto at = [&](int k) { return m_Complex.points[f.vertices[k]]; };
-    const Vec3 area = 0.5 * cross(at(1) - at(0), at(2) - at(0));
-    const Vec3 inside = m_Complex.points[m_Complex.tets[f.tet][f.face]];
-    const Label from = m_Complex.labels[f.tet], to = m_Complex.labels[m_Complex.neighbours[f.tet][f.face]];
-    return { from, to, dot(area, inside - at(0)) > 0 ? -1.0 * area : area };
-  }
-
   /// Of the faces at free vertices, mm^2, by the labels on both sides.
   std::map<std::pair<Label, Label>, double> areas()
   {
@@ -210,7 +187,7 @@ private:
       if (m_Complex.locked[v]) continue;
       for (const SheetFace& f : m_Operations.sheet(v).faces)
       {
-        const Side side = sideOf(f);
+        const SheetSide side = sideOf(m_Complex, f);
         result[std::minmax(side.from, side.to)] += norm(side.area) / 3;
       }
     }
@@ -218,40 +195,22 @@ private:
   }
 
   /// How far (mm) each tissue's boundary has to go outwards for the volume that it had.
-  std::map<Label, double> offsets()
+  TissueOffsets offsets()
   {
     std::map<Label, double> lacking = m_Volumes;
     for (const auto& [label, volume] : volumes()) lacking[label] -= volume;
     return offsetsForVolumes(lacking, areas(), m_Options.farthest);
   }
 
-  /// Where the boundaries of the tissues at v, each offset, meet.
-  Vec3 meetingStep(std::int32_t v, const std::map<Label, double>& offset)
-  {
-    constexpr double spring = 0.05; // where all are nearly one plane
-    Quadric quadric;
-    for (const SheetFace& f : m_Operations.sheet(v).faces)
-    {
-      const Side side = sideOf(f);
-      const double size = norm(side.area);
-      const Vec3 n = side.area / size;
-      const double m[6] = { n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z };
-      for (int i = 0; i < 6; ++i) quadric.m[i] += size * m[i];
-      quadric.g += (offset.at(side.from) - offset.at(side.to)) * side.area;
-    }
-    quadric.addToDiagonal(spring * quadric.trace());
-    return quadric.solve(quadric.g);
-  }
-
   void balanceVolumes()
   {
-    std::map<Label, double> offset = offsets();
-    offset[0] = 0;
+    const TissueOffsets offset = offsets();
     for (const std::int32_t v : m_Dual.ids)
     {
       if (m_Complex.locked[v]) continue;
       const Vec3 p = m_Complex.points[v];
-      step(v, withinReach(v, p + meetingStep(v, offset)) - p);
+      const Vec3 way = meetingStep(m_Complex, m_Operations.sheet(v), offset);
+      moveAlong(m_Operations, v, withinReach(v, p + way) - p, std::min(m_Least, m_Operations.qualityAt(v)));
     }
   }
 

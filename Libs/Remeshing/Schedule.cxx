@@ -288,8 +288,13 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& siz
 
 std::vector<Sweep> finishingSweeps(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  constexpr std::size_t rounds = 2; // the second brings the worst tissue of jhu189 from 4.3 to 3.5 % of its volume
+  constexpr std::size_t rounds = 2;
   return std::vector<Sweep>(rounds, improvement(evenLengths(targets, sizes, targets.keptAngle)));
+}
+
+Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets)
+{
+  return improvement({ bounds(targets, 1), { OffsetTissues{ { std::move(offsets), targets.keptAngle } } } });
 }
 
 std::size_t surfaceSweepCount(const MeshSizes& sizes)
@@ -297,7 +302,8 @@ std::size_t surfaceSweepCount(const MeshSizes& sizes)
   const MeshTargets& t = usualTargets;
   return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() +
          std::size_t(t.balanceRounds) + motionSweeps(t, sizes, Continuity::C2).size() +
-         proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + finishingSweeps(t, sizes).size();
+         proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + finishingSweeps(t, sizes).size() +
+         offsetRounds;
 }
 
 // --- tetrahedral stage ----------------------------------------------------------------------------------------------
@@ -331,7 +337,7 @@ ConditionalSweep sweepOf(const VolumeRow& row)
   Stage stage{ { .rmsLimit = row.rmsLimit, .toleranceFactor = row.tolerance, .interfaceHeld = row.held }, {} };
   for (std::size_t n = 0; n < row.polishes; ++n)
   {
-    if (row.swaps) stage.passes.push_back(SwapEdges{});
+    if (row.swaps) stage.passes.push_back(SwapEdges{ { .sparesWhole = true } });
     stage.passes.push_back(Polish{ row.polishing });
   }
   if (row.angle > 0)

@@ -72,6 +72,9 @@ std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& 
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// Lengths once more, at volumes that are balanced before each.
 std::vector<Sweep> finishingSweeps(const MeshTargets& targets, const MeshSizes& sizes);
+constexpr std::size_t offsetRounds = 5; ///< vertices on borders of blocks have their turn in the next
+/// What tissues still lack of their volumes, by their boundaries themselves.
+Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets);
 /// How many sweeps there are at most.
 std::size_t surfaceSweepCount(const MeshSizes& sizes);
 

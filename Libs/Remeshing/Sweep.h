@@ -13,6 +13,7 @@
 #include "ProximitySplits.h"
 #include "Relaxation.h"
 #include "SpikeRemoval.h"
+#include "TissueOffsets.h"
 
 #include <string>
 #include <variant>
@@ -58,6 +59,10 @@ struct MeetProximity ///< meetProximityOfBlock
 {
   ProximityOptions options;
 };
+struct OffsetTissues ///< offsetTissuesOfBlock
+{
+  TissueOffsetOptions options;
+};
 struct RelabelInterface ///< relabelBlock
 {
   double keptAngle; ///< degrees
@@ -73,7 +78,7 @@ struct RemoveEars ///< removeEarsOfBlock
 };
 
 using Pass = std::variant<Coarsen, Relax, Polish, Improve, SwapEdges, RaiseHeights, EvenOut, MoveInterface,
-                          MeetProximity, RelabelInterface, RemoveSpikes, RemoveEars>;
+                          MeetProximity, OffsetTissues, RelabelInterface, RemoveSpikes, RemoveEars>;
 
 struct Stage
 {

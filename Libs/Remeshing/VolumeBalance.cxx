@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "VolumeBalance.h"
 
+#include "VolumeOffsets.h"
+
 #include <algorithm>
 
 namespace surgicalmesher
@@ -24,31 +26,46 @@ Vec3 normal(const TetMesh& mesh, std::int32_t t, int i)
 
 } // namespace
 
-void VolumeBalance::apply(BackgroundMesh& background)
+VolumeBalance::Lack VolumeBalance::lackOf(const BackgroundMesh& background) const
 {
   const TetMesh& mesh = background.mesh;
-  const auto& neighbours = background.neighbours;
-  std::vector<double> missing(labelCount), area(labelCount);
-  for (const auto& [label, volume] : m_Volumes) missing[label] = volume;
+  Lack lack{ m_Volumes, {} };
   for (std::int32_t t = 0; t < std::int32_t(mesh.tetrahedra.size()); ++t)
   {
     const Label label = mesh.labels[t];
-    missing[label] -=
+    lack.volumes[label] -=
       orient(corner(mesh, t, 0, 0), corner(mesh, t, 0, 1), corner(mesh, t, 0, 2), corner(mesh, t, 0, 3)) / 6;
     for (int i = 0; i < 4; ++i)
-      if (const std::int32_t n = neighbours[t][i]; n >= 0 && mesh.labels[n] != label)
-        area[label] += 0.5 * norm(normal(mesh, t, i));
+      if (const std::int32_t n = background.neighbours[t][i]; n >= 0 && mesh.labels[n] < label)
+        lack.areas[{ mesh.labels[n], label }] += 0.5 * norm(normal(mesh, t, i));
   }
+  return lack;
+}
+
+TissueOffsets VolumeBalance::offsets(const BackgroundMesh& background) const
+{
+  constexpr double gain = 1.3; // some vertices may not go where they should
+  Lack lack = lackOf(background);
+  for (auto& [label, volume] : lack.volumes) volume *= gain;
+  return offsetsForVolumes(lack.volumes, lack.areas, m_Most);
+}
+
+void VolumeBalance::apply(BackgroundMesh& background)
+{
+  const TetMesh& mesh = background.mesh;
+  const Lack lack = lackOf(background);
+  std::vector<double> area(labelCount);
+  for (const auto& [pair, size] : lack.areas) area[pair.first] += size, area[pair.second] += size;
   std::vector<double> steps(labelCount);
   for (const auto& [label, volume] : m_Volumes)
-    if (label != 0 && area[label] > 0) steps[label] = stepOf(label, missing[label] / area[label]);
+    if (label != 0 && area[label] > 0) steps[label] = stepOf(label, lack.volumes.at(label) / area[label]);
   for (auto& sample : background.samples)
   {
     const std::int32_t t = sample.tetrahedron;
     const int face = sample.face;
     Vec3 outward = normal(mesh, t, face);
     if (dot(outward, corner(mesh, t, face, 0) - corner(mesh, t, face, 1)) > 0) outward = -1.0 * outward;
-    const Label inside = mesh.labels[t], beyond = mesh.labels[neighbours[t][face]];
+    const Label inside = mesh.labels[t], beyond = mesh.labels[background.neighbours[t][face]];
     sample.position += (steps[inside] - steps[beyond]) / norm(outward) * outward;
   }
 }

@@ -3,8 +3,10 @@
 /// Keeps the volume of every tissue: smoothing and least squares cut corners, which takes from whatever is convex.
 
 #include "BackgroundMesh.h"
+#include "TissueOffsets.h"
 
 #include <map>
+#include <utility>
 
 namespace surgicalmesher
 {
@@ -23,7 +25,16 @@ public:
   /// most between two tissues. The mesh must know its neighbours.
   void apply(BackgroundMesh& background);
 
+  /// How far the boundaries themselves would have to go, of all tissues at once. The mesh must know its neighbours.
+  TissueOffsets offsets(const BackgroundMesh& background) const;
+
 private:
+  struct Lack
+  {
+    std::map<Label, double> volumes;                 ///< mm^3, of each tissue
+    std::map<std::pair<Label, Label>, double> areas; ///< mm^2, by the labels on both sides, each pair once
+  };
+  Lack lackOf(const BackgroundMesh& background) const;
   double stepOf(Label label, double lacking);
 
   double m_Most, m_Gain;

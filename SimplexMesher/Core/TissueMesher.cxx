@@ -127,6 +127,13 @@ public:
     }
   }
 
+  /// Moves the boundaries themselves for what tissues still lack.
+  void offsetTissues(const MeshTargets& targets)
+  {
+    for (std::size_t round = 0; m_Balances && round < offsetRounds; ++round)
+      run(offsetSweep(targets, m_Balance.offsets(m_Remesher.background())));
+  }
+
   bool hasUnresolvedFeatures() const { return surgicalmesher::hasUnresolvedFeatures(m_Remesher.background().mesh); }
   MeshedMap result(double targetAngle) &&
   {
@@ -186,6 +193,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets, sizes));
   remesher.run(secondRepairSweeps(targets, sizes));
   if (targets.countsTriangles()) remesher.balanceAndRun(finishingSweeps(targets, sizes));
+  remesher.offsetTissues(targets);
   MeshedMap result = std::move(remesher).result(targets.keptAngle);
   result.smoothed = smoothed.changes;
   return result;

@@ -13,6 +13,8 @@
 #include "Relaxation.h"
 #include "SpikeRemoval.h"
 #include "TetrahedraImprovement.h"
+#include "TissueOffsets.h"
+#include "VertexSteps.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
@@ -215,6 +217,69 @@ TEST(EdgeSwaps, FindNothingMoreTheSecondTime)
   const long flips = operations.counts().flips;
   swapEdgesOfBlock(operations);
   EXPECT_EQ(operations.counts().flips, flips);
+}
+
+/// Fuchs's lattice of one tissue, one vertex in five moved.
+TetMesh latticeWithFaults(std::mt19937& random)
+{
+  TetMesh mesh = tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int, int, int) { return 1; }));
+  for (Vec3& p : mesh.points) p -= (p.x + p.y + p.z) / 6 * Vec3{ 1, 1, 1 }; // half as long along the diagonal
+  const TetMesh moved = shaken(mesh, random, 0.3);
+  for (std::size_t v = 0; v < mesh.points.size(); ++v)
+    if (random() % 5 == 0) mesh.points[v] = moved.points[v];
+  return mesh;
+}
+
+std::vector<std::int32_t> wholeVertices(GuardedOperations& operations)
+{
+  std::vector<std::int32_t> result;
+  for (std::int32_t v = 0; v < std::int32_t(operations.complex().points.size()); ++v)
+    if (operations.complex().vertexTet[v] >= 0 && isWhole(operations, v)) result.push_back(v);
+  return result;
+}
+
+TEST(EdgeSwaps, SpareTheLatticesVerticesIfAskedFor)
+{
+  int lost = 0, flips = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed)
+    for (const bool spares : { true, false })
+    {
+      std::mt19937 random(seed);
+      TetComplex complex = complexOf(latticeWithFaults(random));
+      GuardedOperations operations(complex, scale);
+      const std::vector<std::int32_t> whole = wholeVertices(operations);
+      ASSERT_GT(whole.size(), 10u);
+      swapEdgesOfBlock(operations, { 5, 3, spares });
+      const auto isLost = [&](std::int32_t v) { return !isWhole(operations, v); };
+      if (!spares) lost += int(std::count_if(whole.begin(), whole.end(), isLost));
+      else EXPECT_TRUE(std::none_of(whole.begin(), whole.end(), isLost)) << "seed " << seed;
+      if (spares) flips += int(operations.counts().flips);
+    }
+  EXPECT_GT(flips, 0);
+  EXPECT_GT(lost, 0) << "nothing to spare";
+}
+
+TEST(TissueOffsets, KeepEveryPromise)
+{
+  const TissueOffsetOptions options{ { { 1, 0.1 }, { 2, -0.05 } } };
+  expectPromisesKept(sine2OfDegrees(options.goodAngle), false,
+                     [&](GuardedOperations& operations) { offsetTissuesOfBlock(operations, options); });
+}
+
+TEST(TissueOffsets, MoveAWallByTheDifference)
+{
+  const TissueMap halves = paintedMap({ 6, 6, 6 }, [](int, int, int k) { return k < 3 ? 1 : 2; });
+  TetComplex complex = complexOf(tetrahedraOf(halves), 1.5f, 0.4f);
+  const ComplexState before(complex);
+  GuardedOperations operations(complex, scale);
+  offsetTissuesOfBlock(operations, { { { 1, 0.05 }, { 2, -0.03 } } });
+  ASSERT_TRUE(isConsistent(complex));
+  for (std::size_t v = 0; v < before.points.size(); ++v)
+  {
+    const Vec3 p = before.points[v];
+    if (std::abs(p.z - 2.5) > 0.01 || std::max(std::abs(p.x - 2.5), std::abs(p.y - 2.5)) > 2.9) continue;
+    EXPECT_NEAR(complex.points[v].z - p.z, 0.08, 0.01); // a spring holds it a little
+  }
 }
 
 TEST(Heights, AreLeftWhereTheyAreHighEnough)

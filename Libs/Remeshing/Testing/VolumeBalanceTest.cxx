@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "VolumeBalance.h"
+#include "ComplexInvariants.h"
+#include "MeshQuality.h"
+#include "RandomMaps.h"
+#include "Remesher.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using namespace test;
+
+const SizingFunction unit = [](const Vec3&) { return 1.0f; };
+
+/// Three slabs side by side, without samples.
+BackgroundMesh slabs()
+{
+  BackgroundMesh background;
+  background.mesh = tetrahedraOf(paintedMap({ 6, 6, 9 }, [](int, int, int k) { return 1 + k / 3; }));
+  background.lengths.assign(background.mesh.points.size(), 1);
+  background.neighbours = faceAdjacency(background.mesh).across;
+  return background;
+}
+
+} // namespace
+
+TEST(VolumeBalance, OffsetsBringEveryTissueToItsVolume)
+{
+  std::map<Label, double> wanted = volumesOf(slabs().mesh);
+  wanted.erase(0);
+  wanted[1] *= 1.03, wanted[2] *= 0.95;
+  const VolumeBalance balance(wanted, 0.5, 1);
+  constexpr std::size_t rounds = 5;
+  Remesher remesher(slabs(), unit, {}, {}, rounds);
+  for (std::size_t round = 0; round < rounds; ++round)
+    remesher.run({ "offset", { { EnvelopeBounds(), { OffsetTissues{ { balance.offsets(remesher.background()) } } } } } });
+  const std::map<Label, double> volumes = volumesOf(remesher.background().mesh);
+  for (const auto& [label, volume] : wanted) EXPECT_NEAR(volumes.at(label) / volume, 1, 0.002) << "label " << label;
+}
+
+TEST(VolumeBalance, OffsetsAreBounded)
+{
+  const BackgroundMesh background = slabs();
+  std::map<Label, double> wanted = volumesOf(background.mesh);
+  wanted[2] *= 3;
+  for (const auto& [label, way] : VolumeBalance(wanted, 0.2, 1).offsets(background))
+    EXPECT_LE(std::abs(way), 0.2) << "label " << label;
+}
+
+} // namespace surgicalmesher
