@@ -19,6 +19,7 @@ struct RunPass
   void operator()(const Improve& pass) const { improveBlock(operations, pass.options); }
   void operator()(const SwapEdges& pass) const { swapEdgesOfBlock(operations, pass.options); }
   void operator()(const RaiseHeights& pass) const { raiseHeightsOfBlock(operations, pass.options); }
+  void operator()(const SoftenPairs& pass) const { softenPairsOfBlock(operations, pass.options); }
   void operator()(const EvenOut& pass) const { evenLengthsOfBlock(operations, pass.options); }
   void operator()(const MoveInterface& pass) const { moveInterfaceOfBlock(operations, pass.options); }
   void operator()(const MeetProximity& pass) const { meetProximityOfBlock(operations, pass.options); }

@@ -328,6 +328,7 @@ struct VolumeRow
   double splitEdge = 0; ///< 0: no splits
   bool whole = false;
   double worthwhileShare = 0;
+  bool softens = false;  ///< see SoftenPairs
   double height = 0;     ///< mm, see HeightOptions; 0: no heights are raised
   bool balanced = false; ///< see ConditionalSweep
 };
@@ -348,6 +349,7 @@ ConditionalSweep sweepOf(const VolumeRow& row)
                                       // Where many are bad, moving together costs more than all the rest.
                                       .together = row.splitEdge > 0 ? 20 : 0,
                                       .passes = row.passes } });
+  if (row.softens) stage.passes.push_back(SoftenPairs{});
   if (row.height > 0) stage.passes.push_back(RaiseHeights{ { .height = row.height } });
   return { { "improvement", { stage }, row.whole }, row.worthwhileShare, row.balanced };
 }
@@ -378,7 +380,7 @@ std::vector<VolumeRow> repairRows(double t)
 VolumeRow heightsRow(double smallestLength)
 {
   constexpr double share = 0.4; // the lattice has 0.82; more costs angles in lattices of one length
-  return { .tolerance = 4, .whole = true, .worthwhileShare = always, .height = share * smallestLength };
+  return { .tolerance = 4, .whole = true, .worthwhileShare = always, .softens = true, .height = share * smallestLength };
 }
 
 } // namespace

@@ -13,6 +13,7 @@
 #include "ProximitySplits.h"
 #include "Relaxation.h"
 #include "SpikeRemoval.h"
+#include "StiffPairs.h"
 #include "TissueOffsets.h"
 
 #include <string>
@@ -47,6 +48,10 @@ struct RaiseHeights ///< raiseHeightsOfBlock
 {
   HeightOptions options;
 };
+struct SoftenPairs ///< softenPairsOfBlock
+{
+  StiffPairOptions options;
+};
 struct EvenOut ///< evenLengthsOfBlock
 {
   EdgeLengthOptions options;
@@ -77,7 +82,7 @@ struct RemoveEars ///< removeEarsOfBlock
   std::size_t few; ///< tetrahedra
 };
 
-using Pass = std::variant<Coarsen, Relax, Polish, Improve, SwapEdges, RaiseHeights, EvenOut, MoveInterface,
+using Pass = std::variant<Coarsen, Relax, Polish, Improve, SwapEdges, RaiseHeights, SoftenPairs, EvenOut, MoveInterface,
                           MeetProximity, OffsetTissues, RelabelInterface, RemoveSpikes, RemoveEars>;
 
 struct Stage

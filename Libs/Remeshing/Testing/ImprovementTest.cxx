@@ -12,6 +12,7 @@
 #include "RandomMaps.h"
 #include "Relaxation.h"
 #include "SpikeRemoval.h"
+#include "StiffPairs.h"
 #include "TetrahedraImprovement.h"
 #include "TissueOffsets.h"
 #include "VertexSteps.h"
@@ -21,6 +22,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <stdexcept>
 #include <tuple>
 
@@ -219,11 +221,17 @@ TEST(EdgeSwaps, FindNothingMoreTheSecondTime)
   EXPECT_EQ(operations.counts().flips, flips);
 }
 
+/// Along the diagonal: Kuhn's lattice becomes Fuchs's.
+void halve(TetMesh& mesh)
+{
+  for (Vec3& p : mesh.points) p -= (p.x + p.y + p.z) / 6 * Vec3{ 1, 1, 1 };
+}
+
 /// Fuchs's lattice of one tissue, one vertex in five moved.
 TetMesh latticeWithFaults(std::mt19937& random)
 {
   TetMesh mesh = tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int, int, int) { return 1; }));
-  for (Vec3& p : mesh.points) p -= (p.x + p.y + p.z) / 6 * Vec3{ 1, 1, 1 }; // half as long along the diagonal
+  halve(mesh);
   const TetMesh moved = shaken(mesh, random, 0.3);
   for (std::size_t v = 0; v < mesh.points.size(); ++v)
     if (random() % 5 == 0) mesh.points[v] = moved.points[v];
@@ -257,6 +265,61 @@ TEST(EdgeSwaps, SpareTheLatticesVerticesIfAskedFor)
     }
   EXPECT_GT(flips, 0);
   EXPECT_GT(lost, 0) << "nothing to spare";
+}
+
+/// Of all pairs of neighbours in tissues.
+double largestPairEigenvalue(const TetComplex& complex)
+{
+  std::set<std::pair<std::int32_t, std::int32_t>> pairs;
+  for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+    if (complex.alive(t) && complex.labels[t] != 0)
+      for (const auto& [i, k] : kEdgeCorners) pairs.insert(std::minmax(complex.tets[t][i], complex.tets[t][k]));
+  double largest = 0;
+  for (const auto& [a, b] : pairs) largest = std::max(largest, pairEigenvalue(complex, a, b));
+  return largest;
+}
+
+TEST(StiffPairs, KeepEveryPromiseAndTheLargestEigenvalueFalls)
+{
+  const StiffPairOptions options;
+  int fallen = 0;
+  const auto soften = [&](GuardedOperations& operations)
+  {
+    const double before = largestPairEigenvalue(operations.complex());
+    softenPairsOfBlock(operations, options);
+    EXPECT_LE(largestPairEigenvalue(operations.complex()), before * (1 + 1e-9));
+    fallen += largestPairEigenvalue(operations.complex()) < 0.95 * before;
+  };
+  expectPromisesKept(sine2OfDegrees(options.goodAngle), false, soften);
+  EXPECT_GE(fallen, 8);
+}
+
+TEST(StiffPairs, AreMeasuredWhateverTheSizeOfElements)
+{
+  std::mt19937 random(1);
+  TetMesh mesh = shaken(tetrahedraOf(paintedMap({ 3, 3, 3 }, [](int, int, int) { return 1; })), random, 0.3);
+  const double value = largestPairEigenvalue(complexOf(mesh));
+  for (Vec3& p : mesh.points) p = 7.0 * p;
+  EXPECT_NEAR(largestPairEigenvalue(complexOf(mesh)), value, 1e-9 * value);
+  EXPECT_GT(value, 1);
+  EXPECT_LE(value, 6); // the trace
+}
+
+TEST(StiffPairs, AreNoneInsideTheLattice)
+{
+  TetMesh mesh = tetrahedraOf(paintedMap({ 4, 4, 4 }, [](int, int, int) { return 1; }));
+  halve(mesh);
+  const TetComplex complex = complexOf(mesh);
+  int inside = 0;
+  for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+    for (const auto& [i, k] : kEdgeCorners)
+    {
+      const std::int32_t a = complex.tets[t][i], b = complex.tets[t][k];
+      if (complex.labels[t] == 0 || complex.onInterface[a] || complex.onInterface[b]) continue;
+      EXPECT_LT(pairEigenvalue(complex, a, b), StiffPairOptions().eigenvalue);
+      ++inside;
+    }
+  EXPECT_GT(inside, 100);
 }
 
 TEST(TissueOffsets, KeepEveryPromise)

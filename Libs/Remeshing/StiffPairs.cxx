@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "StiffPairs.h"
+
+#include "LinearTetrahedron.h"
+#include "TetQuality.h"
+#include "VertexSteps.h"
+
+#include <vtkMath.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+using Block = std::array<std::array<double, 3>, 3>; ///< of the stiffness matrix
+
+void add(Block& sum, const Block& block, double factor)
+{
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) sum[i][k] += factor * block[i][k];
+}
+
+/// What a tetrahedron's corners a and b have to do with each other.
+Block stiffnessOf(const LinearTetrahedron& tetrahedron, int a, int b)
+{
+  static const LameConstants lame = lameConstants(1, 0.4);
+  const Vec3 &g = tetrahedron.gradients[a], &h = tetrahedron.gradients[b];
+  const double along = lame.mu * dot(g, h);
+  Block block;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      block[i][k] = tetrahedron.volume * (lame.lambda * g[i] * h[k] + lame.mu * g[k] * h[i] + (i == k ? along : 0));
+  return block;
+}
+
+/// With vertex v at p.
+LinearTetrahedron shapeOf(const TetComplex& complex, std::int32_t t, std::int32_t v = -1, const Vec3& p = {})
+{
+  std::array<Vec3, 4> corners;
+  const auto& x = complex.tets[t];
+  for (int i = 0; i < 4; ++i) corners[i] = x[i] == v ? p : complex.points[x[i]];
+  return linearTetrahedron(corners);
+}
+
+/// Of two vertices: their blocks on the diagonal, and what is between them.
+double largestEigenvalue(const Block& a, const Block& b, const Block& between, double least)
+{
+  double m[6][6], values[6], vectors[6][6];
+  double* rows[6];
+  double* columns[6];
+  double bound = 0;
+  for (int i = 0; i < 6; ++i)
+  {
+    rows[i] = m[i], columns[i] = vectors[i];
+    double sum = 0;
+    for (int k = 0; k < 6; ++k)
+    {
+      const auto at = [&](int r, int c)
+      { return r < 3 ? (c < 3 ? a[r][c] : between[r][c - 3]) : (c < 3 ? between[c][r - 3] : b[r - 3][c - 3]); };
+      m[i][k] = at(i, k) / std::sqrt(at(i, i) * at(k, k));
+      sum += std::abs(m[i][k]);
+    }
+    bound = std::max(bound, sum);
+  }
+  if (!(bound > least)) return bound;
+  vtkMath::JacobiN(rows, 6, values, columns);
+  return values[0];
+}
+
+class StiffPairs
+{
+public:
+  StiffPairs(GuardedOperations& operations, const StiffPairOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Good(sine2OfDegrees(options.goodAngle)), m_Diagonal(m_Complex.points.size())
+  {
+    for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
+      if (m_Complex.alive(t)) addDiagonals(t, 1);
+  }
+
+  void run()
+  {
+    for (const auto& [value, a, b] : stiffPairs())
+      for (const std::int32_t v : { a, b })
+        if (!m_Complex.locked[v]) soften(v);
+  }
+
+private:
+  struct Pair
+  {
+    double value;
+    std::int32_t a, b;
+  };
+  struct Neighbour
+  {
+    std::int32_t vertex;
+    Block own{}, between{};
+  };
+
+  void addDiagonals(std::int32_t t, double factor)
+  {
+    if (m_Complex.labels[t] == 0) return;
+    const LinearTetrahedron shape = shapeOf(m_Complex, t);
+    for (int i = 0; i < 4; ++i) add(m_Diagonal[m_Complex.tets[t][i]], stiffnessOf(shape, i, i), factor);
+  }
+
+  /// Fills m_Own and m_Neighbours with what the tetrahedra at v add, were it at p.
+  void gather(std::int32_t v, const Vec3& p)
+  {
+    m_Own = {};
+    m_Neighbours.clear();
+    for (const std::int32_t t : m_Operations.star(v))
+    {
+      if (m_Complex.labels[t] == 0) continue;
+      const LinearTetrahedron shape = shapeOf(m_Complex, t, v, p);
+      const auto& x = m_Complex.tets[t];
+      const int at = int(std::find(x.begin(), x.end(), v) - x.begin());
+      for (int i = 0; i < 4; ++i)
+      {
+        if (i == at) add(m_Own, stiffnessOf(shape, i, i), 1);
+        else
+        {
+          Neighbour& n = neighbour(x[i]);
+          add(n.own, stiffnessOf(shape, i, i), 1);
+          add(n.between, stiffnessOf(shape, at, i), 1);
+        }
+      }
+    }
+  }
+
+  Neighbour& neighbour(std::int32_t u)
+  {
+    const auto found =
+      std::find_if(m_Neighbours.begin(), m_Neighbours.end(), [&](const auto& n) { return n.vertex == u; });
+    if (found != m_Neighbours.end()) return *found;
+    m_Neighbours.push_back({ u });
+    return m_Neighbours.back();
+  }
+
+  /// Stiffest first.
+  std::vector<Pair> stiffPairs()
+  {
+    std::vector<Pair> pairs;
+    for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
+    {
+      if (m_Complex.vertexTet[v] < 0) continue;
+      gather(v, m_Complex.points[v]);
+      for (const Neighbour& n : m_Neighbours)
+      {
+        if (n.vertex < v) continue;
+        const double value = largestEigenvalue(m_Diagonal[v], m_Diagonal[n.vertex], n.between, m_Options.eigenvalue);
+        if (value > m_Options.eigenvalue) pairs.push_back({ value, v, n.vertex });
+      }
+    }
+    std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.value > y.value; });
+    return pairs;
+  }
+
+  /// Of the pairs at v, were it at p; the tetrahedra there are not in m_Diagonal.
+  double largestAt(std::int32_t v, const Vec3& p)
+  {
+    gather(v, p);
+    double largest = 0;
+    for (Neighbour& n : m_Neighbours)
+    {
+      add(n.own, m_Diagonal[n.vertex], 1);
+      largest = std::max(largest, largestEigenvalue(m_Own, n.own, n.between, largest));
+    }
+    return largest;
+  }
+
+  void soften(std::int32_t v)
+  {
+    const std::vector<std::int32_t> star = m_Operations.star(v);
+    for (const std::int32_t t : star) addDiagonals(t, -1);
+    descend(v);
+    for (const std::int32_t t : star) addDiagonals(t, 1);
+  }
+
+  Vec3 downhill(std::int32_t v, double now)
+  {
+    const Vec3 p = m_Complex.points[v];
+    const double h = 1e-4 * m_Complex.lengths[v];
+    Vec3 way;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Vec3 q = p;
+      q[axis] += h;
+      way[axis] = now - largestAt(v, q);
+    }
+    return way;
+  }
+
+  void descend(std::int32_t v)
+  {
+    const Vec3 start = m_Complex.points[v];
+    const double size = m_Complex.lengths[v], floor = std::min(m_Good, m_Operations.qualityAt(v));
+    double now = largestAt(v, start), step = 0.08 * size;
+    for (int trial = 0; trial < m_Options.trials && now > m_Options.eigenvalue && step > 0.01 * size; ++trial)
+    {
+      Vec3 way = trial % 2 == 1 ? m_Directions.next() : downhill(v, now);
+      if (const double length = norm(way); length > 0) way = way / length;
+      const Vec3 q = m_Complex.points[v] + step * way;
+      const bool moved =
+        norm(q - start) <= m_Options.reach * size && largestAt(v, q) < now && m_Operations.move(v, q, floor);
+      if (moved) now = largestAt(v, q);
+      step *= moved ? 1.3 : 0.8;
+    }
+  }
+
+  GuardedOperations& m_Operations;
+  const TetComplex& m_Complex;
+  const StiffPairOptions& m_Options;
+  const double m_Good;
+  std::vector<Block> m_Diagonal; ///< of each vertex
+  Block m_Own;
+  std::vector<Neighbour> m_Neighbours;
+  Directions m_Directions;
+};
+
+} // namespace
+
+double pairEigenvalue(const TetComplex& complex, std::int32_t a, std::int32_t b)
+{
+  Block own[2]{}, between{};
+  for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+  {
+    if (!complex.alive(t) || complex.labels[t] == 0) continue;
+    const LinearTetrahedron shape = shapeOf(complex, t);
+    const auto cornerOf = [&](std::int32_t v)
+    { return int(std::find(complex.tets[t].begin(), complex.tets[t].end(), v) - complex.tets[t].begin()); };
+    const int i = cornerOf(a), k = cornerOf(b);
+    if (i < 4) add(own[0], stiffnessOf(shape, i, i), 1);
+    if (k < 4) add(own[1], stiffnessOf(shape, k, k), 1);
+    if (i < 4 && k < 4) add(between, stiffnessOf(shape, i, k), 1);
+  }
+  return largestEigenvalue(own[0], own[1], between, 0);
+}
+
+void softenPairsOfBlock(GuardedOperations& operations, const StiffPairOptions& options)
+{
+  StiffPairs(operations, options).run();
+}
+
+} // namespace surgicalmesher

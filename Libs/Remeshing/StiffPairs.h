@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Pairs of neighbouring vertices that are stiff beside what else holds them: few and flat tetrahedra at the end of a
+/// short edge. After division by its diagonal, as the Jacobi preconditioner has it, the stiffness matrix has its largest
+/// eigenvalues there, a few hundred that each cost conjugate gradients an iteration or more.
+
+#include "GuardedOperations.h"
+
+namespace surgicalmesher
+{
+
+struct StiffPairOptions
+{
+  double eigenvalue = 1.95; ///< pairs with a larger one are worked on, one in two hundred
+  double goodAngle = 28.6;  ///< degrees; no dihedral angle falls below this, or falls if it is below
+  double reach = 0.15;      ///< share of L, of each vertex and pair
+  int trials = 12;          ///< positions tried for each vertex
+};
+
+/// Largest eigenvalue of the scaled stiffness of two vertices alone, all others held: of the 6 x 6 matrix of their rows
+/// and columns, divided by its diagonal. Linear elasticity with Poisson's ratio 0.4, tissues alike. Between 1 and 6.
+double pairEigenvalue(const TetComplex& complex, std::int32_t a, std::int32_t b);
+
+/// Stiffest first: moves both vertices of a pair, where that lowers the largest eigenvalue of all pairs there. Vertices of
+/// the interface move as far as the envelope allows.
+void softenPairsOfBlock(GuardedOperations& operations, const StiffPairOptions& options = {});
+
+} // namespace surgicalmesher
