@@ -277,8 +277,7 @@ bool GuardedOperations::swapEdge(std::int32_t a, std::int32_t b, std::int32_t se
 
 bool GuardedOperations::ringHasWhole()
 {
-  return std::any_of(m_RingVertices.begin(), m_RingVertices.end(),
-                     [&](std::int32_t v) { return isWhole(*this, v); });
+  return std::any_of(m_RingVertices.begin(), m_RingVertices.end(), [&](std::int32_t v) { return isWhole(*this, v); });
 }
 
 /// Whether both ends of the sheet's edge ab keep four triangles or more: with three left a vertex is a peak, which bends

@@ -13,9 +13,9 @@ class EdgeSwaps
 {
 public:
   EdgeSwaps(GuardedOperations& operations, const SwapOptions& options)
-    : m_Operations(operations), m_Complex(operations.complex()), m_Goal{ sine2OfDegrees(options.goodAngle), usualSine,
-                                                                         options.smoothness, leastGain,
-                                                                         options.sparesWhole }
+    : m_Operations(operations),
+      m_Complex(operations.complex()), m_Goal{ sine2OfDegrees(options.goodAngle), usualSine, options.smoothness,
+                                               leastGain, options.sparesWhole }
   {
   }
 

@@ -137,10 +137,10 @@ public:
 
   struct SwapGoal
   {
-    double goodQuality; ///< the worst quality may fall to this
-    double usualSine;   ///< of a tetrahedron's worst angle
-    double smoothness;  ///< what a radian of bending along an edge of the target length counts, in sines
-    double leastGain;   ///< in sines
+    double goodQuality;       ///< the worst quality may fall to this
+    double usualSine;         ///< of a tetrahedron's worst angle
+    double smoothness;        ///< what a radian of bending along an edge of the target length counts, in sines
+    double leastGain;         ///< in sines
     bool sparesWhole = false; ///< leave edges alone around which a vertex isWhole()
   };
   /// The same for the sum over the tetrahedra of the sines of their worst angles, over the usual one, and for the

@@ -328,7 +328,7 @@ struct VolumeRow
   double splitEdge = 0; ///< 0: no splits
   bool whole = false;
   double worthwhileShare = 0;
-  bool softens = false;  ///< see SoftenPairs
+  bool softens = false;  ///< pairs of vertices, first, within the tolerance as it is
   double height = 0;     ///< mm, see HeightOptions; 0: no heights are raised
   bool balanced = false; ///< see ConditionalSweep
 };
@@ -349,9 +349,10 @@ ConditionalSweep sweepOf(const VolumeRow& row)
                                       // Where many are bad, moving together costs more than all the rest.
                                       .together = row.splitEdge > 0 ? 20 : 0,
                                       .passes = row.passes } });
-  if (row.softens) stage.passes.push_back(SoftenPairs{});
   if (row.height > 0) stage.passes.push_back(RaiseHeights{ { .height = row.height } });
-  return { { "improvement", { stage }, row.whole }, row.worthwhileShare, row.balanced };
+  Sweep sweep{ "improvement", { stage }, row.whole };
+  if (row.softens) sweep.stages.insert(sweep.stages.begin(), { { .rmsLimit = 1 }, { SoftenPairs{} } });
+  return { std::move(sweep), row.worthwhileShare, row.balanced };
 }
 
 std::vector<ConditionalSweep> sweepsOf(const std::vector<VolumeRow>& rows)
@@ -380,7 +381,9 @@ std::vector<VolumeRow> repairRows(double t)
 VolumeRow heightsRow(double smallestLength)
 {
   constexpr double share = 0.4; // the lattice has 0.82; more costs angles in lattices of one length
-  return { .tolerance = 4, .whole = true, .worthwhileShare = always, .softens = true, .height = share * smallestLength };
+  return {
+    .tolerance = 4, .whole = true, .worthwhileShare = always, .softens = true, .height = share * smallestLength
+  };
 }
 
 } // namespace

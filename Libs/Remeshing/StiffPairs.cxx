@@ -199,11 +199,11 @@ private:
   {
     const Vec3 start = m_Complex.points[v];
     const double size = m_Complex.lengths[v], floor = std::min(m_Good, m_Operations.qualityAt(v));
+    const Quadric held = heldAt(m_Operations, v, m_Options.ease);
     double now = largestAt(v, start), step = 0.08 * size;
     for (int trial = 0; trial < m_Options.trials && now > m_Options.eigenvalue && step > 0.01 * size; ++trial)
     {
-      Vec3 way = trial % 2 == 1 ? m_Directions.next() : downhill(v, now);
-      if (const double length = norm(way); length > 0) way = way / length;
+      const Vec3 way = easiest(m_Operations, v, held, trial % 2 == 1 ? m_Directions.next() : downhill(v, now));
       const Vec3 q = m_Complex.points[v] + step * way;
       const bool moved =
         norm(q - start) <= m_Options.reach * size && largestAt(v, q) < now && m_Operations.move(v, q, floor);

@@ -11,10 +11,11 @@ namespace surgicalmesher
 
 struct StiffPairOptions
 {
-  double eigenvalue = 1.95; ///< pairs with a larger one are worked on, one in two hundred
+  double eigenvalue = 1.85; ///< pairs with a larger one are worked on, one in a hundred
   double goodAngle = 28.6;  ///< degrees; no dihedral angle falls below this, or falls if it is below
   double reach = 0.15;      ///< share of L, of each vertex and pair
-  int trials = 12;          ///< positions tried for each vertex
+  double ease = 0.02;       ///< see heldAt: surfaces lose their smoothness otherwise
+  int trials = 24;          ///< positions tried for each vertex
 };
 
 /// Largest eigenvalue of the scaled stiffness of two vertices alone, all others held: of the 6 x 6 matrix of their rows

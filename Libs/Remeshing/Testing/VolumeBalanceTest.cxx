@@ -39,7 +39,8 @@ TEST(VolumeBalance, OffsetsBringEveryTissueToItsVolume)
   constexpr std::size_t rounds = 5;
   Remesher remesher(slabs(), unit, {}, {}, rounds);
   for (std::size_t round = 0; round < rounds; ++round)
-    remesher.run({ "offset", { { EnvelopeBounds(), { OffsetTissues{ { balance.offsets(remesher.background()) } } } } } });
+    remesher.run(
+      { "offset", { { EnvelopeBounds(), { OffsetTissues{ { balance.offsets(remesher.background()) } } } } } });
   const std::map<Label, double> volumes = volumesOf(remesher.background().mesh);
   for (const auto& [label, volume] : wanted) EXPECT_NEAR(volumes.at(label) / volume, 1, 0.002) << "label " << label;
 }
