@@ -246,14 +246,21 @@ int testShapeAtDefaults(Panel& panel)
   return EXIT_SUCCESS;
 }
 
+/// Of the rows from `first` to the one before `end`.
+double sumOfCounts(vtkMRMLTableNode* shape, int first, int end)
+{
+  double sum = 0;
+  for (int row = first; row < end; ++row) sum += shape->GetTable()->GetValue(row, 1).ToDouble();
+  return sum;
+}
+
 int testShapeTables(Panel& panel)
 {
   vtkMRMLTableNode* shape = panel.node()->GetTableNode(Node::ShapeTableRole());
   CHECK_INT(shape->GetNumberOfRows(), 10); // three kinds of roughness, five reasons for folds, ears and free ones
   CHECK_INT(shape->GetNumberOfColumns(), 5);
-  double folds = 0, rough = 0;
-  for (int row = 0; row < 8; ++row) (row < 3 ? rough : folds) += shape->GetTable()->GetValue(row, 1).ToDouble();
-  CHECK_BOOL(rough > 0, true); // a ball of voxels has single steps
+  CHECK_DOUBLE(sumOfCounts(shape, 0, 3), 0); // smoothing takes nothing from the balls
+  const double folds = sumOfCounts(shape, 3, 8);
   vtkMRMLTableNode* longest = panel.node()->GetTableNode(Node::FoldTableRole());
   CHECK_DOUBLE(double(longest->GetNumberOfRows()), std::min(20., folds));
   CHECK_INT(longest->GetNumberOfColumns(), 7);
@@ -370,6 +377,23 @@ int testSegmentation(Panel& panel)
   return EXIT_SUCCESS;
 }
 
+/// A ball with two voxels that stick out, which smoothing takes away as an ear.
+int testRoughness(Panel& panel)
+{
+  const auto labelAt = [](const Point& p)
+  {
+    const bool isEar = p[0] > 10 && p[0] < 12 && p[1] > 0 && p[1] < 1 && p[2] > 0 && p[2] < 1;
+    return isEar || p[0] * p[0] + p[1] * p[1] + p[2] * p[2] < 100 ? 2 : 0;
+  };
+  panel.choose("TissueMapSelector", addLabelMap(panel.host.scene(), "Rough", 26, 1, labelAt));
+  CHECK_BOOL(panel.apply(), true);
+  CHECK_STD_STRING(panel.run->GetErrorText(), "");
+  vtkMRMLTableNode* shape = panel.node()->GetTableNode(Node::ShapeTableRole());
+  CHECK_DOUBLE(sumOfCounts(shape, 1, 2), 1);
+  CHECK_INT(shape->GetTable()->GetValue(1, 2).ToInt(), 2); // voxels
+  return EXIT_SUCCESS;
+}
+
 int testSceneRestoresPanel(Panel& panel)
 {
   const std::string file = newFolder("SimplexMesherSceneTest") + "/scene.mrml";
@@ -408,6 +432,7 @@ int qSlicerSimplexMesherModuleWidgetTest(int, char*[])
   CHECK_EXIT_SUCCESS(testNodesOfRun(panel));
   CHECK_EXIT_SUCCESS(testTissueModels(panel));
   CHECK_EXIT_SUCCESS(testSegmentation(panel));
+  CHECK_EXIT_SUCCESS(testRoughness(panel));
   CHECK_STD_STRING(host.complaints(), "");
   CHECK_EXIT_SUCCESS(testSceneRestoresPanel(panel));
   return EXIT_SUCCESS;
