@@ -19,6 +19,13 @@ bool isComplaint(const QString& level)
   return level == "Warning" || level == "Error" || level == "Critical" || level == "Fatal";
 }
 
+/// What the host itself does is not ours to mend: Slicer 5.0 draws curves by a filter that VTK 9.1 has deprecated, and
+/// after a scene was closed it takes a new node at the address of an old one for that one, corrects itself and says so.
+bool isHosts(const QString& text)
+{
+  return text.contains("vtkPassThroughFilter was deprecated") || text.contains("DataNodeCache inconsistency found");
+}
+
 } // namespace
 
 std::string HostLog::complaints()
@@ -33,9 +40,7 @@ std::string HostLog::complaints()
   {
     const QString level = log.logEntryData(m_EntriesSeen, ctkErrorLogAbstractModel::LogLevelColumn).toString();
     const QString text = log.logEntryDescription(m_EntriesSeen);
-    // What the host itself calls is not ours to mend: Slicer 5.0 draws curves by a filter that VTK 9.1 has deprecated.
-    const bool isHosts = text.contains("vtkPassThroughFilter was deprecated");
-    if (isComplaint(level) && !isHosts && (!isStart || text.contains(ours))) lines += level + ": " + text + "\n";
+    if (isComplaint(level) && !isHosts(text) && (!isStart || text.contains(ours))) lines += level + ": " + text + "\n";
   }
   return lines.toStdString();
 }
