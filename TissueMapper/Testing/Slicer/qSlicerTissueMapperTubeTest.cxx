@@ -16,6 +16,7 @@
 #include <vtkMRMLMarkupsCurveNode.h>
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QDoubleSpinBox>
 
 using namespace surgicalmesher;
@@ -105,6 +106,40 @@ int checkFollowing(const Panel& panel)
   return EXIT_SUCCESS;
 }
 
+/// Options reach the command line, each with a value that isn't its default.
+int checkOptions(const Panel& panel)
+{
+  const Inputs inputs = fill(panel);
+  panel.child<QCheckBox>("TraceAtOnceCheckBox")->setChecked(false);
+  place(inputs);
+  const std::string folder = newFolder("TissueMapperTubeOptions");
+  writeImage(inputs.image, folder + "/image.nrrd");
+  writeMarkups({ markupsPoints(inputs.points) }, folder + "/points.mrk.json");
+  const auto pathByProgram = [&](std::vector<std::string> options)
+  {
+    const std::string path = folder + "/path.mrk.json";
+    options.insert(options.end(), { "--points", folder + "/points.mrk.json", folder + "/image.nrrd", path });
+    runCommandLine("TubePathCLI", options);
+    return readMarkups(path).front();
+  };
+  panel.child<QComboBox>("PotentialComboBox")->setCurrentIndex(2);
+  panel.child<QDoubleSpinBox>("SnapSpinBox")->setValue(0);
+  panel.child<QDoubleSpinBox>("MarginSpinBox")->setValue(10);
+  panel.apply();
+  CHECK_BOOL(panel.waitForEnd(), true);
+  CHECK_NOT_NULL(pathOf(panel));
+  const Path traced = markupsPoints(pathOf(panel));
+  const auto isTraced = [&](const Path& path)
+  {
+    return path.size() == traced.size() && std::equal(path.begin(), path.end(), traced.begin(),
+                                                      [](const Vec3& a, const Vec3& b) { return norm(a - b) < 1e-3; });
+  };
+  CHECK_BOOL(isTraced(pathByProgram({ "--potential", "intensity", "--snap", "0", "--margin", "10" })), true);
+  CHECK_BOOL(isTraced(pathByProgram({})), false);
+  clear(panel);
+  return EXIT_SUCCESS;
+}
+
 /// The tube joins the label map as the command line has it, beside the tissues that were there.
 int checkAdding(const Panel& panel)
 {
@@ -183,7 +218,7 @@ int qSlicerTissueMapperTubeTest(int, char*[])
   Panel panel{ host };
   panel.footName = "TubeRunWidget";
   panel.run = panel.logic->GetRun(Logic::TraceTube);
-  for (const auto check : { checkSentences, checkFollowing, checkAdding })
+  for (const auto check : { checkSentences, checkFollowing, checkOptions, checkAdding })
   {
     CHECK_EXIT_SUCCESS(check(panel));
     CHECK_STD_STRING(host.complaints(), "");
