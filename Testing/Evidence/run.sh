@@ -42,7 +42,7 @@ case_of torso torso/torso_61.nii.gz -5,-163,262 3,15,30,60 "$here/torso.txt"
 case_of torso-thin torso/torso_61.nii.gz -5,-163,262 3,15,30,60 "$here/torso.txt" --followThickness
 case_of colin27 colin27/colin27_tissues.nii.gz 0,0,-10 1,8,10,25 "$here/colin27.txt" --minimumIslandVolume 30 --fine 10000
 for number in 01 02 03 04 08; do # 85 is the optic chiasm
-  case_of "head_$number" "head/head_$number.nii.gz" 85 1,4,10,25 "$names" --featureScale 0.5 --minimumIslandVolume 30 \
+  case_of "head_$number" "head/head_$number.nii.gz" 85 1,3,10,25 "$names" --featureScale 0.5 --minimumIslandVolume 30 \
     --fine 1000
 done
 
