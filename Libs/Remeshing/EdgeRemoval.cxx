@@ -275,6 +275,7 @@ bool GuardedOperations::swapEdge(std::int32_t a, std::int32_t b, std::int32_t se
   return !(goal.sparesWhole && ringHasWhole()) && closeRing(a, b, least);
 }
 
+/// But for vertices on borders of blocks, whose tetrahedra are not all here. The edge's ends have a mediocre one.
 bool GuardedOperations::ringHasWhole()
 {
   return std::any_of(m_RingVertices.begin(), m_RingVertices.end(), [&](std::int32_t v) { return isWhole(*this, v); });

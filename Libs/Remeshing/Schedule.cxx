@@ -258,7 +258,7 @@ std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& si
 
 std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity)
 {
-  constexpr std::size_t sweeps = 3;       // vertices on borders of blocks have their turn in the next
+  constexpr std::size_t sweeps = 2;       // vertices on borders of blocks have their turn in the next
   constexpr double motionTolerance = 1.5; // samples have the voxels' noise that motion is to take away
   InterfaceMotionOptions options;
   options.motion.internalForce.continuity = continuity;
@@ -286,15 +286,14 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& siz
            repairWhole(t, sizes, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
 }
 
-std::vector<Sweep> finishingSweeps(const MeshTargets& targets, const MeshSizes& sizes)
+Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  constexpr std::size_t rounds = 2;
-  return std::vector<Sweep>(rounds, improvement(evenLengths(targets, sizes, targets.keptAngle)));
+  return improvement(evenLengths(targets, sizes, targets.keptAngle));
 }
 
 Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets)
 {
-  return improvement({ bounds(targets, 1), { OffsetTissues{ { std::move(offsets), targets.keptAngle } } } });
+  return { "volumes", { { bounds(targets, 1), { OffsetTissues{ { std::move(offsets), targets.keptAngle } } } } } };
 }
 
 std::size_t surfaceSweepCount(const MeshSizes& sizes)
@@ -302,8 +301,7 @@ std::size_t surfaceSweepCount(const MeshSizes& sizes)
   const MeshTargets& t = usualTargets;
   return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() +
          std::size_t(t.balanceRounds) + motionSweeps(t, sizes, Continuity::C2).size() +
-         proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + finishingSweeps(t, sizes).size() +
-         offsetRounds;
+         proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + 1 + offsetRounds;
 }
 
 // --- tetrahedral stage ----------------------------------------------------------------------------------------------
@@ -377,8 +375,9 @@ std::vector<VolumeRow> repairRows(double t)
   // clang-format on
 }
 
-/// Last, as only then the angles are what they are to be. Across blocks, since the lowest counts, wherever it is.
-VolumeRow heightsRow(double smallestLength)
+/// What solvers feel: stiff pairs, and heights after them. Last, as only then the angles are what they are to be. Across
+/// blocks, since the worst counts, wherever it is.
+VolumeRow lastRow(double smallestLength)
 {
   constexpr double share = 0.4; // the lattice has 0.82; more costs angles in lattices of one length
   return {
@@ -406,7 +405,7 @@ std::vector<ConditionalSweep> sweepsForRawMesh(double t, double smallestLength)
   rows.insert(rows.end(), balancingRounds,
               { .rmsLimit = 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always, .balanced = true });
   // clang-format on
-  rows.push_back(heightsRow(smallestLength));
+  rows.push_back(lastRow(smallestLength));
   return sweepsOf(rows);
 }
 
@@ -427,7 +426,7 @@ std::vector<ConditionalSweep> repairsOfImprovedMesh(double t, double smallestLen
   // clang-format on
   const VolumeRow last{ .tolerance = 4, .angle = t, .trials = 40, .passes = 6, .splitEdge = 0.2, .whole = true };
   rows.insert(rows.end(), 2, last); // the second mends what the first has made room for
-  rows.push_back(heightsRow(smallestLength));
+  rows.push_back(lastRow(smallestLength));
   return sweepsOf(rows);
 }
 

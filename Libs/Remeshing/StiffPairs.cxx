@@ -46,30 +46,52 @@ LinearTetrahedron shapeOf(const TetComplex& complex, std::int32_t t, std::int32_
   return linearTetrahedron(corners);
 }
 
-/// Of two vertices: their blocks on the diagonal, and what is between them.
-double largestEigenvalue(const Block& a, const Block& b, const Block& between, double least)
+using Matrix = std::array<std::array<double, 6>, 6>;
+
+/// Of two vertices, divided by its diagonal: from their blocks there and what is between them.
+Matrix scaledMatrix(const Block& a, const Block& b, const Block& between)
 {
-  double m[6][6], values[6], vectors[6][6];
-  double* rows[6];
-  double* columns[6];
-  double bound = 0;
-  for (int i = 0; i < 6; ++i)
-  {
-    rows[i] = m[i], columns[i] = vectors[i];
-    double sum = 0;
-    for (int k = 0; k < 6; ++k)
+  std::array<double, 6> factors;
+  for (int i = 0; i < 6; ++i) factors[i] = 1 / std::sqrt(i < 3 ? a[i][i] : b[i - 3][i - 3]);
+  Matrix m;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
     {
-      const auto at = [&](int r, int c)
-      { return r < 3 ? (c < 3 ? a[r][c] : between[r][c - 3]) : (c < 3 ? between[c][r - 3] : b[r - 3][c - 3]); };
-      m[i][k] = at(i, k) / std::sqrt(at(i, i) * at(k, k));
-      sum += std::abs(m[i][k]);
+      m[i][k] = factors[i] * factors[k] * a[i][k];
+      m[i + 3][k + 3] = factors[i + 3] * factors[k + 3] * b[i][k];
+      m[i][k + 3] = m[k + 3][i] = factors[i] * factors[k + 3] * between[i][k];
     }
-    bound = std::max(bound, sum);
-  }
-  if (!(bound > least)) return bound;
-  vtkMath::JacobiN(rows, 6, values, columns);
+  return m;
+}
+
+/// Whether all eigenvalues are: then bound I - m has a Cholesky factor.
+bool areBelow(double bound, const Matrix& m)
+{
+  Matrix factor;
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k <= i; ++k)
+    {
+      double rest = (i == k ? bound : 0) - m[i][k];
+      for (int j = 0; j < k; ++j) rest -= factor[i][j] * factor[k][j];
+      if (i == k && !(rest > 0)) return false;
+      factor[i][k] = i == k ? std::sqrt(rest) : rest / factor[k][k];
+    }
+  return true;
+}
+
+double largestEigenvalue(Matrix m)
+{
+  Matrix vectors;
+  std::array<double, 6> values;
+  std::array<double*, 6> rows, columns;
+  for (int i = 0; i < 6; ++i) rows[i] = m[i].data(), columns[i] = vectors[i].data();
+  vtkMath::JacobiN(rows.data(), 6, values.data(), columns.data());
   return values[0];
 }
+
+/// Not where tetrahedra are turned over.
+bool isPositive(const Block& own) { return own[0][0] > 0 && own[1][1] > 0 && own[2][2] > 0; }
+constexpr double outOfTheQuestion = 6; // the trace
 
 class StiffPairs
 {
@@ -152,25 +174,27 @@ private:
       for (const Neighbour& n : m_Neighbours)
       {
         if (n.vertex < v) continue;
-        const double value = largestEigenvalue(m_Diagonal[v], m_Diagonal[n.vertex], n.between, m_Options.eigenvalue);
-        if (value > m_Options.eigenvalue) pairs.push_back({ value, v, n.vertex });
+        const Matrix matrix = scaledMatrix(m_Diagonal[v], m_Diagonal[n.vertex], n.between);
+        if (!areBelow(m_Options.eigenvalue, matrix)) pairs.push_back({ largestEigenvalue(matrix), v, n.vertex });
       }
     }
     std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.value > y.value; });
     return pairs;
   }
 
-  /// Of the pairs at v, were it at p; the tetrahedra there are not in m_Diagonal.
-  double largestAt(std::int32_t v, const Vec3& p)
+  /// Of the pairs at v, were it at p; the tetrahedra there are not in m_Diagonal. `least` if none is above.
+  double largestAt(std::int32_t v, const Vec3& p, double least = 0)
   {
     gather(v, p);
-    double largest = 0;
+    if (!isPositive(m_Own)) return outOfTheQuestion;
     for (Neighbour& n : m_Neighbours)
     {
       add(n.own, m_Diagonal[n.vertex], 1);
-      largest = std::max(largest, largestEigenvalue(m_Own, n.own, n.between, largest));
+      if (!isPositive(n.own)) return outOfTheQuestion;
+      const Matrix matrix = scaledMatrix(m_Own, n.own, n.between);
+      if (!areBelow(least, matrix)) least = std::max(least, largestEigenvalue(matrix));
     }
-    return largest;
+    return least;
   }
 
   void soften(std::int32_t v)
@@ -184,13 +208,13 @@ private:
   Vec3 downhill(std::int32_t v, double now)
   {
     const Vec3 p = m_Complex.points[v];
-    const double h = 1e-4 * m_Complex.lengths[v];
+    const double h = 1e-4 * m_Complex.lengths[v], near = 0.99 * now;
     Vec3 way;
     for (int axis = 0; axis < 3; ++axis)
     {
       Vec3 q = p;
       q[axis] += h;
-      way[axis] = now - largestAt(v, q);
+      way[axis] = now - largestAt(v, q, near);
     }
     return way;
   }
@@ -201,13 +225,14 @@ private:
     const double size = m_Complex.lengths[v], floor = std::min(m_Good, m_Operations.qualityAt(v));
     const Quadric held = heldAt(m_Operations, v, m_Options.ease);
     double now = largestAt(v, start), step = 0.08 * size;
+    Vec3 down = downhill(v, now);
     for (int trial = 0; trial < m_Options.trials && now > m_Options.eigenvalue && step > 0.01 * size; ++trial)
     {
-      const Vec3 way = easiest(m_Operations, v, held, trial % 2 == 1 ? m_Directions.next() : downhill(v, now));
+      const Vec3 way = easiest(m_Operations, v, held, trial % 2 == 1 ? m_Directions.next() : down);
       const Vec3 q = m_Complex.points[v] + step * way;
-      const bool moved =
-        norm(q - start) <= m_Options.reach * size && largestAt(v, q) < now && m_Operations.move(v, q, floor);
-      if (moved) now = largestAt(v, q);
+      const double after = norm(q - start) <= m_Options.reach * size ? largestAt(v, q) : now;
+      const bool moved = after < now && m_Operations.move(v, q, floor);
+      if (moved) now = after, down = downhill(v, now);
       step *= moved ? 1.3 : 0.8;
     }
   }
@@ -226,19 +251,20 @@ private:
 
 double pairEigenvalue(const TetComplex& complex, std::int32_t a, std::int32_t b)
 {
-  Block own[2]{}, between{};
+  Block ofA{}, ofB{}, between{};
   for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
   {
     if (!complex.alive(t) || complex.labels[t] == 0) continue;
-    const LinearTetrahedron shape = shapeOf(complex, t);
-    const auto cornerOf = [&](std::int32_t v)
-    { return int(std::find(complex.tets[t].begin(), complex.tets[t].end(), v) - complex.tets[t].begin()); };
+    const auto& x = complex.tets[t];
+    const auto cornerOf = [&](std::int32_t v) { return int(std::find(x.begin(), x.end(), v) - x.begin()); };
     const int i = cornerOf(a), k = cornerOf(b);
-    if (i < 4) add(own[0], stiffnessOf(shape, i, i), 1);
-    if (k < 4) add(own[1], stiffnessOf(shape, k, k), 1);
+    if (i == 4 && k == 4) continue;
+    const LinearTetrahedron shape = shapeOf(complex, t);
+    if (i < 4) add(ofA, stiffnessOf(shape, i, i), 1);
+    if (k < 4) add(ofB, stiffnessOf(shape, k, k), 1);
     if (i < 4 && k < 4) add(between, stiffnessOf(shape, i, k), 1);
   }
-  return largestEigenvalue(own[0], own[1], between, 0);
+  return largestEigenvalue(scaledMatrix(ofA, ofB, between));
 }
 
 void softenPairsOfBlock(GuardedOperations& operations, const StiffPairOptions& options)

@@ -55,7 +55,7 @@ void offsetTissuesOfBlock(GuardedOperations& operations, const TissueOffsetOptio
   {
     if (complex.vertexTet[v] < 0 || complex.locked[v] || !complex.onInterface[v]) continue;
     const Vec3 way = meetingStep(complex, operations.sheet(v), options.offsets);
-    moveAlong(operations, v, way, std::min(good, operations.qualityAt(v)));
+    if (squaredNorm(way) > 0) moveAlong(operations, v, way, std::min(good, operations.qualityAt(v)));
   }
 }
 

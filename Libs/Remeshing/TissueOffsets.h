@@ -4,15 +4,10 @@
 
 #include "GuardedOperations.h"
 #include "TetQuality.h"
-
-#include <map>
+#include "VolumeOffsets.h"
 
 namespace surgicalmesher
 {
-
-/// How far (mm) the boundary of each tissue goes outwards; that between two tissues goes by the difference. Nothing said
-/// of a tissue is no way at all.
-using TissueOffsets = std::map<Label, double>;
 
 /// A face at a vertex, seen from one of its labels.
 struct SheetSide
@@ -25,8 +20,8 @@ SheetSide sideOf(const TetComplex& complex, const SheetFace& face);
 /// The step (mm) of a vertex to where the tissues' boundaries in its `sheet` meet when they are offset: least squares.
 Vec3 meetingStep(const TetComplex& complex, const Sheet& sheet, const TissueOffsets& offsets);
 
-/// Moves v by the way, a half or a quarter of it, the longest that the guards let pass and that leaves the worst angle at
-/// v at `floor` or above.
+/// Moves v by the way (mm), a half or a quarter of it: the longest that the guards let pass and that leaves the worst
+/// quality at v at `floor` or above.
 bool moveAlong(GuardedOperations& operations, std::int32_t v, const Vec3& way, double floor);
 
 struct TissueOffsetOptions

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "VolumeBalance.h"
 
-#include "VolumeOffsets.h"
-
 #include <algorithm>
 
 namespace surgicalmesher

@@ -3,7 +3,7 @@
 /// Keeps the volume of every tissue: smoothing and least squares cut corners, which takes from whatever is convex.
 
 #include "BackgroundMesh.h"
-#include "TissueOffsets.h"
+#include "VolumeOffsets.h"
 
 #include <map>
 #include <utility>
@@ -25,7 +25,8 @@ public:
   /// most between two tissues. The mesh must know its neighbours.
   void apply(BackgroundMesh& background);
 
-  /// How far the boundaries themselves would have to go, of all tissues at once. The mesh must know its neighbours.
+  /// How far (mm) the boundaries themselves should go, of all tissues at once, no farther than the most each time; some
+  /// more than is missing, as not all vertices can follow. The mesh must know its neighbours.
   TissueOffsets offsets(const BackgroundMesh& background) const;
 
 private:

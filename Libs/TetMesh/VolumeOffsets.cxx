@@ -6,7 +6,7 @@
 namespace surgicalmesher
 {
 
-std::map<Label, double> offsetsForVolumes(const std::map<Label, double>& lacking,
+TissueOffsets offsetsForVolumes(const std::map<Label, double>& lacking,
                                           const std::map<std::pair<Label, Label>, double>& areas, double most)
 {
   std::map<Label, double> result, area;

@@ -192,7 +192,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
   if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets, sizes));
   remesher.run(secondRepairSweeps(targets, sizes));
-  if (targets.countsTriangles()) remesher.balanceAndRun(finishingSweeps(targets, sizes));
+  if (targets.countsTriangles()) remesher.balanceAndRun({ finishingSweep(targets, sizes) });
   remesher.offsetTissues(targets);
   MeshedMap result = std::move(remesher).result(targets.keptAngle);
   result.smoothed = smoothed.changes;

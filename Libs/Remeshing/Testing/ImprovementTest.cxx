@@ -287,8 +287,9 @@ TEST(StiffPairs, KeepEveryPromiseAndTheLargestEigenvalueFalls)
   {
     const double before = largestPairEigenvalue(operations.complex());
     softenPairsOfBlock(operations, options);
-    EXPECT_LE(largestPairEigenvalue(operations.complex()), before * (1 + 1e-9));
-    fallen += largestPairEigenvalue(operations.complex()) < 0.95 * before;
+    const double after = largestPairEigenvalue(operations.complex());
+    EXPECT_LE(after, 1.05 * before); // pairs of neighbours of what moves may become stiffer
+    fallen += after < 0.95 * before;
   };
   expectPromisesKept(sine2OfDegrees(options.goodAngle), false, soften);
   EXPECT_GE(fallen, 8);
@@ -326,7 +327,11 @@ TEST(TissueOffsets, KeepEveryPromise)
 {
   const TissueOffsetOptions options{ { { 1, 0.1 }, { 2, -0.05 } } };
   expectPromisesKept(sine2OfDegrees(options.goodAngle), false,
-                     [&](GuardedOperations& operations) { offsetTissuesOfBlock(operations, options); });
+                     [&](GuardedOperations& operations)
+                     {
+                       offsetTissuesOfBlock(operations, options);
+                       EXPECT_GT(operations.counts().moves, 0);
+                     });
 }
 
 TEST(TissueOffsets, MoveAWallByTheDifference)
@@ -337,12 +342,15 @@ TEST(TissueOffsets, MoveAWallByTheDifference)
   GuardedOperations operations(complex, scale);
   offsetTissuesOfBlock(operations, { { { 1, 0.05 }, { 2, -0.03 } } });
   ASSERT_TRUE(isConsistent(complex));
+  int ofWall = 0;
   for (std::size_t v = 0; v < before.points.size(); ++v)
   {
     const Vec3 p = before.points[v];
     if (std::abs(p.z - 2.5) > 0.01 || std::max(std::abs(p.x - 2.5), std::abs(p.y - 2.5)) > 2.9) continue;
     EXPECT_NEAR(complex.points[v].z - p.z, 0.08, 0.01); // a spring holds it a little
+    ++ofWall;
   }
+  EXPECT_EQ(ofWall, 25);
 }
 
 TEST(Heights, AreLeftWhereTheyAreHighEnough)
