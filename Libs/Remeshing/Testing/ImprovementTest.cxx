@@ -11,6 +11,7 @@
 #include "Polishing.h"
 #include "RandomMaps.h"
 #include "Relaxation.h"
+#include "Schedule.h"
 #include "SpikeRemoval.h"
 #include "StiffPairs.h"
 #include "TetrahedraImprovement.h"
@@ -293,6 +294,19 @@ TEST(StiffPairs, KeepEveryPromiseAndTheLargestEigenvalueFalls)
   };
   expectPromisesKept(sine2OfDegrees(options.goodAngle), false, soften);
   EXPECT_GE(fallen, 8);
+}
+
+TEST(StiffPairs, AreSoftenedBeforeHeightsAreRaisedWhateverTheMesh)
+{
+  for (const auto& sweeps : { sweepsForRawMesh(28.5, 1), sweepsForImprovedMesh(28.5, 1), sweepsForCurves(28.5, 1) })
+  {
+    const std::vector<Stage>& last = sweeps.back().sweep.stages;
+    ASSERT_EQ(last.size(), 2u);
+    EXPECT_TRUE(std::holds_alternative<SoftenPairs>(last.front().passes.front()));
+    EXPECT_TRUE(std::holds_alternative<RaiseHeights>(last.back().passes.back()));
+    EXPECT_TRUE(sweeps.back().sweep.whole);
+    EXPECT_LT(sweeps.back().worthwhileShare, 0);
+  }
 }
 
 TEST(StiffPairs, AreMeasuredWhateverTheSizeOfElements)
