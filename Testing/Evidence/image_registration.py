@@ -37,7 +37,7 @@ PLANTED, PLANTED_DISTANCE = 0.1, (5, 15)  # share; mm beside the true displaceme
 REPETITIONS = 15  # of a registration, for the solver's time
 # Settings reach beyond what is chosen, for every mesher.
 LENGTHS = (24, 26, 28, 30, 32, 36, 40, 45, 50, 55, 60, 65, 70, 75, 80)  # mm
-OURS = [(side, length) for side in range(3, 13) for length in LENGTHS if 4 <= length / side <= 15]
+OURS = [(side, length) for side in range(3, 13) for length in (*LENGTHS, 34, 38, 42) if 4 <= length / side <= 15]
 CGAL = [(share * length, length) for length in LENGTHS for share in (0.1, 0.12, 0.15, 0.17, 0.2, 0.22, 0.25, 0.3, 0.35, 0.4)
         if 3 <= share * length <= 18]
 LATTICE = [(side, weight) for side in (16, 18, 20, 22, 24, 27, 30, 33, 36, 40) for weight in (1, 5, 25)]
