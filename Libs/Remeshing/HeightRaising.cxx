@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace surgicalmesher
 {
@@ -26,11 +27,12 @@ public:
 
   void run()
   {
+    findLimits();
     for (int pass = 0; pass < m_Options.passes; ++pass)
     {
       bool any = false;
       for (const auto& [height, t] : lowTetrahedra())
-        if (m_Complex.alive(t) && heightOf(t) < m_Options.height)
+        if (m_Complex.alive(t) && heightOf(t) < limitOf(t))
           any = (collapseAnEdge(t) || removeAnEdge(t) || moveVertices(t)) || any;
       if (!any) return;
     }
@@ -39,13 +41,30 @@ public:
 private:
   using Low = std::pair<double, std::int32_t>;
 
+  /// A tissue of which more than a few tetrahedra are low is thin itself.
+  void findLimits()
+  {
+    constexpr double few =
+      0.03; // a tenth of them inflated a spinal cord by 4 %, where L was half as long as it is wide
+    std::map<Label, std::vector<double>> heights;
+    for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
+      if (m_Complex.alive(t) && m_Complex.labels[t] != 0) heights[m_Complex.labels[t]].push_back(heightOf(t));
+    for (auto& [label, each] : heights)
+    {
+      const auto at = each.begin() + std::ptrdiff_t(few * double(each.size()));
+      std::nth_element(each.begin(), at, each.end());
+      m_Limits[label] = std::min(m_Options.height, *at);
+    }
+  }
+  double limitOf(std::int32_t t) const { return m_Limits[m_Complex.labels[t]]; }
+
   /// Ascending, no more than are worked on.
   std::vector<Low> lowTetrahedra() const
   {
     std::vector<Low> low;
     for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
       if (m_Complex.alive(t) && m_Complex.labels[t] != 0)
-        if (const double height = heightOf(t); height < m_Options.height) low.push_back({ height, t });
+        if (const double height = heightOf(t); height < limitOf(t)) low.push_back({ height, t });
     const auto most = std::max<std::size_t>(100, std::size_t(m_Options.worstShare * double(m_Complex.tets.size())));
     std::sort(low.begin(), low.end());
     low.resize(std::min(low.size(), most));
@@ -105,7 +124,7 @@ private:
     for (const std::int32_t v : x)
     {
       if (!m_Complex.locked[v] && climb(v)) any = true;
-      if (any && heightOf(t) >= m_Options.height) return true;
+      if (any && heightOf(t) >= limitOf(t)) return true;
     }
     return any;
   }
@@ -156,6 +175,7 @@ private:
   TetComplex& m_Complex;
   const HeightOptions& m_Options;
   const double m_Good;
+  std::vector<double> m_Limits = std::vector<double>(labelCount); ///< mm, by label; see HeightOptions::height
   Directions m_Directions;
 };
 

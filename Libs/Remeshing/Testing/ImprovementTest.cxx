@@ -367,6 +367,17 @@ TEST(TissueOffsets, MoveAWallByTheDifference)
   EXPECT_EQ(ofWall, 25);
 }
 
+TEST(Heights, OfATissueThatIsThinItselfAreLeft)
+{
+  const auto rod = [](int i, int j, int) { return i >= 2 && i < 4 && j >= 2 && j < 4 ? 1 : 0; };
+  TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 6, 6, 30 }, rod)), 3, 1); // its tolerances are wide
+  GuardedOperations operations(complex, [](const Vec3&) { return 3.0f; });
+  HeightOptions options;
+  options.height = 1.2; // the rod's are all half of that
+  raiseHeightsOfBlock(operations, options);
+  EXPECT_EQ(operations.counts().moves + operations.counts().collapses + operations.counts().flips, 0);
+}
+
 TEST(Heights, AreLeftWhereTheyAreHighEnough)
 {
   TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int, int, int) { return 1; })), 1.5f);
