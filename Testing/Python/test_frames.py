@@ -142,8 +142,9 @@ class FramesTest(unittest.TestCase):
                                            atol=ROUNDING)
                 self.assertEqual(volumes_of(mesh).keys(), volumes_of(self.reference).keys())
                 for tissue, volume in volumes_of(self.reference).items():
-                    # Of the smallest, 4 mm^3, all points are the surface's, which gives way where angles ask for it.
-                    self.assertAlmostEqual(volumes_of(mesh)[tissue], volume, delta=max(0.02 * volume, 0.2))
+                    # Of the smallest, 4 and 12 mm^3, all points are the surface's, which gives way where angles and stiff
+                    # pairs of vertices ask for it.
+                    self.assertAlmostEqual(volumes_of(mesh)[tissue], volume, delta=max(0.02 * volume, 0.7))
 
     def test_targets_may_come_in_any_form(self):
         for name, system in (("ras.mrk.json", "RAS"), ("lps.fcsv", "LPS"), ("ras.fcsv", "RAS"), ("number.fcsv", "0")):
