@@ -134,7 +134,7 @@ void expectInserted(const TetMesh& before, const std::vector<Curve>& curves, dou
   const auto volumes = checkSurface(interfaceOf(before));
   for (const auto& [label, tissue] : checkSurface(interfaceOf(mesh)))
     EXPECT_NEAR(tissue.volume, volumes.at(label).volume, 0.002 * tissue.volume) << "label " << label;
-  EXPECT_GE(worstAngle(mesh), worstAngle(before) - 3.5);
+  EXPECT_GE(worstAngle(mesh), worstAngle(before) - 5);
   const auto edges = edgesOf(mesh);
   ASSERT_EQ(chains.size(), curves.size());
   for (std::size_t c = 0; c < chains.size(); ++c)
