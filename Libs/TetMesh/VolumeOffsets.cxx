@@ -7,7 +7,7 @@ namespace surgicalmesher
 {
 
 TissueOffsets offsetsForVolumes(const std::map<Label, double>& lacking,
-                                          const std::map<std::pair<Label, Label>, double>& areas, double most)
+                                const std::map<std::pair<Label, Label>, double>& areas, double most)
 {
   std::map<Label, double> result, area;
   for (const auto& [pair, a] : areas) area[pair.first] += a, area[pair.second] += a;

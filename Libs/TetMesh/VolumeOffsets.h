@@ -18,6 +18,6 @@ using TissueOffsets = std::map<Label, double>;
 /// `most` at most. A face between two tissues moves by the difference of theirs, towards the background by its own
 /// tissue's: `areas` by the labels on both sides, each pair once. In one unit of length.
 TissueOffsets offsetsForVolumes(const std::map<Label, double>& lacking,
-                                          const std::map<std::pair<Label, Label>, double>& areas, double most);
+                                const std::map<std::pair<Label, Label>, double>& areas, double most);
 
 } // namespace surgicalmesher
