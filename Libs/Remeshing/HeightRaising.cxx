@@ -44,8 +44,7 @@ private:
   /// A tissue of which more than a few tetrahedra are low is thin itself.
   void findLimits()
   {
-    constexpr double few =
-      0.03; // a tenth of them inflated a spinal cord by 4 %, where L was half as long as it is wide
+    constexpr double few = 0.03; // share; a tenth inflated a spinal cord not much wider than L by 4 %
     std::map<Label, std::vector<double>> heights;
     for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
       if (m_Complex.alive(t) && m_Complex.labels[t] != 0) heights[m_Complex.labels[t]].push_back(heightOf(t));
