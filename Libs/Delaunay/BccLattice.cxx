@@ -42,18 +42,39 @@ bool onLattice(const Places& place, Place size)
 /// octaves alone would leave edges between L/2 and L, and the collapses that mend these destroy the lattice.
 constexpr double kCoarsest = 1.41421356237309505;
 
-/// The cube's edge, within half an octave of the finest L(x), that makes the lattice's mean edge fit L(x) best over
-/// the places `lengths` are from: the mean of log2 L on the circle of an octave.
+/// Octaves from the densest place of log2 L that count as near it.
+constexpr double kNearOctave = 0.05;
+
+/// Mean of the octaves that are less than `within` from this one, on the circle of an octave; itself if none is.
+double meanOctave(const std::vector<double>& octaves, double middle, double within)
+{
+  double sum = 0, count = 0;
+  for (const double octave : octaves)
+  {
+    const double beside = octave - middle - std::round(octave - middle);
+    if (std::abs(beside) > within) continue;
+    sum += beside;
+    ++count;
+  }
+  return count > 0 ? middle + sum / count : middle;
+}
+
+/// The cube's edge, within half an octave of the finest L(x), that makes the lattice's mean edge fit L(x) over most of
+/// the places `lengths` are from: the densest place of log2 L, by mean shift, on the circle of an octave. The mean over
+/// all places would let the few where L(x) is fine make the lattice too fine for the many.
 double fittingCube(const std::vector<double>& lengths, double finest)
 {
+  std::vector<double> octaves;
   double x = 0, y = 0;
   for (const double length : lengths)
   {
-    const double angle = 2 * M_PI * std::log2(length / finest);
-    x += std::cos(angle);
-    y += std::sin(angle);
+    octaves.push_back(std::log2(length / finest));
+    x += std::cos(2 * M_PI * octaves.back());
+    y += std::sin(2 * M_PI * octaves.back());
   }
-  return kMeanEdgeOverLength * finest * std::exp2(std::atan2(y, x) / (2 * M_PI)) / kLatticeMeanEdge;
+  double octave = std::atan2(y, x) / (2 * M_PI);
+  for (int step = 0; step < 20; ++step) octave = meanOctave(octaves, octave, kNearOctave);
+  return finest * std::exp2(octave) / kLatticeMeanEdge;
 }
 
 /// An octree of lattice cubes in a box around the surface, `cube` times a power of 2 large, as L(x) allows.

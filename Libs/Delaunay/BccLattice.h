@@ -7,7 +7,7 @@
 /// and 2 x 90 degrees, 24 tetrahedra around every vertex, invariant under subdivision. Its vertices are those of the
 /// body-centred cubic lattice with cubes of edge 2 / sqrt(3), whose Delaunay tetrahedra it is. The density function
 /// rho(x) becomes an octree of such cubes: subdivision by 2 takes the lattice into itself. Each place has the octave
-/// nearest to L(x), and the phase of the octaves follows from L's distribution in the tissues.
+/// nearest to L(x), and the phase of the octaves is where L is in most of the tissues.
 
 #include "SizingFunction.h"
 #include "TetMesh.h"
@@ -18,16 +18,11 @@ namespace surgicalmesher
 /// Mean edge of the lattice's tetrahedra, over the cube's edge: 8 edges sqrt(3)/2 and 6 edges 1 at every vertex.
 constexpr double kLatticeMeanEdge = (8 * 0.86602540378443865 + 6) / 14;
 
-/// That mean edge over L(x), where L(x) is the same everywhere. What joins the lattice to the surface is the more
-/// regular the finer it is; under this, more tetrahedra cost solvers more than that saves
-/// (Docs/FuchsTetrahedralizer.md#method).
-constexpr double kMeanEdgeOverLength = 0.98;
-
 /// Lattice points in a box around the surface, its corners included: in the tissues with the density of L(x), outside
 /// ever sparser with the distance. All are at least `clearance` * L(x) away from the surface: closer ones make flat
 /// elements on it, farther ones long elements.
 /// Deterministic, whatever the number of threads. Throws InputError unless L(x) is positive and finite.
 std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunction& edgeLength,
-                                double clearance = 0.45);
+                                double clearance = 0.4);
 
 } // namespace surgicalmesher

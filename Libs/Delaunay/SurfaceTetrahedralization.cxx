@@ -275,7 +275,7 @@ TetMesh fillWithTetrahedra(const SurfaceComplex& surface, const SizingFunction& 
     const std::vector<Vec3> lattice = latticePoints(surface, edgeLength, clearance);
     return tetrahedralize(surface, placedPoints(surface, lattice, edgeLength, placement, clearance), name);
   };
-  for (const double clearance : { 0.45, 0.6 })
+  for (const double clearance : { 0.4, 0.6 })
   {
     try
     {

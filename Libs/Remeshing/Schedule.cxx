@@ -437,6 +437,15 @@ std::vector<ConditionalSweep> sweepsForImprovedMesh(double t, double smallestLen
   return repairsOfImprovedMesh(t, smallestLength, true);
 }
 
+Sweep restoringSweep(double targetAngle, TissueOffsets offsets)
+{
+  constexpr double tolerance = 4; // where the repairs have gone
+  return { "volumes",
+           { { { .rmsLimit = 1, .toleranceFactor = tolerance },
+               { OffsetTissues{ { std::move(offsets), targetAngle } } } } },
+           true };
+}
+
 /// Only what tracing has cut is short: collapses leave the rest of the lattice alone, and so do swaps.
 std::vector<ConditionalSweep> sweepsForCurves(double t, double smallestLength)
 {

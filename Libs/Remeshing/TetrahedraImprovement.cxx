@@ -43,7 +43,8 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
                                                                   : sweepsForRawMesh(options.targetAngle, smallest);
   RemesherOptions remeshing;
   remeshing.featureAngle = options.featureAngle;
-  Remesher remesher(std::move(background), length, remeshing, progress, sweeps.size());
+  const std::size_t rounds = options.isImproved ? restoreRounds : 0;
+  Remesher remesher(std::move(background), length, remeshing, progress, sweeps.size() + rounds);
   VolumeBalance balance(tissueVolumes(mesh), options.surfaceTolerance * smallest, balancingGain);
   for (const auto& [sweep, worthwhileShare, balanced] : sweeps)
   {
@@ -53,6 +54,9 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
     if (most < 0 || double(countBelow(now, options.targetAngle)) > most) remesher.run(sweep);
     else remesher.skip();
   }
+  const VolumeBalance wanted(tissueVolumes(mesh), 0.1 * smallest, 1);
+  for (std::size_t round = 0; round < rounds; ++round)
+    remesher.run(restoringSweep(options.targetAngle, wanted.offsets(remesher.background(), leastLack)));
   mesh = std::move(remesher.background().mesh);
 }
 

@@ -2,6 +2,7 @@
 #include "VolumeBalance.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace surgicalmesher
 {
@@ -40,12 +41,21 @@ VolumeBalance::Lack VolumeBalance::lackOf(const BackgroundMesh& background) cons
   return lack;
 }
 
-TissueOffsets VolumeBalance::offsets(const BackgroundMesh& background) const
+TissueOffsets VolumeBalance::offsets(const BackgroundMesh& background, double leastShare) const
 {
   constexpr double gain = 1.3; // some vertices may not go where they should
-  Lack lack = lackOf(background);
-  for (auto& [label, volume] : lack.volumes) volume *= gain;
-  return offsetsForVolumes(lack.volumes, lack.areas, m_Most);
+  const Lack lack = lackOf(background);
+  std::map<Label, double> lacking;
+  for (const auto& [label, volume] : m_Volumes)
+    if (std::abs(lack.volumes.at(label)) >= leastShare * volume) lacking[label] = gain * lack.volumes.at(label);
+  const auto moving = [&](Label label) { return lacking.count(label) > 0 ? label : Label(0); }; // 0 stays
+  std::map<std::pair<Label, Label>, double> areas;
+  for (const auto& [pair, area] : lack.areas)
+  {
+    const Label a = moving(pair.first), b = moving(pair.second);
+    if (a != b) areas[std::minmax({ a, b })] += area;
+  }
+  return offsetsForVolumes(lacking, areas, m_Most);
 }
 
 void VolumeBalance::apply(BackgroundMesh& background)

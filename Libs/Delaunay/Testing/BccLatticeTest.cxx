@@ -54,7 +54,7 @@ TEST(LatticePoints, FillTheInsideAtTheDensityAskedFor)
   for (const double length : { 0.7, 0.9, 1.3 })
   {
     const std::vector<Vec3> points = inside(latticePoints(surface, [=](const Vec3&) { return length; }), 7);
-    const double cube = kMeanEdgeOverLength * length / kLatticeMeanEdge;
+    const double cube = length / kLatticeMeanEdge;
     const double expected = 4.0 / 3 * M_PI * 7 * 7 * 7 * 2 / (cube * cube * cube);
     EXPECT_NEAR(double(points.size()), expected, 0.1 * expected) << length;
     for (std::size_t i = 0; i < points.size(); i += 7)
@@ -95,6 +95,19 @@ TEST(LatticePoints, HaveTheNearestOctave)
     ASSERT_GT(tested, 100u);
     EXPECT_GT(double(near), 0.9 * double(tested)) << least;
     EXPECT_NEAR(sum / double(tested), 0, 0.3) << "neither too fine nor too coarse on the whole, " << least;
+  }
+}
+
+TEST(LatticePoints, FitTheLengthOfMostOfTheTissue)
+{
+  const SurfaceComplex surface = test::sphere({}, kRadius, 4);
+  const auto length = [](const Vec3& p) { return 1 - 0.4 * std::exp(-norm(p) / 2); }; // fine in the middle alone
+  const std::vector<Vec3> points = latticePoints(surface, length);
+  for (std::size_t i = 0; i < points.size(); i += 7)
+  {
+    if (norm(points[i]) < 6 || norm(points[i]) > 8) continue;
+    const double meanEdge = nearestOther(points, i) / std::sqrt(0.75) * kLatticeMeanEdge;
+    EXPECT_NEAR(meanEdge, 1, 0.03);
   }
 }
 

@@ -16,7 +16,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double kRadius = 10, kClearance = 0.45;
+constexpr double kRadius = 10, kClearance = 0.4;
 
 const SizingFunction uniform = [](const Vec3&) { return 1.5; };
 const SizingFunction graded = [](const Vec3& p) { return 1 + 0.15 * std::max(0.0, p.z + kRadius); };

@@ -55,4 +55,15 @@ TEST(VolumeBalance, OffsetsAreBounded)
   for (const auto& [label, way] : offsets) EXPECT_LE(std::abs(way), 0.2) << "label " << label;
 }
 
+TEST(VolumeBalance, OffsetsAreOfTissuesThatLackEnough)
+{
+  const BackgroundMesh background = slabs();
+  std::map<Label, double> wanted = volumesOf(background.mesh);
+  wanted.erase(0);
+  wanted[1] *= 1.03, wanted[2] *= 0.999;
+  const TissueOffsets offsets = VolumeBalance(wanted, 0.5, 1).offsets(background, 0.01);
+  const double area = 6 * 6 * 2 + 4 * 6 * 3, lacking = 6 * 6 * 3 * 0.03;
+  for (const auto& [label, way] : offsets) EXPECT_NEAR(way, label == 1 ? 1.3 * lacking / area : 0, 1e-9) << label;
+}
+
 } // namespace surgicalmesher
