@@ -78,6 +78,7 @@ struct Candidate
   std::array<Label, 6> labels{};
   std::array<float, 6> gains{};
   int count = 0;
+  bool isRefused = false; ///< alone, and nothing around has changed since
 
   /// Once; unless it is so much less that no constant is to make up for it.
   void add(Label label, float gain)
@@ -197,15 +198,18 @@ private:
   /// done nor what is refused is a candidate afterwards.
   void change()
   {
-    std::vector<const Candidate*> left;
-    for (const Candidate& c : m_Candidates)
+    std::vector<Candidate*> left;
+    for (Candidate& c : m_Candidates)
+    {
+      c.isRefused = false; // as another label
       if (choice(c) >= 0) left.push_back(&c);
+    }
     for (std::size_t before = 0; left.size() != before;)
     {
       before = left.size();
       const auto drop = [&](auto&& isDone)
       { left.erase(std::remove_if(left.begin(), left.end(), isDone), left.end()); };
-      drop([&](const Candidate* c) { return isChanged(*c) || changeAlone(*c); });
+      drop([&](Candidate* c) { return isChanged(*c) || (!c->isRefused && changeAlone(*c)); });
       if (left.size() == before) drop([&](const Candidate* c) { return isChanged(*c) || changeWithNeighbour(*c); });
     }
     const auto isSettled = [&](const Candidate& c) { return isChanged(c) || choice(c) >= 0; };
@@ -217,16 +221,18 @@ private:
     m_Map.labels[c.voxel] = label;
     --m_Gained[c.own];
     ++m_Gained[label];
+    for (const std::ptrdiff_t step : m_Around)
+      if (Candidate* const near = candidateAt(c.voxel + step)) near->isRefused = false;
   }
 
   bool isChanged(const Candidate& c) const { return m_Map.labels[c.voxel] != c.own; }
 
-  bool changeAlone(const Candidate& c)
+  bool changeAlone(Candidate& c)
   {
     const Label label = c.labels[choice(c)];
-    if (!keepsTopology(around(c.voxel), label)) return false;
-    give(c, label);
-    return true;
+    c.isRefused = !keepsTopology(around(c.voxel), label);
+    if (!c.isRefused) give(c, label);
+    return !c.isRefused;
   }
 
   /// Where the change alone leaves a contact: with that of the neighbour which costs least, and takes the contact away.
@@ -263,7 +269,7 @@ private:
     return contacts == 0;
   }
 
-  const Candidate* candidateAt(std::size_t voxel) const
+  Candidate* candidateAt(std::size_t voxel)
   {
     const auto at = std::lower_bound(m_Candidates.begin(), m_Candidates.end(), voxel,
                                      [](const Candidate& c, std::size_t v) { return c.voxel < v; });

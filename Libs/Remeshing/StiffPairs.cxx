@@ -182,8 +182,9 @@ private:
     return pairs;
   }
 
-  /// Of the pairs at v, were it at p; the tetrahedra there are not in m_Diagonal. `least` if none is above.
-  double largestAt(std::int32_t v, const Vec3& p, double least = 0)
+  /// Of the pairs at v, were it at p; the tetrahedra there are not in m_Diagonal. `least` if none is above, `most` if one
+  /// is not below.
+  double largestAt(std::int32_t v, const Vec3& p, double least, double most = outOfTheQuestion)
   {
     gather(v, p);
     if (!isPositive(m_Own)) return outOfTheQuestion;
@@ -192,7 +193,9 @@ private:
       add(n.own, m_Diagonal[n.vertex], 1);
       if (!isPositive(n.own)) return outOfTheQuestion;
       const Matrix matrix = scaledMatrix(m_Own, n.own, n.between);
-      if (!areBelow(least, matrix)) least = std::max(least, largestEigenvalue(matrix));
+      if (areBelow(least, matrix)) continue;
+      if (!areBelow(most, matrix)) return most;
+      least = std::max(least, largestEigenvalue(matrix));
     }
     return least;
   }
@@ -222,17 +225,21 @@ private:
   void descend(std::int32_t v)
   {
     const Vec3 start = m_Complex.points[v];
+    const double soft = m_Options.eigenvalue;
+    double now = largestAt(v, start, soft);
+    if (now <= soft) return;
     const double size = m_Complex.lengths[v], floor = std::min(m_Good, m_Operations.qualityAt(v));
     const Quadric held = heldAt(m_Operations, v, m_Options.ease);
-    double now = largestAt(v, start), step = 0.08 * size;
+    double step = 0.08 * size;
     Vec3 down = downhill(v, now);
-    for (int trial = 0; trial < m_Options.trials && now > m_Options.eigenvalue && step > 0.01 * size; ++trial)
+    for (int trial = 0; trial < m_Options.trials && now > soft && step > 0.01 * size; ++trial)
     {
       const Vec3 way = easiest(m_Operations, v, held, trial % 2 == 1 ? m_Directions.next() : down);
       const Vec3 q = m_Complex.points[v] + step * way;
-      const double after = norm(q - start) <= m_Options.reach * size ? largestAt(v, q) : now;
+      const double after = norm(q - start) <= m_Options.reach * size ? largestAt(v, q, soft, now) : now;
       const bool moved = after < now && m_Operations.move(v, q, floor);
-      if (moved) now = after, down = downhill(v, now);
+      if (moved) now = after;
+      if (moved && now > soft) down = downhill(v, now);
       step *= moved ? 1.3 : 0.8;
     }
   }

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace surgicalmesher
 {
@@ -56,7 +57,12 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
   }
   const VolumeBalance wanted(tissueVolumes(mesh), 0.1 * smallest, 1);
   for (std::size_t round = 0; round < rounds; ++round)
-    remesher.run(restoringSweep(options.targetAngle, wanted.offsets(remesher.background(), leastLack)));
+  {
+    TissueOffsets offsets = wanted.offsets(remesher.background(), leastLack);
+    const bool any = std::any_of(offsets.begin(), offsets.end(), [](const auto& offset) { return offset.second != 0; });
+    if (any) remesher.run(restoringSweep(options.targetAngle, std::move(offsets)));
+    else remesher.skip();
+  }
   mesh = std::move(remesher.background().mesh);
 }
 
