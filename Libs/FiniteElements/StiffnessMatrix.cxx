@@ -89,24 +89,20 @@ std::int64_t BlockMatrix::indexOf(std::int32_t row, std::int32_t column) const
 BlockMatrix stiffnessMatrix(const TetMesh& mesh, const std::vector<std::int32_t>& number, std::int32_t rows,
                             double poissonsRatio)
 {
-  const auto [lambda, mu] = lameConstants(1, poissonsRatio);
+  const LameConstants lame = lameConstants(1, poissonsRatio);
   BlockMatrix matrix = emptyMatrix(mesh, number, rows);
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
   {
     const auto& ids = mesh.tetrahedra[t];
-    const auto [g, volume] = linearTetrahedron(cornersOf(mesh, t));
+    const LinearTetrahedron tetrahedron = linearTetrahedron(cornersOf(mesh, t));
     for (int a = 0; a < 4; ++a)
     {
       for (int b = 0; b < 4; ++b)
       {
         if (number[ids[a]] < 0 || number[ids[b]] < 0) continue;
-        BlockMatrix::Block& block = matrix.blocks[matrix.indexOf(number[ids[a]], number[ids[b]])];
-        const double shear = mu * dot(g[a], g[b]);
-        for (int i = 0; i < 3; ++i)
-        {
-          for (int j = 0; j < 3; ++j)
-            block[3 * i + j] += volume * (lambda * g[a][i] * g[b][j] + mu * g[a][j] * g[b][i] + (i == j ? shear : 0));
-        }
+        BlockMatrix::Block& sum = matrix.blocks[matrix.indexOf(number[ids[a]], number[ids[b]])];
+        const StiffnessBlock block = stiffnessBlock(tetrahedron, a, b, lame);
+        for (std::size_t i = 0; i < block.size(); ++i) sum[i] += block[i];
       }
     }
   }

@@ -16,25 +16,17 @@ namespace surgicalmesher
 namespace
 {
 
-using Block = std::array<std::array<double, 3>, 3>; ///< of the stiffness matrix
+using Block = StiffnessBlock;
 
 void add(Block& sum, const Block& block, double factor)
 {
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k) sum[i][k] += factor * block[i][k];
+  for (std::size_t i = 0; i < block.size(); ++i) sum[i] += factor * block[i];
 }
 
-/// What a tetrahedron's corners a and b have to do with each other.
 Block stiffnessOf(const LinearTetrahedron& tetrahedron, int a, int b)
 {
   static const LameConstants lame = lameConstants(1, 0.4);
-  const Vec3 &g = tetrahedron.gradients[a], &h = tetrahedron.gradients[b];
-  const double along = lame.mu * dot(g, h);
-  Block block;
-  for (int i = 0; i < 3; ++i)
-    for (int k = 0; k < 3; ++k)
-      block[i][k] = tetrahedron.volume * (lame.lambda * g[i] * h[k] + lame.mu * g[k] * h[i] + (i == k ? along : 0));
-  return block;
+  return stiffnessBlock(tetrahedron, a, b, lame);
 }
 
 /// With vertex v at p.
@@ -52,14 +44,14 @@ using Matrix = std::array<std::array<double, 6>, 6>;
 Matrix scaledMatrix(const Block& a, const Block& b, const Block& between)
 {
   std::array<double, 6> factors;
-  for (int i = 0; i < 6; ++i) factors[i] = 1 / std::sqrt(i < 3 ? a[i][i] : b[i - 3][i - 3]);
+  for (int i = 0; i < 6; ++i) factors[i] = 1 / std::sqrt(i < 3 ? a[4 * i] : b[4 * (i - 3)]);
   Matrix m;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)
     {
-      m[i][k] = factors[i] * factors[k] * a[i][k];
-      m[i + 3][k + 3] = factors[i + 3] * factors[k + 3] * b[i][k];
-      m[i][k + 3] = m[k + 3][i] = factors[i] * factors[k + 3] * between[i][k];
+      m[i][k] = factors[i] * factors[k] * a[3 * i + k];
+      m[i + 3][k + 3] = factors[i + 3] * factors[k + 3] * b[3 * i + k];
+      m[i][k + 3] = m[k + 3][i] = factors[i] * factors[k + 3] * between[3 * i + k];
     }
   return m;
 }
@@ -90,7 +82,7 @@ double largestEigenvalue(Matrix m)
 }
 
 /// Not where tetrahedra are turned over.
-bool isPositive(const Block& own) { return own[0][0] > 0 && own[1][1] > 0 && own[2][2] > 0; }
+bool isPositive(const Block& own) { return own[0] > 0 && own[4] > 0 && own[8] > 0; }
 constexpr double outOfTheQuestion = 6; // the trace
 
 class StiffPairs

@@ -45,4 +45,20 @@ inline LameConstants lameConstants(double youngsModulus, double poissonsRatio)
            0.5 * youngsModulus / (1 + poissonsRatio) };
 }
 
+/// Rows by the force on one corner, columns by the displacement of another, in [x, y, z]; N/mm for moduli in MPa.
+using StiffnessBlock = std::array<double, 9>;
+
+/// Of corners a and b, of linear elasticity.
+inline StiffnessBlock stiffnessBlock(const LinearTetrahedron& tetrahedron, int a, int b, const LameConstants& lame)
+{
+  const Vec3 &g = tetrahedron.gradients[a], &h = tetrahedron.gradients[b];
+  const double shear = lame.mu * dot(g, h);
+  StiffnessBlock block;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      block[3 * i + j] =
+        tetrahedron.volume * (lame.lambda * g[i] * h[j] + lame.mu * g[j] * h[i] + (i == j ? shear : 0));
+  return block;
+}
+
 } // namespace surgicalmesher
