@@ -4,7 +4,8 @@
 usage: image_registration.py BIN OUTDIR [--shifts MM,MM,..] [--cleaver PROGRAM] [--document]
 
 BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, Mesh3Driver and TetGenDriver; CalculiX is ccx; PROGRAM is Cleaver's
-cleaver-cli, without which its meshes are left out. Docs/Evidence.md says what is done. Every finished part stays in OUTDIR and is not made again; a folder that is empty begins anew. Writes
+cleaver-cli, without which its meshes are left out. Docs/Evidence.md says what is done. Every finished part stays in OUTDIR and
+is not made again; a folder that is empty begins anew. Writes
 registration.md (tables), registration.json, registration.png and registration-meshes.png; --document puts tables and
 pictures into Docs/.
 """

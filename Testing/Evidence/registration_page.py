@@ -44,7 +44,8 @@ def distance_rows(table):
             continue
         shifts = list(row["dense"].values())
         middle = shifts[len(shifts) // 2]
-        yield [interval_text(interval), mesher, len(row["errorsThere"]), f"{row['hausdorff']:.1f}", f"{row['tetrahedra']:,}",
+        yield [interval_text(interval), mesher, len(row["errorsThere"]), f"{row['hausdorff']:.1f}",
+               f"{row['tetrahedra']:,}",
                f"{row['smallestDihedral']:.1f} / {row['meanSmallestDihedral']:.1f}", f"{row['condition']:.0f}",
                f"{row['mesherSeconds']:.2f}", f"{1000 * row['solverSeconds']:.1f} / {middle['iterations']}",
                " / ".join(f"{result['mean']:.2f}" for result in shifts),
@@ -54,9 +55,10 @@ def distance_rows(table):
 
 def distance_table(table):
     return document.table(
-        ["D_H (voxels)", "mesher", "meshes there", "D_H of the typical one", "tetrahedra", "dihedral min / mean min (°)",
-         "condition", "mesher (s)", "solver (ms) / iterations", "mean error by shift (mm)",
-         "mean over the shifts, least / median / largest of the meshes there (mm)", "planted outliers rejected by shift (%)"],
+        ["D_H (voxels)", "mesher", "meshes there", "D_H of the typical one", "tetrahedra",
+         "dihedral min / mean min (°)", "condition", "mesher (s)", "solver (ms) / iterations", "mean error by shift (mm)",
+         "mean over the shifts, least / median / largest of the meshes there (mm)",
+         "planted outliers rejected by shift (%)"],
         distance_rows(table))
 
 

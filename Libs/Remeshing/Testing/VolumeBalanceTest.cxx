@@ -62,6 +62,7 @@ TEST(VolumeBalance, OffsetsAreOfTissuesThatLackEnough)
   wanted.erase(0);
   wanted[1] *= 1.03, wanted[2] *= 0.999;
   const TissueOffsets offsets = VolumeBalance(wanted, 0.5, 1).offsets(background, 0.01);
+  ASSERT_EQ(offsets.count(1), 1u);
   const double area = 6 * 6 * 2 + 4 * 6 * 3, lacking = 6 * 6 * 3 * 0.03;
   for (const auto& [label, way] : offsets) EXPECT_NEAR(way, label == 1 ? 1.3 * lacking / area : 0, 1e-9) << label;
 }
