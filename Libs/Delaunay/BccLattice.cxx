@@ -45,36 +45,66 @@ constexpr double kCoarsest = 1.41421356237309505;
 /// Octaves from the densest place of log2 L that count as near it.
 constexpr double kNearOctave = 0.05;
 
-/// Mean of the octaves that are less than `within` from this one, on the circle of an octave; itself if none is.
-double meanOctave(const std::vector<double>& octaves, double middle, double within)
+/// From one to the other, on the circle of an octave: at most a half.
+double circularStep(double from, double to) { return to - from - std::round(to - from); }
+
+std::size_t countNear(const std::vector<double>& octaves, double middle)
+{
+  return std::size_t(std::count_if(octaves.begin(), octaves.end(),
+                                   [&](double octave)
+                                   { return std::abs(circularStep(middle, octave)) <= kNearOctave; }));
+}
+
+/// Where most of the octaves are near; the first of several places.
+double densestOctave(const std::vector<double>& octaves)
+{
+  constexpr int places = 40; // each near two others
+  double densest = 0;
+  std::size_t most = 0;
+  for (int place = 0; place < places; ++place)
+    if (const std::size_t count = countNear(octaves, double(place) / places); count > most)
+      densest = double(place) / places, most = count;
+  return densest;
+}
+
+/// Mean of the octaves near this one.
+double meanNear(const std::vector<double>& octaves, double middle)
 {
   double sum = 0, count = 0;
   for (const double octave : octaves)
   {
-    const double beside = octave - middle - std::round(octave - middle);
-    if (std::abs(beside) > within) continue;
-    sum += beside;
+    const double step = circularStep(middle, octave);
+    if (std::abs(step) > kNearOctave) continue;
+    sum += step;
     ++count;
   }
   return count > 0 ? middle + sum / count : middle;
 }
 
+/// Of the points that octaves are on a circle.
+double meanOnCircle(const std::vector<double>& octaves)
+{
+  double x = 0, y = 0;
+  for (const double octave : octaves)
+  {
+    x += std::cos(2 * M_PI * octave);
+    y += std::sin(2 * M_PI * octave);
+  }
+  return std::atan2(y, x) / (2 * M_PI);
+}
+
 /// The cube's edge, within half an octave of the finest L(x), that makes the lattice's mean edge fit L(x) over most of
-/// the places `lengths` are from: the densest place of log2 L, by mean shift, on the circle of an octave. The mean over
-/// all places would let the few where L(x) is fine make the lattice too fine for the many.
+/// the places `lengths` are from: by mean shift from the mean of log2 L, to the dense place beside it. At the mean
+/// itself the few places where L(x) is fine would make the lattice too fine for the many; where L(x) has few values,
+/// none may be there at all.
 double fittingCube(const std::vector<double>& lengths, double finest)
 {
   std::vector<double> octaves;
-  double x = 0, y = 0;
-  for (const double length : lengths)
-  {
-    octaves.push_back(std::log2(length / finest));
-    x += std::cos(2 * M_PI * octaves.back());
-    y += std::sin(2 * M_PI * octaves.back());
-  }
-  double octave = std::atan2(y, x) / (2 * M_PI);
-  for (int step = 0; step < 20; ++step) octave = meanOctave(octaves, octave, kNearOctave);
-  return finest * std::exp2(octave) / kLatticeMeanEdge;
+  for (const double length : lengths) octaves.push_back(std::log2(length / finest));
+  double octave = meanOnCircle(octaves);
+  if (countNear(octaves, octave) == 0) octave = densestOctave(octaves);
+  for (int step = 0; step < 20; ++step) octave = meanNear(octaves, octave);
+  return finest * std::exp2(circularStep(0, octave)) / kLatticeMeanEdge;
 }
 
 /// An octree of lattice cubes in a box around the surface, `cube` times a power of 2 large, as L(x) allows.

@@ -19,7 +19,7 @@ struct TetrahedraImprovementOptions
   double featureAngle = 0; ///< degrees; edges of the surface sharper than that, corners and flat faces stay what they
                            ///< are. 0: none are watched
   /// The surface stage has improved the surface for targetAngle: it is where it belongs, and is held except where an
-  /// angle cannot be mended otherwise.
+  /// angle cannot be mended otherwise, or a tissue has lost volume by that.
   bool isImproved = false;
 };
 

@@ -26,8 +26,8 @@ public:
   void apply(BackgroundMesh& background);
 
   /// How far (mm) the boundaries themselves should go, of all tissues at once, no farther than the most each time; some
-  /// more than is missing, as not all vertices can follow. Tissues that are off by less than `leastShare` of
-  /// their volume stay. The mesh must know its neighbours.
+  /// more than is missing, as not all vertices can follow. Of tissues that are off by less than
+  /// `leastShare` of their volume, only the boundaries to the others move. The mesh must know its neighbours.
   TissueOffsets offsets(const BackgroundMesh& background, double leastShare = 0) const;
 
 private:
