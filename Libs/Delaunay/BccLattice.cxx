@@ -42,7 +42,7 @@ bool onLattice(const Places& place, Place size)
 /// octaves alone would leave edges between L/2 and L, and the collapses that mend these destroy the lattice.
 constexpr double kCoarsest = 1.41421356237309505;
 
-/// Octaves from the densest place of log2 L that count as near it.
+/// Octaves; places of log2 L that are no farther apart are near each other.
 constexpr double kNearOctave = 0.05;
 
 /// From one to the other, on the circle of an octave: at most a half.

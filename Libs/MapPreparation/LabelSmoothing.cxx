@@ -201,7 +201,7 @@ private:
     std::vector<Candidate*> left;
     for (Candidate& c : m_Candidates)
     {
-      c.isRefused = false; // as another label
+      c.isRefused = false; // the constants, and so its choice, may have changed
       if (choice(c) >= 0) left.push_back(&c);
     }
     for (std::size_t before = 0; left.size() != before;)

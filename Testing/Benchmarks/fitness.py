@@ -3,7 +3,8 @@
 
 usage: fitness.py OUTDIR [--build BUILD | --bin BIN] [--map FILE] [--scales F,F,...] [--reuse] [--document]
 
-Meshes the map (default: jhu189) by all three with L from F to 8 F mm around a target, for every F (1,1.5,2,3,4), and
+Meshes the map (default: jhu189) by all three with L from F to 8 F mm around a target, for every F (1,1.5,2,3,4), by
+the others at 0.8 of the least F, too, and
 measures every mesh; Docs/Fitness.md says what and why. Writes fitness.json, fitness.csv, fitness.md (the table) and
 fitness.png to OUTDIR. Without --bin, the programs are built in BUILD (default: build) first. --reuse takes meshes that
 are in OUTDIR already. --document puts table and picture into Docs/.
@@ -37,7 +38,7 @@ PROGRAMS = ["SurgicalPathScaleCLI", "SimplexMesherCLI", "FuchsTetrahedralizerCLI
 MESHERS = {"SurgicalMesher": ("#c8553d", "o"), "CGAL Mesh_3": ("#4c78a8", "s"),
            "CGAL surface + TetGen": ("#5a9367", "^")}
 TARGET = "0,0,-10"
-FINER = 0.8
+FINER = 0.8  # of the least F: some of the others' meshes are as near to the map as our finest
 ISLAND = 30  # mm^3
 # The registration: weights are 1 N/mm per point. With this modulus, the first solution follows waves of a few points'
 # distance, and the repetitions those between.
@@ -222,8 +223,8 @@ def measured(mesh, seconds, reference):
 
 
 def compare(runner, label_map, factors):
-    """Rows of the table, one per mesher and size; a mesher that fails leaves a row without measures. The others have one
-    more size, finer than all, so that some of their meshes are as near to the map as our finest."""
+    """Rows of the table, one per mesher and size, and of the others one more, FINER; a mesher that fails leaves a row
+    without measures."""
     rows, reference = [], None
     for factor in [*factors, FINER * min(factors)]:
         runner.run("SurgicalPathScaleCLI", "--targetPoint", TARGET, "--minimumEdgeLength", factor,

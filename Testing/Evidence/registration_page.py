@@ -34,6 +34,7 @@ def matching_table(matches):
 
 
 def least_median_largest(ascending):
+    """The median as image_registration.chosen() has it."""
     return ascending[0], ascending[(len(ascending) - 1) // 2], ascending[-1]
 
 
