@@ -2,6 +2,7 @@
 #include "MapChanges.h"
 
 #include "DigitalTopology.h"
+#include "Parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -88,15 +89,18 @@ public:
 
   std::vector<MapChange> find() const
   {
+    const auto losses = changedBy(m_Before), gains = changedBy(m_After);
+    std::vector<std::vector<MapChange>> found(losses.size() + gains.size());
+    parallelForEach(found.size(),
+                    [&](std::size_t n)
+                    {
+                      const bool isLoss = n < losses.size();
+                      const auto& [label, voxels] = isLoss ? losses[n] : gains[n - losses.size()];
+                      for (const Voxels& piece : partsOf(voxels, m_Steps, isLoss))
+                        found[n].push_back(isLoss ? lost(label, piece) : gained(label, piece));
+                    });
     std::vector<MapChange> changes;
-    for (const auto& [label, voxels] : changedBy(m_Before))
-    {
-      for (const Voxels& piece : partsOf(voxels, m_Steps, true)) changes.push_back(lost(label, piece));
-    }
-    for (const auto& [label, voxels] : changedBy(m_After))
-    {
-      for (const Voxels& piece : partsOf(voxels, m_Steps, false)) changes.push_back(gained(label, piece));
-    }
+    for (const std::vector<MapChange>& each : found) changes.insert(changes.end(), each.begin(), each.end());
     std::stable_sort(changes.begin(), changes.end(),
                      [](const MapChange& a, const MapChange& b)
                      { return std::tie(a.label, a.kind) < std::tie(b.label, b.kind); });
