@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 namespace surgicalmesher
@@ -46,16 +47,17 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
   remeshing.featureAngle = options.featureAngle;
   const std::size_t rounds = options.isImproved ? restoreRounds : 0;
   Remesher remesher(std::move(background), length, remeshing, progress, sweeps.size() + rounds);
-  VolumeBalance balance(tissueVolumes(mesh), options.surfaceTolerance * smallest, balancingGain);
+  const std::map<Label, double> volumes = tissueVolumes(mesh);
+  VolumeBalance balance(volumes, options.surfaceTolerance * smallest);
   for (const auto& [sweep, worthwhileShare, balanced] : sweeps)
   {
-    if (balanced) balance.apply(remesher.background());
+    if (balanced) balance.apply(remesher.background(), balancingGain);
     const TetMesh& now = remesher.background().mesh;
     const double most = worthwhileShare * double(now.tetrahedra.size());
     if (most < 0 || double(countBelow(now, options.targetAngle)) > most) remesher.run(sweep);
     else remesher.skip();
   }
-  const VolumeBalance wanted(tissueVolumes(mesh), 0.1 * smallest, 1);
+  const VolumeBalance wanted(volumes, 0.1 * smallest);
   for (std::size_t round = 0; round < rounds; ++round)
   {
     TissueOffsets offsets = wanted.offsets(remesher.background(), leastLack);

@@ -58,7 +58,7 @@ TissueOffsets VolumeBalance::offsets(const BackgroundMesh& background, double le
   return offsetsForVolumes(lacking, areas, m_Most);
 }
 
-void VolumeBalance::apply(BackgroundMesh& background)
+void VolumeBalance::apply(BackgroundMesh& background, double gain)
 {
   const TetMesh& mesh = background.mesh;
   const Lack lack = lackOf(background);
@@ -66,7 +66,7 @@ void VolumeBalance::apply(BackgroundMesh& background)
   for (const auto& [pair, size] : lack.areas) area[pair.first] += size, area[pair.second] += size;
   std::vector<double> steps(labelCount);
   for (const auto& [label, volume] : m_Volumes)
-    if (label != 0 && area[label] > 0) steps[label] = stepOf(label, lack.volumes.at(label) / area[label]);
+    if (label != 0 && area[label] > 0) steps[label] = stepOf(label, gain * (lack.volumes.at(label) / area[label]));
   for (auto& sample : background.samples)
   {
     const std::int32_t t = sample.tetrahedron;
@@ -78,12 +78,12 @@ void VolumeBalance::apply(BackgroundMesh& background)
   }
 }
 
-/// How much farther a tissue's boundary goes out, mm.
-double VolumeBalance::stepOf(Label label, double lacking)
+/// How much of the way that is wanted a tissue's boundary may still go out, mm.
+double VolumeBalance::stepOf(Label label, double wanted)
 {
   double& moved = m_Moved[label];
   const double before = moved;
-  moved = std::clamp(moved + m_Gain * lacking, -m_Most, m_Most);
+  moved = std::clamp(moved + wanted, -m_Most, m_Most);
   return moved - before;
 }
 

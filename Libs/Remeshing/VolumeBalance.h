@@ -14,16 +14,13 @@ namespace surgicalmesher
 class VolumeBalance
 {
 public:
-  /// The volumes to keep, mm^3; how far (mm) samples may go for that in all, and by how much of what would make up for
-  /// the volume at once: above 1 where angles hold vertices back from where the samples go.
-  VolumeBalance(std::map<Label, double> volumes, double most, double gain)
-    : m_Most(most), m_Gain(gain), m_Volumes(std::move(volumes))
-  {
-  }
+  /// The volumes to keep, mm^3, and how far (mm) samples may go for that in all.
+  VolumeBalance(std::map<Label, double> volumes, double most) : m_Most(most), m_Volumes(std::move(volumes)) {}
 
   /// Moves the boundary samples of every tissue that has gained or lost volume along its boundary's normals; twice the
-  /// most between two tissues. The mesh must know its neighbours.
-  void apply(BackgroundMesh& background);
+  /// most between two tissues. `gain`: how much of the way that would make up for the volume, above 1 where angles hold
+  /// vertices back from where the samples go. The mesh must know its neighbours.
+  void apply(BackgroundMesh& background, double gain);
 
   /// How far (mm) the boundaries themselves should go, of all tissues at once, no farther than the most each time; some
   /// more than is missing, as not all vertices can follow. Of tissues that are off by less than
@@ -37,9 +34,9 @@ private:
     std::map<std::pair<Label, Label>, double> areas; ///< mm^2, by the labels on both sides, each pair once
   };
   Lack lackOf(const BackgroundMesh& background) const;
-  double stepOf(Label label, double lacking);
+  double stepOf(Label label, double wanted);
 
-  double m_Most, m_Gain;
+  double m_Most;
   std::map<Label, double> m_Volumes, m_Moved;
 };
 

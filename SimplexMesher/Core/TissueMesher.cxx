@@ -90,7 +90,7 @@ VolumeBalance balanceOf(const TissueMap& map)
   const Vec3 h = map.grid.spacing;
   std::map<Label, double> volumes;
   for (const auto& [label, voxels] : countVoxels(map)) volumes[label] = double(voxels) * h.x * h.y * h.z;
-  return { std::move(volumes), 0.5 * map.grid.smallestSpacing(), 1.5 };
+  return { std::move(volumes), 0.5 * map.grid.smallestSpacing() };
 }
 
 /// A remesher that keeps a record of what it does, and tissues' volumes where it is asked to.
@@ -120,9 +120,10 @@ public:
   /// Balances the volumes of tissues before each.
   void balanceAndRun(const std::vector<Sweep>& sweeps)
   {
+    constexpr double gain = 1.5; // angles hold vertices back
     for (const Sweep& sweep : sweeps)
     {
-      if (m_Balances) m_Balance.apply(m_Remesher.background());
+      if (m_Balances) m_Balance.apply(m_Remesher.background(), gain);
       run(sweep);
     }
   }

@@ -22,6 +22,7 @@
 #include <vtkSMPTools.h>
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
 #include <stdexcept>
@@ -706,6 +707,27 @@ TEST(Trimming, KeepsEveryPromiseAndLeavesFewerTips)
                      });
   EXPECT_GT(relabels, 0);
   EXPECT_LT(after, before);
+}
+
+// What repairs of the surface cost a tissue comes back, within what is worth it.
+TEST(MeshImprovement, TissuesOfAnImprovedSurfaceKeepTheirVolumes)
+{
+  TetrahedraImprovementOptions options;
+  options.isImproved = true;
+  for (unsigned seed = 1; seed <= 4; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const TetMesh before = shaken(tetrahedraOf(randomWellComposedMap(random, { 8, 8, 8 }, 3)), random, 0.35);
+    TetMesh after = before;
+    improveTetrahedra(after, scale, options);
+    requireSound(after, "improvement");
+    EXPECT_EQ(meshTopology(withBackgroundAsTissue(after)), meshTopology(withBackgroundAsTissue(before)));
+    EXPECT_GT(worstOf(withoutOutside(after)), worstOf(withoutOutside(before)));
+    const std::map<Label, double> volumes = volumesOf(after);
+    for (const auto& [label, volume] : volumesOf(before)) // up to 0.014 otherwise
+      EXPECT_NEAR(volumes.at(label) / volume, 1, 0.005) << "label " << label;
+  }
 }
 
 TEST(MeshImprovement, BytesDoNotDependOnThreadsAndCancellingLeavesTheMesh)

@@ -35,7 +35,7 @@ TEST(VolumeBalance, OffsetsBringEveryTissueToItsVolume)
   std::map<Label, double> wanted = volumesOf(slabs().mesh);
   wanted.erase(0);
   wanted[1] *= 1.03, wanted[2] *= 0.95;
-  const VolumeBalance balance(wanted, 0.5, 1);
+  const VolumeBalance balance(wanted, 0.5);
   constexpr std::size_t rounds = 5;
   Remesher remesher(slabs(), unit, {}, {}, rounds);
   for (std::size_t round = 0; round < rounds; ++round)
@@ -50,7 +50,7 @@ TEST(VolumeBalance, OffsetsAreBounded)
   const BackgroundMesh background = slabs();
   std::map<Label, double> wanted = volumesOf(background.mesh);
   wanted[2] *= 3;
-  const TissueOffsets offsets = VolumeBalance(wanted, 0.2, 1).offsets(background);
+  const TissueOffsets offsets = VolumeBalance(wanted, 0.2).offsets(background);
   EXPECT_EQ(offsets.at(2), 0.2);
   for (const auto& [label, way] : offsets) EXPECT_LE(std::abs(way), 0.2) << "label " << label;
 }
@@ -61,7 +61,7 @@ TEST(VolumeBalance, OffsetsAreOfTissuesThatLackEnough)
   std::map<Label, double> wanted = volumesOf(background.mesh);
   wanted.erase(0);
   wanted[1] *= 1.03, wanted[2] *= 0.999;
-  const TissueOffsets offsets = VolumeBalance(wanted, 0.5, 1).offsets(background, 0.01);
+  const TissueOffsets offsets = VolumeBalance(wanted, 0.5).offsets(background, 0.01);
   ASSERT_EQ(offsets.count(1), 1u);
   const double area = 6 * 6 * 2 + 4 * 6 * 3, lacking = 6 * 6 * 3 * 0.03;
   for (const auto& [label, way] : offsets) EXPECT_NEAR(way, label == 1 ? 1.3 * lacking / area : 0, 1e-9) << label;
