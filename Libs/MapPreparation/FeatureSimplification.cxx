@@ -3,6 +3,7 @@
 
 #include "Parallel.h"
 #include "RegionRemoval.h"
+#include "VoxelBall.h"
 
 #include <algorithm>
 #include <array>
@@ -46,41 +47,22 @@ private:
   double m_Factor, m_Smallest;
 };
 
-/// Steps from a voxel to the voxels of the balls around it, by diameter.
+/// Balls by their diameter, mm.
 class Balls
 {
 public:
   Balls(const Grid& grid, double smallestSpacing, double largestDiameter) : m_Unit(smallestSpacing / 4)
   {
-    for (int index = 0; index <= indexOf(largestDiameter); ++index) m_Steps.push_back(ball(grid, index * m_Unit / 2));
+    for (int index = 0; index <= indexOf(largestDiameter); ++index) m_Balls.emplace_back(grid, index * m_Unit / 2);
   }
 
-  const std::vector<std::ptrdiff_t>& ofDiameter(double diameter) const { return m_Steps[indexOf(diameter)]; }
+  const VoxelBall& ofDiameter(double diameter) const { return m_Balls[indexOf(diameter)]; }
 
 private:
   int indexOf(double diameter) const { return int(std::lround(diameter / m_Unit)); }
 
-  static std::vector<std::ptrdiff_t> ball(const Grid& grid, double radius)
-  {
-    const Vec3& s = grid.spacing;
-    const int reachI = int(radius / s.x), reachJ = int(radius / s.y), reachK = int(radius / s.z);
-    std::vector<std::ptrdiff_t> steps;
-    for (int k = -reachK; k <= reachK; ++k)
-    {
-      for (int j = -reachJ; j <= reachJ; ++j)
-      {
-        for (int i = -reachI; i <= reachI; ++i)
-        {
-          if (squaredNorm({ i * s.x, j * s.y, k * s.z }) > radius * radius) continue;
-          steps.push_back((std::ptrdiff_t(k) * grid.size[1] + j) * grid.size[0] + i);
-        }
-      }
-    }
-    return steps;
-  }
-
   double m_Unit;
-  std::vector<std::vector<std::ptrdiff_t>> m_Steps;
+  std::vector<VoxelBall> m_Balls;
 };
 
 /// Cubes of voxels in which something may have to be looked at again.
@@ -252,27 +234,18 @@ private:
     if (size == 0) return own;
 
     // A ball through voxel centres: half a voxel wider on each side than what lies within it.
-    const auto& ball = m_Balls.ofDiameter(size + m_Sizes.smallestSpacing());
-    const std::size_t enough = std::size_t(std::ceil(requiredShare * ball.size()));
-    std::size_t ownShare = 0;
-    std::array<std::size_t, 6> shares{};
-    for (const std::ptrdiff_t step : ball)
-    {
-      const Label label = m_Map.labels[voxel + step];
-      if (label == own)
-      {
-        if (++ownShare == enough) return own;
-        continue;
-      }
-      for (int o = 0; o < count; ++o) shares[o] += label == others[o];
-    }
+    const VoxelBall& ball = m_Balls.ofDiameter(size + m_Sizes.smallestSpacing());
+    const Label* const centre = m_Map.labels.data() + voxel;
+    const std::size_t ownShare = ball.count(centre, own);
+    if (ownShare >= std::size_t(std::ceil(requiredShare * ball.size()))) return own;
     Label best = own;
     std::size_t bestShare = ownShare;
     for (int o = 0; o < count; ++o)
     {
-      if (shares[o] < bestShare || (shares[o] == bestShare && (best == own || best < others[o]))) continue;
+      const std::size_t share = ball.count(centre, others[o]);
+      if (share < bestShare || (share == bestShare && (best == own || best < others[o]))) continue;
       best = others[o];
-      bestShare = shares[o];
+      bestShare = share;
     }
     return best;
   }
@@ -355,7 +328,13 @@ std::vector<bool> voxelsBelowScale(const PaddedMap& map, const ScaleField& scale
 {
   const FeatureSizes sizes(map, scale, featureScale);
   std::vector<bool> below(map.labels.size());
-  for (std::size_t v = 0; v < below.size(); ++v) below[v] = map.isInMargin(v) || sizes.at(v) == 0;
+  constexpr std::size_t together = 1 << 16; // threads must not share a word of the bits
+  parallelForEach((below.size() + together - 1) / together,
+                  [&](std::size_t n)
+                  {
+                    const std::size_t end = std::min(below.size(), (n + 1) * together);
+                    for (std::size_t v = n * together; v < end; ++v) below[v] = map.isInMargin(v) || sizes.at(v) == 0;
+                  });
   return below;
 }
 

@@ -27,12 +27,37 @@ bool isFace(int neighbour)
   return std::find(sixNeighbours.begin(), sixNeighbours.end(), neighbour) != sixNeighbours.end();
 }
 
+/// Whether a part goes on to each neighbour of a voxel.
+std::array<bool, 27> joins(bool throughFacesOnly)
+{
+  std::array<bool, 27> result;
+  for (int n = 0; n < 27; ++n) result[n] = n != centre && (!throughFacesOnly || isFace(n));
+  return result;
+}
+
 /// The parts that `set` falls into, each ascending, in the order of their first voxels.
 std::vector<Voxels> partsOf(const Voxels& set, const std::array<std::ptrdiff_t, 27>& steps, bool throughFacesOnly)
 {
+  const std::array<bool, 27> isJoined = joins(throughFacesOnly);
   std::vector<Voxels> parts;
   std::vector<bool> taken(set.size(), false);
   std::vector<std::size_t> open;
+  const auto openNeighbours = [&](std::size_t voxel)
+  {
+    for (int row = 0; row < 27; row += 3) // three neighbours in a row are next to each other in the set
+    {
+      if (!isJoined[row] && !isJoined[row + 1] && !isJoined[row + 2]) continue;
+      const std::ptrdiff_t first = std::ptrdiff_t(voxel) + steps[row];
+      auto at = std::lower_bound(set.begin(), set.end(), std::size_t(std::max<std::ptrdiff_t>(first, 0)));
+      for (; at != set.end() && std::ptrdiff_t(*at) <= first + 2; ++at)
+      {
+        const auto n = std::size_t(at - set.begin());
+        if (!isJoined[row + std::ptrdiff_t(*at) - first] || taken[n]) continue;
+        taken[n] = true;
+        open.push_back(n);
+      }
+    }
+  };
   for (std::size_t first = 0; first < set.size(); ++first)
   {
     if (taken[first]) continue;
@@ -41,17 +66,9 @@ std::vector<Voxels> partsOf(const Voxels& set, const std::array<std::ptrdiff_t, 
     Voxels part;
     while (!open.empty())
     {
-      const std::size_t voxel = set[open.back()];
+      part.push_back(set[open.back()]);
       open.pop_back();
-      part.push_back(voxel);
-      for (int n = 0; n < 27; ++n)
-      {
-        if (n == centre || (throughFacesOnly && !isFace(n))) continue;
-        const auto at = std::lower_bound(set.begin(), set.end(), voxel + steps[n]);
-        if (at == set.end() || *at != voxel + steps[n] || taken[at - set.begin()]) continue;
-        taken[at - set.begin()] = true;
-        open.push_back(at - set.begin());
-      }
+      openNeighbours(part.back());
     }
     std::sort(part.begin(), part.end());
     parts.push_back(std::move(part));
