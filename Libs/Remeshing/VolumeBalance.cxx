@@ -78,7 +78,7 @@ void VolumeBalance::apply(BackgroundMesh& background, double gain)
   }
 }
 
-/// How much of the way that is wanted a tissue's boundary may still go out, mm.
+/// How much farther a tissue's boundary goes out, mm: as wanted, within the most in all.
 double VolumeBalance::stepOf(Label label, double wanted)
 {
   double& moved = m_Moved[label];
