@@ -142,18 +142,26 @@ private:
 
   // ---- curves between tissues
 
-  /// The two next to each point of a curve; none at other points, and where curves meet or end.
+  /// The number of a vertex of the complex among the points that move; -1 if it is none of them.
+  std::int32_t pointOf(std::int32_t v) const
+  {
+    const auto at = std::lower_bound(m_Dual.ids.begin(), m_Dual.ids.end(), v);
+    return at != m_Dual.ids.end() && *at == v ? std::int32_t(at - m_Dual.ids.begin()) : -1;
+  }
+
+  /// The two next to each point of a curve; none at other points, and where curves meet, end or leave what moves.
   void findCurves()
   {
+    constexpr std::array<std::int32_t, 2> none{ -1, -1 };
     FacesAtNeighbours faces;
-    const std::vector<std::int32_t>& ids = m_Dual.ids;
-    for (const std::int32_t v : ids)
+    for (const std::int32_t v : m_Dual.ids)
     {
       facesAtNeighbours(m_Operations.sheet(v), v, faces);
       std::vector<std::int32_t> along;
       for (const auto& [n, count] : faces)
-        if (count > 2) along.push_back(std::int32_t(std::lower_bound(ids.begin(), ids.end(), n) - ids.begin()));
-      m_Along.push_back(along.size() == 2 ? std::array{ along[0], along[1] } : std::array{ -1, -1 });
+        if (count > 2) along.push_back(pointOf(n));
+      const bool isInside = along.size() == 2 && along[0] >= 0 && along[1] >= 0;
+      m_Along.push_back(isInside ? std::array{ along[0], along[1] } : none);
     }
   }
 

@@ -127,6 +127,23 @@ TEST(InterfaceMotion, StraightensCurvesBetweenTissues)
   EXPECT_LT(width(), 0.9 * before);
 }
 
+TEST(InterfaceMotion, LeavesACurveWhereItIsThatGoesOnToWhereNothingMoves)
+{
+  // Two tissues on a floor, parted by a flat wall; elements are coarse in half of the map.
+  TetComplex complex = voxelsOf([](int, int j, int k) { return k < 6 ? 0 : j < 6 ? 1 : 2; });
+  for (std::size_t v = 0; v < complex.points.size(); ++v)
+    if (complex.points[v].x > 6) complex.lengths[v] = 9;
+  const std::vector<Vec3> start = complex.points;
+  InterfaceMotionOptions options = reaching(2, 5, 6);
+  options.fineLength = 2;
+  move(complex, options);
+  for (std::size_t v = 0; v < start.size(); ++v)
+    if (start[v].y == 5.5 && start[v].z == 5.5 && std::abs(start[v].x - 5.5) < 3)
+    {
+      EXPECT_LT(norm(complex.points[v] - start[v]), 0.02);
+    }
+}
+
 TEST(InterfaceMotion, LeavesAPlaneWhereItIs)
 {
   TetComplex complex = voxelsOf([](int, int, int k) { return k < 6 ? 1 : 2; });
