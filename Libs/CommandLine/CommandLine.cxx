@@ -427,6 +427,7 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
     line.reset(new CommandLine(std::move(data)));
 
     installSignalHandlers(executable);
+    returnFreedMemory();
     const QuietStderr quiet;
     silenceVTK();
     if (line->d->arguments.echo) line->d->echo();

@@ -22,6 +22,9 @@
 #include <fcntl.h>
 #include <unistd.h>
 #endif
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace surgicalmesher
 {
@@ -116,6 +119,16 @@ void removeOnSignal(const std::string& file)
 }
 
 void keepOnSignal() { doomedFiles.store(nullptr); }
+
+void returnFreedMemory()
+{
+#ifdef __GLIBC__
+  // Left alone, glibc raises both to as much as 64 MB after the first large array is freed, and what is freed later stays.
+  constexpr int most = 256 * 1024; // bytes
+  mallopt(M_MMAP_THRESHOLD, most);
+  mallopt(M_TRIM_THRESHOLD, most);
+#endif
+}
 
 void writeToStderr(const std::string& text) { writeAll(stderrDescriptor.load(), text.data(), text.size()); }
 

@@ -9,6 +9,9 @@ namespace surgicalmesher
 
 bool stdoutIsTerminal();
 
+/// From now on, large arrays go back to the system as soon as they are freed, where the system's allocator would keep them.
+void returnFreedMemory();
+
 std::string hostName();
 int processId();
 bool processIsAlive(int id); ///< on this host; true in doubt

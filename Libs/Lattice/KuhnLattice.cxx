@@ -461,10 +461,10 @@ private:
             for (at[0] = low[0]; at[0] <= high[0]; ++at[0])
             {
               if (!coversCentre(a, b, c, axis, at)) continue;
-              Vec3 p{ double(at[0]), double(at[1]), double(at[2]) };
-              p[axis] = 0.5 * (here[axis] + beyond[axis]);
-              for (int k = 0; k < 3; ++k) p[k] *= m_Map.grid.spacing[k];
-              out.background.samples.push_back({ { p, 0 }, id, f });
+              VoxelFace face{ at, axis };
+              face.lower[axis] = std::min(here[axis], beyond[axis]);
+              if (m_Options.isSampled && !m_Options.isSampled(face)) continue;
+              out.background.samples.push_back({ { face.centre(m_Map.grid.spacing), 0 }, id, f });
             }
       }
     }

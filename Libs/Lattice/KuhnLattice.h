@@ -8,10 +8,12 @@
 /// the labelled complex therefore has exactly the map's topology and volumes.
 
 #include "BackgroundMesh.h"
+#include "BoundaryFaces.h"
 #include "Progress.h"
 #include "ScaleField.h"
 #include "TissueMap.h"
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -22,11 +24,13 @@ struct LatticeOptions
 {
   double relativeSize = 0.8; ///< cubes are cut until their side is at most this share of the target edge length
   int mostLevelsBelowVoxel = 2;
+  /// Which voxel faces between two labels get a sample; all, if there is no such function. Called on several threads.
+  std::function<bool(const VoxelFace&)> isSampled;
 };
 
 struct KuhnLattice
 {
-  BackgroundMesh background; ///< with samples at the centre of every voxel face between two labels, of tolerance 0
+  BackgroundMesh background; ///< with samples at the centres of voxel faces between two labels, of tolerance 0
   std::vector<std::pair<std::int32_t, std::int32_t>>
     interfaceFaces; ///< (tetrahedron of the larger label, face), each once
 };

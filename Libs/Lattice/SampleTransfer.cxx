@@ -24,18 +24,6 @@ constexpr int reach = 3;   // bins, beyond which no face is near
 using Index = std::array<int, 3>;
 using Sample = BackgroundMesh::Sample;
 
-VoxelFace voxelFaceAt(const Vec3& centre, const Vec3& spacing)
-{
-  VoxelFace face{ {}, 0 };
-  for (int a = 0; a < 3; ++a)
-  {
-    const long halves = std::lround(2 * centre[a] / spacing[a]);
-    face.lower[a] = int(std::floor(0.5 * double(halves)));
-    if (halves & 1) face.axis = a;
-  }
-  return face;
-}
-
 using LabelPair = std::pair<Label, Label>; ///< ascending
 
 LabelPair labelsBeside(const TissueMap& map, const VoxelFace& face)
@@ -167,8 +155,9 @@ double shareAt(double length, double perTriangle, const Vec3& spacing)
 
 } // namespace
 
-void transferSamples(KuhnLattice& lattice, const TissueMap& blocks, const TissueMap& map, const SizingFunction& length,
-                     const SampleTransferOptions& options)
+KuhnLattice latticeWithSamplesOf(const TissueMap& map, const TissueMap& blocks, const ScaleField& scale,
+                                 const SizingFunction& length, const SampleTransferOptions& options,
+                                 const Progress& progress)
 {
   const Vec3& spacing = map.grid.spacing;
   const auto isWanted = [&](const VoxelFace& face)
@@ -178,18 +167,9 @@ void transferSamples(KuhnLattice& lattice, const TissueMap& blocks, const Tissue
     return labelAt(map, face.lower) == labelAt(blocks, face.lower) &&
            labelAt(map, face.upper()) == labelAt(blocks, face.upper());
   };
-  std::vector<Sample>& samples = lattice.background.samples;
-  std::vector<std::uint8_t> stays(samples.size());
-  parallelFor(samples.size(),
-              [&](std::size_t i)
-              {
-                const VoxelFace face = voxelFaceAt(samples[i].position, spacing);
-                stays[i] = isSame(face) && isWanted(face);
-              });
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    if (stays[i]) samples[kept++] = samples[i];
-  samples.resize(kept);
+  LatticeOptions inPlace;
+  inPlace.isSampled = [&](const VoxelFace& face) { return isSame(face) && isWanted(face); };
+  KuhnLattice lattice = kuhnLattice(blocks, scale, inPlace, progress);
 
   const FaceBins bins(lattice, blocks);
   std::vector<std::vector<Sample>> slices(std::size_t(map.grid.size[2]) + 1);
@@ -205,7 +185,9 @@ void transferSamples(KuhnLattice& lattice, const TissueMap& blocks, const Tissue
                                             slices[k].push_back({ { p, 0 }, holder->first, holder->second });
                                         });
                   });
+  std::vector<Sample>& samples = lattice.background.samples;
   for (const std::vector<Sample>& slice : slices) samples.insert(samples.end(), slice.begin(), slice.end());
+  return lattice;
 }
 
 } // namespace surgicalmesher

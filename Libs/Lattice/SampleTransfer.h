@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Boundary samples of a map for the lattice of another one that stands for it, as one of uniform blocks does.
+/// The lattice of a map that stands for another one, as one of uniform blocks does, with the other's boundary samples.
 
 #include "KuhnLattice.h"
 #include "SizingFunction.h"
@@ -14,11 +14,11 @@ struct SampleTransferOptions
   double perTriangle = 0;
 };
 
-/// The samples of `lattice`, which was made of `blocks`, become those of `map`: the centres of its voxel faces between
-/// two labels, each held by the nearest face of the lattice between the same two. Where two labels touch in the map
-/// but, as far as `reach` voxels, not in the blocks, they have none. `length` is in the grid frame. Both maps have the
-/// same grid.
-void transferSamples(KuhnLattice& lattice, const TissueMap& blocks, const TissueMap& map, const SizingFunction& length,
-                     const SampleTransferOptions& options = {});
+/// The lattice of `blocks` with the samples of `map`: the centres of its voxel faces between two labels, each held by the
+/// nearest face of the lattice between the same two. Where two labels touch in the map but, as far as `reach` voxels, not
+/// in the blocks, they have none. `length` is in the grid frame. Both maps have the same grid. Throws as kuhnLattice().
+KuhnLattice latticeWithSamplesOf(const TissueMap& map, const TissueMap& blocks, const ScaleField& scale,
+                                 const SizingFunction& length, const SampleTransferOptions& options = {},
+                                 const Progress& progress = {});
 
 } // namespace surgicalmesher

@@ -48,9 +48,7 @@ KuhnLattice latticeOf(const TissueMap& map, const ScaleField& scale, const Sizin
   constexpr double blockSize = 0.25, samplesPerTriangle = 16; // a larger one costs smoothness, fewer cost accuracy
   if (!leavesVoxels(options)) return kuhnLattice(map, scale, {}, progress);
   const TissueMap blocks = withUniformBlocks(map, scale, { blockSize, options.features.protectedLabels });
-  KuhnLattice lattice = kuhnLattice(blocks, scale, {}, progress);
-  transferSamples(lattice, blocks, map, length, { samplesPerTriangle });
-  return lattice;
+  return latticeWithSamplesOf(map, blocks, scale, length, { samplesPerTriangle }, progress);
 }
 
 struct StartingMesh
@@ -175,15 +173,17 @@ ScaleField followBoundary(const TissueMap& map, const ScaleField& scale, const T
 MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const TissueMesherOptions& options,
                       const Progress& progress)
 {
-  const SmoothedLabels smoothed = withoutRoughness(prepared, wanted, options);
-  const TissueMap& map = smoothed.map;
-  const std::map<Label, double> thickness = meanThickness(map);
-  const ScaleField scale = followFlatTissues(wanted, map, thickness);
-  const SizingFunction length = [&](const Vec3& p) { return double(float(scale(map.grid.gridToWorld(p)))); };
-  const MeshSizes sizes{ map.grid.smallestSpacing(), *std::max_element(scale.lengths.begin(), scale.lengths.end()),
+  const Grid& grid = prepared.grid;
+  SmoothedLabels smoothed = withoutRoughness(prepared, wanted, options);
+  const std::map<Label, double> thickness = meanThickness(smoothed.map);
+  const ScaleField scale = followFlatTissues(wanted, smoothed.map, thickness);
+  const SizingFunction length = [&](const Vec3& p) { return double(float(scale(grid.gridToWorld(p)))); };
+  const MeshSizes sizes{ grid.smallestSpacing(), *std::max_element(scale.lengths.begin(), scale.lengths.end()),
                          mostOfSpikes(options) };
-  TissueRemesher remesher(startingMesh(map, scale, thickness, length, options, subProgress(progress, 0, 0.06)),
-                          prepared, length, options, subProgress(progress, 0.1, 1), surfaceSweepCount(sizes));
+  StartingMesh start = startingMesh(smoothed.map, scale, thickness, length, options, subProgress(progress, 0, 0.06));
+  smoothed.map = {}; // memory: it is as large as `prepared`
+  TissueRemesher remesher(std::move(start), prepared, length, options, subProgress(progress, 0.1, 1),
+                          surfaceSweepCount(sizes));
 
   const MeshTargets targets = coarsen(remesher, sizes);
   remesher.run(firstImprovement(targets, sizes));
@@ -196,7 +196,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   if (targets.countsTriangles()) remesher.balanceAndRun({ finishingSweep(targets, sizes) });
   remesher.offsetTissues(targets);
   MeshedMap result = std::move(remesher).result(targets.keptAngle);
-  result.smoothed = smoothed.changes;
+  result.smoothed = std::move(smoothed.changes);
   return result;
 }
 

@@ -22,6 +22,12 @@ double length(const Vec3&) { return edgeLength; }
 
 KuhnLattice latticeOf(const TissueMap& map) { return kuhnLattice(map, uniformScale(edgeLength), {}); }
 
+/// Of `blocks`, with the samples of `map`.
+KuhnLattice latticeOf(const TissueMap& map, const TissueMap& blocks, double perTriangle = 0)
+{
+  return latticeWithSamplesOf(map, blocks, uniformScale(edgeLength), length, { perTriangle });
+}
+
 /// A wall across x: label 1 below it, 2 above.
 TissueMap walled(int at)
 {
@@ -60,9 +66,7 @@ TEST(SampleTransfer, keepsAllOfTheSameMap)
   for (int n = 0; n < 10; ++n)
   {
     const TissueMap map = randomWellComposedMap(random, { 9, 8, 10 }, 3);
-    const KuhnLattice before = latticeOf(map);
-    KuhnLattice after = before;
-    transferSamples(after, map, map, length);
+    const KuhnLattice before = latticeOf(map), after = latticeOf(map, map);
     ASSERT_EQ(after.background.samples.size(), before.background.samples.size());
     for (std::size_t i = 0; i < after.background.samples.size(); ++i)
     {
@@ -75,9 +79,8 @@ TEST(SampleTransfer, keepsAllOfTheSameMap)
 TEST(SampleTransfer, placesThoseOfTheMapOnTheWallOfTheBlocks)
 {
   const TissueMap map = walled(7), blocks = walled(8);
-  KuhnLattice lattice = latticeOf(blocks);
+  const KuhnLattice lattice = latticeOf(map, blocks);
   const std::vector<Sample> wanted = sorted(latticeOf(map).background.samples);
-  transferSamples(lattice, blocks, map, length);
   const std::vector<Sample> found = sorted(lattice.background.samples);
   ASSERT_EQ(found.size(), wanted.size());
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].position, wanted[i].position);
@@ -92,8 +95,7 @@ TEST(SampleTransfer, placesThoseOfTheMapOnTheWallOfTheBlocks)
 TEST(SampleTransfer, leavesOutWhatTheBlocksHaveNoFaceFor)
 {
   const TissueMap blocks = paintedMap({ 16, 12, 12 }, [](int, int, int) { return 1; });
-  KuhnLattice lattice = latticeOf(blocks);
-  transferSamples(lattice, blocks, walled(8), length);
+  const KuhnLattice lattice = latticeOf(walled(8), blocks);
   for (const auto& labels : heldBetween(lattice)) EXPECT_EQ(labels, std::pair(Label(1), Label(0)));
   for (const Sample& sample : lattice.background.samples)
     EXPECT_LT(sample.position.x, 8); // the others lie between 2 and the outside
@@ -102,10 +104,9 @@ TEST(SampleTransfer, leavesOutWhatTheBlocksHaveNoFaceFor)
 TEST(SampleTransfer, thinsEvenly)
 {
   const TissueMap map = paintedMap({ 40, 60, 60 }, [](int i, int, int) { return i < 20 ? 1 : 2; });
-  KuhnLattice lattice = latticeOf(map);
   constexpr double perTriangle = 3;
   const double share = perTriangle / (0.25 * std::sqrt(3.0) * edgeLength * edgeLength);
-  transferSamples(lattice, map, map, length, { perTriangle });
+  const KuhnLattice lattice = latticeOf(map, map, perTriangle);
   constexpr std::size_t side = 10;
   std::array<int, 36> counts{}; // on squares of the wall
   const auto row = [](double x) { return std::size_t(x) / side; };
