@@ -95,7 +95,7 @@ class LabelSmoother
 public:
   LabelSmoother(PaddedMap& map, const ScaleField& scale, const LabelSmoothingOptions& options)
     : m_Map(map), m_Scale(scale), m_Options(options), m_Coarse(options.sigma), m_Fine(0.7 * options.sigma),
-      m_Around(neighbourSteps(map.grid)), m_Gained(labelCount, 0), m_Constants(labelCount, 0)
+      m_Around(neighbourSteps(map.grid)), m_Gained(largestLabel(map) + 1, 0), m_Constants(m_Gained.size(), 0)
   {
   }
 
@@ -111,6 +111,11 @@ public:
   }
 
 private:
+  static std::size_t largestLabel(const PaddedMap& map)
+  {
+    return *std::max_element(map.labels.begin(), map.labels.end());
+  }
+
   void findCandidates()
   {
     const int margin = m_Map.margin;
@@ -168,6 +173,27 @@ private:
     return best;
   }
 
+  /// m_Gained, were all to make their choices now.
+  std::vector<std::int32_t> gainedByChoices() const
+  {
+    constexpr std::size_t parts = 16;
+    std::vector<std::vector<std::int32_t>> gained(parts, std::vector<std::int32_t>(m_Gained.size(), 0));
+    parallelForEach(parts,
+                    [&](std::size_t part)
+                    {
+                      const std::size_t n = m_Candidates.size();
+                      for (std::size_t i = part * n / parts; i < (part + 1) * n / parts; ++i)
+                      {
+                        const Candidate& c = m_Candidates[i];
+                        if (const int r = choice(c); r >= 0) --gained[part][c.own], ++gained[part][c.labels[r]];
+                      }
+                    });
+    std::vector<std::int32_t> sum = m_Gained;
+    for (const std::vector<std::int32_t>& part : gained)
+      for (std::size_t label = 0; label < sum.size(); ++label) sum[label] += part[label];
+    return sum;
+  }
+
   /// Finds the constants with which tissues keep their volumes; the background's stays 0. Each goes up or down by a step
   /// of its own, which grows while that helps and halves when the tissue has come to have too much of what it lacked
   /// (Riedmiller and Braun 1993): how many voxels a constant moves differs by orders of magnitude between tissues.
@@ -175,14 +201,12 @@ private:
   {
     constexpr int rounds = 60;
     constexpr float first = 0.05F, longest = 0.1F, most = 0.8F;
-    std::vector<float> steps(labelCount, first);
-    std::vector<std::int32_t> gained, before(labelCount, 0);
+    std::vector<float> steps(m_Constants.size(), first);
+    std::vector<std::int32_t> before(m_Constants.size(), 0);
     for (int round = 0; round < rounds; ++round)
     {
-      gained = m_Gained;
-      for (const Candidate& c : m_Candidates)
-        if (const int r = choice(c); r >= 0) --gained[c.own], ++gained[c.labels[r]];
-      for (std::size_t label = 1; label < labelCount; ++label)
+      const std::vector<std::int32_t> gained = gainedByChoices();
+      for (std::size_t label = 1; label < gained.size(); ++label)
       {
         if (gained[label] == 0) continue;
         const bool isLess = gained[label] < 0, wasLess = before[label] < 0;
