@@ -15,7 +15,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double kBytes = 25e6, kBytesPerFace = 750, kBytesPerCube = 370, kBytesPerVoxel = 12;
+constexpr double kBytes = 25e6, kBytesPerFace = 640, kBytesPerCube = 370, kBytesPerVoxel = 9.5, kBytesPerLength = 16;
 constexpr double kRelativeSize = 0.8;       ///< of a cube to L
 constexpr int kSmallest = -2, kLargest = 5; ///< powers of two of a cube's side, in voxels
 
@@ -106,7 +106,7 @@ double startingFaces(const TissueMap& map, const ScaleField& scale, bool hasBloc
 std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, double startingFaces)
 {
   return std::uint64_t(kBytes + kBytesPerFace * startingFaces + kBytesPerCube * countCubes(map, scale) +
-                       kBytesPerVoxel * double(map.grid.voxelCount()));
+                       kBytesPerVoxel * double(map.grid.voxelCount()) + kBytesPerLength * double(scale.lengths.size()));
 }
 
 void requireMemory(std::uint64_t needed, const std::optional<std::uint64_t>& available, const std::string& mapFile)

@@ -19,9 +19,9 @@ double startingFaces(const TissueMap& map, const ScaleField& scale, bool hasBloc
 
 /// Expected peak of the surface stage, bytes. The complex begins as cubes of a power of two times the voxel and at most
 /// 0.8 L, of voxels or blocks of them where tissues meet; nothing later is as large. With F the startingFaces, K the
-/// number of these cubes in tissue, and N the voxels,
+/// number of these cubes in tissue, N the voxels, and S the lengths of the scale,
 ///
-///     bytes = 25 MB + 750 F + 370 K + 12 N
+///     bytes = 25 MB + 640 F + 370 K + 9.5 N + 16 S
 ///
 /// The constants err on the safe side: Docs/Benchmarks.md#estimates.
 std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, double startingFaces);

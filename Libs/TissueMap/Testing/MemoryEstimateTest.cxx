@@ -53,6 +53,16 @@ TEST(MemoryEstimate, GrowsAsElementsShrink)
   EXPECT_NEAR((estimate(map, 0.6) - estimate(map, 1.2)) / (estimate(map, 1.2) - estimate(map, 2.4)), 8, 1e-6);
 }
 
+TEST(MemoryEstimate, CountsTheScale)
+{
+  const TissueMap map = slabs(44, 2);
+  ScaleField fine = uniformScale(8);
+  fine.grid.size = { 100, 100, 100 };
+  fine.lengths.assign(1000000, 8);
+  EXPECT_NEAR(double(estimateSurfaceMemory(map, fine, 0)) - double(estimateSurfaceMemory(map, uniformScale(8), 0)),
+              16 * 999999.0, 1);
+}
+
 TEST(MemoryEstimate, DoesNotDependOnUnits)
 {
   const double finer = estimate(slabs(44, 2, { 0.5, 0.5, 0.5 }), 1), coarser = estimate(slabs(44, 2, { 2, 2, 2 }), 4);
