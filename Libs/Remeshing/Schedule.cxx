@@ -93,11 +93,12 @@ Sweep improvement(Stage stage) { return { "improvement", { std::move(stage) } };
 /// How far a repair goes.
 struct Repair
 {
-  double angle;     ///< aimed at
-  double tolerance; ///< factor
-  double splitEdge; ///< 0: no splits
-  double ease;      ///< see ImprovementOptions
-  int together;     ///< see ImprovementOptions
+  double angle;         ///< aimed at
+  double tolerance;     ///< factor
+  double splitEdge;     ///< 0: no splits
+  double ease;          ///< see ImprovementOptions
+  int together;         ///< see ImprovementOptions
+  bool isFirst = false; ///< fits come after it: vertices may leave their samples' planes
 };
 
 ImprovementOptions optionsOf(const Repair& repair)
@@ -113,7 +114,9 @@ ImprovementOptions optionsOf(const Repair& repair)
 
 Sweep repairBlocks(const MeshTargets& targets, const Repair& repair)
 {
-  return improvement({ bounds(targets, 1, repair.tolerance), { Improve{ optionsOf(repair) } } });
+  EnvelopeBounds within = bounds(targets, 1, repair.tolerance);
+  if (repair.isFirst) within.planeDistance = 0;
+  return improvement({ within, { Improve{ optionsOf(repair) } } });
 }
 
 Sweep repairWhole(const MeshTargets& targets, const MeshSizes& sizes, const Repair& repair)
@@ -232,11 +235,17 @@ std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes
   return sweeps;
 }
 
-std::vector<Sweep> repairSweeps(const MeshTargets& t)
+std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
 {
-  return { improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(t.aimedAngle, t.trials, 2) } }),
-           improvement({ bounds(t, 0.8, 1.3), { improve(t.aimedAngle, 16, 2) } }),
-           repairBlocks(t, { .angle = t.aimedAngle, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0 }) };
+  const double aim = t.aimedAngle, kept = t.keptAngle, widest = t.widestTolerance;
+  return { improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(aim, t.trials, 2) } }),
+           improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, 2) } }),
+           repairBlocks(t, { .angle = aim, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0 }),
+           repairBlocks(
+             t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 20, .isFirst = true }),
+           repairBlocks(
+             t, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20, .isFirst = true }),
+           repairWhole(t, sizes, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
 }
 
 std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& sizes)
@@ -290,7 +299,7 @@ Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets)
 std::size_t surfaceSweepCount(const MeshSizes& sizes)
 {
   const MeshTargets& t = usualTargets;
-  return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t).size() +
+  return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() +
          std::size_t(t.balanceRounds) + motionSweeps(t, sizes, Continuity::C2).size() +
          proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + 1 + offsetRounds;
 }

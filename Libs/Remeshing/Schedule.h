@@ -58,8 +58,9 @@ Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly);
 Sweep firstImprovement(const MeshTargets& targets, const MeshSizes& sizes);
 /// Those after it that still coarsen; the angle aimed at rises. Tissues' volumes are balanced before each.
 std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// Without coarsening; what is still bad may go a little farther from its samples.
-std::vector<Sweep> repairSweeps(const MeshTargets& targets);
+/// Without coarsening; what is still bad may go farther from its samples or be split, in the end across the blocks'
+/// borders.
+std::vector<Sweep> repairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// Vertices go back to their samples as far as angles allow. Tissues' volumes are balanced before each.
 std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// The motion of the simplex mesh, which makes the surface smooth between the voxels where elements are of their size,
@@ -67,7 +68,7 @@ std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& si
 std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity);
 /// Where samples are beyond their tolerances, which proximity has set: more triangles, and angles as good as they were.
 std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// What has resisted may go as far from its samples as anything may, and be split, in the end across the blocks' borders.
+/// What resisted before may have got room.
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// Lengths once more, at volumes that are balanced before.
 Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes);

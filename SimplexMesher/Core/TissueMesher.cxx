@@ -188,7 +188,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   const MeshTargets targets = coarsen(remesher, sizes);
   remesher.run(firstImprovement(targets, sizes));
   remesher.balanceAndRun(improvementSweeps(targets, sizes));
-  remesher.run(repairSweeps(targets));
+  remesher.run(repairSweeps(targets, sizes));
   remesher.balanceAndRun(fittingSweeps(targets, sizes));
   if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
   if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets, sizes));
