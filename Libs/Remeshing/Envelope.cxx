@@ -31,6 +31,25 @@ struct FacesToSamples
   }
 };
 
+/// Of a sample with a normal: where the boundary is plane around it.
+struct Plane
+{
+  Vec3 origin, normal;
+  double squaredRadius = 0; ///< mm^2; 0: the sample has no normal
+
+  bool reaches(const Vec3& p) const { return squaredNorm(p - origin) < squaredRadius; }
+  double heightOf(const Vec3& p) const { return std::abs(dot(normal, p - origin)); }
+};
+
+Plane planeOf(const TetComplex& complex, const SheetSample& sample)
+{
+  const auto n = complex.sampleNormal(sample.id);
+  const Vec3 perRadius{ n[0], n[1], n[2] };
+  const double perRadius2 = squaredNorm(perRadius);
+  if (perRadius2 == 0) return { sample.position, {} };
+  return { sample.position, perRadius / std::sqrt(perRadius2), 1 / perRadius2 };
+}
+
 } // namespace
 
 Envelope::Envelope(TetComplex& complex, const EnvelopeBounds& bounds)
@@ -226,12 +245,18 @@ bool Envelope::growsSpike(const Vec3& p) const
 bool Envelope::leavesPlane(const SheetSample& sample, const Vec3& p) const
 {
   if (m_PlaneDistance == 0) return false;
-  const auto normal = m_Complex.sampleNormal(sample.id);
-  const Vec3 n{ normal[0], normal[1], normal[2] }, way = p - sample.position;
-  const double perRadius2 = squaredNorm(n), height = std::abs(dot(n, way));
-  if (perRadius2 == 0 || squaredNorm(way) * perRadius2 > 1) return false;
-  const double most2 = m_PlaneDistance * m_PlaneDistance * sample.squaredTolerance() * perRadius2;
-  return height * height > most2 && height > std::abs(dot(n, m_Complex.points[m_SheetVertex] - sample.position));
+  const Plane plane = planeOf(m_Complex, sample);
+  if (!plane.reaches(p)) return false;
+  const double most2 = m_PlaneDistance * m_PlaneDistance * sample.squaredTolerance(), height = plane.heightOf(p);
+  return height * height > most2 && height > plane.heightOf(m_Complex.points[m_SheetVertex]);
+}
+
+double Envelope::squaredDistanceBy(const SheetSample& nearest, const Vec3& p) const
+{
+  const Plane plane = planeOf(m_Complex, nearest);
+  if (!plane.reaches(p)) return squaredNorm(p - nearest.position);
+  const double height = plane.heightOf(p);
+  return height * height;
 }
 
 bool Envelope::spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) const

@@ -60,6 +60,10 @@ public:
     return squaredDistance > std::max(tolerances * tolerances * nearest.squaredTolerance(), m_SquaredSpacing);
   }
 
+  /// Of p from the boundary by the sample nearest to it, mm^2: from the sample's plane, if it has a normal and the
+  /// boundary is plane between them, else from the sample.
+  double squaredDistanceBy(const SheetSample& nearest, const Vec3& p) const;
+
   // --- faces that an operation takes away, and faces that take their place
   void clear();
   /// Takes note of the interface face (t, face), once.

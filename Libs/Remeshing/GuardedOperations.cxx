@@ -139,8 +139,9 @@ std::optional<Vec3> GuardedOperations::nearestSampleOf(std::int32_t v)
 
 bool GuardedOperations::isSpike(std::int32_t v, double tolerances)
 {
-  const auto [sample, distance2] = nearestSample(sheet(v), m_Complex.points[v]);
-  return sample && m_Envelope.isBeyond(*sample, distance2, tolerances);
+  const Vec3 p = m_Complex.points[v];
+  const SheetSample* sample = nearestSample(sheet(v), p).first;
+  return sample && m_Envelope.isBeyond(*sample, m_Envelope.squaredDistanceBy(*sample, p), tolerances);
 }
 
 } // namespace surgicalmesher

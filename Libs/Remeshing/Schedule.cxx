@@ -65,7 +65,10 @@ Stage withoutSpikes(const MeshTargets& targets, const MeshSizes& sizes, double p
   spikes.keptAngle = targets.keptAngle;
   spikes.pullAngle = pullAngle;
   spikes.maximumDistance = sizes.maximumDistance;
-  return { { .rmsLimit = 1, .toleranceFactor = spikeTolerance, .triangleWeight = spikeTriangles },
+  return { { .rmsLimit = 1,
+             .toleranceFactor = spikeTolerance,
+             .triangleWeight = spikeTriangles,
+             .vertexDistance = vertexDistance },
            { RelabelInterface{ targets.keptAngle, farNearer }, RemoveSpikes{ spikes } } };
 }
 
@@ -327,9 +330,18 @@ struct VolumeRow
   bool whole = false;
   double worthwhileShare = 0;
   bool softens = false;  ///< pairs of vertices, first, within the tolerance as it is
-  double height = 0;     ///< mm, see HeightOptions; 0: no heights are raised
+  double height = 0;     ///< mm, see HeightOptions, and nothing else is done then but softening; 0: not raised
   bool balanced = false; ///< see ConditionalSweep
 };
+
+/// Within the tolerance as it is first: what is raised so leaves no dent.
+std::vector<Stage> raisedHeights(const EnvelopeBounds& beyond, double height)
+{
+  EnvelopeBounds within = beyond;
+  within.toleranceFactor = 1;
+  const RaiseHeights pass{ { .height = height } };
+  return { { within, { pass } }, { beyond, { pass } } };
+}
 
 ConditionalSweep sweepOf(const VolumeRow& row)
 {
@@ -347,8 +359,8 @@ ConditionalSweep sweepOf(const VolumeRow& row)
                                       // Where many are bad, moving together costs more than all the rest.
                                       .together = row.splitEdge > 0 ? 20 : 0,
                                       .passes = row.passes } });
-  if (row.height > 0) stage.passes.push_back(RaiseHeights{ { .height = row.height } });
   Sweep sweep{ "improvement", { stage }, row.whole };
+  if (row.height > 0) sweep.stages = raisedHeights(stage.bounds, row.height);
   if (row.softens) sweep.stages.insert(sweep.stages.begin(), { { .rmsLimit = 1 }, { SoftenPairs{} } });
   return { std::move(sweep), row.worthwhileShare, row.balanced };
 }

@@ -681,6 +681,34 @@ TEST(Spikes, LeaveNoSampleFartherOffThanTheyWere)
   EXPECT_LT(leftWith(10), leftWith(0));
 }
 
+TEST(Spikes, StandOffTheWallAndNotOnlyOffSamplesFarApart)
+{
+  constexpr double vertexDistance = 1.4;
+  const auto twoSlabs = [](int, int, int k) { return k < 3 ? 1 : 2; };
+  TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 6, 6, 6 }, twoSlabs)), 1, 0.1f);
+  GuardedOperations operations(complex, scale, { 1, 100 });
+  const auto isInWall = [&](std::int32_t v)
+  {
+    const auto& faces = operations.sheet(v).faces;
+    const auto isBetween = [](const SheetFace& f) { return f.labels == labelPair(1, 2); };
+    return !complex.locked[v] && complex.onInterface[v] && std::all_of(faces.begin(), faces.end(), isBetween);
+  };
+  std::vector<std::int32_t> wall;
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+    if (isInWall(v)) wall.push_back(v);
+  ASSERT_FALSE(wall.empty());
+  for (const std::int32_t v : wall) EXPECT_TRUE(operations.isSpike(v, vertexDistance)) << "the samples know no plane";
+  const std::array<float, 3> acrossOfRadius2{ 0, 0, 0.5f };
+  complex.sampleNormals.assign(complex.samples.size(), acrossOfRadius2);
+  for (const std::int32_t v : wall)
+  {
+    EXPECT_FALSE(operations.isSpike(v, vertexDistance));
+    ASSERT_TRUE(operations.move(v, complex.points[v] + Vec3{ 0, 0, 0.3 }, 0));
+    EXPECT_TRUE(operations.isSpike(v, vertexDistance));
+    ASSERT_TRUE(operations.move(v, complex.points[v] - Vec3{ 0, 0, 0.3 }, 0));
+  }
+}
+
 TEST(Trimming, KeepsEveryPromiseAndLeavesFewerTips)
 {
   const auto tips = [](GuardedOperations& operations)
