@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -49,7 +50,11 @@ public:
   FaceBins(const KuhnLattice& lattice, const TissueMap& blocks)
     : m_Mesh(lattice.background.mesh), m_Faces(lattice.interfaceFaces), m_PerMm(1 / blocks.grid.smallestSpacing())
   {
-    for (std::size_t f = 0; f < m_Faces.size(); ++f) add(std::int32_t(f), blocks);
+    std::vector<std::size_t> ends(m_Faces.size()); // of each face's entries
+    parallelFor(m_Faces.size(), [&](std::size_t f) { ends[f] = binsOf(std::int32_t(f)).count(); });
+    std::partial_sum(ends.begin(), ends.end(), ends.begin());
+    m_Entries.resize(ends.empty() ? 0 : ends.back());
+    parallelFor(m_Faces.size(), [&](std::size_t f) { add(std::int32_t(f), blocks, f == 0 ? 0 : ends[f - 1]); });
     vtkSMPTools::Sort(m_Entries.begin(), m_Entries.end());
   }
 
@@ -105,21 +110,36 @@ private:
     return squaredDistanceToTriangle(p, a, b, c);
   }
 
-  /// In every bin that its box reaches into.
-  void add(std::int32_t f, const TissueMap& blocks)
+  struct Bins
+  {
+    Index from, to;
+    std::size_t count() const
+    {
+      return std::size_t(to[0] - from[0] + 1) * std::size_t(to[1] - from[1] + 1) * std::size_t(to[2] - from[2] + 1);
+    }
+  };
+
+  /// That the box of a face reaches into.
+  Bins binsOf(std::int32_t f) const
   {
     const auto [a, b, c] = corners(f);
-    const LabelPair labels = labelsBeside(blocks, faceUnder(f, blocks));
     Vec3 low = a, high = a;
     for (int k = 0; k < 3; ++k)
     {
       low[k] = std::min({ a[k], b[k], c[k] });
       high[k] = std::max({ a[k], b[k], c[k] });
     }
-    const Index from = binOf(low), to = binOf(high);
+    return { binOf(low), binOf(high) };
+  }
+
+  /// In all of them; its entries begin at `at`.
+  void add(std::int32_t f, const TissueMap& blocks, std::size_t at)
+  {
+    const LabelPair labels = labelsBeside(blocks, faceUnder(f, blocks));
+    const auto [from, to] = binsOf(f);
     for (int z = from[2]; z <= to[2]; ++z)
       for (int y = from[1]; y <= to[1]; ++y)
-        for (int x = from[0]; x <= to[0]; ++x) m_Entries.push_back({ labels, z, y, x, f });
+        for (int x = from[0]; x <= to[0]; ++x) m_Entries[at++] = { labels, z, y, x, f };
   }
 
   /// A voxel face that lattice face f reaches into.

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <unordered_map>
 
 namespace surgicalmesher
 {
@@ -302,20 +303,26 @@ Point fitted(const Point& point, const PointRows& rows, double sigma)
   return result;
 }
 
-/// Offsets of the labels' boundaries, voxels, that give back the volume that the points' ways have taken.
-std::map<Label, double> offsets(const std::vector<Point>& points)
+/// Offsets of the labels' boundaries, voxels, that give back the volume that the points' ways have taken; by label.
+std::vector<double> offsets(const std::vector<Point>& points)
 {
-  std::map<std::pair<Label, Label>, double> areas;
-  std::map<Label, double> lost;
+  std::vector<double> lost(labelCount), result(labelCount);
+  std::unordered_map<std::uint32_t, double> areaOf; // by both labels
   for (const Point& p : points)
   {
     const double sign = p.isInsideBelow ? 1 : -1;
     const double swept = sign * (p.position - p.centre())[p.axis];
     lost[p.inside] -= swept;
     lost[p.outside] += swept;
-    areas[{ p.inside, p.outside }] += std::abs(p.normal[p.axis]);
+    areaOf[std::uint32_t(p.inside) << 16 | p.outside] += std::abs(p.normal[p.axis]);
   }
-  return offsetsForVolumes(lost, areas, mostOffset);
+  std::map<std::pair<Label, Label>, double> areas;
+  for (const auto& [labels, area] : areaOf) areas[{ Label(labels >> 16), Label(labels) }] = area;
+  std::map<Label, double> lacking;
+  for (std::size_t label = 0; label < labelCount; ++label)
+    if (lost[label] != 0) lacking[Label(label)] = lost[label];
+  for (const auto& [label, way] : offsetsForVolumes(lacking, areas, mostOffset)) result[label] = way;
+  return result;
 }
 
 Point pointOf(const Vec3& position, const TissueMap& map)
@@ -415,8 +422,9 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
   const PointRows rows(points, size);
   parallelFor(n, [&](std::size_t i) { next[i] = fitted(points[i], rows, perGaussian * sigma); });
   points.swap(next);
-  const std::map<Label, double> offset = offsets(points);
-  for (Point& p : points) p.position += (offset.at(p.inside) - offset.at(p.outside)) * p.normal;
+  const std::vector<double> offset = offsets(points);
+  parallelFor(n, [&](std::size_t i)
+              { points[i].position += (offset[points[i].inside] - offset[points[i].outside]) * points[i].normal; });
   return points;
 }
 
