@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 
 namespace surgicalmesher
@@ -213,6 +214,8 @@ class HeightFit
 public:
   void add(double u, double v, double height, double weight)
   {
+    m_Squares += weight * height * height;
+    m_Weight += weight;
     const double basis[6] = { 1, u, v, u * u, u * v, v * v };
     for (int i = 0; i < 6; ++i)
     {
@@ -221,7 +224,15 @@ public:
     }
   }
 
-  double weight() const { return m_Matrix[0][0]; }
+  double weight() const { return m_Weight; }
+
+  /// Root mean square, by weight, of what is left of the heights by the solution.
+  double misfit(const double (&a)[6]) const
+  {
+    double left = m_Squares;
+    for (int i = 0; i < 6; ++i) left -= a[i] * m_Right[i];
+    return std::sqrt(std::max(0.0, left) / m_Weight);
+  }
 
   /// Bending is held by a spring, so that few points make a plane. False if there are too few for that.
   bool solve(double spring, double (&a)[6])
@@ -249,7 +260,7 @@ public:
   }
 
 private:
-  double m_Matrix[6][6] = {}, m_Right[6] = {};
+  double m_Matrix[6][6] = {}, m_Right[6] = {}, m_Squares = 0, m_Weight = 0;
 };
 
 /// Two unit vectors across n.
@@ -274,8 +285,15 @@ void keepLabels(Point& point)
   else if (most < 0 && most > least) point.position += most * point.normal;
 }
 
-/// `point`, on the quadric through its neighbours of the same labels.
-Point fitted(const Point& point, const PointRows& rows, double sigma)
+/// A point on the quadric through its neighbours of the same labels, and what tells how far to trust that.
+struct QuadricPoint
+{
+  Point point;
+  double misfit; ///< of the neighbours, root mean square, voxels
+  double cover;  ///< share of the weights of a boundary that goes on all around
+};
+
+std::optional<QuadricPoint> onQuadric(const Point& point, const PointRows& rows, double sigma)
 {
   const double squaredReach = reach * reach * sigma * sigma;
   const std::pair<Vec3, Vec3> frame = frameOf(point.normal);
@@ -293,15 +311,39 @@ Point fitted(const Point& point, const PointRows& rows, double sigma)
                      const double weight = area * cosine * cosine * std::exp(-0.5 * d2 / (sigma * sigma));
                      fit.add(dot(u, d) / sigma, dot(v, d) / sigma, dot(point.normal, d), weight);
                    });
-  Point result = point;
   double a[6];
-  if (!fit.solve(0.01, a)) return result;
-  result.position += a[0] * point.normal;
+  if (!fit.solve(0.01, a)) return {};
+  Point fitted = point;
+  fitted.position += a[0] * point.normal;
   const Vec3 n = point.normal - (a[1] / sigma) * u - (a[2] / sigma) * v;
-  result.normal = n / norm(n);
-  result.curvature = 2 * std::sqrt(a[3] * a[3] + a[5] * a[5] + 0.5 * a[4] * a[4]) / (sigma * sigma);
-  keepLabels(result);
-  return result;
+  fitted.normal = n / norm(n);
+  fitted.curvature = 2 * std::sqrt(a[3] * a[3] + a[5] * a[5] + 0.5 * a[4] * a[4]) / (sigma * sigma);
+  const double all = 2 * M_PI * sigma * sigma * (1 - std::exp(-0.5 * reach * reach));
+  return QuadricPoint{ fitted, fit.misfit(a), fit.weight() / all };
+}
+
+/// Whether the boundary is one quadric as far as a fit of that standard deviation goes, but for steps of the voxels.
+bool isPlain(const QuadricPoint& at, double sigma)
+{
+  constexpr double mostMisfit = 0.2, leastCover = 0.75, mostTurn = 0.5; // radians, over the standard deviation
+  return at.misfit < mostMisfit && at.cover > leastCover && at.point.curvature * sigma < mostTurn;
+}
+
+/// `point`, on the widest quadric, in steps of `sigma`, as long as the boundary is plain: a flat cap of a large ball,
+/// like a terrace of a gentle slope, is wider than a narrow one.
+Point fitted(const Point& point, const PointRows& rows, double sigma)
+{
+  constexpr int widest = 5;
+  std::optional<QuadricPoint> best = onQuadric(point, rows, sigma);
+  if (!best) return point;
+  for (int width = 2; width <= widest && isPlain(*best, width * sigma); ++width)
+  {
+    const std::optional<QuadricPoint> wider = onQuadric(point, rows, width * sigma);
+    if (!wider || !isPlain(*wider, width * sigma)) break;
+    best = wider;
+  }
+  keepLabels(best->point);
+  return best->point;
 }
 
 /// Offsets of the labels' boundaries, voxels, that give back the volume that the points' ways have taken; by label.
