@@ -263,12 +263,15 @@ std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& siz
 {
   constexpr std::size_t sweeps = 2;       // vertices on borders of blocks have their turn in the next
   constexpr double motionTolerance = 1.5; // samples have the voxels' noise that motion is to take away
+  constexpr double ofPlanes = 0.5;        // of the usual distance: walls swell with what edges lose
   InterfaceMotionOptions options;
   options.motion.internalForce.continuity = continuity;
   options.farthest = 0.3 * sizes.voxel;
   options.fineLength = 1.5 * sizes.voxel;
+  EnvelopeBounds within = bounds(targets, 1, motionTolerance);
+  within.planeDistance *= ofPlanes;
   const Sweep sweep{ "motion",
-                     { { bounds(targets, 1, motionTolerance), { MoveInterface{ options }, SwapEdges{} } },
+                     { { within, { MoveInterface{ options }, SwapEdges{} } },
                        { bounds(targets, 1), { improve(targets.keptAngle, 12, 1) } } } };
   return std::vector<Sweep>(sweeps, sweep);
 }

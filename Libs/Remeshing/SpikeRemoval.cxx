@@ -38,7 +38,7 @@ double shareOfSphere(const TetComplex& complex, std::int32_t t, std::int32_t v)
 /// few, and without them it has a dent.
 bool isEar(GuardedOperations& operations, std::int32_t v, std::size_t few)
 {
-  constexpr double sharp = 0.375; // of the sphere
+  constexpr double sharp = 0.25; // of the sphere; what noise lifts off a wall fills 0.35
   const std::vector<std::int32_t> tissues = tissuesAt(operations, v);
   if (tissues.size() > few) return false;
   double share = 0;

@@ -25,7 +25,7 @@ struct SpikeOptions
 /// Takes vertices between two labels that stick out of their samples off the interface, or draws them in.
 void cutSpikesOfBlock(GuardedOperations& operations, const SpikeOptions& options = {});
 
-/// Takes vertices that stick out (tissues fill less than three eighths of the sphere around them) and at which tissues
+/// Takes vertices that stick out (tissues fill less than a quarter of the sphere around them) and at which tissues
 /// have at most `few` tetrahedra off the outer boundary, by relabelling these, or fills
 /// the valleys beside them. They are tips of no volume to speak of, but the largest eigenvalues of a stiffness matrix
 /// are theirs.
