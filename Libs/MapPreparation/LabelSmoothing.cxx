@@ -245,8 +245,17 @@ private:
     m_Map.labels[c.voxel] = label;
     --m_Gained[c.own];
     ++m_Gained[label];
-    for (const std::ptrdiff_t step : m_Around)
-      if (Candidate* const near = candidateAt(c.voxel + step)) near->isRefused = false;
+    tryAgainAround(c.voxel);
+  }
+
+  void tryAgainAround(std::size_t voxel)
+  {
+    for (std::size_t row = 0; row < m_Around.size(); row += 3) // of three voxels along the first axis
+    {
+      const std::size_t last = voxel + m_Around[row + 2];
+      for (auto at = firstFrom(voxel + m_Around[row]); at != m_Candidates.end() && at->voxel <= last; ++at)
+        at->isRefused = false;
+    }
   }
 
   bool isChanged(const Candidate& c) const { return m_Map.labels[c.voxel] != c.own; }
@@ -293,10 +302,15 @@ private:
     return contacts == 0;
   }
 
+  std::vector<Candidate>::iterator firstFrom(std::size_t voxel)
+  {
+    return std::lower_bound(m_Candidates.begin(), m_Candidates.end(), voxel,
+                            [](const Candidate& c, std::size_t v) { return c.voxel < v; });
+  }
+
   Candidate* candidateAt(std::size_t voxel)
   {
-    const auto at = std::lower_bound(m_Candidates.begin(), m_Candidates.end(), voxel,
-                                     [](const Candidate& c, std::size_t v) { return c.voxel < v; });
+    const auto at = firstFrom(voxel);
     return at != m_Candidates.end() && at->voxel == voxel ? &*at : nullptr;
   }
 

@@ -12,10 +12,29 @@ namespace surgicalmesher
 namespace
 {
 
+/// The sum of of(from, to) over parts of a fixed size: it does not depend on the threads.
+template <class F>
+auto sumOfParts(std::size_t count, F&& of)
+{
+  constexpr std::size_t part = 4096;
+  std::vector<decltype(of(0, 0))> parts((count + part - 1) / part);
+  parallelFor(parts.size(), [&](std::size_t p) { parts[p] = of(p * part, std::min(count, (p + 1) * part)); });
+  decltype(of(0, 0)) result{};
+  for (const auto& each : parts) result += each;
+  return result;
+}
+
 struct Distances
 {
   double sum = 0, maximum = 0; ///< mm
   std::size_t beyond = 0;      ///< the samples' tolerances
+
+  void operator+=(const Distances& other)
+  {
+    sum += other.sum;
+    maximum = std::max(maximum, other.maximum);
+    beyond += other.beyond;
+  }
 };
 
 /// Of samples `from` to `to` to their faces.
@@ -28,29 +47,19 @@ Distances distancesOf(const BackgroundMesh& background, std::size_t from, std::s
     const auto& t = background.mesh.tetrahedra[sample.tetrahedron];
     const auto corner = [&](int k) { return background.mesh.points[t[(sample.face + k) & 3]]; };
     const double d = std::sqrt(squaredDistanceToTriangle(sample.position, corner(1), corner(2), corner(3)));
-    result.sum += d;
-    result.maximum = std::max(result.maximum, d);
-    result.beyond += d > double(sample.tolerance) * (1 + 1e-6);
+    result += { d, d, d > double(sample.tolerance) * (1 + 1e-6) };
   }
   return result;
 }
 
-/// In parts of a fixed size: their sum does not depend on the threads.
-Distances distancesOf(const BackgroundMesh& background)
+/// Between two labels, of tetrahedra `from` to `to`, each at the first of its two.
+std::size_t facesOf(const BackgroundMesh& background, std::size_t from, std::size_t to)
 {
-  constexpr std::size_t part = 4096;
-  const std::size_t count = background.samples.size();
-  std::vector<Distances> parts((count + part - 1) / part);
-  parallelFor(parts.size(),
-              [&](std::size_t p) { parts[p] = distancesOf(background, p * part, std::min(count, (p + 1) * part)); });
-  Distances result;
-  for (const Distances& d : parts)
-  {
-    result.sum += d.sum;
-    result.maximum = std::max(result.maximum, d.maximum);
-    result.beyond += d.beyond;
-  }
-  return result;
+  const auto& labels = background.mesh.labels;
+  std::size_t count = 0;
+  for (std::size_t t = from; t < to; ++t)
+    for (const std::int32_t n : background.neighbours[t]) count += n > std::int32_t(t) && labels[n] != labels[t];
+  return count;
 }
 
 } // namespace
@@ -63,10 +72,10 @@ EvolutionStep evolutionStep(const BackgroundMesh& background, const std::string&
   step.operations = operations;
   const auto& labels = background.mesh.labels;
   step.tetrahedra = std::size_t(std::count_if(labels.begin(), labels.end(), [](Label l) { return l != 0; }));
-  const auto& neighbours = background.neighbours; // none before the first sweep
-  for (std::size_t t = 0; t < neighbours.size(); ++t)
-    for (const std::int32_t n : neighbours[t]) step.faces += n > std::int32_t(t) && labels[n] != labels[t];
-  const Distances distances = distancesOf(background);
+  step.faces = sumOfParts(background.neighbours.size(), // none before the first sweep
+                          [&](std::size_t from, std::size_t to) { return facesOf(background, from, to); });
+  const Distances distances = sumOfParts(background.samples.size(), [&](std::size_t from, std::size_t to)
+                                         { return distancesOf(background, from, to); });
   step.maximumDistance = distances.maximum;
   step.beyond = distances.beyond;
   if (!background.samples.empty()) step.meanDistance = distances.sum / double(background.samples.size());
