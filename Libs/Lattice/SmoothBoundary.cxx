@@ -285,7 +285,7 @@ void keepLabels(Point& point)
   else if (most < 0 && most > least) point.position += most * point.normal;
 }
 
-/// A point on the quadric through its neighbours of the same labels, and what tells how far to trust that.
+/// A point on the quadric of its neighbours of the same labels, and what tells how far to trust that; none of too few.
 struct QuadricPoint
 {
   Point point;
