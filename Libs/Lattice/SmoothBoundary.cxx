@@ -329,8 +329,8 @@ bool isPlain(const QuadricPoint& at, double sigma)
   return at.misfit < mostMisfit && at.cover > leastCover && at.point.curvature * sigma < mostTurn;
 }
 
-/// `point`, on the widest quadric, in steps of `sigma`, as long as the boundary is plain: a flat cap of a large ball,
-/// like a terrace of a gentle slope, is wider than a narrow one.
+/// `point`, on the widest quadric, in steps of `sigma`, as long as the boundary is plain: a narrow fit does not see beyond
+/// the flat cap of a large ball, or a terrace of a gentle slope.
 Point fitted(const Point& point, const PointRows& rows, double sigma)
 {
   constexpr int widest = 5;

@@ -26,9 +26,8 @@ struct SpikeOptions
 void cutSpikesOfBlock(GuardedOperations& operations, const SpikeOptions& options = {});
 
 /// Takes vertices that stick out (tissues fill less than a quarter of the sphere around them) and at which tissues
-/// have at most `few` tetrahedra off the outer boundary, by relabelling these, or fills
-/// the valleys beside them. They are tips of no volume to speak of, but the largest eigenvalues of a stiffness matrix
-/// are theirs.
+/// have at most `few` tetrahedra off the outer boundary, by relabelling these, or fills the valleys beside them. They are
+/// tips of no volume to speak of, but the largest eigenvalues of a stiffness matrix are theirs.
 void removeEarsOfBlock(GuardedOperations& operations, std::size_t few);
 
 } // namespace surgicalmesher
