@@ -89,12 +89,13 @@ void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::
   const double ofVoxel = options.isSmooth ? 0.24 : 0.42;     // steps take up most of the latter
   const double ofLength = options.isSmooth ? 0.05 : 0.095;   // without roughness to follow, closer costs no tetrahedra
   const double ofLengthAlone = options.isSmooth ? 0.085 : 0; // of eight voxels or more: finer maps have no finer meshes
+  constexpr double mostAlone = 2; // voxels: beyond, ends of tissues hang by single tetrahedra
+  const auto usual = [&](double at)
+  { return std::max(ofVoxel * voxel + ofLength * at, std::min(ofLengthAlone * at, mostAlone * voxel)); };
   for (auto& sample : background.samples)
   {
     const double at = length(sample.position);
-    double tolerance = options.proximity.isAsked()
-                         ? proximityAt(at, options)
-                         : room * std::max(ofVoxel * voxel + ofLength * at, ofLengthAlone * at);
+    double tolerance = options.proximity.isAsked() ? proximityAt(at, options) : room * usual(at);
     for (const Label label : labelsBeside(map, sample.position))
       if (label != 0) tolerance = std::min(tolerance, drifts.at(label));
     sample.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
