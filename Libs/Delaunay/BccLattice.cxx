@@ -48,61 +48,66 @@ constexpr double kNearOctave = 0.05;
 /// From one to the other, on the circle of an octave: at most a half.
 double circularStep(double from, double to) { return to - from - std::round(to - from); }
 
-std::size_t countNear(const std::vector<double>& octaves, double middle)
+/// A place of log2 L on the circle of an octave, and how many vertices of a lattice that fits L there it stands for.
+struct Octave
 {
-  return std::size_t(std::count_if(octaves.begin(), octaves.end(),
-                                   [&](double octave)
-                                   { return std::abs(circularStep(middle, octave)) <= kNearOctave; }));
+  double place, weight;
+};
+
+double weightNear(const std::vector<Octave>& octaves, double middle)
+{
+  double sum = 0;
+  for (const Octave& o : octaves)
+    if (std::abs(circularStep(middle, o.place)) <= kNearOctave) sum += o.weight;
+  return sum;
 }
 
 /// Where most of the octaves are near; the first of several places.
-double densestOctave(const std::vector<double>& octaves)
+double densestOctave(const std::vector<Octave>& octaves)
 {
   constexpr int places = 40; // each near two others
-  double densest = 0;
-  std::size_t most = 0;
+  double densest = 0, most = 0;
   for (int place = 0; place < places; ++place)
-    if (const std::size_t count = countNear(octaves, double(place) / places); count > most)
-      densest = double(place) / places, most = count;
+    if (const double weight = weightNear(octaves, double(place) / places); weight > most)
+      densest = double(place) / places, most = weight;
   return densest;
 }
 
 /// Mean of the octaves near this one.
-double meanNear(const std::vector<double>& octaves, double middle)
+double meanNear(const std::vector<Octave>& octaves, double middle)
 {
-  double sum = 0, count = 0;
-  for (const double octave : octaves)
+  double sum = 0, weight = 0;
+  for (const Octave& o : octaves)
   {
-    const double step = circularStep(middle, octave);
+    const double step = circularStep(middle, o.place);
     if (std::abs(step) > kNearOctave) continue;
-    sum += step;
-    ++count;
+    sum += o.weight * step;
+    weight += o.weight;
   }
-  return count > 0 ? middle + sum / count : middle;
+  return weight > 0 ? middle + sum / weight : middle;
 }
 
 /// Of the points that octaves are on a circle.
-double meanOnCircle(const std::vector<double>& octaves)
+double meanOnCircle(const std::vector<Octave>& octaves)
 {
   double x = 0, y = 0;
-  for (const double octave : octaves)
+  for (const Octave& o : octaves)
   {
-    x += std::cos(2 * M_PI * octave);
-    y += std::sin(2 * M_PI * octave);
+    x += o.weight * std::cos(2 * M_PI * o.place);
+    y += o.weight * std::sin(2 * M_PI * o.place);
   }
   return std::atan2(y, x) / (2 * M_PI);
 }
 
-/// The cube's edge, within half an octave of the finest L(x), that makes the lattice's mean edge fit L(x) over most of
-/// the places `lengths` are from: by mean shift from the mean of log2 L, to the dense place beside it. At the mean
-/// itself the few places where L(x) is fine would make the lattice too fine for the many; where L(x) has few values,
-/// none may be there at all.
+/// The cube's edge, within half an octave of the finest L(x), that makes the lattice's mean edge fit L(x) at as many of
+/// its vertices as can be, of those around the places `lengths` are from: by mean shift from the mean of log2 L, to the
+/// dense place beside it; where L(x) has few values, none may be near the mean.
 double fittingCube(const std::vector<double>& lengths, double finest)
 {
-  std::vector<double> octaves;
-  for (const double length : lengths) octaves.push_back(std::log2(length / finest));
+  std::vector<Octave> octaves;
+  for (const double length : lengths) octaves.push_back({ std::log2(length / finest), std::pow(finest / length, 3) });
   double octave = meanOnCircle(octaves);
-  if (countNear(octaves, octave) == 0) octave = densestOctave(octaves);
+  if (weightNear(octaves, octave) == 0) octave = densestOctave(octaves);
   for (int step = 0; step < 20; ++step) octave = meanNear(octaves, octave);
   return finest * std::exp2(circularStep(0, octave)) / kLatticeMeanEdge;
 }

@@ -7,7 +7,7 @@
 /// and 2 x 90 degrees, 24 tetrahedra around every vertex, invariant under subdivision. Its vertices are those of the
 /// body-centred cubic lattice with cubes of edge 2 / sqrt(3), whose Delaunay tetrahedra it is. The density function
 /// rho(x) becomes an octree of such cubes: subdivision by 2 takes the lattice into itself. Each place has the octave
-/// nearest to L(x), and the phase of the octaves is a dense place of log L in the tissues.
+/// nearest to L(x), and the phase of the octaves is the place of log L where most of the vertices are.
 
 #include "SizingFunction.h"
 #include "TetMesh.h"

@@ -24,7 +24,7 @@ constexpr double mostOffset = 0.3;   // voxels, of a tissue's whole boundary
 constexpr double perGaussian = 1.5;  // standard deviation of the fit's weights, in those of the Gaussian
 constexpr double reach = 2.2;        // of the fit, in its standard deviations
 constexpr double leastCosine = 0.35; // between normals, for a sample to count
-constexpr double margin = 0.2;       // voxels, that the boundary stays off the centres of the voxels beside a face
+constexpr double margin = 0.14;      // voxels, that the boundary stays off the centres of the voxels beside a face
 
 using Index = std::array<int, 3>;
 
@@ -285,15 +285,35 @@ void keepLabels(Point& point)
   else if (most < 0 && most > least) point.position += most * point.normal;
 }
 
-/// A point on the quadric of its neighbours of the same labels, and what tells how far to trust that; none of too few.
-struct QuadricPoint
+/// The height of the boundary over a plane at a point, by its neighbours of the same labels, and what tells how far to
+/// trust that.
+struct Quadric
 {
-  Point point;
-  double misfit; ///< of the neighbours, root mean square, voxels
-  double cover;  ///< share of the weights of a boundary that goes on all around
+  Vec3 origin, normal, u, v; ///< the plane's, orthonormal
+  double sigma;              ///< voxels, of the fit's weights
+  double a[6];               ///< HeightFit's, for u and v in `sigma`
+  double misfit;             ///< of the neighbours, root mean square, voxels
+  double cover;              ///< share of the weights of a boundary that goes on all around
+
+  double curvature() const { return 2 * std::sqrt(a[3] * a[3] + a[5] * a[5] + 0.5 * a[4] * a[4]) / (sigma * sigma); }
+
+  /// `point` moved along the plane's normal onto the quadric.
+  Point onto(Point point) const
+  {
+    const Vec3 d = point.position - origin;
+    const double s = dot(u, d) / sigma, t = dot(v, d) / sigma;
+    const double height = a[0] + a[1] * s + a[2] * t + a[3] * s * s + a[4] * s * t + a[5] * t * t;
+    const Vec3 across =
+      normal - (a[1] + 2 * a[3] * s + a[4] * t) / sigma * u - (a[2] + a[4] * s + 2 * a[5] * t) / sigma * v;
+    point.position += (height - dot(normal, d)) * normal;
+    point.normal = across / norm(across);
+    point.curvature = curvature();
+    return point;
+  }
 };
 
-std::optional<QuadricPoint> onQuadric(const Point& point, const PointRows& rows, double sigma)
+/// None of too few neighbours.
+std::optional<Quadric> quadricAt(const Point& point, const PointRows& rows, double sigma)
 {
   const double squaredReach = reach * reach * sigma * sigma;
   const std::pair<Vec3, Vec3> frame = frameOf(point.normal);
@@ -311,39 +331,112 @@ std::optional<QuadricPoint> onQuadric(const Point& point, const PointRows& rows,
                      const double weight = area * cosine * cosine * std::exp(-0.5 * d2 / (sigma * sigma));
                      fit.add(dot(u, d) / sigma, dot(v, d) / sigma, dot(point.normal, d), weight);
                    });
-  double a[6];
-  if (!fit.solve(0.01, a)) return {};
-  Point fitted = point;
-  fitted.position += a[0] * point.normal;
-  const Vec3 n = point.normal - (a[1] / sigma) * u - (a[2] / sigma) * v;
-  fitted.normal = n / norm(n);
-  fitted.curvature = 2 * std::sqrt(a[3] * a[3] + a[5] * a[5] + 0.5 * a[4] * a[4]) / (sigma * sigma);
-  const double all = 2 * M_PI * sigma * sigma * (1 - std::exp(-0.5 * reach * reach));
-  return QuadricPoint{ fitted, fit.misfit(a), fit.weight() / all };
+  Quadric result{ point.position, point.normal, u, v, sigma, {}, 0, 0 };
+  if (!fit.solve(0.01, result.a)) return {};
+  result.misfit = fit.misfit(result.a);
+  result.cover = fit.weight() / (2 * M_PI * sigma * sigma * (1 - std::exp(-0.5 * reach * reach)));
+  return result;
 }
 
-/// Whether the boundary is one quadric as far as a fit of that standard deviation goes, but for steps of the voxels.
-bool isPlain(const QuadricPoint& at, double sigma)
+/// Whether the boundary is one quadric as far as a fit of standard deviation `sigma` goes, but for steps of the voxels.
+bool isPlain(const Quadric& q, double sigma)
 {
   constexpr double mostMisfit = 0.2, leastCover = 0.75, mostTurn = 0.5; // radians, over the standard deviation
-  return at.misfit < mostMisfit && at.cover > leastCover && at.point.curvature * sigma < mostTurn;
+  return q.misfit < mostMisfit && q.cover > leastCover && q.curvature() * sigma < mostTurn;
 }
 
-/// `point`, on the widest quadric, in steps of `sigma`, as long as the boundary is plain: a narrow fit does not see beyond
-/// the flat cap of a large ball, or a terrace of a gentle slope.
-Point fitted(const Point& point, const PointRows& rows, double sigma)
+/// The widest quadric at a point, in steps of `sigma`, as long as the boundary is plain; none where a fit of `sigma` is
+/// all there is.
+std::optional<Quadric> widerQuadricAt(const Point& point, const PointRows& rows, double sigma)
 {
   constexpr int widest = 5;
-  std::optional<QuadricPoint> best = onQuadric(point, rows, sigma);
-  if (!best) return point;
-  for (int width = 2; width <= widest && isPlain(*best, width * sigma); ++width)
+  std::optional<Quadric> best;
+  for (int width = 2; width <= widest; ++width)
   {
-    const std::optional<QuadricPoint> wider = onQuadric(point, rows, width * sigma);
-    if (!wider || !isPlain(*wider, width * sigma)) break;
-    best = wider;
+    std::optional<Quadric> wider = quadricAt(point, rows, width * sigma);
+    if (!wider || !isPlain(*wider, width * sigma)) return best;
+    best = std::move(wider);
+    if (!isPlain(*best, (width + 1) * sigma)) return best;
   }
-  keepLabels(best->point);
-  return best->point;
+  return best;
+}
+
+/// Points of the same labels in the same cell of some voxels, as ranges of `order`, the least covered first.
+struct PointGroups
+{
+  std::vector<std::int32_t> order;
+  std::vector<std::size_t> start; ///< of each group, and the end
+};
+
+/// Of the points whose `cover` (see Quadric) is not 0.
+PointGroups groupsOf(const std::vector<Point>& points, const std::vector<float>& cover)
+{
+  constexpr int cell = 2, padding = 2; // voxels; the lowest point is at -1
+  using Key = std::array<std::int32_t, 5>;
+  const auto keyOf = [&](std::int32_t i)
+  {
+    const Point& p = points[i];
+    return Key{ (p.lower[2] + padding) / cell, (p.lower[1] + padding) / cell, (p.lower[0] + padding) / cell, p.inside,
+                p.outside };
+  };
+  PointGroups groups;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (cover[i] > 0) groups.order.push_back(std::int32_t(i));
+  vtkSMPTools::Sort(groups.order.begin(), groups.order.end(),
+                    [&](std::int32_t i, std::int32_t k)
+                    {
+                      const Key a = keyOf(i), b = keyOf(k);
+                      return a != b ? a < b : std::pair(cover[i], i) < std::pair(cover[k], k);
+                    });
+  for (std::size_t n = 0; n < groups.order.size(); ++n)
+    if (n == 0 || keyOf(groups.order[n - 1]) != keyOf(groups.order[n])) groups.start.push_back(n);
+  groups.start.push_back(groups.order.size());
+  return groups;
+}
+
+/// Moves points of a group that look the same way onto one wide quadric, at the first of them: one at the edge of a wall
+/// is not to go by what is only as wide farther in.
+void fitWider(const std::vector<Point>& points, std::vector<std::int32_t> group, const PointRows& rows, double sigma,
+              std::vector<Point>& fitted)
+{
+  constexpr double sameWay = 0.9; // cosine between normals
+  while (!group.empty())
+  {
+    const Point& first = points[group.front()];
+    const auto quadric = widerQuadricAt(first, rows, sigma);
+    const auto others =
+      std::stable_partition(group.begin(), group.end(),
+                            [&](std::int32_t i) {
+                              return &points[i] == &first || (quadric && dot(points[i].normal, first.normal) > sameWay);
+                            });
+    if (quadric) std::for_each(group.begin(), others, [&](std::int32_t i) { fitted[i] = quadric->onto(points[i]); });
+    group.erase(group.begin(), others);
+  }
+}
+
+/// The points on quadrics as wide as the boundary is plain: a narrow fit does not see beyond the flat cap of a large ball,
+/// or a terrace of a gentle slope. What is wide changes little from point to point, and is fitted once for some.
+std::vector<Point> fitted(const std::vector<Point>& points, const PointRows& rows, double sigma)
+{
+  std::vector<Point> result = points;
+  std::vector<float> cover(points.size(), 0); // of plain ones
+  parallelFor(points.size(),
+              [&](std::size_t i)
+              {
+                const std::optional<Quadric> narrow = quadricAt(points[i], rows, sigma);
+                if (!narrow) return;
+                result[i] = narrow->onto(points[i]);
+                if (isPlain(*narrow, 2 * sigma)) cover[i] = float(narrow->cover);
+              });
+  const PointGroups groups = groupsOf(points, cover);
+  parallelFor(groups.start.size() - 1,
+              [&](std::size_t g)
+              {
+                const auto at = groups.order.begin();
+                fitWider(points, { at + groups.start[g], at + groups.start[g + 1] }, rows, sigma, result);
+              });
+  parallelFor(points.size(), [&](std::size_t i) { keepLabels(result[i]); });
+  return result;
 }
 
 /// Offsets of the labels' boundaries, voxels, that give back the volume that the points' ways have taken; by label.
@@ -462,9 +555,7 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
                 tie.place(points[i]);
                 keepLabels(points[i]);
               });
-  const PointRows rows(points, size);
-  parallelFor(n, [&](std::size_t i) { next[i] = fitted(points[i], rows, perGaussian * sigma); });
-  points.swap(next);
+  points = fitted(points, PointRows(points, size), perGaussian * sigma);
   const std::vector<double> offset = offsets(points);
   parallelFor(n, [&](std::size_t i)
               { points[i].position += (offset[points[i].inside] - offset[points[i].outside]) * points[i].normal; });

@@ -14,7 +14,8 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr int reach = 3; // voxels, of the Gaussian
+constexpr int reach = 3;                          // voxels, of the Gaussian
+constexpr double ofFine = 0.664, ofCoarse = 0.77; // of its standard deviation
 
 /// Weights of the voxels around one along an axis, by a Gaussian cut off at `reach`.
 struct Kernel
@@ -94,8 +95,9 @@ class LabelSmoother
 {
 public:
   LabelSmoother(PaddedMap& map, const ScaleField& scale, const LabelSmoothingOptions& options)
-    : m_Map(map), m_Scale(scale), m_Options(options), m_Coarse(options.sigma), m_Fine(0.7 * options.sigma),
-      m_Around(neighbourSteps(map.grid)), m_Gained(largestLabel(map) + 1, 0), m_Constants(m_Gained.size(), 0)
+    : m_Map(map), m_Scale(scale), m_Options(options), m_Usual(options.sigma), m_Fine(ofFine * options.sigma),
+      m_Coarse(ofCoarse * options.sigma), m_Around(neighbourSteps(map.grid)), m_Gained(largestLabel(map) + 1, 0),
+      m_Constants(m_Gained.size(), 0)
   {
   }
 
@@ -143,10 +145,15 @@ private:
     return others > 1 && m_Options.protectedLabels.count(own) == 0;
   }
 
+  const Kernel& kernelAt(std::size_t voxel) const
+  {
+    const double voxels = m_Scale(m_Map.worldAt(voxel)) / m_Map.grid.smallestSpacing();
+    return voxels < m_Options.fine ? m_Fine : voxels > m_Options.coarse ? m_Coarse : m_Usual;
+  }
+
   Candidate candidate(std::size_t voxel) const
   {
-    const bool isFine = m_Scale(m_Map.worldAt(voxel)) < m_Options.fine * m_Map.grid.smallestSpacing();
-    const Indicators indicators(m_Map, voxel, isFine ? m_Fine : m_Coarse);
+    const Indicators indicators(m_Map, voxel, kernelAt(voxel));
     Candidate result{ voxel, m_Map.labels[voxel] };
     for (const int face : sixNeighbours)
     {
@@ -319,7 +326,7 @@ private:
   PaddedMap& m_Map;
   const ScaleField& m_Scale;
   const LabelSmoothingOptions& m_Options;
-  const Kernel m_Coarse, m_Fine;
+  const Kernel m_Usual, m_Fine, m_Coarse;
   const std::array<std::ptrdiff_t, 27> m_Around;
   std::vector<std::int32_t> m_Gained;  ///< voxels, by label
   std::vector<float> m_Constants;      ///< by label, added to its smoothed indicator

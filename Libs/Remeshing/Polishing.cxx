@@ -28,7 +28,7 @@ public:
       if (m_Complex.vertexTet[v] < 0 || m_Complex.locked[v]) continue;
       if (m_Options.sparesWhole && isWhole(m_Operations, v)) continue;
       if (m_Complex.onInterface[v]) moveToSamples(v);
-      climb(v);
+      if (m_Options.climbs) climb(v);
     }
   }
 
@@ -38,7 +38,7 @@ private:
     Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
     quadric.addToDiagonal(0.05 * quadric.trace() / m_Options.fit);
     const Vec3 step = m_Operations.alongFeatures(v, quadric.solve(quadric.g));
-    if (isNegligible(step, m_Complex.lengths[v])) return;
+    if (isNegligible(step, m_Complex.lengths[v]) || norm(step) < m_Options.leastWay) return;
     const double before = m_Operations.qualityAt(v);
     for (double share : { 1.0, 0.5, 0.25 })
       if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : std::min(m_Good, before)))

@@ -292,9 +292,16 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& siz
            repairWhole(t, sizes, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
 }
 
+/// Single vertices that repairs have left off the boundary are bumps in flat walls; nearer ones are where motion has them.
 Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  return improvement(evenLengths(targets, sizes, targets.keptAngle));
+  constexpr double off = 0.12, robust = 0.1; // voxels
+  const Polish back{ { .goodAngle = targets.keptAngle,
+                       .fit = 10,
+                       .robust = robust * sizes.voxel,
+                       .leastWay = off * sizes.voxel,
+                       .climbs = false } };
+  return { "improvement", { { bounds(targets, 1), { back, back } }, evenLengths(targets, sizes, targets.keptAngle) } };
 }
 
 Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets)

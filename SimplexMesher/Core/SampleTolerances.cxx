@@ -87,7 +87,7 @@ void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::
   const double voxel = map.grid.largestSpacing(), room = roomIn(map), bound = options.maximumDistance;
   const std::map<Label, double> drifts = mostDrifts(thickness, map.grid.largestSpacing(), options.features);
   const double ofVoxel = options.isSmooth ? 0.24 : 0.42;     // steps take up most of the latter
-  const double ofLength = options.isSmooth ? 0.05 : 0.095;   // without roughness to follow, closer costs no tetrahedra
+  const double ofLength = options.isSmooth ? 0.053 : 0.095;  // without roughness to follow, closer costs no tetrahedra
   const double ofLengthAlone = options.isSmooth ? 0.085 : 0; // of eight voxels or more: finer maps have no finer meshes
   constexpr double mostAlone = 2; // voxels: beyond, ends of tissues hang by single tetrahedra
   const auto usual = [&](double at)

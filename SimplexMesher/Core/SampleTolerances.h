@@ -23,7 +23,7 @@ struct ToleranceOptions
 {
   double maximumDistance = 0; ///< mm; no tolerance is larger; 0: no bound
   FeatureOptions features;    ///< what the map was simplified by
-  Proximity proximity;        ///< takes the place of c voxel + d L, between `shortest` and `longest`
+  Proximity proximity;        ///< takes the place of what follows L, between `shortest` and `longest`
   double shortest = 0;        ///< mm
   double longest = 0;         ///< mm
   bool isSmooth = false;      ///< samples will lie on a smooth boundary, not on the voxels' steps
@@ -31,9 +31,9 @@ struct ToleranceOptions
 
 /// Gives every sample of `background`, which lies at the centre of a voxel face of `map`, its tolerance:
 ///
-///     min(r (c voxel + d L), s thickness), at least 0.6 voxel where thickness decides
+///     min(r max(c voxel + d L, min(e L, 2 voxel)), s thickness), at least 0.6 voxel where thickness decides
 ///
-/// with c = 0.25 and d = 0.06 for samples of a smooth boundary, 0.42 and 0.095 for others.
+/// with c = 0.24, d = 0.053 and e = 0.085 for samples of a smooth boundary, 0.42, 0.095 and 0 for others.
 /// `thickness`: mean, of each tissue, mm; s = 0.28 + 0.08 F, at most 0.4, with F the feature scale (0 for protected
 /// tissues). r is 1, and less, down to 0.5, in large maps with little tissue for each face between tissues. All in the
 /// grid frame of the map.

@@ -35,9 +35,10 @@ double mostOfSpikes(const TissueMesherOptions& options)
 /// The map whose boundary is meshed.
 SmoothedLabels withoutRoughness(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options)
 {
-  constexpr double wider = 1.43; // a crack of one voxel is still there after the Gaussian that makes walls smooth
+  constexpr double wider = 1.7; // a crack of one voxel is still there after the Gaussian that makes walls smooth
   if (!leavesVoxels(options)) return { map, {} };
-  return smoothLabels(map, scale, { wider * options.smoothing, 1.5, options.features.protectedLabels });
+  return smoothLabels(map, scale,
+                      { .sigma = wider * options.smoothing, .protectedLabels = options.features.protectedLabels });
 }
 
 /// The lattice of `map`: of its voxels where these are not much smaller than L, of blocks of them elsewhere. Samples stay

@@ -86,10 +86,10 @@ def case(name, make, scale, mesher, near, far, faces=None, view=((0.5, 1, -0.35)
 
 
 CASES = (
-    case("cube", cube, "--targetPoint 31.5,31.5,43.5 --minimumEdgeLength 2 --maximumEdgeLength 12.5 --childRadius 10 "
-                       "--decayLength 20", "", 0.25, 2.1, (0, 603)),
+    case("cube", cube, "--targetPoint 31.5,31.5,43.5 --minimumEdgeLength 2 --maximumEdgeLength 12 --childRadius 10 "
+                       "--decayLength 20", "", 0.25, 2, (0, 603)),
     case("brain", brain, "--targetPoint 0,0,-10 --minimumEdgeLength 4 --maximumEdgeLength 15 --childRadius 10 "
-                         "--decayLength 35", "--minimumIslandVolume 10000 --minimumCavityVolume 10000", 0.8, 3.8,
+                         "--decayLength 35", "--minimumIslandVolume 10000 --minimumCavityVolume 10000", 0.8, 3.6,
          (998, 1103), view=((0.3, 0.25, 1), (0, 1, 0))),
     case("tubes", tubes, "", "--edgeLength 2", 0.4, 0.4, view=((0.3, 1, -0.25), (0, 0, 1))),
     case("vessels", vessels, "", "--edgeLength 1.5 --minimumIslandVolume 200", 0.5, 0.5, view=((0.3, 1, -0.25), (0, 0, 1)),

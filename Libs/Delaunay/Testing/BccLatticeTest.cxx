@@ -113,6 +113,21 @@ TEST(LatticePoints, FitTheLengthOfMostOfTheTissue)
   EXPECT_GT(tested, 50u);
 }
 
+TEST(LatticePoints, FitTheLengthOfMostVerticesRatherThanMostOfTheVolume)
+{
+  const SurfaceComplex surface = test::sphere({}, kRadius, 4);
+  const auto length = [](const Vec3& p) { return p.x > 3 ? 1.0 : 1.6; }; // 28 % of the volume, 61 % of the vertices
+  const std::vector<Vec3> points = latticePoints(surface, length);
+  std::size_t tested = 0;
+  for (std::size_t i = 0; i < points.size(); i += 3)
+  {
+    if (points[i].x < 5 || norm(points[i]) > 8) continue;
+    ++tested;
+    EXPECT_NEAR(nearestOther(points, i) / std::sqrt(0.75) * kLatticeMeanEdge, 1, 0.03);
+  }
+  EXPECT_GT(tested, 50u);
+}
+
 TEST(LatticePoints, GrowSparseOutside)
 {
   const SurfaceComplex surface = test::sphere({}, kRadius, 3);
