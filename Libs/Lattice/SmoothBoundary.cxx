@@ -353,9 +353,9 @@ std::optional<Quadric> widerQuadricAt(const Point& point, const PointRows& rows,
   std::optional<Quadric> best;
   for (int width = 2; width <= widest; ++width)
   {
-    std::optional<Quadric> wider = quadricAt(point, rows, width * sigma);
+    const std::optional<Quadric> wider = quadricAt(point, rows, width * sigma);
     if (!wider || !isPlain(*wider, width * sigma)) return best;
-    best = std::move(wider);
+    best = wider;
     if (!isPlain(*best, (width + 1) * sigma)) return best;
   }
   return best;
