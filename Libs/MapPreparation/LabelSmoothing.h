@@ -5,7 +5,8 @@
 /// A voxel at a boundary goes to the label beside it whose indicator, smoothed by a Gaussian, is the largest there, as
 /// in one step of threshold dynamics (Merriman, Bence and Osher 1992) for all labels together. To every indicator a
 /// constant of its label is added with which all tissues keep their volumes, as in auction dynamics (Jacobs, Merkurjev
-/// and Esedoglu 2018): without it small and thin ones would shrink. Voxels change one by one, and only where every label
+/// and Esedoglu 2018): without it small and thin ones would shrink. Against the background tissues stand together, in
+/// part, so that no groove is dug along the seam of two of them. Voxels change one by one, and only where every label
 /// keeps its topology and its manifold boundary (keepsTopology()).
 
 #include "MapChanges.h"

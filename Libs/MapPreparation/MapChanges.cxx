@@ -35,45 +35,68 @@ std::array<bool, 27> joins(bool throughFacesOnly)
   return result;
 }
 
+/// Takes a set of voxels apart.
+class PartFinder
+{
+public:
+  PartFinder(const Voxels& set, const std::array<std::ptrdiff_t, 27>& steps, bool throughFacesOnly)
+    : m_Set(set), m_Steps(steps), m_IsJoined(joins(throughFacesOnly)), m_IsTaken(set.size(), false)
+  {
+  }
+
+  std::vector<Voxels> find()
+  {
+    std::vector<Voxels> parts;
+    for (std::size_t n = 0; n < m_Set.size(); ++n)
+      if (!m_IsTaken[n]) parts.push_back(partFrom(n));
+    return parts;
+  }
+
+private:
+  Voxels partFrom(std::size_t first)
+  {
+    take(first);
+    Voxels part;
+    while (!m_Open.empty())
+    {
+      part.push_back(m_Set[m_Open.back()]);
+      m_Open.pop_back();
+      for (int row = 0; row < 27; row += 3) takeJoined(part.back(), row);
+    }
+    std::sort(part.begin(), part.end());
+    return part;
+  }
+
+  void take(std::size_t n)
+  {
+    m_IsTaken[n] = true;
+    m_Open.push_back(n);
+  }
+
+  /// Of the three neighbours in a row, which are next to each other in the set.
+  void takeJoined(std::size_t voxel, int row)
+  {
+    if (!m_IsJoined[row] && !m_IsJoined[row + 1] && !m_IsJoined[row + 2]) return;
+    const std::ptrdiff_t first = std::ptrdiff_t(voxel) + m_Steps[row];
+    auto at = std::lower_bound(m_Set.begin(), m_Set.end(), std::size_t(std::max<std::ptrdiff_t>(first, 0)));
+    for (; at != m_Set.end() && std::ptrdiff_t(*at) <= first + 2; ++at)
+    {
+      const auto n = std::size_t(at - m_Set.begin());
+      if (m_IsJoined[row + std::ptrdiff_t(*at) - first] && !m_IsTaken[n]) take(n);
+    }
+  }
+
+  const Voxels& m_Set;
+  const std::array<std::ptrdiff_t, 27>& m_Steps;
+  const std::array<bool, 27> m_IsJoined;
+  std::vector<bool> m_IsTaken;
+  std::vector<std::size_t> m_Open; ///< numbers in the set, whose neighbours have not been looked at
+};
+
 /// The parts that `set` falls into, each ascending, in the order of their first voxels.
 std::vector<Voxels> partsOf(const Voxels& set, const std::array<std::ptrdiff_t, 27>& steps, bool throughFacesOnly)
 {
-  const std::array<bool, 27> isJoined = joins(throughFacesOnly);
-  std::vector<Voxels> parts;
-  std::vector<bool> taken(set.size(), false);
-  std::vector<std::size_t> open;
-  const auto openNeighbours = [&](std::size_t voxel)
-  {
-    for (int row = 0; row < 27; row += 3) // three neighbours in a row are next to each other in the set
-    {
-      if (!isJoined[row] && !isJoined[row + 1] && !isJoined[row + 2]) continue;
-      const std::ptrdiff_t first = std::ptrdiff_t(voxel) + steps[row];
-      auto at = std::lower_bound(set.begin(), set.end(), std::size_t(std::max<std::ptrdiff_t>(first, 0)));
-      for (; at != set.end() && std::ptrdiff_t(*at) <= first + 2; ++at)
-      {
-        const auto n = std::size_t(at - set.begin());
-        if (!isJoined[row + std::ptrdiff_t(*at) - first] || taken[n]) continue;
-        taken[n] = true;
-        open.push_back(n);
-      }
-    }
-  };
-  for (std::size_t first = 0; first < set.size(); ++first)
-  {
-    if (taken[first]) continue;
-    taken[first] = true;
-    open.assign(1, first);
-    Voxels part;
-    while (!open.empty())
-    {
-      part.push_back(set[open.back()]);
-      open.pop_back();
-      openNeighbours(part.back());
-    }
-    std::sort(part.begin(), part.end());
-    parts.push_back(std::move(part));
-  }
-  return parts;
+  return PartFinder(set, steps, throughFacesOnly).find();
 }
 
 /// Regions of a map by voxel.
