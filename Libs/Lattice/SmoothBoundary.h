@@ -6,11 +6,11 @@
 /// are equal, G * 1_a = G * 1_b with one Gaussian G for all labels, as the largest of them would part the space; then
 /// to the quadric that moving least squares fits to the samples of the same two labels around it (D. Levin,
 /// "Mesh-independent surface interpolation", 2003), which keeps curvature and takes away the terraces that a Gaussian
-/// of this width leaves; the fit is up to five times as wide where the boundary is one quadric that far. Where a tissue
-/// is so thin that its indicator loses, narrower Gaussians take the place of the first. No sample's plane comes within
-/// 0.2 voxel of the centres of the two voxels beside its face. After that the boundary of every tissue is offset by one
-/// length, 0.3 voxel at most, so that the tissue keeps its volume (u_0 in "Unstructured mesh generation from the Virtual
-/// Family models", section 3.1, for all tissues together).
+/// of this width leaves; the fit is up to five times as wide where the boundary is one quadric that far, and then one
+/// for the points of a cell. Where a tissue is so thin that its indicator loses, narrower Gaussians take the place of the
+/// first. No sample's plane comes within 0.14 voxel of the centres of the two voxels beside its face. After that the
+/// boundary of every tissue is offset by one length, 0.3 voxel at most, so that the tissue keeps its volume (u_0 in
+/// "Unstructured mesh generation from the Virtual Family models", section 3.1, for all tissues together).
 
 #include "KuhnLattice.h"
 

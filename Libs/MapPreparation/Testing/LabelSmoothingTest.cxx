@@ -45,6 +45,20 @@ std::size_t different(const TissueMap& a, const TissueMap& b)
   return count;
 }
 
+/// How much lower columns of tissue are beside seams than elsewhere, voxels, in stripes six voxels wide.
+double grooveAlongSeams(const TissueMap& map)
+{
+  double height[2] = {}, columns[2] = {};
+  for (int j = 8; j < 40; ++j)
+    for (int i = 8; i < 40; ++i)
+    {
+      const bool isBesideSeam = i % 6 == 0 || i % 6 == 5;
+      ++columns[isBesideSeam];
+      for (int k = 0; k < map.grid.size[2]; ++k) height[isBesideSeam] += labelAt(map, { i, j, k }) != 0;
+    }
+  return height[0] / columns[0] - height[1] / columns[1];
+}
+
 } // namespace
 
 TEST(LabelSmoothing, ACrackOfOneVoxelCloses)
@@ -134,25 +148,6 @@ TEST(LabelSmoothing, ASmallTissueKeepsItsVolumeAmongLargeOnes)
   for (const Label label : { 1, 2 }) EXPECT_NEAR(after[label], before[label], 0.001 * before[label]) << label;
   EXPECT_NEAR(after[3], before[3], 0.075 * before[3]);
 }
-
-namespace
-{
-
-/// How much lower columns of tissue are beside seams than elsewhere, voxels: stripes of six, from 2 to 46.
-double grooveAlongSeams(const TissueMap& map)
-{
-  double height[2] = {}, columns[2] = {};
-  for (int j = 8; j < 40; ++j)
-    for (int i = 8; i < 40; ++i)
-    {
-      const bool isBesideSeam = i % 6 == 0 || i % 6 == 5;
-      ++columns[isBesideSeam];
-      for (int k = 0; k < map.grid.size[2]; ++k) height[isBesideSeam] += labelAt(map, { i, j, k }) != 0;
-    }
-  return height[0] / columns[0] - height[1] / columns[1];
-}
-
-} // namespace
 
 TEST(LabelSmoothing, DigsHardlyAGrooveAlongSeams)
 {
