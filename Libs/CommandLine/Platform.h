@@ -9,7 +9,8 @@ namespace surgicalmesher
 
 bool stdoutIsTerminal();
 
-/// From now on, large arrays go back to the system as soon as they are freed, where the system's allocator would keep them.
+/// From now on, large arrays go back to the system as soon as they are freed, where the system's allocator would keep
+/// them; some tens of megabytes stay for those that come next.
 void returnFreedMemory();
 
 std::string hostName();

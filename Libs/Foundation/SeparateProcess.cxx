@@ -20,27 +20,43 @@ namespace
 
 constexpr int kFailed = 1;
 
-bool sendAll(int descriptor, const std::string& bytes)
+bool sendAll(int descriptor, const char* bytes, std::size_t size)
 {
-  for (std::size_t sent = 0; sent < bytes.size();)
+  for (std::size_t sent = 0; sent < size;)
   {
-    const ssize_t count = write(descriptor, bytes.data() + sent, bytes.size() - sent);
+    const ssize_t count = write(descriptor, bytes + sent, size - sent);
     if (count < 0 && errno != EINTR) return false;
     if (count > 0) sent += static_cast<std::size_t>(count);
   }
   return true;
 }
 
-std::string receiveAll(int descriptor)
+bool receiveAll(int descriptor, char* bytes, std::size_t size)
 {
-  std::string bytes;
-  std::string buffer(1 << 16, '\0');
-  for (;;)
+  for (std::size_t received = 0; received < size;)
   {
-    const ssize_t count = read(descriptor, buffer.data(), buffer.size());
-    if (count == 0 || (count < 0 && errno != EINTR)) return bytes;
-    if (count > 0) bytes.append(buffer, 0, static_cast<std::size_t>(count));
+    const ssize_t count = read(descriptor, bytes + received, size - received);
+    if (count == 0 || (count < 0 && errno != EINTR)) return false;
+    if (count > 0) received += static_cast<std::size_t>(count);
   }
+  return true;
+}
+
+/// Its size first, so that it is received where it stays.
+bool sendAnswer(int descriptor, const std::string& answer)
+{
+  const std::size_t size = answer.size();
+  return sendAll(descriptor, reinterpret_cast<const char*>(&size), sizeof(size)) &&
+         sendAll(descriptor, answer.data(), size);
+}
+
+std::optional<std::string> receiveAnswer(int descriptor)
+{
+  std::size_t size = 0;
+  if (!receiveAll(descriptor, reinterpret_cast<char*>(&size), sizeof(size))) return {};
+  std::string answer(size, '\0');
+  if (!receiveAll(descriptor, answer.data(), size)) return {};
+  return answer;
 }
 
 /// A crash here is foreseen, and leaves no core file.
@@ -61,7 +77,7 @@ void setLimits(int mostSeconds)
   dup2(nowhere, STDERR_FILENO);
   try
   {
-    _exit(sendAll(descriptor, work()) ? 0 : kFailed);
+    _exit(sendAnswer(descriptor, work()) ? 0 : kFailed);
   }
   catch (...)
   {
@@ -86,14 +102,15 @@ std::optional<std::string> runInSeparateProcess(const std::function<std::string(
     runAsChild(ends[1], work);
   }
   close(ends[1]);
-  const std::string bytes = child > 0 ? receiveAll(ends[0]) : std::string();
+  std::optional<std::string> answer;
+  if (child > 0) answer = receiveAnswer(ends[0]);
   close(ends[0]);
   int status = kFailed;
   while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
   {
   }
   if (child < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return {};
-  return bytes;
+  return answer;
 }
 
 } // namespace surgicalmesher

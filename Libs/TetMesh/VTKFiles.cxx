@@ -174,12 +174,12 @@ void requireValidIds(vtkCellArray* cells, vtkIdType pointCount, const std::strin
 
 // ---- from one process to the other ----------------------------------------------------------------------------------
 
-/// First letter of what one process tells the other.
+/// Last letter of what one process tells the other, behind the data as XML and whether they are in RAS ('r', 'l').
 enum Answer : char
 {
   Surface = 's',
   Grid = 'g',
-  Refused = '!' ///< the sentence follows
+  Refused = '!' ///< behind the sentence that says why
 };
 
 std::string asXML(vtkDataObject* data, const std::string& file)
@@ -203,13 +203,14 @@ std::string answerFor(const std::string& file)
     requireCredibleHeader(file);
     const VTKFile read = readByExtension(file);
     requireValidCells(read.data, file);
-    const bool ras = read.ras || fieldSaysRAS(read.data);
-    return std::string{ vtkPolyData::SafeDownCast(read.data) ? Surface : Grid, ras ? 'r' : 'l' } +
-           asXML(read.data, file);
+    std::string answer = asXML(read.data, file);
+    answer += read.ras || fieldSaysRAS(read.data) ? 'r' : 'l';
+    answer += vtkPolyData::SafeDownCast(read.data) ? Surface : Grid;
+    return answer;
   }
   catch (const InputError& error)
   {
-    return char(Refused) + std::string(error.what());
+    return std::string(error.what()) + char(Refused);
   }
 }
 
@@ -254,11 +255,11 @@ VTKFile readVTKFile(const std::string& file, const std::vector<std::string>& ext
   const auto answer = runInSeparateProcess([&] { return answerFor(file); }, mostSeconds);
   if (!answer || answer->size() < 2)
     refuse(file, "damaged: its reader crashed or did not end within " + std::to_string(mostSeconds) + " s");
-  if (answer->front() == Refused) throw InputError(answer->substr(1));
-  const std::string xml = answer->substr(2);
-  return { answer->front() == Grid ? fromXML<vtkXMLUnstructuredGridReader>(xml, file)
-                                   : fromXML<vtkXMLPolyDataReader>(xml, file),
-           (*answer)[1] == 'r' };
+  if (answer->back() == Refused) throw InputError(answer->substr(0, answer->size() - 1));
+  // What follows the XML's last tag is no part of it.
+  return { answer->back() == Grid ? fromXML<vtkXMLUnstructuredGridReader>(*answer, file)
+                                  : fromXML<vtkXMLPolyDataReader>(*answer, file),
+           (*answer)[answer->size() - 2] == 'r' };
 }
 
 } // namespace surgicalmesher

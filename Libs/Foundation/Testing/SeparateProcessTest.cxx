@@ -14,6 +14,7 @@ TEST(SeparateProcess, AnswersOrTellsThatThereIsNoAnswer)
 {
   const std::string large(1 << 20, 'x'); // more than a pipe holds
   EXPECT_EQ(runInSeparateProcess([&] { return large; }), large);
+  EXPECT_EQ(runInSeparateProcess([] { return std::string(); }), "") << "an answer as well";
   EXPECT_EQ(runInSeparateProcess([]() -> std::string { throw 2; }), std::nullopt);
 #ifndef _WIN32
   EXPECT_EQ(runInSeparateProcess([]() -> std::string { std::abort(); }), std::nullopt);
