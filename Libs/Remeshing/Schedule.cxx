@@ -16,10 +16,11 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double as28Degrees = 1.033; // triangles of 28 degrees count like dihedral angles of 28.5
+constexpr double triangleWeight = 1.033; // triangles of 28 degrees count like dihedral angles of 28.5
 
 constexpr double earTolerance = 1.1;    // beyond that the surface withdraws where it is to be finest
 constexpr double spikeTolerance = 2.1;  // of what a spike leaves behind
+constexpr double widestTolerance = 2.1; // where an angle cannot be mended otherwise
 constexpr double planeDistance = 0.6;   // 0.2 voxel where L is one
 constexpr double lengthTolerance = 1.1; // what even lengths are worth
 constexpr double labelTolerance = 1.6;  // of relabelling
@@ -32,15 +33,13 @@ constexpr double farNearer = 0.7;     // the same where it may cost the shape of
 constexpr std::size_t earTetrahedra = 4;
 constexpr double levelRatio = 1.48; // of a size to the one before it
 
-double vertexDistanceOf(const MeshTargets& targets) { return targets.countsTriangles() ? vertexDistance : 0; }
-
 EnvelopeBounds bounds(const MeshTargets& targets, double rmsLimit, double toleranceFactor = 1)
 {
   return { .rmsLimit = rmsLimit,
            .toleranceFactor = toleranceFactor,
-           .triangleWeight = targets.triangleWeight,
-           .vertexDistance = vertexDistanceOf(targets),
-           .planeDistance = targets.countsTriangles() ? planeDistance : 0 };
+           .triangleWeight = triangleWeight,
+           .vertexDistance = targets.holdsVertices ? vertexDistance : 0,
+           .planeDistance = targets.holdsVertices ? planeDistance : 0 };
 }
 
 /// Without splits and moves together.
@@ -81,14 +80,13 @@ Stage evenLengths(const MeshTargets& targets, const MeshSizes& sizes, double goo
 
 Stage relabelled(const MeshTargets& targets)
 {
-  return { { .rmsLimit = 1, .toleranceFactor = labelTolerance, .triangleWeight = targets.triangleWeight },
+  return { { .rmsLimit = 1, .toleranceFactor = labelTolerance, .triangleWeight = triangleWeight },
            { RelabelInterface{ targets.keptAngle, clearlyNearer } } };
 }
 
-Coarsen coarsenAll(const MeshTargets& targets, const MeshSizes& sizes, double leastAngle = 5)
+Coarsen coarsenAll(const MeshSizes& sizes, double leastAngle = 5)
 {
-  return { sizes.longest,
-           { .shortEdge = targets.shortEdge, .minimumAngle = leastAngle, .quarters = targets.countsTriangles() } };
+  return { sizes.longest, { .shortEdge = 0.82, .minimumAngle = leastAngle, .quarters = true } };
 }
 
 Sweep improvement(Stage stage) { return { "improvement", { std::move(stage) } }; }
@@ -126,10 +124,11 @@ Sweep repairWhole(const MeshTargets& targets, const MeshSizes& sizes, const Repa
 {
   ImprovementOptions options = optionsOf(repair);
   options.worstShare = 0.002; // on one thread
-  Sweep sweep{ "improvement", { withoutEars() }, true };
-  if (targets.countsTriangles()) sweep.stages.push_back(withoutSpikes(targets, sizes, 0));
-  sweep.stages.push_back({ bounds(targets, 1, repair.tolerance), { Improve{ options } } });
-  return sweep;
+  return { "improvement",
+           { withoutEars(),
+             withoutSpikes(targets, sizes, 0),
+             { bounds(targets, 1, repair.tolerance), { Improve{ options } } } },
+           true };
 }
 
 Sweep fitToSamples(double rmsLimit, const MeshTargets& targets, const MeshSizes& sizes)
@@ -138,14 +137,11 @@ Sweep fitToSamples(double rmsLimit, const MeshTargets& targets, const MeshSizes&
   constexpr double pullAngle = 20; // what is lost, the second repair brings back
   const Relax relax{ { .goodAngle = kept, .spread = 0.9, .fit = 2, .robust = robust } };
   const Polish polish{ { .goodAngle = kept, .fit = 10, .robust = robust } };
-  Sweep sweep{ "improvement", {} };
-  if (targets.countsTriangles()) sweep.stages.push_back(withoutSpikes(targets, sizes, pullAngle));
-  sweep.stages.push_back(
-    { bounds(targets, rmsLimit), { coarsenAll(targets, sizes, kept), relax, SwapEdges{}, polish } });
-  if (!targets.countsTriangles()) return sweep;
-  sweep.stages.push_back(evenLengths(targets, sizes, kept));
-  sweep.stages.push_back(relabelled(targets));
-  return sweep;
+  return { "improvement",
+           { withoutSpikes(targets, sizes, pullAngle),
+             { bounds(targets, rmsLimit), { coarsenAll(sizes, kept), relax, SwapEdges{}, polish } },
+             evenLengths(targets, sizes, kept),
+             relabelled(targets) } };
 }
 
 } // namespace
@@ -153,9 +149,7 @@ Sweep fitToSamples(double rmsLimit, const MeshTargets& targets, const MeshSizes&
 const MeshTargets usualTargets{ .firstAngle = 25,
                                 .aimedAngle = 28.8,
                                 .keptAngle = usualAngle,
-                                .widestTolerance = 2.1,
-                                .shortEdge = 0.82,
-                                .triangleWeight = as28Degrees,
+                                .holdsVertices = true,
                                 .trials = 10,
                                 .coarseningSweeps = 3,
                                 .balanceRounds = 2 };
@@ -163,9 +157,7 @@ const MeshTargets usualTargets{ .firstAngle = 25,
 const MeshTargets noisyTargets{ .firstAngle = 22,
                                 .aimedAngle = 23.5,
                                 .keptAngle = modestAngle,
-                                .widestTolerance = 2.4,
-                                .shortEdge = 0.75,
-                                .triangleWeight = 0,
+                                .holdsVertices = false,
                                 .trials = 12,
                                 .coarseningSweeps = 1,
                                 .balanceRounds = 1 };
@@ -219,7 +211,7 @@ Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly)
 Sweep firstImprovement(const MeshTargets& targets, const MeshSizes& sizes)
 {
   return improvement(
-    { bounds(targets, 0.4), { coarsenAll(targets, sizes), SwapEdges{}, Polish{}, improve(targets.firstAngle, 8, 1) } });
+    { bounds(targets, 0.4), { coarsenAll(sizes), SwapEdges{}, Polish{}, improve(targets.firstAngle, 8, 1) } });
 }
 
 std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes& sizes)
@@ -229,9 +221,8 @@ std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes
   for (int n = 1; n < targets.coarseningSweeps; ++n)
   {
     const double angle = n == 1 ? between : targets.aimedAngle;
-    sweeps.push_back(improvement(
-      { bounds(targets, 0.35), { coarsenAll(targets, sizes), SwapEdges{}, Polish{}, improve(angle, 8, 1) } }));
-    if (!targets.countsTriangles()) continue;
+    sweeps.push_back(
+      improvement({ bounds(targets, 0.35), { coarsenAll(sizes), SwapEdges{}, Polish{}, improve(angle, 8, 1) } }));
     sweeps.back().stages.push_back(evenLengths(targets, sizes, 20)); // sizes still change
     sweeps.back().stages.push_back(relabelled(targets));
   }
@@ -240,15 +231,16 @@ std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes
 
 std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
 {
-  const double aim = t.aimedAngle, kept = t.keptAngle, widest = t.widestTolerance;
-  return { improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(aim, t.trials, 2) } }),
-           improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, 2) } }),
-           repairBlocks(t, { .angle = aim, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0 }),
-           repairBlocks(
-             t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 20, .isFirst = true }),
-           repairBlocks(
-             t, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20, .isFirst = true }),
-           repairWhole(t, sizes, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
+  const double aim = t.aimedAngle, kept = t.keptAngle;
+  return {
+    improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(aim, t.trials, 2) } }),
+    improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, 2) } }),
+    repairBlocks(t, { .angle = aim, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0 }),
+    repairBlocks(t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 20, .isFirst = true }),
+    repairBlocks(
+      t, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20, .isFirst = true }),
+    repairWhole(t, sizes, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20 })
+  };
 }
 
 std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& sizes)
@@ -287,9 +279,11 @@ std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& 
 
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& sizes)
 {
-  const double kept = t.keptAngle, widest = t.widestTolerance;
-  return { repairBlocks(t, { .angle = kept, .tolerance = widest, .splitEdge = 0.4, .ease = 0.1, .together = 20 }),
-           repairWhole(t, sizes, { .angle = kept, .tolerance = widest, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
+  const double kept = t.keptAngle;
+  return {
+    repairBlocks(t, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.4, .ease = 0.1, .together = 20 }),
+    repairWhole(t, sizes, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20 })
+  };
 }
 
 /// Single vertices that repairs have left off the boundary are bumps in flat walls; nearer ones are where motion has them.

@@ -15,21 +15,18 @@ namespace surgicalmesher
 /// What a mesh is improved to.
 struct MeshTargets
 {
-  double firstAngle;      ///< degrees, dihedral: aimed at before aimedAngle is, as sizes suffer less that way
-  double aimedAngle;      ///< degrees, dihedral: aimed at in the end
-  double keptAngle;       ///< degrees, dihedral: not to be lost again
-  double widestTolerance; ///< factor on the tolerance, where an angle cannot be mended otherwise
-  double shortEdge;       ///< see CoarseningOptions
-  double triangleWeight;  ///< see EnvelopeBounds; 0: neither triangles, spikes nor lengths are worked on
-  int trials;             ///< see ImprovementOptions, once sizes no longer change
-  int coarseningSweeps;   ///< sweeps of improvement that still coarsen
-  int balanceRounds;      ///< after the repairs
-
-  bool countsTriangles() const { return triangleWeight > 0; }
+  double firstAngle;    ///< degrees, dihedral: aimed at before aimedAngle is, as sizes suffer less that way
+  double aimedAngle;    ///< degrees, dihedral: aimed at in the end
+  double keptAngle;     ///< degrees, dihedral: not to be lost again
+  bool holdsVertices;   ///< to their samples and these samples' planes: see EnvelopeBounds
+  int trials;           ///< see ImprovementOptions, once sizes no longer change
+  int coarseningSweeps; ///< sweeps of improvement that still coarsen
+  int balanceRounds;    ///< after the repairs
 };
 
 extern const MeshTargets usualTargets;
-/// Where features are of the map's own size, as noise makes them: see hasUnresolvedFeatures.
+/// Where features are of the map's own size, as noise makes them: see hasUnresolvedFeatures. With held vertices most
+/// repairs there would fail.
 extern const MeshTargets noisyTargets;
 
 /// Whether coarsening has left so many bad tetrahedra that features of the map's own size have no room for good ones:

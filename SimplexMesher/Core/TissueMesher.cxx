@@ -194,7 +194,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
   if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets, sizes));
   remesher.run(secondRepairSweeps(targets, sizes));
-  if (targets.countsTriangles()) remesher.balanceAndRun({ finishingSweep(targets, sizes) });
+  remesher.balanceAndRun({ finishingSweep(targets, sizes) });
   remesher.offsetTissues(targets);
   MeshedMap result = std::move(remesher).result(targets.keptAngle);
   result.smoothed = std::move(smoothed.changes);
