@@ -47,7 +47,7 @@ inline std::string faultOf(const MeshedMap& result, const TissueMap& map)
   if (result.background.lengths.size() != mesh.points.size()) return "there is not one target length per point";
   const auto neighbours = faceAdjacency(mesh);
   const Vec3 h = map.grid.spacing;
-  constexpr double widestTolerance = 2.1, separatedFactor = 2; // see Schedule.h and EnvelopeBounds
+  constexpr double widestTolerance = 2.1, separatedFactor = 2; // see Schedule.cxx and EnvelopeBounds
   const auto allowed = [&](double tolerance) {
     return separatedFactor * widestTolerance * tolerance + std::min({ h.x, h.y, h.z });
   };
