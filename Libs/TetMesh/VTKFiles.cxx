@@ -204,8 +204,8 @@ std::string answerFor(const std::string& file)
     const VTKFile read = readByExtension(file);
     requireValidCells(read.data, file);
     std::string answer = asXML(read.data, file);
-    answer += read.ras || fieldSaysRAS(read.data) ? 'r' : 'l';
-    answer += vtkPolyData::SafeDownCast(read.data) ? Surface : Grid;
+    answer.push_back(read.ras || fieldSaysRAS(read.data) ? 'r' : 'l');
+    answer.push_back(vtkPolyData::SafeDownCast(read.data) ? Surface : Grid);
     return answer;
   }
   catch (const InputError& error)

@@ -34,8 +34,7 @@ TEST(Schedule, DoesForNoisyMapsWhatItDoesForOthers)
 TEST(Schedule, CountsTrianglesInEveryRepair)
 {
   for (const MeshTargets& targets : { usualTargets, noisyTargets })
-    for (const Sweep& sweep : repairSweeps(targets, sizes))
-      EXPECT_GT(sweep.stages.back().bounds.triangleWeight, 1);
+    for (const Sweep& sweep : repairSweeps(targets, sizes)) EXPECT_GT(sweep.stages.back().bounds.triangleWeight, 1);
 }
 
 } // namespace
