@@ -252,14 +252,14 @@ VTKFile readVTKFile(const std::string& file, const std::vector<std::string>& ext
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     refuse(file, "unknown kind of file '" + extension + "', expected " + listed(extensions));
   const int mostSeconds = mostSecondsFor(file);
-  const auto answer = runInSeparateProcess([&] { return answerFor(file); }, mostSeconds);
+  auto answer = runInSeparateProcess([&] { return answerFor(file); }, mostSeconds);
   if (!answer || answer->size() < 2)
     refuse(file, "damaged: its reader crashed or did not end within " + std::to_string(mostSeconds) + " s");
   if (answer->back() == Refused) throw InputError(answer->substr(0, answer->size() - 1));
-  // What follows the XML's last tag is no part of it.
-  return { answer->back() == Grid ? fromXML<vtkXMLUnstructuredGridReader>(*answer, file)
-                                  : fromXML<vtkXMLPolyDataReader>(*answer, file),
-           (*answer)[answer->size() - 2] == 'r' };
+  const bool isGrid = answer->back() == Grid, ras = answer->end()[-2] == 'r';
+  answer->resize(answer->size() - 2);
+  return { isGrid ? fromXML<vtkXMLUnstructuredGridReader>(*answer, file) : fromXML<vtkXMLPolyDataReader>(*answer, file),
+           ras };
 }
 
 } // namespace surgicalmesher
