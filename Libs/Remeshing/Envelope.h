@@ -43,6 +43,8 @@ struct EnvelopeBounds
   double separatedFactor = 1;
   /// degrees; sharp edges, corners and flat faces of the interface stay what they are (FeatureSides). 0: there are none.
   double featureAngle = 0;
+  /// No vertex moves to where more of the interface is folded around it (foldedMore).
+  bool keepsFolds = false;
   /// The interface stays exactly as it is, its vertices, edges and triangles; the other bounds are then not asked.
   bool interfaceHeld = false;
 };

@@ -28,7 +28,7 @@ OperationCounts& OperationCounts::operator+=(const OperationCounts& more)
 GuardedOperations::GuardedOperations(TetComplex& complex, SizingFunction length, const EnvelopeBounds& bounds,
                                      double rigidity, CurveChains* curves)
   : m_Complex(complex), m_Curves(curves), m_Length(std::move(length)), m_Envelope(complex, bounds), m_Topology(complex),
-    m_TriangleWeight(bounds.triangleWeight), m_Rigidity(rigidity)
+    m_TriangleWeight(bounds.triangleWeight), m_Rigidity(rigidity), m_KeepsFolds(bounds.keepsFolds)
 {
 }
 

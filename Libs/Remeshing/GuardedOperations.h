@@ -213,6 +213,7 @@ private:
   Envelope m_Envelope;
   CollapseTopology m_Topology;
   const double m_TriangleWeight, m_Rigidity;
+  const bool m_KeepsFolds;
   OperationCounts m_Counts;
   Star m_Star;                          ///< of the vertex worked on
   std::array<Star, 8> m_Targets;        ///< of those it may go into, which come by turns

@@ -21,6 +21,7 @@ struct RunPass
   void operator()(const RaiseHeights& pass) const { raiseHeightsOfBlock(operations, pass.options); }
   void operator()(const SoftenPairs& pass) const { softenPairsOfBlock(operations, pass.options); }
   void operator()(const EvenOut& pass) const { evenLengthsOfBlock(operations, pass.options); }
+  void operator()(const OpenFolds& pass) const { openFoldsOfBlock(operations, pass.options); }
   void operator()(const MoveInterface& pass) const { moveInterfaceOfBlock(operations, pass.options); }
   void operator()(const MeetProximity& pass) const { meetProximityOfBlock(operations, pass.options); }
   void operator()(const OffsetTissues& pass) const { offsetTissuesOfBlock(operations, pass.options); }

@@ -22,7 +22,8 @@ constexpr double earTolerance = 1.1;    // beyond that the surface withdraws whe
 constexpr double spikeTolerance = 2.1;  // of what a spike leaves behind
 constexpr double widestTolerance = 2.1; // where an angle cannot be mended otherwise
 constexpr double planeDistance = 0.6;   // 0.2 voxel where L is one
-constexpr double lengthTolerance = 1.1; // what even lengths are worth
+constexpr double lengthTolerance = 1.5; // what even lengths are worth
+constexpr double foldTolerance = 1.3;   // what an open fold is worth
 constexpr double labelTolerance = 1.6;  // of relabelling
 constexpr double vertexDistance = 1.4;  // spikes begin there
 constexpr double spikeTriangles = 1.6;  // triangles may lose some degrees where a spike goes
@@ -40,6 +41,13 @@ EnvelopeBounds bounds(const MeshTargets& targets, double rmsLimit, double tolera
            .triangleWeight = triangleWeight,
            .vertexDistance = targets.holdsVertices ? vertexDistance : 0,
            .planeDistance = targets.holdsVertices ? planeDistance : 0 };
+}
+
+/// For what comes after folds have been opened.
+Stage keepingFolds(const MeshTargets& targets, Stage stage)
+{
+  stage.bounds.keepsFolds = targets.opensFolds;
+  return stage;
 }
 
 /// Without splits and moves together.
@@ -78,6 +86,13 @@ Stage evenLengths(const MeshTargets& targets, const MeshSizes& sizes, double goo
   return { bounds(targets, 0.5, lengthTolerance), { pass } };
 }
 
+Stage openFolds(const MeshTargets& targets, double goodAngle)
+{
+  EnvelopeBounds within = bounds(targets, 1, foldTolerance);
+  within.planeDistance = 0; // planes of samples are what folds
+  return { within, { OpenFolds{ { .goodAngle = goodAngle } } } };
+}
+
 Stage relabelled(const MeshTargets& targets)
 {
   return { { .rmsLimit = 1, .toleranceFactor = labelTolerance, .triangleWeight = triangleWeight },
@@ -87,6 +102,16 @@ Stage relabelled(const MeshTargets& targets)
 Coarsen coarsenAll(const MeshSizes& sizes, double leastAngle = 5)
 {
   return { sizes.longest, { .shortEdge = 0.82, .minimumAngle = leastAngle, .quarters = true } };
+}
+
+/// Folds that fits have left, before the last repairs: angles are lost for it, and come back with the folds open.
+std::vector<Stage> withoutFolds(const MeshTargets& targets, const MeshSizes& sizes)
+{
+  constexpr double lostAngle = 15;
+  const double kept = targets.keptAngle;
+  return { openFolds(targets, lostAngle),
+           { bounds(targets, 1), { improve(kept, 12, 1) } },
+           keepingFolds(targets, evenLengths(targets, sizes, kept)) };
 }
 
 Sweep improvement(Stage stage) { return { "improvement", { std::move(stage) } }; }
@@ -150,6 +175,7 @@ const MeshTargets usualTargets{ .firstAngle = 25,
                                 .aimedAngle = 28.8,
                                 .keptAngle = usualAngle,
                                 .holdsVertices = true,
+                                .opensFolds = true,
                                 .trials = 10,
                                 .coarseningSweeps = 3,
                                 .balanceRounds = 2 };
@@ -158,6 +184,7 @@ const MeshTargets noisyTargets{ .firstAngle = 22,
                                 .aimedAngle = 23.5,
                                 .keptAngle = modestAngle,
                                 .holdsVertices = false,
+                                .opensFolds = true,
                                 .trials = 12,
                                 .coarseningSweeps = 1,
                                 .balanceRounds = 1 };
@@ -262,9 +289,11 @@ std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& siz
   options.fineLength = 1.5 * sizes.voxel;
   EnvelopeBounds within = bounds(targets, 1, motionTolerance);
   within.planeDistance *= ofPlanes;
-  const Sweep sweep{ "motion",
-                     { { within, { MoveInterface{ options }, SwapEdges{} } },
-                       { bounds(targets, 1), { improve(targets.keptAngle, 12, 1) } } } };
+  Sweep sweep{ "motion",
+               { { within, { MoveInterface{ options }, SwapEdges{} } },
+                 { bounds(targets, 1), { improve(targets.keptAngle, 12, 1) } } } };
+  const std::vector<Stage> unfolding = withoutFolds(targets, sizes);
+  sweep.stages.insert(sweep.stages.end(), unfolding.begin(), unfolding.end());
   return std::vector<Sweep>(sweeps, sweep);
 }
 
@@ -280,10 +309,12 @@ std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& 
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& sizes)
 {
   const double kept = t.keptAngle;
-  return {
-    repairBlocks(t, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.4, .ease = 0.1, .together = 20 }),
-    repairWhole(t, sizes, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20 })
-  };
+  Sweep inBlocks =
+    repairBlocks(t, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.4, .ease = 0.1, .together = 20 });
+  inBlocks.stages.front().bounds.keepsFolds = t.opensFolds; // the last ones may do what they have to
+  return { inBlocks,
+           repairWhole(t, sizes,
+                       { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
 }
 
 /// Single vertices that repairs have left off the boundary are bumps in flat walls; nearer ones are where motion has them.
@@ -295,12 +326,16 @@ Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
                        .robust = robust * sizes.voxel,
                        .leastWay = off * sizes.voxel,
                        .climbs = false } };
-  return { "improvement", { { bounds(targets, 1), { back, back } }, evenLengths(targets, sizes, targets.keptAngle) } };
+  const Stage even = keepingFolds(targets, evenLengths(targets, sizes, targets.keptAngle));
+  std::vector<Stage> stages{ keepingFolds(targets, { bounds(targets, 1), { back, back } }), even };
+  if (targets.opensFolds) stages.insert(stages.end(), { openFolds(targets, targets.keptAngle), even });
+  return { "improvement", stages };
 }
 
 Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets)
 {
-  return { "volumes", { { bounds(targets, 1), { OffsetTissues{ { std::move(offsets), targets.keptAngle } } } } } };
+  const OffsetTissues pass{ { std::move(offsets), targets.keptAngle } };
+  return { "volumes", { keepingFolds(targets, { bounds(targets, 1), { pass } }) } };
 }
 
 std::size_t surfaceSweepCount(const MeshSizes& sizes)
@@ -323,7 +358,8 @@ struct VolumeRow
 {
   bool held = false; ///< see EnvelopeBounds::interfaceHeld
   double rmsLimit = 1;
-  double tolerance = 1; ///< factor
+  double tolerance = 1;    ///< factor
+  bool keepsFolds = false; ///< see EnvelopeBounds
   std::size_t polishes = 0;
   bool swaps = true; ///< edges, before each polish
   PolishingOptions polishing = {};
@@ -349,7 +385,11 @@ std::vector<Stage> raisedHeights(const EnvelopeBounds& beyond, double height)
 
 ConditionalSweep sweepOf(const VolumeRow& row)
 {
-  Stage stage{ { .rmsLimit = row.rmsLimit, .toleranceFactor = row.tolerance, .interfaceHeld = row.held }, {} };
+  Stage stage{ { .rmsLimit = row.rmsLimit,
+                 .toleranceFactor = row.tolerance,
+                 .keepsFolds = row.keepsFolds,
+                 .interfaceHeld = row.held },
+               {} };
   for (std::size_t n = 0; n < row.polishes; ++n)
   {
     if (row.swaps) stage.passes.push_back(SwapEdges{ { .sparesWhole = true } });
@@ -382,8 +422,8 @@ std::vector<VolumeRow> repairRows(double t)
 {
   // clang-format off
   return {
-    { .tolerance = 2, .angle = t, .trials = 20, .passes = 3, .whole = true },
-    { .tolerance = 3, .angle = t, .trials = 20, .passes = 3, .whole = true },
+    { .tolerance = 2, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
+    { .tolerance = 3, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
     { .tolerance = 4, .angle = t, .trials = 20, .passes = 3, .whole = true },
     { .tolerance = 4, .angle = t, .trials = 20, .passes = 3, .splitEdge = 0.6, .whole = true },
     { .tolerance = 4, .angle = t, .trials = 30, .passes = 4, .splitEdge = 0.4, .whole = true },
@@ -437,7 +477,7 @@ std::vector<ConditionalSweep> repairsOfImprovedMesh(double t, double smallestLen
   rows.insert(rows.begin(), {
     { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 12, .worthwhileShare = always },
     { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 16, .worthwhileShare = always },
-    { .rmsLimit = 0.8, .tolerance = 1.5, .angle = t, .trials = 20, .passes = 3, .whole = true },
+    { .rmsLimit = 0.8, .tolerance = 1.5, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
   });
   // clang-format on
   const VolumeRow last{ .tolerance = 4, .angle = t, .trials = 40, .passes = 6, .splitEdge = 0.2, .whole = true };
@@ -457,7 +497,7 @@ Sweep restoringSweep(double targetAngle, TissueOffsets offsets)
 {
   constexpr double tolerance = 4; // where the repairs have gone
   return { "volumes",
-           { { { .rmsLimit = 1, .toleranceFactor = tolerance },
+           { { { .rmsLimit = 1, .toleranceFactor = tolerance, .keepsFolds = true },
                { OffsetTissues{ { std::move(offsets), targetAngle } } } } },
            true };
 }

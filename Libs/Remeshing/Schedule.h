@@ -19,6 +19,7 @@ struct MeshTargets
   double aimedAngle;    ///< degrees, dihedral: aimed at in the end
   double keptAngle;     ///< degrees, dihedral: not to be lost again
   bool holdsVertices;   ///< to their samples and these samples' planes: see EnvelopeBounds
+  bool opensFolds;      ///< not where the surface follows the voxels' steps, which are at right angles
   int trials;           ///< see ImprovementOptions, once sizes no longer change
   int coarseningSweeps; ///< sweeps of improvement that still coarsen
   int balanceRounds;    ///< after the repairs
@@ -61,7 +62,8 @@ std::vector<Sweep> repairSweeps(const MeshTargets& targets, const MeshSizes& siz
 /// Vertices go back to their samples as far as angles allow. Tissues' volumes are balanced before each.
 std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// The motion of the simplex mesh, which makes the surface smooth between the voxels where elements are of their size,
-/// each time with an improvement of the angles that this costs, which keeps to the surface.
+/// each time with an improvement of the angles that this costs, which keeps to the surface; and folds opened there and
+/// everywhere else. No sweep after these folds anew.
 std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity);
 /// Where samples are beyond their tolerances, which proximity has set: more triangles, and angles as good as they were.
 std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& sizes);

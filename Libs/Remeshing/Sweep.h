@@ -5,6 +5,7 @@
 #include "Coarsening.h"
 #include "EdgeSwaps.h"
 #include "EvenLengths.h"
+#include "FoldOpening.h"
 #include "HeightRaising.h"
 #include "Improvement.h"
 #include "InterfaceMotion.h"
@@ -56,6 +57,10 @@ struct EvenOut ///< evenLengthsOfBlock
 {
   EdgeLengthOptions options;
 };
+struct OpenFolds ///< openFoldsOfBlock
+{
+  FoldOptions options;
+};
 struct MoveInterface ///< moveInterfaceOfBlock
 {
   InterfaceMotionOptions options;
@@ -82,8 +87,8 @@ struct RemoveEars ///< removeEarsOfBlock
   std::size_t few; ///< tetrahedra
 };
 
-using Pass = std::variant<Coarsen, Relax, Polish, Improve, SwapEdges, RaiseHeights, SoftenPairs, EvenOut, MoveInterface,
-                          MeetProximity, OffsetTissues, RelabelInterface, RemoveSpikes, RemoveEars>;
+using Pass = std::variant<Coarsen, Relax, Polish, Improve, SwapEdges, RaiseHeights, SoftenPairs, EvenOut, OpenFolds,
+                          MoveInterface, MeetProximity, OffsetTissues, RelabelInterface, RemoveSpikes, RemoveEars>;
 
 struct Stage
 {

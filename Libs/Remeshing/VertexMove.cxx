@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "GuardedOperations.h"
 
+#include "Folds.h"
+
 namespace surgicalmesher
 {
 
@@ -10,6 +12,8 @@ bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
   if (m_Complex.onInterface[v])
   {
     if (m_Envelope.isHeld()) return false;
+    constexpr double rounding = 1e-6;
+    if (m_KeepsFolds && foldedMore(m_Complex, v, p, sheet(v)) > rounding * m_Complex.lengths[v]) return false;
     sheet(v);
     if (!m_Envelope.moveSheet(p)) return false;
   }

@@ -186,7 +186,8 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   TissueRemesher remesher(std::move(start), prepared, length, options, subProgress(progress, 0.1, 1),
                           surfaceSweepCount(sizes));
 
-  const MeshTargets targets = coarsen(remesher, sizes);
+  MeshTargets targets = coarsen(remesher, sizes);
+  targets.opensFolds = options.smoothing > 0;
   remesher.run(firstImprovement(targets, sizes));
   remesher.balanceAndRun(improvementSweeps(targets, sizes));
   remesher.run(repairSweeps(targets, sizes));

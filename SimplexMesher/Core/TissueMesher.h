@@ -24,7 +24,7 @@ struct TissueMesherOptions
   /// maximumDistance or a proximity the map's roughness of that scale goes first (LabelSmoothing.h). 0: the voxels' steps.
   double smoothing = 0.7;
   /// Resistance of the surface to bending, in that of its samples: 0 none, 0.2 some, 1 as much (Bending.h).
-  double rigidity = 0.43;
+  double rigidity = 0.28;
   /// What the simplex mesh's internal forces ask of the surface where elements are of the voxels' size, if it is smoothed.
   Continuity continuity = Continuity::C2;
   /// Distance of samples to the surface, in place of the automatic one; where it does not hold, the surface gets more

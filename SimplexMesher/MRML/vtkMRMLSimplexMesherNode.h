@@ -139,7 +139,7 @@ protected:
   double MinimumCavityVolume = 0;
   double FeatureScale = 0;
   double Smoothing = 0.7;
-  double Rigidity = 0.43;
+  double Rigidity = 0.28;
   int Continuity = MeanCurvature;
   double MaximumDistance = 0;
   double ProximityNear = 0;

@@ -69,7 +69,7 @@ int testSentencesAndFixes(Panel& panel)
 int testProximityAndSurroundings(Panel& panel)
 {
   CHECK_DOUBLE(panel.child<ctkSliderWidget>("SmoothingSlider")->value(), 0.7);
-  CHECK_DOUBLE(panel.child<ctkSliderWidget>("RigiditySlider")->value(), 0.43);
+  CHECK_DOUBLE(panel.child<ctkSliderWidget>("RigiditySlider")->value(), 0.28);
   CHECK_INT(panel.child<QComboBox>("ContinuityComboBox")->currentIndex(), 2);
   CHECK_INT(panel.child<QComboBox>("ContinuityComboBox")->count(), 3);
   auto* far = panel.child<QDoubleSpinBox>("ProximityFarSpinBox");

@@ -187,7 +187,7 @@ int checkOlderScene()
   CHECK_NOT_NULL(node);
   CHECK_DOUBLE(node->GetMaximumDistance(), 1.25);
   CHECK_DOUBLE(node->GetSmoothing(), 0.7);
-  CHECK_DOUBLE(node->GetRigidity(), 0.43);
+  CHECK_DOUBLE(node->GetRigidity(), 0.28);
   CHECK_INT(node->GetContinuity(), Node::MeanCurvature);
   CHECK_DOUBLE(node->GetProximityFar(), 0);
   CHECK_DOUBLE(node->GetChordError(), 0);

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "FoldOpening.h"
+
+#include "Folds.h"
+#include "TissueOffsets.h"
+#include "VertexSteps.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+constexpr double degree = 3.14159265358979323846 / 180;
+
+class FoldOpening
+{
+public:
+  FoldOpening(GuardedOperations& operations, const FoldOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Good(sine2OfDegrees(options.goodAngle))
+  {
+  }
+
+  void run()
+  {
+    constexpr int rounds = 2;
+    for (int round = 0; round < rounds; ++round)
+      for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
+        if (m_Complex.vertexTet[v] >= 0 && m_Complex.onInterface[v] && !m_Complex.locked[v]) openAt(v);
+  }
+
+private:
+  using Places = std::array<Vec3, 4>; ///< of a hinge's vertices
+
+  /// At the edges of v; those between two free vertices come at the first.
+  void openAt(std::int32_t v)
+  {
+    constexpr double widest = 116 * degree; // beyond, it would take too much of the boundary
+    m_Hinges.clear();
+    m_Hinges.add(m_Complex, m_Operations.sheet(v));
+    for (const Hinge& h : m_Hinges.sorted())
+    {
+      if (h[0] != v && (h[1] != v || !m_Complex.locked[h[0]])) continue;
+      const double turn = turnAt(m_Complex, h);
+      if (turn > 90 * degree && turn < widest) open(h, turn);
+    }
+  }
+
+  void open(const Hinge& h, double turn)
+  {
+    constexpr double aim = 86 * degree, farthest = 0.3; // of L
+    const Places old = placesOf(h);
+    Places ways;
+    double opens = 0; // radians, by those ways
+    m_Around.clear();
+    for (int i = 0; i < 4; ++i)
+    {
+      m_Around.add(m_Complex, m_Operations.sheet(h[i]));
+      if (m_Complex.locked[h[i]]) continue;
+      const Vec3 gradient = gradientOfTurn(h, i, turn);
+      ways[i] = heldAt(m_Operations, h[i], ease).solve(gradient);
+      opens += dot(ways[i], gradient);
+    }
+    if (!(opens > 0)) return;
+    for (int i = 0; i < 4; ++i)
+    {
+      ways[i] = ((aim - turn) / opens) * ways[i];
+      if (norm(ways[i]) > farthest * m_Complex.lengths[h[i]]) return;
+    }
+    const double before = foldedAround(), length = lengthAt(m_Complex, h);
+    for (int i = 0; i < 4; ++i) moveAlong(m_Operations, h[i], ways[i], std::min(m_Good, m_Operations.qualityAt(h[i])));
+    constexpr double worthwhile = 0.3;
+    if (foldedAround() > before - worthwhile * length) takeBack(h, old);
+  }
+
+  Places placesOf(const Hinge& h) const
+  {
+    return { m_Complex.points[h[0]], m_Complex.points[h[1]], m_Complex.points[h[2]], m_Complex.points[h[3]] };
+  }
+
+  /// By the place of h's vertex number i, radians / mm.
+  Vec3 gradientOfTurn(const Hinge& h, int i, double turn) const
+  {
+    const double step = 1e-4 * m_Complex.lengths[h[i]];
+    Vec3& p = m_Complex.points[h[i]];
+    const Vec3 at = p;
+    Vec3 gradient;
+    for (int k = 0; k < 3; ++k)
+    {
+      p[k] += step;
+      gradient[k] = (turnAt(m_Complex, h) - turn) / step;
+      p = at;
+    }
+    return gradient;
+  }
+
+  double foldedAround()
+  {
+    const std::vector<Hinge>& around = m_Around.sorted();
+    return std::accumulate(around.begin(), around.end(), 0.0,
+                           [&](double sum, const Hinge& h) { return sum + foldedAt(m_Complex, h); });
+  }
+
+  void takeBack(const Hinge& h, const Places& old)
+  {
+    const auto hasMoved = [&](int i) { return !(m_Complex.points[h[i]] == old[i]); };
+    std::array<bool, 4> moved;
+    for (int i = 3; i >= 0; --i)
+      if ((moved[i] = hasMoved(i))) m_Operations.moveBack(h[i], old[i]);
+    for (int i = 0; i < 4; ++i)
+      if (moved[i]) m_Operations.reassignSamples(h[i]);
+  }
+
+  static constexpr double ease = 0.15; // how easily vertices leave their samples for it
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const double m_Good;
+  Hinges m_Hinges, m_Around;
+};
+
+} // namespace
+
+void openFoldsOfBlock(GuardedOperations& operations, const FoldOptions& options)
+{
+  FoldOpening(operations, options).run();
+}
+
+} // namespace surgicalmesher

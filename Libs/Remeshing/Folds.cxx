@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Folds.h"
+
+#include "Bending.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// Share of an edge that is folded, whose triangles have the corners c and d beyond it, seen from its begin.
+double foldedShare(const Vec3& edge, const Vec3& c, const Vec3& d)
+{
+  constexpr double cosine = 0.0698; // of 86 degrees
+  const Vec3 n = cross(edge, c), m = cross(d, edge);
+  const double sizes = std::sqrt(squaredNorm(n) * squaredNorm(m));
+  return sizes > 0 ? std::clamp(0.5 - dot(n, m) / (2 * cosine * sizes), 0.0, 1.0) : 1;
+}
+
+} // namespace
+
+void Hinges::add(const TetComplex& complex, const Sheet& sheet)
+{
+  for (const SheetFace& f : sheet.faces)
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t a = f.vertices[k], b = f.vertices[(k + 1) % 3], c = f.vertices[(k + 2) % 3];
+      const std::int32_t d = cornerBeyond(complex, f, a, b);
+      if (d >= 0) m_Hinges.push_back({ std::min(a, b), std::max(a, b), std::min(c, d), std::max(c, d) });
+    }
+}
+
+const std::vector<Hinge>& Hinges::sorted()
+{
+  std::sort(m_Hinges.begin(), m_Hinges.end());
+  m_Hinges.erase(std::unique(m_Hinges.begin(), m_Hinges.end()), m_Hinges.end());
+  return m_Hinges;
+}
+
+double turnAt(const TetComplex& complex, const Hinge& hinge)
+{
+  const auto from = [&](int i) { return complex.points[hinge[i]] - complex.points[hinge[0]]; };
+  return deflection(from(1), from(2), from(3));
+}
+
+double lengthAt(const TetComplex& complex, const Hinge& hinge)
+{
+  return norm(complex.points[hinge[1]] - complex.points[hinge[0]]);
+}
+
+double foldedAt(const TetComplex& complex, const Hinge& hinge)
+{
+  const auto from = [&](int i) { return complex.points[hinge[i]] - complex.points[hinge[0]]; };
+  return lengthAt(complex, hinge) * foldedShare(from(1), from(2), from(3));
+}
+
+double foldedMore(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet)
+{
+  const auto now = [&](std::int32_t x) { return complex.points[x]; };
+  const auto then = [&](std::int32_t x) { return x == v ? p : complex.points[x]; };
+  const auto folded = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+  { return norm(b - a) * foldedShare(b - a, c - a, d - a); };
+  double sum = 0;
+  for (const SheetFace& f : sheet.faces)
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t a = f.vertices[k], b = f.vertices[(k + 1) % 3], c = f.vertices[(k + 2) % 3];
+      const std::int32_t d = cornerBeyond(complex, f, a, b);
+      if (d < 0) continue;
+      const double times = v == c ? 1 : 0.5; // edges at v come twice
+      sum += times * (folded(then(a), then(b), then(c), then(d)) - folded(now(a), now(b), now(c), now(d)));
+    }
+  return sum;
+}
+
+} // namespace surgicalmesher

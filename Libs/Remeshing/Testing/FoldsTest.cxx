@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "Folds.h"
+#include "Bending.h"
+#include "ComplexInvariants.h"
+#include "FoldOpening.h"
+#include "VoxelMesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace surgicalmesher
+{
+namespace
+{
+
+using namespace test;
+
+const SizingFunction unitScale = [](const Vec3&) { return 1.0f; };
+constexpr double degree = 3.14159265358979323846 / 180;
+
+/// Two tissues, one with a wall beside the other's flat top. The wall leans over that by so many degrees, so that normals
+/// turn by 90 degrees and these in the groove along the seam.
+TetComplex groove(double degrees)
+{
+  TetMesh mesh = tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int i, int, int k) { return i < 3 ? 2 : k < 3 ? 1 : 0; }));
+  for (Vec3& p : mesh.points) p.x += std::tan(degrees * degree) * (p.z - 2.5);
+  return complexOf(mesh);
+}
+
+Sheet sheetOf(TetComplex& complex, std::int32_t v)
+{
+  std::vector<std::int32_t> star;
+  complex.star(v, star);
+  Sheet sheet;
+  gatherSheet(complex, v, star, sheet);
+  return sheet;
+}
+
+std::vector<Hinge> hingesOf(TetComplex& complex)
+{
+  Hinges hinges;
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+    if (complex.onInterface[v]) hinges.add(complex, sheetOf(complex, v));
+  return hinges.sorted();
+}
+
+/// Bounds of moves that samples limit one by one.
+EnvelopeBounds wide(bool keepsFolds = false)
+{
+  EnvelopeBounds bounds;
+  bounds.rmsLimit = 1;
+  bounds.keepsFolds = keepsFolds;
+  return bounds;
+}
+
+void openFolds(GuardedOperations& operations, double goodAngle)
+{
+  FoldOptions options;
+  options.goodAngle = goodAngle;
+  openFoldsOfBlock(operations, options);
+}
+
+double foldedLength(TetComplex& complex)
+{
+  double sum = 0;
+  for (const Hinge& h : hingesOf(complex))
+    if (turnAt(complex, h) > 90 * degree) sum += lengthAt(complex, h);
+  return sum;
+}
+
+std::int32_t vertexNear(const TetComplex& complex, const Vec3& p)
+{
+  std::int32_t nearest = 0;
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+    if (squaredNorm(complex.points[v] - p) < squaredNorm(complex.points[nearest] - p)) nearest = v;
+  return nearest;
+}
+
+bool isOnSeam(const Vec3& p) { return std::abs(p.x - 2.5) < 1e-9 && std::abs(p.z - 2.5) < 1e-9; }
+
+TEST(Folds, AreWhereTheWallLeansOver)
+{
+  double seam = 0;
+  TetComplex complex = groove(8);
+  for (const Hinge& h : hingesOf(complex))
+    if (std::abs(turnAt(complex, h) - 98 * degree) < 1e-9 && isOnSeam(complex.points[h[0]]))
+      seam += lengthAt(complex, h);
+  EXPECT_NEAR(seam, 6, 1e-9);
+}
+
+TEST(Folds, OfAMoveAreThoseAfterItLessThoseBefore)
+{
+  for (const double lean : { -12.0, 3.0, 8.0 })
+  {
+    TetComplex complex = groove(lean);
+    for (const Vec3& way : { Vec3{ 0.3, 0.1, 0.2 }, Vec3{ -0.2, 0.1, -0.4 }, Vec3{ 0, 0, 0.9 } })
+    {
+      const std::int32_t v = vertexNear(complex, { 2.5, 2.5, 2.5 });
+      const Sheet sheet = sheetOf(complex, v);
+      Hinges around;
+      around.add(complex, sheet);
+      const auto sum = [&]
+      {
+        double folded = 0;
+        for (const Hinge& h : around.sorted()) folded += foldedAt(complex, h);
+        return folded;
+      };
+      const Vec3 old = complex.points[v];
+      const double more = foldedMore(complex, v, old + way, sheet), before = sum();
+      complex.points[v] = old + way;
+      EXPECT_NEAR(more, sum() - before, 1e-9) << lean;
+      complex.points[v] = old;
+    }
+  }
+}
+
+TEST(FoldOpening, OpensAGrooveAndKeepsWhatEveryOperationKeeps)
+{
+  TetComplex complex = groove(8);
+  const double before = foldedLength(complex);
+  constexpr double goodAngle = 20;
+  GuardedOperations operations(complex, unitScale, wide());
+  openFolds(operations, goodAngle);
+  EXPECT_LT(foldedLength(complex), 0.3 * before);
+  EXPECT_TRUE(isConsistent(complex));
+  for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+    EXPECT_GE(operations.quality(t), sine2OfDegrees(goodAngle)) << t;
+}
+
+TEST(FoldOpening, LeavesWhatWouldTakeTooMuch)
+{
+  const TetComplex before = groove(45);
+  TetComplex complex = before;
+  GuardedOperations operations(complex, unitScale, wide());
+  openFolds(operations, 5);
+  EXPECT_EQ(operations.counts().moves, 0);
+  EXPECT_TRUE(complex.points == before.points);
+}
+
+TEST(FoldOpening, LeavesNothingHalfDone)
+{
+  TetComplex complex = groove(8);
+  const std::vector<Vec3> before = complex.points;
+  EnvelopeBounds bounds = wide();
+  bounds.rmsLimit = 1e-9;
+  GuardedOperations operations(complex, unitScale, bounds);
+  openFolds(operations, 20);
+  EXPECT_TRUE(complex.points == before);
+}
+
+TEST(GuardedOperations, FoldNothingWhereFoldsAreKept)
+{
+  for (const bool keepsFolds : { false, true })
+  {
+    TetComplex complex = groove(-8);
+    const std::int32_t v = vertexNear(complex, { 2.5, 2.5, 2.5 }); // of the seam, where normals turn by 82 degrees
+    const Vec3 deeper = complex.points[v] - Vec3{ 0, 0, 0.3 }, shallower = complex.points[v] + Vec3{ 0, 0, 0.1 };
+    GuardedOperations operations(complex, unitScale, wide(keepsFolds));
+    EXPECT_EQ(operations.move(v, deeper, 1e-8), !keepsFolds);
+    EXPECT_TRUE(operations.move(v, shallower, 1e-8));
+  }
+}
+
+} // namespace
+} // namespace surgicalmesher
