@@ -20,7 +20,8 @@ class FoldOpening
 {
 public:
   FoldOpening(GuardedOperations& operations, const FoldOptions& options)
-    : m_Operations(operations), m_Complex(operations.complex()), m_Good(sine2OfDegrees(options.goodAngle))
+    : m_Operations(operations), m_Complex(operations.complex()), m_Good(sine2OfDegrees(options.goodAngle)),
+      m_From(options.from)
   {
   }
 
@@ -29,21 +30,23 @@ public:
     constexpr int rounds = 2;
     for (int round = 0; round < rounds; ++round)
       for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
-        if (m_Complex.vertexTet[v] >= 0 && m_Complex.onInterface[v] && !m_Complex.locked[v]) openAt(v);
+        if (m_Complex.vertexTet[v] >= 0 && m_Complex.onInterface[v] && isFree(v)) openAt(v);
   }
 
 private:
   using Places = std::array<Vec3, 4>; ///< of a hinge's vertices
 
+  bool isFree(std::int32_t v) const { return !m_Complex.locked[v] && m_Complex.lengths[v] >= m_From; }
+
   /// At the edges of v; those between two free vertices come at the first.
   void openAt(std::int32_t v)
   {
-    constexpr double widest = 116 * degree; // beyond, it would take too much of the boundary
+    constexpr double widest = 128 * degree; // beyond, it would take too much of the boundary
     m_Hinges.clear();
     m_Hinges.add(m_Complex, m_Operations.sheet(v));
     for (const Hinge& h : m_Hinges.sorted())
     {
-      if (h[0] != v && (h[1] != v || !m_Complex.locked[h[0]])) continue;
+      if (h[0] != v && (h[1] != v || isFree(h[0]))) continue;
       const double turn = turnAt(m_Complex, h);
       if (turn > 90 * degree && turn < widest) open(h, turn);
     }
@@ -59,7 +62,7 @@ private:
     for (int i = 0; i < 4; ++i)
     {
       m_Around.add(m_Complex, m_Operations.sheet(h[i]));
-      if (m_Complex.locked[h[i]]) continue;
+      if (!isFree(h[i])) continue;
       const Vec3 gradient = gradientOfTurn(h, i, turn);
       ways[i] = heldAt(m_Operations, h[i], ease).solve(gradient);
       opens += dot(ways[i], gradient);
@@ -118,7 +121,7 @@ private:
 
   GuardedOperations& m_Operations;
   TetComplex& m_Complex;
-  const double m_Good;
+  const double m_Good, m_From;
   Hinges m_Hinges, m_Around;
 };
 

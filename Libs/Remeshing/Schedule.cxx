@@ -86,11 +86,12 @@ Stage evenLengths(const MeshTargets& targets, const MeshSizes& sizes, double goo
   return { bounds(targets, 0.5, lengthTolerance), { pass } };
 }
 
-Stage openFolds(const MeshTargets& targets, double goodAngle)
+/// Not where L is under two voxels: there the walls of a box would swell by what its edges lose.
+Stage openFolds(const MeshTargets& targets, const MeshSizes& sizes, double goodAngle)
 {
   EnvelopeBounds within = bounds(targets, 1, foldTolerance);
   within.planeDistance = 0; // planes of samples are what folds
-  return { within, { OpenFolds{ { .goodAngle = goodAngle } } } };
+  return { within, { OpenFolds{ { .goodAngle = goodAngle, .from = 2 * sizes.voxel } } } };
 }
 
 Stage relabelled(const MeshTargets& targets)
@@ -109,7 +110,7 @@ std::vector<Stage> withoutFolds(const MeshTargets& targets, const MeshSizes& siz
 {
   constexpr double lostAngle = 15;
   const double kept = targets.keptAngle;
-  return { openFolds(targets, lostAngle),
+  return { openFolds(targets, sizes, lostAngle),
            { bounds(targets, 1), { improve(kept, 12, 1) } },
            keepingFolds(targets, evenLengths(targets, sizes, kept)) };
 }
@@ -328,7 +329,7 @@ Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
                        .climbs = false } };
   const Stage even = keepingFolds(targets, evenLengths(targets, sizes, targets.keptAngle));
   std::vector<Stage> stages{ keepingFolds(targets, { bounds(targets, 1), { back, back } }), even };
-  if (targets.opensFolds) stages.insert(stages.end(), { openFolds(targets, targets.keptAngle), even });
+  if (targets.opensFolds) stages.insert(stages.end(), { openFolds(targets, sizes, targets.keptAngle), even });
   return { "improvement", stages };
 }
 
@@ -477,6 +478,7 @@ std::vector<ConditionalSweep> repairsOfImprovedMesh(double t, double smallestLen
   rows.insert(rows.begin(), {
     { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 12, .worthwhileShare = always },
     { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 16, .worthwhileShare = always },
+    { .rmsLimit = 0.8, .tolerance = 0.5, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
     { .rmsLimit = 0.8, .tolerance = 1.5, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
   });
   // clang-format on
