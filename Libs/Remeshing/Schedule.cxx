@@ -336,7 +336,7 @@ Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets)
 {
   const OffsetTissues pass{ { std::move(offsets), targets.keptAngle } };
-  return { "volumes", { keepingFolds(targets, { bounds(targets, 1), { pass } }) } };
+  return { "volumes", { { bounds(targets, 1), { pass } } } };
 }
 
 std::size_t surfaceSweepCount(const MeshSizes& sizes)
@@ -499,7 +499,7 @@ Sweep restoringSweep(double targetAngle, TissueOffsets offsets)
 {
   constexpr double tolerance = 4; // where the repairs have gone
   return { "volumes",
-           { { { .rmsLimit = 1, .toleranceFactor = tolerance, .keepsFolds = true },
+           { { { .rmsLimit = 1, .toleranceFactor = tolerance },
                { OffsetTissues{ { std::move(offsets), targetAngle } } } } },
            true };
 }
