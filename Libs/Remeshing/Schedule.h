@@ -63,7 +63,7 @@ std::vector<Sweep> repairSweeps(const MeshTargets& targets, const MeshSizes& siz
 std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// The motion of the simplex mesh, which makes the surface smooth between the voxels where elements are of their size,
 /// each time with an improvement of the angles that this costs, which keeps to the surface. Folds are opened after it,
-/// wherever they are, and all that comes later but the very last repairs keeps them open.
+/// wherever they are, and what comes later, but for volumes and the very last repairs, keeps them open.
 std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity);
 /// Where samples are beyond their tolerances, which proximity has set: more triangles, and angles as good as they were.
 std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& sizes);
