@@ -13,13 +13,13 @@ namespace
 double cotangent(const Vec3& x, const Vec3& y) { return dot(x, y) / norm(cross(x, y)); }
 
 /// The energy of edge ab with the opposite corners c and d: |s_a a + s_b b - s_c c - s_d d|^2 / area.
-struct Hinge
+struct Energy
 {
   Vec3 bent;
   double atA, atB, atC; ///< s
   double area;          ///< of both triangles, twice
 
-  Hinge(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+  Energy(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
   {
     const Vec3 edge = b - a;
     const double ca = cotangent(edge, c - a), cb = cotangent(-1.0 * edge, c - b);
@@ -81,19 +81,15 @@ Quadric bendingOf(const TetComplex& complex, std::int32_t v, const Vec3& p, cons
 {
   Quadric quadric;
   const auto at = [&](std::int32_t x) { return x == v ? p : complex.points[x]; };
-  for (const SheetFace& f : sheet.faces)
-    for (int k = 0; k < 3; ++k)
-    {
-      const std::int32_t a = f.vertices[k], b = f.vertices[(k + 1) % 3], c = f.vertices[(k + 2) % 3];
-      const std::int32_t d = cornerBeyond(complex, f, a, b);
-      if (d < 0) continue;
-      const Hinge hinge(at(a), at(b), at(c), at(d));
-      const double share = v == a ? hinge.atA : v == b ? hinge.atB : hinge.atC;
-      const double times = v == c ? 1 : 0.5; // edges at v come twice
-      const double weight = times * hinge.weight(at(b) - at(a));
-      quadric.addToDiagonal(weight * share * share);
-      quadric.g += (-weight * share) * hinge.bent;
-    }
+  forEachHinge(complex, sheet,
+               [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d)
+               {
+                 const Energy hinge(at(a), at(b), at(c), at(d));
+                 const double share = v == a ? hinge.atA : v == b ? hinge.atB : hinge.atC;
+                 const double weight = hingeShare(v, c) * hinge.weight(at(b) - at(a));
+                 quadric.addToDiagonal(weight * share * share);
+                 quadric.g += (-weight * share) * hinge.bent;
+               });
   return quadric;
 }
 

@@ -19,6 +19,22 @@ Quadric bendingOf(const TetComplex& complex, std::int32_t v, const Vec3& p, cons
 /// none.
 std::int32_t cornerBeyond(const TetComplex& complex, const SheetFace& face, std::int32_t a, std::int32_t b);
 
+/// Calls visit(a, b, c, d) for every edge ab of the faces of `sheet`, once from each face there: c is that face's third
+/// corner, and d the one beyond. Edges without one are left out.
+template <class Visit>
+void forEachHinge(const TetComplex& complex, const Sheet& sheet, const Visit& visit)
+{
+  for (const SheetFace& f : sheet.faces)
+    for (int k = 0; k < 3; ++k)
+    {
+      const std::int32_t a = f.vertices[k], b = f.vertices[(k + 1) % 3], c = f.vertices[(k + 2) % 3];
+      if (const std::int32_t d = cornerBeyond(complex, f, a, b); d >= 0) visit(a, b, c, d);
+    }
+}
+
+/// What a visit of forEachHinge on the sheet at v counts, so that every edge counts once: those at v come from both faces.
+inline double hingeShare(std::int32_t v, std::int32_t c) { return v == c ? 1 : 0.5; }
+
 /// The angle, radians, between the normals of the triangles on both sides of `edge`, whose third corners lie at c and d
 /// from its begin.
 double deflection(const Vec3& edge, const Vec3& c, const Vec3& d);

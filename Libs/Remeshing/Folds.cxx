@@ -25,13 +25,10 @@ double foldedShare(const Vec3& edge, const Vec3& c, const Vec3& d)
 
 void Hinges::add(const TetComplex& complex, const Sheet& sheet)
 {
-  for (const SheetFace& f : sheet.faces)
-    for (int k = 0; k < 3; ++k)
-    {
-      const std::int32_t a = f.vertices[k], b = f.vertices[(k + 1) % 3], c = f.vertices[(k + 2) % 3];
-      const std::int32_t d = cornerBeyond(complex, f, a, b);
-      if (d >= 0) m_Hinges.push_back({ std::min(a, b), std::max(a, b), std::min(c, d), std::max(c, d) });
-    }
+  forEachHinge(complex, sheet,
+               [this](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+                 m_Hinges.push_back({ std::min(a, b), std::max(a, b), std::min(c, d), std::max(c, d) });
+               });
 }
 
 const std::vector<Hinge>& Hinges::sorted()
@@ -65,15 +62,11 @@ double foldedMore(const TetComplex& complex, std::int32_t v, const Vec3& p, cons
   const auto folded = [](const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
   { return norm(b - a) * foldedShare(b - a, c - a, d - a); };
   double sum = 0;
-  for (const SheetFace& f : sheet.faces)
-    for (int k = 0; k < 3; ++k)
-    {
-      const std::int32_t a = f.vertices[k], b = f.vertices[(k + 1) % 3], c = f.vertices[(k + 2) % 3];
-      const std::int32_t d = cornerBeyond(complex, f, a, b);
-      if (d < 0) continue;
-      const double times = v == c ? 1 : 0.5; // edges at v come twice
-      sum += times * (folded(then(a), then(b), then(c), then(d)) - folded(now(a), now(b), now(c), now(d)));
-    }
+  forEachHinge(complex, sheet,
+               [&](std::int32_t a, std::int32_t b, std::int32_t c, std::int32_t d) {
+                 sum += hingeShare(v, c) *
+                        (folded(then(a), then(b), then(c), then(d)) - folded(now(a), now(b), now(c), now(d)));
+               });
   return sum;
 }
 

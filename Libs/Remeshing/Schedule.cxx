@@ -312,7 +312,7 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& siz
   const double kept = t.keptAngle;
   Sweep inBlocks =
     repairBlocks(t, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.4, .ease = 0.1, .together = 20 });
-  inBlocks.stages.front().bounds.keepsFolds = t.opensFolds; // the last ones may do what they have to
+  for (Stage& stage : inBlocks.stages) stage = keepingFolds(t, stage); // the last ones may do what they have to
   return { inBlocks,
            repairWhole(t, sizes,
                        { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
@@ -335,8 +335,7 @@ Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 
 Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets)
 {
-  const OffsetTissues pass{ { std::move(offsets), targets.keptAngle } };
-  return { "volumes", { { bounds(targets, 1), { pass } } } };
+  return { "volumes", { { bounds(targets, 1), { OffsetTissues{ { std::move(offsets), targets.keptAngle } } } } } };
 }
 
 std::size_t surfaceSweepCount(const MeshSizes& sizes)

@@ -12,9 +12,9 @@ bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
   if (m_Complex.onInterface[v])
   {
     if (m_Envelope.isHeld()) return false;
+    const Sheet& faces = sheet(v);
     constexpr double rounding = 1e-6;
-    if (m_KeepsFolds && foldedMore(m_Complex, v, p, sheet(v)) > rounding * m_Complex.lengths[v]) return false;
-    sheet(v);
+    if (m_KeepsFolds && foldedMore(m_Complex, v, p, faces) > rounding * m_Complex.lengths[v]) return false;
     if (!m_Envelope.moveSheet(p)) return false;
   }
   place(v, p);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Bending.h"
+#include "ComplexInvariants.h"
 #include "VoxelMesh.h"
 
 #include <gtest/gtest.h>
@@ -28,11 +29,7 @@ std::int32_t vertexAt(const TetComplex& complex, const Vec3& p)
 
 Quadric bendingAt(TetComplex& complex, std::int32_t v, const Vec3& p)
 {
-  std::vector<std::int32_t> star;
-  complex.star(v, star);
-  Sheet sheet;
-  gatherSheet(complex, v, star, sheet);
-  return bendingOf(complex, v, p, sheet);
+  return bendingOf(complex, v, p, sheetOf(complex, v));
 }
 
 const auto lowerHalf = [](int, int, int k) { return k < 3 ? 1 : 0; };

@@ -43,6 +43,16 @@ inline TetComplex complexOf(const TetMesh& mesh, float length = 1, float toleran
   return complex;
 }
 
+/// The interface faces at v and their samples.
+inline Sheet sheetOf(TetComplex& complex, std::int32_t v)
+{
+  std::vector<std::int32_t> star;
+  complex.star(v, star);
+  Sheet sheet;
+  gatherSheet(complex, v, star, sheet);
+  return sheet;
+}
+
 /// The living tetrahedra and the points they use.
 inline TetMesh meshOf(const TetComplex& complex)
 {
