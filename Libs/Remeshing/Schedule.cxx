@@ -86,7 +86,7 @@ Stage evenLengths(const MeshTargets& targets, const MeshSizes& sizes, double goo
   return { bounds(targets, 0.5, lengthTolerance), { pass } };
 }
 
-/// Not where L is under two voxels: there the walls of a box would swell by what its edges lose.
+/// Not where L is under two voxels: there the vertices stay where the map wants them, as with even lengths.
 Stage openFolds(const MeshTargets& targets, const MeshSizes& sizes, double goodAngle)
 {
   EnvelopeBounds within = bounds(targets, 1, foldTolerance);
