@@ -126,6 +126,30 @@ void expectGoodAngles(const TetMesh& mesh)
 
 } // namespace
 
+/// Neither what coarsening leaves off the boundary, nor what repairs and raised heights push off it.
+TEST(ShapeQuality, NoVertexOfABallIsFarOff)
+{
+  constexpr double radius = 14, middle = 20;
+  TissueMap map = paintedMap({ 41, 41, 41 },
+                             [](int i, int j, int k) {
+                               return squaredNorm(Vec3{ i - middle, j - middle, k - middle }) <= radius * radius;
+                             });
+  prepareMap(map, {});
+  for (const double length : { 1.5, 2.0 })
+  {
+    const auto scale = [&](const Vec3&) { return float(length); };
+    TetMesh mesh =
+      fillWithTetrahedra(interfaceOf(meshTissues(map, uniformScale(length), {}).background.mesh), scale, "ball");
+    TetrahedraImprovementOptions options;
+    options.isImproved = true;
+    improveTetrahedra(mesh, scale, options);
+    double farthest = 0;
+    for (const Vec3& p : interfaceOf(withoutOutside(mesh)).points)
+      farthest = std::max(farthest, std::abs(norm(p - Vec3{ middle, middle, middle }) - radius));
+    EXPECT_LT(farthest, 0.35) << length;
+  }
+}
+
 TEST(ShapeQuality, NoAngleIsBadWhateverTheStart)
 {
   for (const Shape& shape : shapes())

@@ -122,11 +122,14 @@ private:
     bool any = false;
     for (const std::int32_t v : x)
     {
-      if (!m_Complex.locked[v] && climb(v)) any = true;
+      if (!m_Complex.locked[v] && !isTip(v) && climb(v)) any = true;
       if (any && heightOf(t) >= limitOf(t)) return true;
     }
     return any;
   }
+
+  /// With three triangles, between whose samples it could go far: that would be a dent, or a spike.
+  bool isTip(std::int32_t v) { return m_Complex.onInterface[v] && m_Operations.sheet(v).faces.size() == 3; }
 
   /// The way up for the lowest tetrahedra at v: the sum of the unit gradients of all that are nearly as low.
   Vec3 uphill(std::int32_t v, double least)

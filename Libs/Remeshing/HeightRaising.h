@@ -19,7 +19,8 @@ struct HeightOptions
 };
 
 /// Lowest first: merges one end of a short edge into the other, removes an edge, or moves vertices, where that raises the
-/// least height of all tetrahedra of tissues that change. Vertices of the interface move as far as the envelope allows.
+/// least height of all tetrahedra of tissues that change. Vertices of the interface move as far as the envelope allows,
+/// but those with three triangles stay.
 void raiseHeightsOfBlock(GuardedOperations& operations, const HeightOptions& options);
 
 } // namespace surgicalmesher

@@ -2,6 +2,7 @@
 #include "Improvement.h"
 
 #include "FaceAdjacency.h"
+#include "GroupDescent.h"
 #include "TetQuality.h"
 #include "VertexSteps.h"
 
@@ -37,7 +38,7 @@ class Improvement
 public:
   Improvement(GuardedOperations& operations, const ImprovementOptions& options)
     : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
-      m_Target(sine2OfDegrees(options.targetAngle))
+      m_Target(sine2OfDegrees(options.targetAngle)), m_Group(operations, m_Target, options.ease)
   {
   }
 
@@ -156,8 +157,8 @@ private:
     return true;
   }
 
-  /// Where no vertex alone can move without making another tetrahedron the worst: descends the sum of the squares of
-  /// what all tetrahedra around t lack, vertex by vertex, and keeps the result if the worst of them has become better.
+  /// Where no vertex alone can move without making another tetrahedron the worst: those around t move together, which
+  /// stays if the worst of them has become better.
   bool moveTogether(std::int32_t t)
   {
     struct Range
@@ -171,36 +172,31 @@ private:
     for (const Range& range : { Range{ 1.3, 0.8, m_NearTogether }, Range{ 2, 0.6, m_FarTogether } })
     {
       if (!range.chance.isFair()) continue;
-      const std::vector<std::int32_t> vertices = neighbourhood(t, range.near);
-      const double before = worstAt(vertices);
-      if (before > 0 && range.chance.note(moveTogether(vertices, before, range.dip))) return true;
+      m_Group.set(neighbourhood(t, range.near));
+      const double before = m_Group.worst();
+      if (before > 0 && range.chance.note(moveTogether(before, range.dip))) return true;
     }
     return false;
   }
 
-  /// To better than `before`, never falling to less than a share of it.
-  bool moveTogether(const std::vector<std::int32_t>& vertices, double before, double dip)
+  /// The group, to better than `before`, never falling to less than a share of it.
+  bool moveTogether(double before, double dip)
   {
     // Of what is not better by then, a tenth would come to be; that has another chance where edges are split, too.
     const int hopeless = m_Options.split ? m_Options.together : 8;
-    std::vector<std::pair<std::int32_t, Vec3>> moves;
-    double after = worstAt(vertices);
+    double after = m_Group.worst();
     for (int round = 0; round < m_Options.together && after < m_Target; ++round)
     {
-      const std::size_t soFar = moves.size();
-      for (std::int32_t v : vertices)
-        if (const Vec3 p = m_Complex.points[v]; descend(v, dip * before)) moves.push_back({ v, p });
-      if (moves.size() == soFar) break;
-      after = worstAt(vertices);
+      if (!m_Group.step(dip * before)) break;
+      after = m_Group.worst();
       if (round + 1 == hopeless && !(after > before)) break;
     }
     if (after > before * (1 + 1e-3))
     {
-      for (std::int32_t v : vertices) touchStar(v);
+      for (std::int32_t v : m_Group.vertices()) touchStar(v);
       return true;
     }
-    for (auto m = moves.rbegin(); m != moves.rend(); ++m) m_Operations.moveBack(m->first, m->second);
-    for (std::int32_t v : vertices) m_Operations.reassignSamples(v);
+    m_Group.takeBack();
     return false;
   }
 
@@ -229,18 +225,10 @@ private:
     const Vec3 middle = 0.5 * (m_Complex.points[a] + m_Complex.points[b]);
     const auto v = before > 0 ? m_Operations.split(a, b, seed, middle, dip * before) : std::nullopt;
     if (!v) return false;
-    if (m_SplitTogether.note(moveTogether(around(*v), before, dip))) return true;
+    m_Group.setAround(*v);
+    if (m_SplitTogether.note(moveTogether(before, dip))) return true;
     m_Operations.takeBackSplit(*v, a);
     return false;
-  }
-
-  /// v and its free neighbours.
-  std::vector<std::int32_t> around(std::int32_t v)
-  {
-    std::vector<std::int32_t> result{ v };
-    for (const auto& n : m_Operations.neighbours(v))
-      if (!m_Complex.locked[n.vertex]) result.push_back(n.vertex);
-    return result;
   }
 
   /// The free vertices of the tetrahedra that share a vertex with t and are at most `near` times as good.
@@ -256,50 +244,6 @@ private:
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
-  }
-
-  double worstAt(const std::vector<std::int32_t>& vertices)
-  {
-    double worst = std::numeric_limits<double>::max();
-    for (std::int32_t v : vertices) worst = std::min(worst, m_Operations.qualityAt(v));
-    return worst;
-  }
-
-  /// Sum over the star of v, were it at p, of the squares of what the sines lack to somewhat more than the target.
-  double lack(std::int32_t v, const Vec3& p)
-  {
-    const double wanted = std::sqrt(1.15 * m_Target);
-    double sum = 0;
-    StarQuality& star = m_Operations.measured(v);
-    const std::vector<double>& qualities = star.each(p);
-    for (std::size_t i = 0; i < star.size(); ++i)
-    {
-      const double missing = wanted - std::sqrt(std::max(0.0, qualities[i]));
-      if (missing > 0) sum += missing * missing;
-    }
-    return sum;
-  }
-
-  /// A step of v down the gradient of what its tetrahedra lack, along the interface rather than across.
-  bool descend(std::int32_t v, double floor)
-  {
-    const Vec3 p = m_Complex.points[v];
-    const double now = lack(v, p), size = m_Complex.lengths[v], h = 1e-4 * size;
-    if (!(now > 0)) return false;
-    Vec3 direction;
-    for (int a = 0; a < 3; ++a)
-    {
-      Vec3 q = p;
-      q[a] += h;
-      direction[a] = now - lack(v, q);
-    }
-    direction = easiest(m_Operations, v, heldAt(m_Operations, v, m_Options.ease), direction);
-    for (double step : { 0.1, 0.03, 0.01, 0.003 })
-    {
-      const Vec3 q = p + step * size * direction;
-      if (lack(v, q) < now && m_Operations.move(v, q, floor)) return true;
-    }
-    return false;
   }
 
   bool collapseAnEdge(std::int32_t t)
@@ -375,6 +319,7 @@ private:
   const double m_Target;
   Directions m_Directions;
   Uphill m_Uphill;
+  GroupDescent m_Group;
   std::vector<std::uint8_t> m_Touched; ///< per vertex
   std::size_t m_TogetherLeft = 0;      ///< in this pass
   Chance m_NearTogether, m_FarTogether, m_SplitTogether;

@@ -22,6 +22,7 @@ struct RunPass
   void operator()(const SoftenPairs& pass) const { softenPairsOfBlock(operations, pass.options); }
   void operator()(const EvenOut& pass) const { evenLengthsOfBlock(operations, pass.options); }
   void operator()(const OpenFolds& pass) const { openFoldsOfBlock(operations, pass.options); }
+  void operator()(const ReturnVertices& pass) const { returnVerticesOfBlock(operations, pass.options); }
   void operator()(const MoveInterface& pass) const { moveInterfaceOfBlock(operations, pass.options); }
   void operator()(const MeetProximity& pass) const { meetProximityOfBlock(operations, pass.options); }
   void operator()(const OffsetTissues& pass) const { offsetTissuesOfBlock(operations, pass.options); }

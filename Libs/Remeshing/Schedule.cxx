@@ -318,17 +318,21 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& siz
                        { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
 }
 
-/// Single vertices that repairs have left off the boundary are bumps in flat walls; nearer ones are where motion has them.
+/// Single vertices that repairs have left off the boundary are bumps in flat walls; nearer ones are where motion has
+/// them. First those that can go back alone.
 Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  constexpr double off = 0.12, robust = 0.1; // voxels
-  const Polish back{ { .goodAngle = targets.keptAngle,
-                       .fit = 10,
-                       .robust = robust * sizes.voxel,
-                       .leastWay = off * sizes.voxel,
-                       .climbs = false } };
+  const double off = 0.12 * sizes.voxel, farOff = 0.18 * sizes.voxel, robust = 0.1 * sizes.voxel;
+  const Polish back{
+    { .goodAngle = targets.keptAngle, .fit = 10, .robust = robust, .leastWay = off, .climbs = false }
+  };
+  const ReturnVertices together{
+    { .goodAngle = targets.keptAngle, .leastWay = farOff, .robust = robust, .foldsFrom = 2 * sizes.voxel }
+  };
   const Stage even = keepingFolds(targets, evenLengths(targets, sizes, targets.keptAngle));
-  std::vector<Stage> stages{ keepingFolds(targets, { bounds(targets, 1), { back, back } }), even };
+  std::vector<Stage> stages{ keepingFolds(targets, { bounds(targets, 1), { back, back } }) };
+  if (targets.holdsVertices) stages.push_back({ bounds(targets, 1), { together } });
+  stages.push_back(even);
   if (targets.opensFolds) stages.insert(stages.end(), { openFolds(targets, sizes, targets.keptAngle), even });
   return { "improvement", stages };
 }
@@ -374,13 +378,14 @@ struct VolumeRow
   bool balanced = false; ///< see ConditionalSweep
 };
 
-/// Within the tolerance as it is first: what is raised so leaves no dent.
+/// Within the tolerance as it is first: what is raised so leaves no dent. What dents, at most the worst, not as far.
 std::vector<Stage> raisedHeights(const EnvelopeBounds& beyond, double height)
 {
+  constexpr double dentingShare = 0.85;
   EnvelopeBounds within = beyond;
   within.toleranceFactor = 1;
-  const RaiseHeights pass{ { .height = height } };
-  return { { within, { pass } }, { beyond, { pass } } };
+  return { { within, { RaiseHeights{ { .height = height } } } },
+           { beyond, { RaiseHeights{ { .height = dentingShare * height } } } } };
 }
 
 ConditionalSweep sweepOf(const VolumeRow& row)

@@ -16,6 +16,7 @@
 #include "SpikeRemoval.h"
 #include "StiffPairs.h"
 #include "TissueOffsets.h"
+#include "VertexReturn.h"
 
 #include <string>
 #include <variant>
@@ -61,6 +62,10 @@ struct OpenFolds ///< openFoldsOfBlock
 {
   FoldOptions options;
 };
+struct ReturnVertices ///< returnVerticesOfBlock
+{
+  VertexReturnOptions options;
+};
 struct MoveInterface ///< moveInterfaceOfBlock
 {
   InterfaceMotionOptions options;
@@ -87,8 +92,9 @@ struct RemoveEars ///< removeEarsOfBlock
   std::size_t few; ///< tetrahedra
 };
 
-using Pass = std::variant<Coarsen, Relax, Polish, Improve, SwapEdges, RaiseHeights, SoftenPairs, EvenOut, OpenFolds,
-                          MoveInterface, MeetProximity, OffsetTissues, RelabelInterface, RemoveSpikes, RemoveEars>;
+using Pass =
+  std::variant<Coarsen, Relax, Polish, Improve, SwapEdges, RaiseHeights, SoftenPairs, EvenOut, OpenFolds,
+               ReturnVertices, MoveInterface, MeetProximity, OffsetTissues, RelabelInterface, RemoveSpikes, RemoveEars>;
 
 struct Stage
 {

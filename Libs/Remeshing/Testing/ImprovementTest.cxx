@@ -381,6 +381,61 @@ TEST(Heights, OfATissueThatIsThinItselfAreLeft)
   EXPECT_EQ(operations.counts().moves + operations.counts().collapses + operations.counts().flips, 0);
 }
 
+/// Puts p, near the middle of a face, in its place; the last point then.
+void splitFace(TetMesh& mesh, std::int32_t t, int face, const Vec3& p)
+{
+  const std::int32_t across = faceAdjacency(mesh).across[t][face], v = std::int32_t(mesh.points.size());
+  const std::array<std::int32_t, 3> corners = faceKey(mesh.tetrahedra[t], face);
+  mesh.points.push_back(p);
+  for (const std::int32_t s : { t, across })
+  {
+    const TetComplex::Tet old = mesh.tetrahedra[s];
+    for (int k = 0; k < 3; ++k)
+    {
+      TetComplex::Tet part = old;
+      std::replace(part.begin(), part.end(), corners[k], v);
+      if (k == 0) mesh.tetrahedra[s] = part;
+      else
+      {
+        mesh.tetrahedra.push_back(part);
+        mesh.labels.push_back(mesh.labels[s]);
+      }
+    }
+  }
+}
+
+/// A vertex in a triangle of a wall between two tissues would go far between the samples of its three triangles.
+TEST(Heights, TipsStay)
+{
+  TetMesh mesh = tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int, int, int k) { return k < 3 ? 1 : 2; }));
+  const std::vector<InterfaceFace> faces = interfaceFaces(mesh);
+  const auto fromMiddle = [&](const InterfaceFace& f)
+  {
+    const auto [a, b, c] = faceKey(mesh.tetrahedra[f.tetrahedron], f.face);
+    return norm((mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0 - Vec3{ 2.4, 2.3, 2.5 });
+  };
+  const InterfaceFace middle =
+    *std::min_element(faces.begin(), faces.end(),
+                      [&](const InterfaceFace& f, const InterfaceFace& g) { return fromMiddle(f) < fromMiddle(g); });
+  const auto [a, b, c] = faceKey(mesh.tetrahedra[middle.tetrahedron], middle.face);
+  const Vec3 tip = (2 * mesh.points[a] + mesh.points[b] + mesh.points[c]) / 4.0;
+  mesh.labels[middle.tetrahedron] = 3; // the triangle's edges part three tissues, and stay
+  splitFace(mesh, middle.tetrahedron, middle.face, tip);
+  TetComplex complex = complexOf(mesh, 1.5f, 1);
+  for (std::uint8_t& locked : complex.locked) locked = true;
+  const auto v = std::int32_t(mesh.points.size()) - 1;
+  complex.locked[v] = false;
+  GuardedOperations operations(complex, scale);
+  ASSERT_EQ(operations.sheet(v).faces.size(), 3u);
+  HeightOptions options;
+  options.height = 1;
+  options.goodAngle = 1;
+  options.longEdge = 0; // no collapse: it would do as well
+  raiseHeightsOfBlock(operations, options);
+  ASSERT_GE(complex.vertexTet[v], 0);
+  EXPECT_EQ(complex.points[v], tip);
+}
+
 TEST(Heights, AreLeftWhereTheyAreHighEnough)
 {
   TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int, int, int) { return 1; })), 1.5f);

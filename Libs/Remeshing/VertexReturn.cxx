@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "VertexReturn.h"
+
+#include "Folds.h"
+#include "GroupDescent.h"
+#include "Quadric.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+class VertexReturn
+{
+public:
+  VertexReturn(GuardedOperations& operations, const VertexReturnOptions& options)
+    : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
+      m_Good(sine2OfDegrees(options.goodAngle)), m_Group(operations, m_Good, ease)
+  {
+  }
+
+  void run()
+  {
+    for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
+      if (m_Complex.vertexTet[v] >= 0 && m_Complex.onInterface[v] && !m_Complex.locked[v]) visit(v);
+  }
+
+private:
+  void visit(std::int32_t v)
+  {
+    const Vec3 way = wayBack(v);
+    if (norm(way) < m_Options.leastWay) return;
+    m_Group.setAround(v);
+    const double before = m_Group.worst();
+    if (!(before > 0)) return;
+    findHinges();
+    const double folded = foldedLength();
+    for (const double share : { 1.0, 0.75, 0.5, 0.25 })
+      if (isBack(v, share * way, before, folded)) return;
+  }
+
+  /// To the least-squares fit, nearly: the samples leave the direction along a flat sheet open.
+  Vec3 wayBack(std::int32_t v)
+  {
+    Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
+    quadric.addToDiagonal(0.005 * quadric.trace());
+    return m_Operations.alongFeatures(v, quadric.solve(quadric.g));
+  }
+
+  bool isBack(std::int32_t v, const Vec3& way, double before, double folded)
+  {
+    constexpr double least = 0.05; // share of what the worst was, on the way
+    const Vec3 from = m_Complex.points[v];
+    if (!m_Operations.move(v, from + way, least * before)) return false;
+    if (mends(std::min(m_Good, before)) && (isFine(v) || foldedLength() <= folded + rounding * norm(way))) return true;
+    m_Group.takeBack();
+    m_Operations.moveBack(v, from);
+    m_Operations.reassignSamples(v);
+    return false;
+  }
+
+  /// Whether the worst around comes to be as good as that.
+  bool mends(double wanted)
+  {
+    constexpr int rounds = 30;
+    constexpr double dip = 0.5; // of what the return has left
+    double now = m_Group.worst();
+    const double floor = dip * now;
+    for (int round = 0; round < rounds && now < wanted && m_Group.step(floor); ++round) now = m_Group.worst();
+    return now >= wanted;
+  }
+
+  bool isFine(std::int32_t v) const { return m_Complex.lengths[v] < m_Options.foldsFrom; }
+
+  void findHinges()
+  {
+    m_Hinges.clear();
+    for (const std::int32_t v : m_Group.vertices())
+      if (m_Complex.onInterface[v]) m_Hinges.add(m_Complex, m_Operations.sheet(v));
+  }
+
+  double foldedLength()
+  {
+    const std::vector<Hinge>& hinges = m_Hinges.sorted();
+    return std::accumulate(hinges.begin(), hinges.end(), 0.0,
+                           [&](double sum, const Hinge& h) { return sum + foldedAt(m_Complex, h); });
+  }
+
+  static constexpr double ease = 0.02; // how easily vertices leave their samples for it
+  static constexpr double rounding = 1e-6;
+
+  GuardedOperations& m_Operations;
+  TetComplex& m_Complex;
+  const VertexReturnOptions& m_Options;
+  const double m_Good;
+  GroupDescent m_Group;
+  Hinges m_Hinges;
+};
+
+} // namespace
+
+void returnVerticesOfBlock(GuardedOperations& operations, const VertexReturnOptions& options)
+{
+  VertexReturn(operations, options).run();
+}
+
+} // namespace surgicalmesher
