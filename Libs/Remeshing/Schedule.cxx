@@ -381,7 +381,7 @@ struct VolumeRow
 /// Within the tolerance as it is first: what is raised so leaves no dent. What dents, at most the worst, not as far.
 std::vector<Stage> raisedHeights(const EnvelopeBounds& beyond, double height)
 {
-  constexpr double dentingShare = 0.85;
+  constexpr double dentingShare = 0.95;
   EnvelopeBounds within = beyond;
   within.toleranceFactor = 1;
   return { { within, { RaiseHeights{ { .height = height } } } },
