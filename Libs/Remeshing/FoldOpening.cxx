@@ -6,7 +6,6 @@
 #include "VertexSteps.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace surgicalmesher
 {
@@ -100,12 +99,7 @@ private:
     return gradient;
   }
 
-  double foldedAround()
-  {
-    const std::vector<Hinge>& around = m_Around.sorted();
-    return std::accumulate(around.begin(), around.end(), 0.0,
-                           [&](double sum, const Hinge& h) { return sum + foldedAt(m_Complex, h); });
-  }
+  double foldedAround() { return foldedLength(m_Complex, m_Around.sorted()); }
 
   void takeBack(const Hinge& h, const Places& old)
   {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace surgicalmesher
 {
@@ -53,6 +54,12 @@ double foldedAt(const TetComplex& complex, const Hinge& hinge)
 {
   const auto from = [&](int i) { return complex.points[hinge[i]] - complex.points[hinge[0]]; };
   return lengthAt(complex, hinge) * foldedShare(from(1), from(2), from(3));
+}
+
+double foldedLength(const TetComplex& complex, const std::vector<Hinge>& hinges)
+{
+  return std::accumulate(hinges.begin(), hinges.end(), 0.0,
+                         [&](double sum, const Hinge& h) { return sum + foldedAt(complex, h); });
 }
 
 double foldedMore(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet)

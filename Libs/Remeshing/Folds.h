@@ -34,6 +34,9 @@ double lengthAt(const TetComplex& complex, const Hinge& hinge);
 /// leave folds of 89 to whatever comes next.
 double foldedAt(const TetComplex& complex, const Hinge& hinge);
 
+/// The sum of that, mm.
+double foldedLength(const TetComplex& complex, const std::vector<Hinge>& hinges);
+
 /// How much more of the length of the edges of v's `sheet` would be folded, were v at p.
 double foldedMore(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet);
 

@@ -378,7 +378,8 @@ struct VolumeRow
   bool balanced = false; ///< see ConditionalSweep
 };
 
-/// Within the tolerance as it is first: what is raised so leaves no dent. What dents, at most the worst, not as far.
+/// Within the tolerance as it is first: what is raised so leaves no dent. Beyond it not quite as high: what lacks little
+/// is not worth one.
 std::vector<Stage> raisedHeights(const EnvelopeBounds& beyond, double height)
 {
   constexpr double dentingShare = 0.95;

@@ -69,7 +69,8 @@ std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& siz
 std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// What resisted before may have got room.
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// Lengths once more, at volumes that are balanced before.
+/// Single vertices go back to their samples, and lengths and folds are worked on once more, at volumes that are balanced
+/// before.
 Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes);
 constexpr std::size_t offsetRounds = 6; ///< on jhu189 0.2 % is the worst of large tissues after four, 0.1 after six
 /// What tissues still lack of their volumes, by their boundaries themselves.

@@ -6,7 +6,6 @@
 #include "Quadric.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace surgicalmesher
 {
@@ -38,7 +37,7 @@ private:
     const double before = m_Group.worst();
     if (!(before > 0)) return;
     findHinges();
-    const double folded = foldedLength();
+    const double folded = foldedAround();
     for (const double share : { 1.0, 0.75, 0.5, 0.25 })
       if (isBack(v, share * way, before, folded)) return;
   }
@@ -56,7 +55,7 @@ private:
     constexpr double least = 0.05; // share of what the worst was, on the way
     const Vec3 from = m_Complex.points[v];
     if (!m_Operations.move(v, from + way, least * before)) return false;
-    if (mends(std::min(m_Good, before)) && (isFine(v) || foldedLength() <= folded + rounding * norm(way))) return true;
+    if (mends(std::min(m_Good, before)) && (isFine(v) || foldedAround() <= folded + rounding * norm(way))) return true;
     m_Group.takeBack();
     m_Operations.moveBack(v, from);
     m_Operations.reassignSamples(v);
@@ -83,12 +82,7 @@ private:
       if (m_Complex.onInterface[v]) m_Hinges.add(m_Complex, m_Operations.sheet(v));
   }
 
-  double foldedLength()
-  {
-    const std::vector<Hinge>& hinges = m_Hinges.sorted();
-    return std::accumulate(hinges.begin(), hinges.end(), 0.0,
-                           [&](double sum, const Hinge& h) { return sum + foldedAt(m_Complex, h); });
-  }
+  double foldedAround() { return foldedLength(m_Complex, m_Hinges.sorted()); }
 
   static constexpr double ease = 0.02; // how easily vertices leave their samples for it
   static constexpr double rounding = 1e-6;

@@ -254,6 +254,15 @@ struct ComplexState
   std::vector<std::array<std::int32_t, 3>> lists; ///< (tetrahedron, face, samples)
 };
 
+/// The one nearest to p.
+inline std::int32_t vertexNear(const TetComplex& complex, const Vec3& p)
+{
+  std::int32_t nearest = 0;
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
+    if (squaredNorm(complex.points[v] - p) < squaredNorm(complex.points[nearest] - p)) nearest = v;
+  return nearest;
+}
+
 /// Vertices that share an edge with v, ascending.
 inline std::vector<std::int32_t> neighboursOf(TetComplex& complex, std::int32_t v)
 {

@@ -3,7 +3,7 @@
 #include "Bending.h"
 #include "ComplexInvariants.h"
 #include "FoldOpening.h"
-#include "VoxelMesh.h"
+#include "Groove.h"
 
 #include <gtest/gtest.h>
 
@@ -18,15 +18,6 @@ using namespace test;
 
 const SizingFunction unitScale = [](const Vec3&) { return 1.0f; };
 constexpr double degree = 3.14159265358979323846 / 180;
-
-/// Two tissues, one a wall beside the other's flat top, and leaning over it by so many degrees: along the seam, at x = z =
-/// 2.5, normals turn by 90 degrees and as many more.
-TetComplex groove(double degrees)
-{
-  TetMesh mesh = tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int i, int, int k) { return i < 3 ? 2 : k < 3 ? 1 : 0; }));
-  for (Vec3& p : mesh.points) p.x += std::tan(degrees * degree) * (p.z - 2.5);
-  return complexOf(mesh);
-}
 
 std::vector<Hinge> hingesOf(TetComplex& complex)
 {
@@ -52,20 +43,12 @@ void openFolds(GuardedOperations& operations, double goodAngle)
   openFoldsOfBlock(operations, options);
 }
 
-double foldedLength(TetComplex& complex)
+double lengthOver90(TetComplex& complex)
 {
   double sum = 0;
   for (const Hinge& h : hingesOf(complex))
     if (turnAt(complex, h) > 90 * degree) sum += lengthAt(complex, h);
   return sum;
-}
-
-std::int32_t vertexNear(const TetComplex& complex, const Vec3& p)
-{
-  std::int32_t nearest = 0;
-  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
-    if (squaredNorm(complex.points[v] - p) < squaredNorm(complex.points[nearest] - p)) nearest = v;
-  return nearest;
 }
 
 bool isOnSeam(const Vec3& p) { return std::abs(p.x - 2.5) < 1e-9 && std::abs(p.z - 2.5) < 1e-9; }
@@ -91,12 +74,7 @@ TEST(Folds, OfAMoveAreThoseAfterItLessThoseBefore)
       const Sheet sheet = sheetOf(complex, v);
       Hinges around;
       around.add(complex, sheet);
-      const auto sum = [&]
-      {
-        double folded = 0;
-        for (const Hinge& h : around.sorted()) folded += foldedAt(complex, h);
-        return folded;
-      };
+      const auto sum = [&] { return foldedLength(complex, around.sorted()); };
       const Vec3 old = complex.points[v];
       const double more = foldedMore(complex, v, old + way, sheet), before = sum();
       complex.points[v] = old + way;
@@ -109,11 +87,11 @@ TEST(Folds, OfAMoveAreThoseAfterItLessThoseBefore)
 TEST(FoldOpening, OpensAGrooveAndKeepsWhatEveryOperationKeeps)
 {
   TetComplex complex = groove(8);
-  const double before = foldedLength(complex);
+  const double before = lengthOver90(complex);
   constexpr double goodAngle = 20;
   GuardedOperations operations(complex, unitScale, wide());
   openFolds(operations, goodAngle);
-  EXPECT_LT(foldedLength(complex), 0.3 * before);
+  EXPECT_LT(lengthOver90(complex), 0.3 * before);
   EXPECT_TRUE(isConsistent(complex));
   for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
     EXPECT_GE(operations.quality(t), sine2OfDegrees(goodAngle)) << t;
@@ -132,12 +110,7 @@ TEST(FoldOpening, LeavesWhatWouldTakeTooMuch)
 /// However little samples and angles allow: what has moved for too little goes back.
 TEST(FoldOpening, MovesNothingForLittle)
 {
-  const auto folded = [](TetComplex& complex)
-  {
-    double sum = 0;
-    for (const Hinge& h : hingesOf(complex)) sum += foldedAt(complex, h);
-    return sum;
-  };
+  const auto folded = [](TetComplex& complex) { return foldedLength(complex, hingesOf(complex)); };
   constexpr double leastGain = 0.25; // of edges of length 1
   for (double rmsLimit = 0.005; rmsLimit < 0.2; rmsLimit *= 1.3)
     for (const double lean : { 1.0, 2.0, 8.0 })

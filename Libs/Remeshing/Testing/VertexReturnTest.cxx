@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "VertexReturn.h"
-#include "ComplexInvariants.h"
+#include "Groove.h"
 #include "Improvement.h"
 #include "Polishing.h"
 #include "RandomMaps.h"
-#include "VoxelMesh.h"
 
 #include <gtest/gtest.h>
 
@@ -43,14 +42,6 @@ VertexReturnOptions optionsOf(double goodAngle, double foldsFrom = 0)
   options.leastWay = leastWay;
   options.foldsFrom = foldsFrom;
   return options;
-}
-
-std::int32_t vertexNear(const TetComplex& complex, const Vec3& p)
-{
-  std::int32_t nearest = 0;
-  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
-    if (squaredNorm(complex.points[v] - p) < squaredNorm(complex.points[nearest] - p)) nearest = v;
-  return nearest;
 }
 
 double worstOf(const TetComplex& complex)
@@ -133,10 +124,7 @@ TEST(VertexReturn, FoldsNothingButFineTriangles)
 {
   for (const double foldsFrom : { 0.0, 2.0 })
   {
-    const auto twoTissues = [](int i, int, int k) { return i < 3 ? 2 : k < 3 ? 1 : 0; };
-    TetMesh mesh = tetrahedraOf(paintedMap({ 6, 6, 6 }, twoTissues));
-    for (Vec3& p : mesh.points) p.x += std::tan(8 * 3.14159265358979323846 / 180) * (p.z - 2.5);
-    TetComplex complex = complexOf(mesh, 1, 1);
+    TetComplex complex = groove(8, 1);
     const std::int32_t v = vertexNear(complex, { 2.5, 2.5, 2.5 });
     for (std::size_t n = 0; n < complex.points.size(); ++n) complex.locked[n] = std::int32_t(n) != v;
     GuardedOperations operations(complex, unitScale, wide());
