@@ -193,9 +193,12 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   remesher.run(repairSweeps(targets, sizes));
   remesher.balanceAndRun(fittingSweeps(targets, sizes));
   if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
-  if (options.proximity.isAsked()) remesher.run(proximitySweeps(targets, sizes));
+  const bool keepsProximity = options.proximity.isAsked();
+  if (keepsProximity) remesher.run(proximitySweeps(targets, sizes));
   remesher.run(secondRepairSweeps(targets, sizes));
-  remesher.balanceAndRun({ finishingSweep(targets, sizes) });
+  const std::vector<Sweep> last{ finishingSweep(targets, sizes) };
+  if (keepsProximity) remesher.run(last); // a balance sends samples farther off than was asked for
+  else remesher.balanceAndRun(last);
   remesher.offsetTissues(targets);
   MeshedMap result = std::move(remesher).result(targets.keptAngle);
   result.smoothed = std::move(smoothed.changes);

@@ -43,6 +43,9 @@ class Experiments(unittest.TestCase):
         self.assertEqual(row["tissues"], 2)
         self.assert_within(row, outMaximum=0.8, backMaximum=0.9)
 
+    def test_no_sample_is_farther_than_asked_for(self):
+        self.assertEqual({name: row["beyond"] for name, row in self.rows.items()}, dict.fromkeys(self.rows, 0))
+
     def test_faces_and_distance_come_to_rest(self):
         for name in ("cube", "brain", "tubes"):
             with open(os.path.join(OUTDIR, name + "-evolution.csv"), encoding="utf-8") as file:
