@@ -5,6 +5,7 @@
 #include <vtkSMPTools.h>
 
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <vector>
 
@@ -34,10 +35,25 @@ void parallelForEach(std::size_t count, F&& f)
                    });
 }
 
-/// Runs all of them, in no particular order but begun in theirs. They must not throw.
+/// Runs all of them, in no particular order but begun in theirs. What the first of those that fail throws goes on, once
+/// all have ended.
 inline void runInParallel(const std::vector<std::function<void()>>& tasks)
 {
-  parallelForEach(tasks.size(), [&](std::size_t i) { tasks[i](); });
+  std::vector<std::exception_ptr> failures(tasks.size()); // an exception must not leave a worker thread
+  parallelForEach(tasks.size(),
+                  [&](std::size_t i)
+                  {
+                    try
+                    {
+                      tasks[i]();
+                    }
+                    catch (...)
+                    {
+                      failures[i] = std::current_exception();
+                    }
+                  });
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
 }
 
 } // namespace surgicalmesher

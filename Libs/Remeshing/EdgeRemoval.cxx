@@ -216,7 +216,7 @@ bool GuardedOperations::mayFlipSheet(std::int32_t a, std::int32_t b, double mini
   return m_Envelope.trianglesReach(minimumQuality) && m_Envelope.featuresStay() && m_Envelope.samplesStay();
 }
 
-/// Puts what fillRing() has found in the ring's place, if it may be there.
+/// Puts what fillRing() has found in the ring's place, if it may be there, and its numbers into m_Ring.
 bool GuardedOperations::closeRing(std::int32_t a, std::int32_t b, double minimumQuality)
 {
   m_Envelope.clear();
@@ -225,9 +225,9 @@ bool GuardedOperations::closeRing(std::int32_t a, std::int32_t b, double minimum
     if (!mayFlipSheet(a, b, minimumQuality)) return false;
     m_Envelope.detach();
   }
-  const auto ids = m_Complex.replace(m_Ring, m_Fresh, m_FreshLabels);
+  m_Ring = m_Complex.replace(m_Ring, m_Fresh, m_FreshLabels);
   changed();
-  m_Envelope.attach(ids);
+  m_Envelope.attach(m_Ring);
   ++m_Counts.flips;
   m_Counts.t7 += m_RingIsOnSheet;
   return true;
@@ -254,11 +254,31 @@ bool GuardedOperations::removeLowEdge(std::int32_t a, std::int32_t b, std::int32
   return height && *height > 1.001 * lowest && closeRing(a, b, least);
 }
 
-bool GuardedOperations::swapEdge(std::int32_t a, std::int32_t b, std::int32_t seed, const SwapGoal& goal)
+bool GuardedOperations::swapEdge(std::int32_t a, std::int32_t b, std::int32_t seed, const SwapGoal& goal,
+                                 SwapRefusals* refusals)
 {
   constexpr int largest = 7; // larger ones hardly ever get better
-  if (!openRing(a, b, seed, largest)) return false;
-  if (!m_RingIsOnSheet && m_Complex.labels[seed] == 0) return false;
+  if (!openRing(a, b, seed, largest) || (refusals && refusals->contains(m_Complex, a, b, m_Ring))) return false;
+  const std::optional<double> least = worthSwapping(a, b, goal);
+  if (!least && refusals) refusals->add(m_Complex, seed, a, b);
+  if (!least || !closeRing(a, b, *least)) return false;
+  if (refusals) forgetAround(a, b, *refusals);
+  return true;
+}
+
+/// After edge ab has made way: what was refused before. On a sheet the new triangles count at all edges of those beside
+/// them, and their number at each corner.
+void GuardedOperations::forgetAround(std::int32_t a, std::int32_t b, SwapRefusals& refusals)
+{
+  refusals.forgetAt(m_Ring);
+  if (!m_RingIsOnSheet) return;
+  for (const std::int32_t v : { a, b, m_RingVertices[0], m_RingVertices[m_RingEnd] }) refusals.forgetAt(star(v));
+}
+
+/// Fills the open ring anew; the worst quality that it may have then, nothing if it gains too little.
+std::optional<double> GuardedOperations::worthSwapping(std::int32_t a, std::int32_t b, const SwapGoal& goal)
+{
+  if (!m_RingIsOnSheet && m_Complex.labels[m_Ring[0]] == 0) return {};
   const SumCounts measure{ goal.usualSine };
   double before = 0, least = goal.goodQuality;
   for (const std::int32_t t : m_Ring)
@@ -268,11 +288,11 @@ bool GuardedOperations::swapEdge(std::int32_t a, std::int32_t b, std::int32_t se
     before = measure.inLabel(m_Complex.labels[t]).with(before, std::max(0.0, q));
   }
   const std::optional<double> after = fillRing(a, b, least, measure);
-  if (!after) return false;
+  if (!after) return {};
   double gain = *after - before;
   if (m_RingIsOnSheet) gain += goal.smoothness * flatterBy(a, b);
-  if (gain <= goal.leastGain || (m_RingIsOnSheet && !staysBroad(a, b))) return false;
-  return !(goal.sparesWhole && ringHasWhole()) && closeRing(a, b, least);
+  if (gain <= goal.leastGain || (m_RingIsOnSheet && !staysBroad(a, b))) return {};
+  return goal.sparesWhole && ringHasWhole() ? std::nullopt : std::optional(least);
 }
 
 /// But for vertices on borders of blocks, whose tetrahedra are not all here. The edge's ends have a mediocre one.

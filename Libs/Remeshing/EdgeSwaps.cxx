@@ -15,7 +15,8 @@ public:
   EdgeSwaps(GuardedOperations& operations, const SwapOptions& options)
     : m_Operations(operations),
       m_Complex(operations.complex()), m_Goal{ sine2OfDegrees(options.goodAngle), usualSine, options.smoothness,
-                                               leastGain, options.sparesWhole }
+                                               leastGain, options.sparesWhole },
+      m_Refusals(m_Complex.tets.size())
   {
   }
 
@@ -35,7 +36,7 @@ private:
 
   bool swap(std::int32_t t, std::int32_t a, std::int32_t b)
   {
-    return !(m_Complex.locked[a] && m_Complex.locked[b]) && m_Operations.swapEdge(a, b, t, m_Goal);
+    return !(m_Complex.locked[a] && m_Complex.locked[b]) && m_Operations.swapEdge(a, b, t, m_Goal, &m_Refusals);
   }
 
   void swapEdgesOf(std::int32_t t)
@@ -57,6 +58,7 @@ private:
   GuardedOperations& m_Operations;
   const TetComplex& m_Complex;
   const GuardedOperations::SwapGoal m_Goal;
+  SwapRefusals m_Refusals;
 };
 
 } // namespace

@@ -80,13 +80,22 @@ void Envelope::addOldFace(std::int32_t t, int face)
 void Envelope::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x,
                           Label y, std::int32_t tet, int face, bool changes)
 {
-  Face f{ { a, b, c }, labelPair(x, y), ids, {}, {}, {}, tet, face, changes };
   const Vec3 n = cross(b - a, c - a);
   const double area2 = squaredNorm(n); // positive, as the tetrahedra on both sides are
+  const Vec3 slopes[3]{ cross(n, c - b) / area2, cross(n, a - c) / area2, cross(n, b - a) / area2 };
+  Face& f = m_NewFaces.emplace_back(); // in place: a copy waits for what has just been written
+  f.corners = { a, b, c };
+  f.labels = labelPair(x, y);
+  f.vertices = ids;
   f.normal = n / std::sqrt(area2);
-  f.slopes = { cross(n, c - b) / area2, cross(n, a - c) / area2, cross(n, b - a) / area2 };
-  for (int k = 0; k < 3; ++k) f.heights[k] = 1 / squaredNorm(f.slopes[k]);
-  m_NewFaces.push_back(f);
+  for (int k = 0; k < 3; ++k)
+  {
+    f.slopes[k] = slopes[k];
+    f.heights[k] = 1 / squaredNorm(slopes[k]);
+  }
+  f.tet = tet;
+  f.face = face;
+  f.changes = changes;
 }
 
 bool Envelope::trianglesReach(double minimumQuality) const

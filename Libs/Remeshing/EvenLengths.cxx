@@ -57,7 +57,7 @@ private:
 
   void stretchAt(std::int32_t v)
   {
-    constexpr double least = 0.5, most = 1.6; // beyond that no single move makes up for it
+    constexpr double least = 0.4, most = 1.6; // beyond that no single move makes up for it
     constexpr double ease = 0.02;
     std::optional<Quadric> held; // until v moves
     const auto neighbours = m_Operations.neighbours(v);

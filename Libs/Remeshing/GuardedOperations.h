@@ -17,6 +17,7 @@
 #include "Envelope.h"
 #include "SizingFunction.h"
 #include "StarQuality.h"
+#include "SwapRefusals.h"
 #include "TissueTopology.h"
 
 #include <limits>
@@ -144,8 +145,9 @@ public:
     bool sparesWhole = false; ///< leave edges alone around which a vertex isWhole()
   };
   /// The same for the sum over the tetrahedra of the sines of their worst angles, over the usual one, and for the
-  /// sheet's bending.
-  bool swapEdge(std::int32_t a, std::int32_t b, std::int32_t seed, const SwapGoal& goal);
+  /// sheet's bending. `refusals`, if given, are asked, and told.
+  bool swapEdge(std::int32_t a, std::int32_t b, std::int32_t seed, const SwapGoal& goal,
+                SwapRefusals* refusals = nullptr);
 
   // --- edge split (EdgeSplit.cxx)
   /// Splits edge ab at p. Returns the new vertex, nothing if it may not be.
@@ -195,11 +197,14 @@ private:
   static double lenient(Label label, double q) { return label == 0 ? q * backgroundLeniency : q; }
   bool meetsLabels(const std::vector<std::int32_t>& star) const;
   bool keepsLength(std::int32_t end, std::int32_t x, std::int32_t v, const Vec3& p, double maximumRatio) const;
+  bool findCollapsingRing(std::int32_t u, std::int32_t v);
   bool keepsTissues(std::int32_t u, std::int32_t v);
   bool openRing(std::int32_t a, std::int32_t b, std::int32_t seed, int largest);
   template <class Measure>
   std::optional<double> fillRing(std::int32_t a, std::int32_t b, double minimumQuality, const Measure& measure);
   bool closeRing(std::int32_t a, std::int32_t b, double minimumQuality);
+  std::optional<double> worthSwapping(std::int32_t a, std::int32_t b, const SwapGoal& goal);
+  void forgetAround(std::int32_t a, std::int32_t b, SwapRefusals& refusals);
   bool mayFlipSheet(std::int32_t a, std::int32_t b, double minimumQuality);
   bool ringHasWhole();
   bool staysBroad(std::int32_t a, std::int32_t b);

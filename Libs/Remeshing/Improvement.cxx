@@ -182,8 +182,7 @@ private:
   /// The group, to better than `before`, never falling to less than a share of it.
   bool moveTogether(double before, double dip)
   {
-    // Of what is not better by then, a tenth would come to be; that has another chance where edges are split, too.
-    const int hopeless = m_Options.split ? m_Options.together : 8;
+    constexpr int hopeless = 8; // of what is not better by then, a tenth comes to be
     double after = m_Group.worst();
     for (int round = 0; round < m_Options.together && after < m_Target; ++round)
     {

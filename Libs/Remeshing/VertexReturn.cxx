@@ -32,7 +32,7 @@ private:
   void visit(std::int32_t v)
   {
     const Vec3 way = wayBack(v);
-    if (norm(way) < m_Options.leastWay) return;
+    if (norm(way) < std::max(m_Options.leastWay, m_Options.leastShare * m_Complex.lengths[v])) return;
     m_Group.setAround(v);
     const double before = m_Group.worst();
     if (!(before > 0)) return;

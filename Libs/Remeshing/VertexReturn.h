@@ -12,6 +12,7 @@ struct VertexReturnOptions
 {
   double goodAngle = usualAngle; ///< degrees; a worst angle around a vertex may fall to this
   double leastWay = 0;           ///< mm, to the fit; a vertex that is nearer to it stays there
+  double leastShare = 0;         ///< the same in target lengths, whichever is more
   double robust = 0;             ///< mm, see quadricOf
   double foldsFrom = 0;          ///< mm; where target lengths are smaller, a return may fold more of the interface
 };

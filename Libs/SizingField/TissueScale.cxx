@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueScale.h"
 
+#include "BoundaryFaces.h"
 #include "Gradation.h"
 
 #include <algorithm>
@@ -212,28 +213,29 @@ ScaleField followCurvature(const ScaleField& scale, const TissueMap& map, const 
 std::map<Label, double> meanThickness(const TissueMap& map)
 {
   constexpr double staircase = 1.5;
-  const Grid& grid = map.grid;
-  const Vec3 h = grid.spacing;
+  constexpr std::size_t parts = 8; // each has a sum for every label
+  const Vec3 h = map.grid.spacing;
   const double area[3] = { h.y * h.z / staircase, h.z * h.x / staircase, h.x * h.y / staircase };
-  std::vector<double> volume(labelCount), surface(labelCount);
-  for (int k = 0; k < grid.size[2]; ++k)
-    for (int j = 0; j < grid.size[1]; ++j)
-      for (int i = 0; i < grid.size[0]; ++i)
-      {
-        const Label here = map.labels[grid.index(i, j, k)];
-        if (here == 0) continue;
-        volume[here] += h.x * h.y * h.z;
-        for (int a = 0; a < 3; ++a)
-          for (const int step : { -1, 1 })
-          {
-            const int n[3] = { i + (a == 0) * step, j + (a == 1) * step, k + (a == 2) * step };
-            if (!grid.contains(n[0], n[1], n[2]) || map.labels[grid.index(n[0], n[1], n[2])] != here)
-              surface[here] += area[a];
-          }
-      }
+  const std::size_t slices = std::size_t(map.grid.size[2]) + 1;
+  std::vector<std::vector<double>> surface(parts, std::vector<double>(labelCount));
+  parallelForEach(parts,
+                  [&](std::size_t n)
+                  {
+                    const auto addFace = [&](const VoxelFace& face)
+                    {
+                      surface[n][labelAt(map, face.lower)] += area[face.axis];
+                      surface[n][labelAt(map, face.upper())] += area[face.axis];
+                    };
+                    for (std::size_t k = n * slices / parts; k < (n + 1) * slices / parts; ++k)
+                      forEachBoundaryFace(map, int(k) - 1, addFace);
+                  });
   std::map<Label, double> result;
-  for (std::size_t label = 1; label < labelCount; ++label)
-    if (volume[label] > 0) result[Label(label)] = 2 * volume[label] / surface[label];
+  for (const auto& [label, voxels] : countVoxels(map))
+  {
+    double sum = 0;
+    for (const std::vector<double>& part : surface) sum += part[label];
+    if (label != 0) result[label] = 2 * double(voxels) * h.x * h.y * h.z / sum;
+  }
   return result;
 }
 
@@ -241,11 +243,14 @@ ScaleField followFlatTissues(const ScaleField& scale, const TissueMap& map, cons
 {
   constexpr double flattest = 0.32, flatness = 0.5;
   const Vec3& h = map.grid.spacing;
-  std::vector<std::pair<double, std::size_t>> lengths(labelCount); // sum and number
+  const double longest = *std::max_element(scale.lengths.begin(), scale.lengths.end());
+  std::vector<bool> mayBeFlat(labelCount, false);
+  for (const auto& [label, t] : thickness) mayBeFlat[label] = t < flattest * longest;
+  std::vector<std::pair<double, std::size_t>> lengths(labelCount); // sum and number, of those
   for (int k = 0; k < map.grid.size[2]; ++k)
     for (int j = 0; j < map.grid.size[1]; ++j)
       for (int i = 0; i < map.grid.size[0]; ++i)
-        if (const Label label = map.labels[map.grid.index(i, j, k)]; label != 0)
+        if (const Label label = map.labels[map.grid.index(i, j, k)]; mayBeFlat[label])
         {
           auto& [sum, number] = lengths[label];
           sum += scale(map.grid.gridToWorld({ i * h.x, j * h.y, k * h.z }));
@@ -254,7 +259,8 @@ ScaleField followFlatTissues(const ScaleField& scale, const TissueMap& map, cons
   TissueSettings flat;
   for (const auto& [label, t] : thickness)
   {
-    const auto& [sum, number] = lengths.at(label);
+    if (!mayBeFlat[label]) continue;
+    const auto& [sum, number] = lengths[label];
     const double length = sum / double(number), extent = std::cbrt(double(number) * h.x * h.y * h.z);
     if (t < flattest * length && extent > 0.9 * length) flat[label].maximumEdgeLength = t / flatness;
   }

@@ -10,6 +10,7 @@
 #include "MemoryEstimate.h"
 #include "MeshChecks.h"
 #include "MeshIO.h"
+#include "Parallel.h"
 #include "Report.h"
 #include "ScaleOption.h"
 #include "SimplexMesh.h"
@@ -147,11 +148,13 @@ void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const F
   results.featureScale = features.featureScale;
   results.preparation = prepareAtScale(map, followTissues(scale, map, results.settings, line.number("gradation")),
                                        readPreparation(line, results.settings), features, progress);
-  results.topology = tissueTopology(map);
-  results.structures = structuresOf(map);
   results.tissues = map.table;
   const std::string file = line.outputFile("preparedLabelMap");
-  if (!file.empty()) writeTissueMap(map, file);
+  runInParallel({ [&] { results.topology = tissueTopology(map); }, [&] { results.structures = structuresOf(map); },
+                  [&]
+                  {
+                    if (!file.empty()) writeTissueMap(map, file);
+                  } });
 }
 
 /// The lengths that the surface follows on the prepared map.
@@ -221,17 +224,26 @@ void writeTissueSurfaces(CommandLine& line, const SurfaceFile& content)
   writeBytes(multiBlockIndex(files, content.tissues), index);
 }
 
-void writeAmbient(CommandLine& line, MeshedMap&& mesh, const Grid& world, const TissueTable& tissues,
+void writeAmbient(CommandLine& line, const MeshedMap& mesh, const Grid& world, const TissueTable& tissues,
                   const ScaleField& scale)
 {
   const std::string file = line.outputFile("ambient");
   if (file.empty()) return;
   MeshFile ambient;
-  ambient.mesh = toWorld(std::move(mesh.background.mesh), world);
+  ambient.mesh = toWorld(mesh.background.mesh, world);
   ambient.targetAngle = mesh.targetAngle;
   ambient.tissues = tissues;
   for (const Vec3& p : ambient.mesh.points) ambient.targetEdgeLength.push_back(scale(p));
   writeMesh(ambient, file);
+}
+
+/// All files of the surface but reports.
+void writeSurfaces(CommandLine& line, const SurfaceFile& content)
+{
+  writeSurface(content, line.outputFile("surface"));
+  writeTissueSurfaces(line, content);
+  const std::string simplexMesh = line.outputFile("simplexMesh");
+  if (!simplexMesh.empty()) writePolygons(simplexMeshFile(content), simplexMesh);
 }
 
 /// What the command line alone can tell.
@@ -334,26 +346,28 @@ void run(CommandLine& line)
   map.grid = inOwnFrame(world);
   MeshedMap mesh = meshTissues(map, inFrameOf(world, scale), options, subProgress(progress, 0.06, 0.9));
 
-  report(progress, 0.9, "checks");
-  requireSound(mesh.background.mesh, "surface");
-  requireTopology(mesh.background.mesh, results.topology);
+  report(progress, 0.9, "checks and files");
   const SurfaceFile content = surfaceFile(mesh.background.mesh, map, world, scale);
+  runInParallel({ [&]
+                  {
+                    requireSound(mesh.background.mesh, "surface");
+                    requireTopology(mesh.background.mesh, results.topology);
+                  },
+                  [&]
+                  {
+                    writeSurfaces(line, content);
+                    writeAmbient(line, mesh, world, map.table, scale);
+                  } });
   results.points = content.surface.points.size();
   results.triangles = content.surface.triangles.size();
   results.evolution = mesh.evolution;
   if (options.proximity.isAsked()) warnOfProximity(line, mesh);
   results.smoothing = options.smoothing;
   results.smoothed = mesh.smoothed;
-  report(progress, 0.92, "distances");
+  report(progress, 0.95, "distances");
   assessDistances(line, content.surface, map, world, results);
   assessShape(line, mesh.background, map, results);
 
-  report(progress, 0.95, "writing");
-  writeSurface(content, line.outputFile("surface"));
-  writeTissueSurfaces(line, content);
-  const std::string simplexMesh = line.outputFile("simplexMesh");
-  if (!simplexMesh.empty()) writePolygons(simplexMeshFile(content), simplexMesh);
-  writeAmbient(line, std::move(mesh), world, map.table, scale);
   writeReports(line, results);
   returnFigures(line, results);
   report(progress, 1, "done");

@@ -2,6 +2,7 @@
 #include "SampleTolerances.h"
 
 #include "BoundaryFaces.h"
+#include "Parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -92,14 +93,16 @@ void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::
   constexpr double mostAlone = 2; // voxels: beyond, ends of tissues hang by single tetrahedra
   const auto usual = [&](double at)
   { return std::max(ofVoxel * voxel + ofLength * at, std::min(ofLengthAlone * at, mostAlone * voxel)); };
-  for (auto& sample : background.samples)
-  {
-    const double at = length(sample.position);
-    double tolerance = options.proximity.isAsked() ? proximityAt(at, options) : room * usual(at);
-    for (const Label label : labelsBeside(map, sample.position))
-      if (label != 0) tolerance = std::min(tolerance, drifts.at(label));
-    sample.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
-  }
+  parallelFor(background.samples.size(),
+              [&](std::size_t n)
+              {
+                auto& sample = background.samples[n];
+                const double at = length(sample.position);
+                double tolerance = options.proximity.isAsked() ? proximityAt(at, options) : room * usual(at);
+                for (const Label label : labelsBeside(map, sample.position))
+                  if (label != 0) tolerance = std::min(tolerance, drifts.at(label));
+                sample.tolerance = float(bound > 0 ? std::min(tolerance, bound) : tolerance);
+              });
 }
 
 } // namespace surgicalmesher

@@ -223,6 +223,42 @@ TEST(EdgeSwaps, FindNothingMoreTheSecondTime)
   EXPECT_EQ(operations.counts().flips, flips);
 }
 
+/// Whether edge ab of t could be swapped, were nothing remembered.
+bool isSwappable(TetComplex complex, std::int32_t t, std::int32_t a, std::int32_t b,
+                 const GuardedOperations::SwapGoal& goal)
+{
+  return GuardedOperations(complex, scale).swapEdge(a, b, t, goal);
+}
+
+TEST(EdgeSwaps, RememberOnlyWhatIsStillRefused)
+{
+  const GuardedOperations::SwapGoal goal{ sine2OfDegrees(5), 0.75, 3, 0.03 };
+  int known = 0, done = 0;
+  for (const int labels : { 1, 2 })
+  {
+    const TissueMap map = paintedMap({ 5, 5, 5 }, [&](int, int, int k) { return k < 2 ? 1 : labels; });
+    std::mt19937 random(1);
+    TetComplex complex = complexOf(shaken(tetrahedraOf(map), random, 0.35), 1.5f, 0.4f);
+    GuardedOperations operations(complex, scale);
+    SwapRefusals refusals(complex.tets.size());
+    for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+      for (const auto& e : kEdgeCorners)
+      {
+        if (!complex.alive(t)) break;
+        const std::int32_t a = complex.tets[t][e[0]], b = complex.tets[t][e[1]];
+        std::vector<std::int32_t> ring, vertices;
+        const bool isKnown = complex.ring(a, b, t, ring, vertices) && refusals.contains(complex, a, b, ring);
+        const bool isDone = operations.swapEdge(a, b, t, goal, &refusals);
+        known += isKnown;
+        done += isDone;
+        EXPECT_FALSE(isKnown && (isDone || isSwappable(complex, t, a, b, goal))) << "edge " << a << " " << b;
+      }
+    EXPECT_TRUE(isConsistent(complex));
+  }
+  EXPECT_GT(known, 1000);
+  EXPECT_GT(done, 100);
+}
+
 /// Along the diagonal: Kuhn's lattice becomes Fuchs's.
 void halve(TetMesh& mesh)
 {

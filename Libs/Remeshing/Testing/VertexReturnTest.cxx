@@ -108,6 +108,21 @@ TEST(VertexReturn, LeavesEverythingWhereAnglesDoNotComeBack)
   EXPECT_TRUE(ComplexState(dent.complex) == before);
 }
 
+TEST(VertexReturn, LeavesWhatIsNearForItsTriangles)
+{
+  const auto offAfter = [](double share)
+  {
+    Dent dent;
+    GuardedOperations operations(dent.complex, unitScale, wide());
+    VertexReturnOptions options = optionsOf(36);
+    options.leastShare = share;
+    returnVerticesOfBlock(operations, options);
+    return dent.off();
+  };
+  EXPECT_DOUBLE_EQ(offAfter(10), Dent::depth);
+  EXPECT_LT(offAfter(0.5 * Dent::depth), leastWay);
+}
+
 TEST(VertexReturn, LeavesWhatIsNear)
 {
   TetComplex complex = slabs();
