@@ -72,7 +72,7 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& targets, const MeshSize
 /// Single vertices go back to their samples, and lengths and folds are worked on once more, at volumes that are balanced
 /// before.
 Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes);
-constexpr std::size_t offsetRounds = 6; ///< on jhu189 0.2 % is the worst of large tissues after four, 0.1 after six
+constexpr std::size_t offsetRounds = 9; ///< on jhu189 one tissue needs more than six
 /// What tissues still lack of their volumes, by their boundaries themselves.
 Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets);
 /// How many sweeps there are at most.
