@@ -322,14 +322,14 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& siz
 /// them. First those that can go back alone.
 Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  constexpr double seen = 0.04; // of a triangle's side
+  constexpr double farShare = 0.04; // of L
   const double off = 0.12 * sizes.voxel, farOff = 0.18 * sizes.voxel, robust = 0.1 * sizes.voxel;
   const Polish back{
     { .goodAngle = targets.keptAngle, .fit = 10, .robust = robust, .leastWay = off, .climbs = false }
   };
   const ReturnVertices together{ { .goodAngle = targets.keptAngle,
                                    .leastWay = farOff,
-                                   .leastShare = seen,
+                                   .leastShare = farShare,
                                    .robust = robust,
                                    .foldsFrom = 2 * sizes.voxel } };
   const Stage even = keepingFolds(targets, evenLengths(targets, sizes, targets.keptAngle));
