@@ -39,6 +39,7 @@ struct Point
   Vec3 position;
   Vec3 normal;          ///< unit, out of `inside`
   double curvature = 0; ///< the larger one, per voxel
+  double scale = 1;     ///< of the smoothing, see scaleAt
 
   Vec3 centre() const
   {
@@ -82,20 +83,30 @@ private:
   std::vector<double> m_Values, m_Slopes;
 };
 
+/// How much wider the smoothing is where L is that many voxels: steps of the voxels are noise to triangles that long,
+/// and to follow them costs short edges and what mends these.
+double scaleAt(double length)
+{
+  constexpr double from = 8, perVoxel = 0.4, most = 4;
+  return std::clamp(1 + perVoxel * (length - from), 1.0, most);
+}
+
 /// Where the smoothed indicators of a point's two labels are equal.
 class IndicatorTie
 {
 public:
-  IndicatorTie(const TissueMap& map, double sigma)
-    : m_Map(map), m_Weights{ VoxelWeight(sigma), VoxelWeight(0.7 * sigma), VoxelWeight(0.5 * sigma),
-                             VoxelWeight(0.35 * sigma) }
+  IndicatorTie(const TissueMap& map, double sigma) : m_Map(map)
   {
+    for (const double share : { 2.5, 1.8, 1.35, 1.0, 0.7, 0.5, 0.35 })
+      m_Gaussians.push_back({ share, VoxelWeight(share * sigma) });
   }
 
   void place(Point& point) const
   {
-    for (const VoxelWeight& weight : m_Weights)
-      if (follow(point, weight)) return;
+    constexpr double ofScale = 0.7, usualWay = 0.6; // voxels
+    const double widest = std::max(1.0, ofScale * point.scale);
+    for (const auto& [share, weight] : m_Gaussians)
+      if (share <= widest && follow(point, weight, usualWay * std::max(1.0, share))) return;
     point.position = point.centre();
     point.normal = {};
     point.normal[point.axis] = point.isInsideBelow ? 1 : -1;
@@ -103,9 +114,8 @@ public:
 
 private:
   /// Down the gradient from the face's centre; false if the tie is none, or too far off.
-  bool follow(Point& point, const VoxelWeight& weight) const
+  bool follow(Point& point, const VoxelWeight& weight, double farthest) const
   {
-    constexpr double farthest = 0.6;
     const Vec3 home = point.centre();
     Vec3 p = home;
     for (int step = 0; step < 3; ++step)
@@ -173,7 +183,7 @@ private:
   }
 
   const TissueMap& m_Map;
-  const std::array<VoxelWeight, 4> m_Weights;
+  std::vector<std::pair<double, VoxelWeight>> m_Gaussians; ///< share of the standard deviation, the widest first
 };
 
 /// Points in the order of their lower voxels, found by rows.
@@ -272,15 +282,17 @@ std::pair<Vec3, Vec3> frameOf(const Vec3& n)
   return { u, cross(n, u) };
 }
 
-/// Keeps the centres of the voxels beside the face on their sides of the plane through the point.
+/// Keeps the centres of the voxels beside the face on their sides of the plane through the point, or as near to it as
+/// the smoothing is wider.
 void keepLabels(Point& point)
 {
   Vec3 below{ double(point.lower[0]), double(point.lower[1]), double(point.lower[2]) }, above = below;
   above[point.axis] += 1;
   const Vec3& in = point.isInsideBelow ? below : above;
   const Vec3& out = point.isInsideBelow ? above : below;
-  const double least = dot(point.normal, in - point.position) + margin;
-  const double most = dot(point.normal, out - point.position) - margin;
+  const double room = margin - (point.scale - 1);
+  const double least = dot(point.normal, in - point.position) + room;
+  const double most = dot(point.normal, out - point.position) - room;
   if (least > 0 && most > least) point.position += least * point.normal;
   else if (most < 0 && most > least) point.position += most * point.normal;
 }
@@ -403,7 +415,7 @@ void fitWider(const std::vector<Point>& points, std::vector<std::int32_t> group,
   while (!group.empty())
   {
     const Point& first = points[group.front()];
-    const auto quadric = widerQuadricAt(first, rows, sigma);
+    const auto quadric = widerQuadricAt(first, rows, sigma * first.scale);
     const auto others =
       std::stable_partition(group.begin(), group.end(),
                             [&](std::int32_t i) {
@@ -423,10 +435,11 @@ std::vector<Point> fitted(const std::vector<Point>& points, const PointRows& row
   parallelFor(points.size(),
               [&](std::size_t i)
               {
-                const std::optional<Quadric> narrow = quadricAt(points[i], rows, sigma);
+                const double own = sigma * points[i].scale;
+                const std::optional<Quadric> narrow = quadricAt(points[i], rows, own);
                 if (!narrow) return;
                 result[i] = narrow->onto(points[i]);
-                if (isPlain(*narrow, 2 * sigma)) cover[i] = float(narrow->cover);
+                if (isPlain(*narrow, 2 * own)) cover[i] = float(narrow->cover);
               });
   const PointGroups groups = groupsOf(points, cover);
   parallelFor(groups.start.size() - 1,
@@ -482,37 +495,102 @@ Point pointOf(const Vec3& position, const TissueMap& map)
 }
 
 /// Voxels, within which a surface of that curvature is off its tangent plane by no more than what nobody sees.
-double planeRadius(double curvature)
+double planeRadius(double curvature, double scale)
 {
   constexpr double invisible = 0.05, least = 0.7, most = 2;
-  return std::clamp(std::sqrt(2 * invisible / std::max(curvature, 1e-3)), least, most);
+  return std::clamp(std::sqrt(2 * invisible * scale / std::max(curvature, 1e-3)), least * scale, most * scale);
 }
 
-/// Where the planes of the samples at the voxel faces around a vertex of the interface meet; held at `home`, voxels.
-Vec3 meetingPoint(const Vec3& home, const PointRows& rows)
+/// Where planes meet, least squares of the distances to them, held at a place by a spring.
+class MeetingPlanes
 {
-  constexpr double spring = 0.05, touching = 0.5 + 1e-6;
-  double m[6] = {}, planes = 0;
-  Vec3 g;
+public:
+  /// The plane through a point `way` from the place.
+  void add(const Vec3& normal, const Vec3& way, double weight)
+  {
+    const Vec3& n = normal;
+    m_Matrix[0] += weight * n.x * n.x, m_Matrix[1] += weight * n.x * n.y, m_Matrix[2] += weight * n.x * n.z;
+    m_Matrix[3] += weight * n.y * n.y, m_Matrix[4] += weight * n.y * n.z, m_Matrix[5] += weight * n.z * n.z;
+    m_Right += weight * dot(n, way) * n;
+    m_Weight += weight;
+  }
+
+  double weight() const { return m_Weight; }
+
+  /// From the place to there; `spring` positive, against a plane each.
+  Vec3 way(double spring) const
+  {
+    const double* m = m_Matrix;
+    const double held = spring * m_Weight;
+    const Vec3 r0{ m[0] + held, m[1], m[2] }, r1{ m[1], m[3] + held, m[4] }, r2{ m[2], m[4], m[5] + held };
+    const Vec3 c0 = cross(r1, r2);
+    return (m_Right.x * c0 + m_Right.y * cross(r2, r0) + m_Right.z * cross(r0, r1)) / dot(r0, c0);
+  }
+
+private:
+  double m_Matrix[6] = {}, m_Weight = 0;
+  Vec3 m_Right;
+};
+
+/// Of the samples at the voxel faces around a vertex of the interface, voxels.
+MeetingPlanes planesTouching(const Vec3& vertex, const PointRows& rows)
+{
+  constexpr double touching = 0.5 + 1e-6;
+  MeetingPlanes planes;
   Index voxel;
-  for (int a = 0; a < 3; ++a) voxel[a] = int(std::floor(home[a]));
+  for (int a = 0; a < 3; ++a) voxel[a] = int(std::floor(vertex[a]));
   rows.forEachNear(voxel, 1,
                    [&](const Point& point)
                    {
-                     const Vec3 d = home - point.centre();
+                     const Vec3 d = vertex - point.centre();
                      for (int a = 0; a < 3; ++a)
                        if (std::abs(d[a]) > (a == point.axis ? 1e-6 : touching)) return;
-                     const Vec3& n = point.normal;
-                     m[0] += n.x * n.x, m[1] += n.x * n.y, m[2] += n.x * n.z;
-                     m[3] += n.y * n.y, m[4] += n.y * n.z, m[5] += n.z * n.z;
-                     g += dot(n, point.position - home) * n;
-                     planes += 1;
+                     planes.add(point.normal, point.position - vertex, 1);
                    });
-  if (planes == 0) return home;
-  m[0] += spring * planes, m[3] += spring * planes, m[5] += spring * planes;
-  const Vec3 r0{ m[0], m[1], m[2] }, r1{ m[1], m[3], m[4] }, r2{ m[2], m[4], m[5] };
-  const Vec3 c0 = cross(r1, r2);
-  return home + (g.x * c0 + g.y * cross(r2, r0) + g.z * cross(r0, r1)) / dot(r0, c0);
+  return planes;
+}
+
+/// The samples of the faces at each vertex of a lattice.
+class SamplesAtVertices
+{
+public:
+  /// `order`: which sample each of the points is.
+  SamplesAtVertices(const BackgroundMesh& background, const std::vector<std::pair<std::int64_t, std::int32_t>>& order)
+    : m_Start(background.mesh.points.size() + 1, 0)
+  {
+    const auto forEachCorner = [&](std::size_t point, const auto& f)
+    {
+      const BackgroundMesh::Sample& sample = background.samples[order[point].second];
+      for (int k = 1; k <= 3; ++k) f(background.mesh.tetrahedra[sample.tetrahedron][(sample.face + k) & 3]);
+    };
+    for (std::size_t i = 0; i < order.size(); ++i) forEachCorner(i, [&](std::int32_t v) { ++m_Start[v + 1]; });
+    std::partial_sum(m_Start.begin(), m_Start.end(), m_Start.begin());
+    m_Points.resize(m_Start.back());
+    std::vector<std::int32_t> at(m_Start.begin(), m_Start.end() - 1);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      forEachCorner(i, [&](std::int32_t v) { m_Points[at[v]++] = std::int32_t(i); });
+  }
+
+  template <class F>
+  void forEach(std::int32_t vertex, F&& f) const
+  {
+    for (std::int32_t n = m_Start[vertex]; n < m_Start[vertex + 1]; ++n) f(m_Points[n]);
+  }
+
+private:
+  std::vector<std::int32_t> m_Start, m_Points;
+};
+
+/// Where a vertex of the interface belongs, voxels: where the planes of the samples at its voxel faces meet; where L,
+/// voxels, is longer, and samples may be thinned or blocks of voxels have moved the faces, those that its triangles hold.
+Vec3 meetingPoint(const Vec3& home, double length, const MeetingPlanes& touching, const MeetingPlanes& held)
+{
+  constexpr double coarse = 2, spring = 0.05, heldSpring = 0.03;
+  if (length < coarse || !(held.weight() > 1e-9)) return touching.weight() > 0 ? home + touching.way(spring) : home;
+  constexpr double ofLength = 0.2, least = 1.5; // that the faces of blocks are off
+  const Vec3 way = held.way(heldSpring);
+  const double distance = norm(way), most = std::max(least, ofLength * length);
+  return home + (distance > most ? most / distance : 1) * way;
 }
 
 /// Vertices at faces between labels, ascending.
@@ -531,7 +609,9 @@ std::vector<std::int32_t> interfaceVertices(const KuhnLattice& lattice)
 Vec3 scaled(const Vec3& p, const Vec3& by) { return { p.x * by.x, p.y * by.y, p.z * by.z }; }
 
 /// The smooth boundary's points in the order of their voxels; `order` gives the sample that each belongs to.
+/// `lengths`, voxels: L at each sample; if there are none, no smoothing is wider.
 std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& samples, const TissueMap& map, double sigma,
+                                const std::vector<float>& lengths,
                                 std::vector<std::pair<std::int64_t, std::int32_t>>& order)
 {
   const Index size = map.grid.size;
@@ -552,6 +632,7 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
               [&](std::size_t i)
               {
                 points[i] = next[order[i].second];
+                if (!lengths.empty()) points[i].scale = scaleAt(lengths[order[i].second]);
                 tie.place(points[i]);
                 keepLabels(points[i]);
               });
@@ -562,34 +643,71 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
   return points;
 }
 
+/// L at each sample, voxels.
+std::vector<float> lengthsAtSamples(const BackgroundMesh& background, double voxel)
+{
+  std::vector<float> lengths;
+  for (const BackgroundMesh::Sample& sample : background.samples)
+    lengths.push_back(
+      float(background.lengths[background.mesh.tetrahedra[sample.tetrahedron][(sample.face + 1) & 3]] / voxel));
+  return lengths;
+}
+
+/// meetingPoint() of each of interfaceVertices(), mm. `order`: which sample each of the points is.
+std::vector<Vec3> meetingPoints(const KuhnLattice& lattice, const Grid& grid, const std::vector<Point>& points,
+                                const std::vector<std::pair<std::int64_t, std::int32_t>>& order)
+{
+  constexpr double ofLength = 0.13; // standard deviation of the weights of what triangles hold, a voxel at least
+  const BackgroundMesh& background = lattice.background;
+  const Vec3& mm = grid.spacing;
+  const PointRows rows(points, grid.size);
+  const SamplesAtVertices samples(background, order);
+  const std::vector<std::int32_t> vertices = interfaceVertices(lattice);
+  std::vector<Vec3> result(vertices.size());
+  parallelFor(vertices.size(),
+              [&](std::size_t i)
+              {
+                const std::int32_t v = vertices[i];
+                const Vec3 home = scaled(background.mesh.points[v], { 1 / mm.x, 1 / mm.y, 1 / mm.z });
+                const double length = background.lengths[v] / grid.smallestSpacing();
+                const double sigma = std::max(1.0, ofLength * length);
+                MeetingPlanes held;
+                samples.forEach(v,
+                                [&](std::int32_t n)
+                                {
+                                  const Vec3 way = points[n].position - home;
+                                  held.add(points[n].normal, way, std::exp(-0.5 * squaredNorm(way) / (sigma * sigma)));
+                                });
+                result[i] = scaled(meetingPoint(home, length, planesTouching(home, rows), held), mm);
+              });
+  return result;
+}
+
 } // namespace
 
-void moveToSmoothBoundary(KuhnLattice& lattice, const TissueMap& map, double voxels, double minimumAngle)
+void moveToSmoothBoundary(KuhnLattice& lattice, const TissueMap& map, const SmoothBoundaryOptions& options)
 {
-  auto& samples = lattice.background.samples;
+  BackgroundMesh& background = lattice.background;
   const Vec3& mm = map.grid.spacing;
   const Vec3 perMm{ 1 / mm.x, 1 / mm.y, 1 / mm.z };
+  const double voxel = map.grid.smallestSpacing();
   std::vector<std::pair<std::int64_t, std::int32_t>> order;
-  const std::vector<Point> points = smoothPoints(samples, map, voxels, order);
+  const std::vector<Point> points =
+    smoothPoints(background.samples, map, options.voxels,
+                 options.isWiderWithL ? lengthsAtSamples(background, voxel) : std::vector<float>(), order);
   parallelFor(points.size(),
               [&](std::size_t i)
               {
                 const Point& p = points[i];
-                BackgroundMesh::Sample& sample = samples[order[i].second];
+                BackgroundMesh::Sample& sample = background.samples[order[i].second];
                 sample.position = scaled(p.position, mm);
                 const Vec3 across = scaled(p.normal, perMm);
-                const double radius = map.grid.smallestSpacing() * planeRadius(p.curvature);
+                const double radius = voxel * planeRadius(p.curvature, p.scale);
                 const Vec3 normal = across / (norm(across) * radius);
                 sample.normal = { float(normal.x), float(normal.y), float(normal.z) };
               });
-  const PointRows rows(points, map.grid.size);
-  const std::vector<std::int32_t> vertices = interfaceVertices(lattice);
-  std::vector<Vec3> target(vertices.size());
-  parallelFor(vertices.size(),
-              [&](std::size_t i) {
-                target[i] = scaled(meetingPoint(scaled(lattice.background.mesh.points[vertices[i]], perMm), rows), mm);
-              });
-  moveVertices(lattice.background.mesh, vertices, target, minimumAngle);
+  moveVertices(background.mesh, interfaceVertices(lattice), meetingPoints(lattice, map.grid, points, order),
+               options.minimumAngle);
 }
 
 std::vector<SmoothBoundaryPoint> smoothBoundaryPoints(const TissueMap& map, double voxels)
@@ -611,7 +729,7 @@ std::vector<SmoothBoundaryPoint> smoothBoundaryPoints(const TissueMap& map, doub
         }
   std::vector<std::pair<std::int64_t, std::int32_t>> order;
   std::vector<SmoothBoundaryPoint> result;
-  for (const Point& p : smoothPoints(samples, map, voxels, order))
+  for (const Point& p : smoothPoints(samples, map, voxels, {}, order))
   {
     const Vec3 normal = scaled(p.normal, { 1 / mm.x, 1 / mm.y, 1 / mm.z });
     Index voxel = p.lower;

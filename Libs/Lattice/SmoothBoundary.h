@@ -7,8 +7,9 @@
 /// to the quadric that moving least squares fits to the samples of the same two labels around it (D. Levin,
 /// "Mesh-independent surface interpolation", 2003), which keeps curvature and takes away the terraces that a Gaussian
 /// of this width leaves; the fit is up to five times as wide where the boundary is one quadric that far, and then one
-/// for the points of a cell. Where a tissue is so thin that its indicator loses, narrower Gaussians take the place of the
-/// first. No sample's plane comes within 0.14 voxel of the centres of the two voxels beside its face. After that the
+/// for the points of a cell. Where L is more than eight voxels, all of this is up to four times as wide. Where a tissue is so thin that its indicator loses, narrower Gaussians take the place of the
+/// first. No sample's plane comes within 0.14 voxel of the centres of the two voxels beside its face, but where L is
+/// that long. After that the
 /// boundary of every tissue is offset by one length, 0.3 voxel at most, so that the tissue keeps its volume (u_0 in
 /// "Unstructured mesh generation from the Virtual Family models", section 3.1, for all tissues together).
 
@@ -17,10 +18,16 @@
 namespace surgicalmesher
 {
 
-/// Moves the samples of a fresh lattice of `map` to the smooth boundary, and gives them its normals; its interface
-/// follows them as far as `minimumAngle` (degrees) between the tetrahedra's faces allows. `voxels`, positive:
-/// standard deviation of G along each axis.
-void moveToSmoothBoundary(KuhnLattice& lattice, const TissueMap& map, double voxels, double minimumAngle = 10);
+struct SmoothBoundaryOptions
+{
+  double voxels = 0.7;      ///< standard deviation of G along each axis, positive
+  bool isWiderWithL = true; ///< where L is more than eight voxels
+  double minimumAngle = 10; ///< degrees, dihedral: that the interface of the lattice leaves
+};
+
+/// Moves the samples of a fresh lattice, of `map` or of blocks that stand for it, to the smooth boundary of `map`, and
+/// gives them its normals; its interface follows them as far as the angles allow.
+void moveToSmoothBoundary(KuhnLattice& lattice, const TissueMap& map, const SmoothBoundaryOptions& options);
 
 /// A point of the smooth boundary, mm in the grid frame of the map.
 struct SmoothBoundaryPoint

@@ -18,14 +18,18 @@ class EvenLengths
 public:
   EvenLengths(GuardedOperations& operations, const EdgeLengthOptions& options)
     : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
-      m_Good(sine2OfDegrees(options.goodAngle))
+      m_Good(sine2OfDegrees(options.goodAngle)), m_IsTouched(m_Complex.points.size(), 0)
   {
   }
 
   void run()
   {
     forEachVertex([&](std::int32_t v) { stretchAt(v); });
-    forEachVertex([&](std::int32_t v) { fitToSamples(v); });
+    forEachVertex(
+      [&](std::int32_t v)
+      {
+        if (m_IsTouched[v]) fitToSamples(v);
+      });
   }
 
 private:
@@ -67,8 +71,18 @@ private:
       const double r = ratio(v, n.vertex);
       if (r <= least || r >= most || isEven(r)) continue;
       if (!held) held = heldAt(m_Operations, v, ease);
-      if (stretch(v, n.vertex, r, *held)) held.reset();
+      if (!stretch(v, n.vertex, r, *held)) continue;
+      held.reset();
+      touch(v);
     }
+  }
+
+  /// v has moved: it and its neighbours along the interface may lie better.
+  void touch(std::int32_t v)
+  {
+    m_IsTouched[v] = 1;
+    for (const auto& n : m_Operations.neighbours(v))
+      if (n.alongInterface) m_IsTouched[n.vertex] = 1;
   }
 
   /// Moves v so that its edge to u gets an even length.
@@ -132,6 +146,7 @@ private:
   const EdgeLengthOptions& m_Options;
   const double m_Good;
   Uphill m_Uphill;
+  std::vector<std::uint8_t> m_IsTouched; ///< vertices beside which a length has changed
 };
 
 } // namespace

@@ -23,8 +23,9 @@ constexpr double spikeTolerance = 2.1;  // of what a spike leaves behind
 constexpr double widestTolerance = 2.1; // where an angle cannot be mended otherwise
 constexpr double planeDistance = 0.6;   // 0.2 voxel where L is one
 constexpr double lengthTolerance = 1.5; // what even lengths are worth
-constexpr double foldTolerance = 1.3;   // what an open fold is worth
+constexpr double foldTolerance = 1.4;   // what an open fold is worth
 constexpr double labelTolerance = 1.6;  // of relabelling
+constexpr double volumeTolerance = 1.3; // where a tissue's boundary has no room for the last of its volume
 constexpr double vertexDistance = 1.4;  // spikes begin there
 constexpr double spikeTriangles = 1.6;  // triangles may lose some degrees where a spike goes
 
@@ -157,19 +158,6 @@ Sweep repairWhole(const MeshTargets& targets, const MeshSizes& sizes, const Repa
            true };
 }
 
-Sweep fitToSamples(double rmsLimit, const MeshTargets& targets, const MeshSizes& sizes)
-{
-  const double kept = targets.keptAngle, robust = 0.1 * sizes.voxel;
-  constexpr double pullAngle = 20; // what is lost, the second repair brings back
-  const Relax relax{ { .goodAngle = kept, .spread = 0.9, .fit = 2, .robust = robust } };
-  const Polish polish{ { .goodAngle = kept, .fit = 10, .robust = robust } };
-  return { "improvement",
-           { withoutSpikes(targets, sizes, pullAngle),
-             { bounds(targets, rmsLimit), { coarsenAll(sizes, kept), relax, SwapEdges{}, polish } },
-             evenLengths(targets, sizes, kept),
-             relabelled(targets) } };
-}
-
 } // namespace
 
 const MeshTargets usualTargets{ .firstAngle = 25,
@@ -178,8 +166,7 @@ const MeshTargets usualTargets{ .firstAngle = 25,
                                 .holdsVertices = true,
                                 .opensFolds = true,
                                 .trials = 10,
-                                .coarseningSweeps = 3,
-                                .balanceRounds = 2 };
+                                .coarseningSweeps = 3 };
 
 const MeshTargets noisyTargets{ .firstAngle = 22,
                                 .aimedAngle = 23.5,
@@ -187,8 +174,7 @@ const MeshTargets noisyTargets{ .firstAngle = 22,
                                 .holdsVertices = false,
                                 .opensFolds = true,
                                 .trials = 12,
-                                .coarseningSweeps = 1,
-                                .balanceRounds = 1 };
+                                .coarseningSweeps = 1 };
 
 bool hasUnresolvedFeatures(const TetMesh& mesh)
 {
@@ -271,12 +257,17 @@ std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
   };
 }
 
-std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& sizes)
+Sweep fittingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  std::vector<Sweep> sweeps;
-  for (int round = 0; round < targets.balanceRounds; ++round)
-    sweeps.push_back(fitToSamples(round == 0 ? 0.3 : 0.25, targets, sizes));
-  return sweeps;
+  const double kept = targets.keptAngle, robust = 0.1 * sizes.voxel;
+  constexpr double lostAngle = 20; // what is lost, the second repair brings back
+  const Relax relax{ { .goodAngle = kept, .spread = 0.9, .fit = 2, .robust = robust } };
+  const Polish polish{ { .goodAngle = kept, .fit = 10, .robust = robust } };
+  return { "improvement",
+           { withoutSpikes(targets, sizes, lostAngle),
+             { bounds(targets, 0.3), { coarsenAll(sizes, lostAngle), relax, SwapEdges{}, polish } },
+             evenLengths(targets, sizes, kept),
+             relabelled(targets) } };
 }
 
 std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity)
@@ -342,15 +333,17 @@ Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 
 Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets)
 {
-  return { "volumes", { { bounds(targets, 1), { OffsetTissues{ { std::move(offsets), targets.keptAngle } } } } } };
+  return { "volumes",
+           { { bounds(targets, 1, volumeTolerance),
+               { OffsetTissues{ { std::move(offsets), targets.keptAngle } } } } } };
 }
 
 std::size_t surfaceSweepCount(const MeshSizes& sizes)
 {
   const MeshTargets& t = usualTargets;
-  return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() +
-         std::size_t(t.balanceRounds) + motionSweeps(t, sizes, Continuity::C2).size() +
-         proximitySweeps(t, sizes).size() + secondRepairSweeps(t, sizes).size() + 1 + offsetRounds;
+  return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() + 1 +
+         motionSweeps(t, sizes, Continuity::C2).size() + proximitySweeps(t, sizes).size() +
+         secondRepairSweeps(t, sizes).size() + 1 + offsetRounds;
 }
 
 // --- tetrahedral stage ----------------------------------------------------------------------------------------------

@@ -22,7 +22,6 @@ struct MeshTargets
   bool opensFolds;      ///< not where the surface follows the voxels' steps, which are at right angles
   int trials;           ///< see ImprovementOptions, once sizes no longer change
   int coarseningSweeps; ///< sweeps of improvement that still coarsen
-  int balanceRounds;    ///< after the repairs
 };
 
 extern const MeshTargets usualTargets;
@@ -59,8 +58,8 @@ std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes
 /// Without coarsening; what is still bad may go farther from its samples or be split, in the end across the blocks'
 /// borders.
 std::vector<Sweep> repairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// Vertices go back to their samples as far as angles allow. Tissues' volumes are balanced before each.
-std::vector<Sweep> fittingSweeps(const MeshTargets& targets, const MeshSizes& sizes);
+/// Vertices go back to their samples as far as angles allow, at volumes that are balanced before.
+Sweep fittingSweep(const MeshTargets& targets, const MeshSizes& sizes);
 /// The motion of the simplex mesh, which makes the surface smooth between the voxels where elements are of their size,
 /// each time with an improvement of the angles that this costs, which keeps to the surface. Folds are opened after it,
 /// wherever they are, and what comes later, but for volumes and the very last repairs, keeps them open.

@@ -46,7 +46,7 @@ SmoothedLabels withoutRoughness(const TissueMap& map, const ScaleField& scale, c
 KuhnLattice latticeOf(const TissueMap& map, const ScaleField& scale, const SizingFunction& length,
                       const TissueMesherOptions& options, const Progress& progress)
 {
-  constexpr double blockSize = 0.25, samplesPerTriangle = 16; // a larger one costs smoothness, fewer cost accuracy
+  constexpr double blockSize = 0.34, samplesPerTriangle = 16; // a larger one costs smoothness, fewer cost accuracy
   if (!leavesVoxels(options)) return kuhnLattice(map, scale, {}, progress);
   const TissueMap blocks = withUniformBlocks(map, scale, { blockSize, options.features.protectedLabels });
   return latticeWithSamplesOf(map, blocks, scale, length, { samplesPerTriangle }, progress);
@@ -67,7 +67,8 @@ StartingMesh startingMesh(const TissueMap& map, const ScaleField& scale, const s
   setTolerances(
     lattice.background, map, thickness, length,
     { options.maximumDistance, options.features, options.proximity, *shortest, *longest, options.smoothing > 0 });
-  if (options.smoothing > 0) moveToSmoothBoundary(lattice, map, options.smoothing);
+  if (options.smoothing > 0)
+    moveToSmoothBoundary(lattice, map, { .voxels = options.smoothing, .isWiderWithL = leavesVoxels(options) });
   else smoothInterface(lattice, map.grid.spacing);
   return { std::move(lattice.background), lattice.interfaceFaces.size() };
 }
@@ -191,7 +192,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   remesher.run(firstImprovement(targets, sizes));
   remesher.balanceAndRun(improvementSweeps(targets, sizes));
   remesher.run(repairSweeps(targets, sizes));
-  remesher.balanceAndRun(fittingSweeps(targets, sizes));
+  remesher.balanceAndRun({ fittingSweep(targets, sizes) });
   if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
   const bool keepsProximity = options.proximity.isAsked();
   if (keepsProximity) remesher.run(proximitySweeps(targets, sizes));

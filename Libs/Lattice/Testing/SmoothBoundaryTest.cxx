@@ -3,6 +3,7 @@
 
 #include "MeshChecks.h"
 #include "RandomMaps.h"
+#include "SampleTransfer.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
@@ -23,7 +24,7 @@ KuhnLattice latticeOf(const TissueMap& map) { return kuhnLattice(map, uniformSca
 KuhnLattice smoothLattice(const TissueMap& map, double voxels = usual)
 {
   KuhnLattice lattice = latticeOf(map);
-  moveToSmoothBoundary(lattice, map, voxels);
+  moveToSmoothBoundary(lattice, map, { .voxels = voxels });
   return lattice;
 }
 
@@ -77,6 +78,64 @@ TEST(SmoothBoundary, liesOnTheCapsOfLargeBalls)
   for (const auto& sample : smoothLattice(map).background.samples)
     farthest = std::max(farthest, std::abs(norm(sample.position - Vec3{ middle, middle, middle }) - 20));
   EXPECT_LT(farthest, 0.35); // 0.5 by neighbours within two voxels
+}
+
+/// The same with voxels in blocks of eight, as a map of half the resolution has them.
+TissueMap ballOfBlocks(double radius)
+{
+  const int size = 2 * int(std::ceil(radius)) + 5;
+  const double middle = 0.5 * (size - 1);
+  const auto inBlock = [&](int i) { return 2 * (i / 2) + 0.5 - middle; };
+  return paintedMap({ size, size, size },
+                    [&](int i, int j, int k) {
+                      return squaredNorm(Vec3{ inBlock(i), inBlock(j), inBlock(k) }) < radius * radius;
+                    });
+}
+
+/// Root mean square of the points' distances from the sphere in the middle of its map.
+double distanceFromBall(const std::vector<Vec3>& points, double radius)
+{
+  const double middle = std::ceil(radius) + 2;
+  double squares = 0;
+  for (const Vec3& p : points) squares += std::pow(norm(p - Vec3{ middle, middle, middle }) - radius, 2);
+  return std::sqrt(squares / double(points.size()));
+}
+
+TEST(SmoothBoundary, takesStepsOfBlocksAwayWhereLIsLong)
+{
+  constexpr double radius = 20;
+  const TissueMap map = ballOfBlocks(radius);
+  const auto distance = [&](double length, bool isWider)
+  {
+    KuhnLattice lattice = kuhnLattice(map, uniformScale(length), {});
+    moveToSmoothBoundary(lattice, map, { .voxels = usual, .isWiderWithL = isWider });
+    std::vector<Vec3> places;
+    for (const auto& sample : lattice.background.samples) places.push_back(sample.position);
+    return distanceFromBall(places, radius);
+  };
+  EXPECT_GT(distance(8, true), 0.3);
+  EXPECT_LT(distance(16, true), 0.2);
+  EXPECT_NEAR(distance(16, false), distance(8, true), 1e-6);
+}
+
+TEST(SmoothBoundary, takesFacesBetweenBlocksToTheBoundary)
+{
+  constexpr double radius = 14, length = 8;
+  const TissueMap map = ball(radius);
+  KuhnLattice lattice = latticeWithSamplesOf(map, ballOfBlocks(radius), uniformScale(length),
+                                             [&](const Vec3&) { return length; }, { .perTriangle = 16 });
+  const auto distance = [&]
+  {
+    std::vector<Vec3> places;
+    for (const auto& [t, face] : lattice.interfaceFaces)
+      for (int k = 1; k <= 3; ++k)
+        places.push_back(lattice.background.mesh.points[lattice.background.mesh.tetrahedra[t][(face + k) & 3]]);
+    return distanceFromBall(places, radius);
+  };
+  EXPECT_GT(distance(), 0.5);
+  moveToSmoothBoundary(lattice, map, { .voxels = usual });
+  EXPECT_LT(distance(), 0.3);
+  EXPECT_NO_THROW(requireSound(lattice.background.mesh, "lattice"));
 }
 
 TEST(SmoothBoundary, keepsFlatWalls)
