@@ -579,23 +579,6 @@ TEST(EdgeLengths, KeepEveryPromiseAndBecomeMoreEven)
   EXPECT_GT(after, 1.01 * before);
 }
 
-TEST(EdgeLengths, LeaveASurfaceWhoseLengthsAreEven)
-{
-  std::mt19937 random(5);
-  TetComplex complex =
-    complexOf(shaken(tetrahedraOf(paintedMap({ 6, 6, 6 }, [](int, int, int k) { return k < 3; })), random, 0.05), 1.1f);
-  const ComplexState before(complex);
-  GuardedOperations operations(complex, scale);
-  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
-    for (const auto& n : operations.neighbours(v))
-    {
-      const double ratio = norm(complex.points[n.vertex] - complex.points[v]) / complex.targetLength(v, n.vertex);
-      ASSERT_TRUE(!n.alongInterface || (ratio >= shortestEven && ratio <= longestEven)) << ratio;
-    }
-  evenLengthsOfBlock(operations);
-  EXPECT_TRUE(ComplexState(complex) == before);
-}
-
 TEST(EdgeLengths, StayWhereTheTargetIsSmall)
 {
   std::mt19937 random(1);
