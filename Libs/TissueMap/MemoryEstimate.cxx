@@ -22,7 +22,7 @@ constexpr int kSmallest = -2, kLargest = 5; ///< powers of two of a cube's side,
 /// What a voxel face counts where blocks of voxels stand for them (UniformBlocks.h).
 double shareOfFace(double length, double voxel)
 {
-  constexpr double relativeSize = 0.34; // of a block to L
+  constexpr double relativeSize = 0.25; // of a block to L; 0.34 in the lattice, but samples are as many then
   constexpr int largest = 8;            // voxels
   int side = 1;
   while (side < largest && 2 * side * voxel <= relativeSize * length) side *= 2;
