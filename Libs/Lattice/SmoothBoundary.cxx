@@ -550,6 +550,13 @@ MeetingPlanes planesTouching(const Vec3& vertex, const PointRows& rows)
   return planes;
 }
 
+Vec3 wayTouching(const Vec3& vertex, const PointRows& rows)
+{
+  constexpr double spring = 0.05;
+  const MeetingPlanes planes = planesTouching(vertex, rows);
+  return planes.weight() > 0 ? planes.way(spring) : Vec3{};
+}
+
 /// The samples of the faces at each vertex of a lattice.
 class SamplesAtVertices
 {
@@ -581,16 +588,29 @@ private:
   std::vector<std::int32_t> m_Start, m_Points;
 };
 
-/// Where a vertex of the interface belongs, voxels: where the planes of the samples at its voxel faces meet; where L,
-/// voxels, is longer, and samples may be thinned or blocks of voxels have moved the faces, those that its triangles hold.
-Vec3 meetingPoint(const Vec3& home, double length, const MeetingPlanes& touching, const MeetingPlanes& held)
+/// Of the samples that the triangles at vertex number `v` hold, the less the farther off.
+MeetingPlanes planesHeld(const Vec3& vertex, double length, const std::vector<Point>& points,
+                         const SamplesAtVertices& samples, std::int32_t v)
 {
-  constexpr double coarse = 2, spring = 0.05, heldSpring = 0.03;
-  if (length < coarse || !(held.weight() > 1e-9)) return touching.weight() > 0 ? home + touching.way(spring) : home;
+  constexpr double ofLength = 0.13; // standard deviation of the weights, a voxel at least
+  const double sigma = std::max(1.0, ofLength * length);
+  MeetingPlanes planes;
+  samples.forEach(v,
+                  [&](std::int32_t n)
+                  {
+                    const Vec3 way = points[n].position - vertex;
+                    planes.add(points[n].normal, way, std::exp(-0.5 * squaredNorm(way) / (sigma * sigma)));
+                  });
+  return planes;
+}
+
+Vec3 wayToHeld(const MeetingPlanes& planes, double length)
+{
+  constexpr double spring = 0.03;
   constexpr double ofLength = 0.2, least = 1.5; // that the faces of blocks are off
-  const Vec3 way = held.way(heldSpring);
+  const Vec3 way = planes.way(spring);
   const double distance = norm(way), most = std::max(least, ofLength * length);
-  return home + (distance > most ? most / distance : 1) * way;
+  return (distance > most ? most / distance : 1) * way;
 }
 
 /// Vertices at faces between labels, ascending.
@@ -646,23 +666,28 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
 /// L at each sample, voxels.
 std::vector<float> lengthsAtSamples(const BackgroundMesh& background, double voxel)
 {
-  std::vector<float> lengths;
-  for (const BackgroundMesh::Sample& sample : background.samples)
-    lengths.push_back(
-      float(background.lengths[background.mesh.tetrahedra[sample.tetrahedron][(sample.face + 1) & 3]] / voxel));
+  std::vector<float> lengths(background.samples.size());
+  parallelFor(lengths.size(),
+              [&](std::size_t n)
+              {
+                const BackgroundMesh::Sample& sample = background.samples[n];
+                const std::int32_t corner = background.mesh.tetrahedra[sample.tetrahedron][(sample.face + 1) & 3];
+                lengths[n] = float(background.lengths[corner] / voxel);
+              });
   return lengths;
 }
 
-/// meetingPoint() of each of interfaceVertices(), mm. `order`: which sample each of the points is.
-std::vector<Vec3> meetingPoints(const KuhnLattice& lattice, const Grid& grid, const std::vector<Point>& points,
+/// Where vertices of the interface belong, mm: where the planes of the samples at their voxel faces meet; where L is
+/// longer, and samples may be thinned or blocks of voxels have moved the faces, of those that their triangles hold.
+/// `order`: which sample each of the points is.
+std::vector<Vec3> meetingPoints(const BackgroundMesh& background, const std::vector<std::int32_t>& vertices,
+                                const Grid& grid, const std::vector<Point>& points,
                                 const std::vector<std::pair<std::int64_t, std::int32_t>>& order)
 {
-  constexpr double ofLength = 0.13; // standard deviation of the weights of what triangles hold, a voxel at least
-  const BackgroundMesh& background = lattice.background;
+  constexpr double coarse = 2, leastWeight = 1e-9; // voxels
   const Vec3& mm = grid.spacing;
   const PointRows rows(points, grid.size);
   const SamplesAtVertices samples(background, order);
-  const std::vector<std::int32_t> vertices = interfaceVertices(lattice);
   std::vector<Vec3> result(vertices.size());
   parallelFor(vertices.size(),
               [&](std::size_t i)
@@ -670,15 +695,10 @@ std::vector<Vec3> meetingPoints(const KuhnLattice& lattice, const Grid& grid, co
                 const std::int32_t v = vertices[i];
                 const Vec3 home = scaled(background.mesh.points[v], { 1 / mm.x, 1 / mm.y, 1 / mm.z });
                 const double length = background.lengths[v] / grid.smallestSpacing();
-                const double sigma = std::max(1.0, ofLength * length);
                 MeetingPlanes held;
-                samples.forEach(v,
-                                [&](std::int32_t n)
-                                {
-                                  const Vec3 way = points[n].position - home;
-                                  held.add(points[n].normal, way, std::exp(-0.5 * squaredNorm(way) / (sigma * sigma)));
-                                });
-                result[i] = scaled(meetingPoint(home, length, planesTouching(home, rows), held), mm);
+                if (length >= coarse) held = planesHeld(home, length, points, samples, v);
+                const Vec3 way = held.weight() > leastWeight ? wayToHeld(held, length) : wayTouching(home, rows);
+                result[i] = scaled(home + way, mm);
               });
   return result;
 }
@@ -706,7 +726,8 @@ void moveToSmoothBoundary(KuhnLattice& lattice, const TissueMap& map, const Smoo
                 const Vec3 normal = across / (norm(across) * radius);
                 sample.normal = { float(normal.x), float(normal.y), float(normal.z) };
               });
-  moveVertices(background.mesh, interfaceVertices(lattice), meetingPoints(lattice, map.grid, points, order),
+  const std::vector<std::int32_t> vertices = interfaceVertices(lattice);
+  moveVertices(background.mesh, vertices, meetingPoints(background, vertices, map.grid, points, order),
                options.minimumAngle);
 }
 
