@@ -43,58 +43,111 @@ bool isWithin(double share, const VoxelFace& face)
   return at - std::floor(at) < share;
 }
 
-/// The faces between labels of a lattice, by labels and place.
+/// The faces between labels of a lattice, by place and labels.
 class FaceBins
 {
 public:
   FaceBins(const KuhnLattice& lattice, const TissueMap& blocks)
-    : m_Mesh(lattice.background.mesh), m_Faces(lattice.interfaceFaces), m_PerMm(1 / blocks.grid.smallestSpacing())
+    : m_Mesh(lattice.background.mesh), m_Faces(lattice.interfaceFaces),
+      m_BinsPerMm(1 / (binSide * blocks.grid.smallestSpacing()))
   {
-    std::vector<std::size_t> ends(m_Faces.size()); // of each face's entries
-    parallelFor(m_Faces.size(), [&](std::size_t f) { ends[f] = binsOf(std::int32_t(f)).count(); });
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    m_Entries.resize(ends.empty() ? 0 : ends.back());
-    parallelFor(m_Faces.size(), [&](std::size_t f) { add(std::int32_t(f), blocks, f == 0 ? 0 : ends[f - 1]); });
-    vtkSMPTools::Sort(m_Entries.begin(), m_Entries.end());
+    const Grid& grid = blocks.grid;
+    for (int a = 0; a < 3; ++a) m_Size[a] = int(grid.size[a] * grid.spacing[a] * m_BinsPerMm) + 3;
+    m_Start.assign(std::size_t(m_Size[0]) * m_Size[1] * m_Size[2] + 1, 0);
+    for (std::size_t f = 0; f < m_Faces.size(); ++f)
+      forEachBin(binsOf(std::int32_t(f)), [&](std::size_t bin) { ++m_Start[bin + 1]; });
+    std::partial_sum(m_Start.begin(), m_Start.end(), m_Start.begin());
+    m_Entries.resize(m_Start.back());
+    std::vector<LabelPair> labels(m_Faces.size());
+    parallelFor(labels.size(),
+                [&](std::size_t f) { labels[f] = labelsBeside(blocks, faceUnder(std::int32_t(f), blocks)); });
+    std::vector<std::size_t> at(m_Start.begin(), m_Start.end() - 1);
+    for (std::size_t f = 0; f < m_Faces.size(); ++f)
+      forEachBin(binsOf(std::int32_t(f)),
+                 [&](std::size_t bin) {
+                   m_Entries[at[bin]++] = { labels[f], std::int32_t(f) };
+                 });
+    parallelFor(m_Start.size() - 1, [&](std::size_t bin)
+                { std::sort(m_Entries.begin() + m_Start[bin], m_Entries.begin() + m_Start[bin + 1]); });
   }
 
   /// (tetrahedron, face) nearest to p between the two labels.
   std::optional<std::pair<std::int32_t, int>> nearest(const Vec3& p, const LabelPair& labels) const
   {
-    double least = std::numeric_limits<double>::max();
-    std::int32_t best = -1;
     const Index home = binOf(p);
-    for (int r = 1; r <= reach && best < 0; ++r)
-      for (int k = -r; k <= r; ++k)
-        for (int j = -r; j <= r; ++j)
-        {
-          const Entry first{ labels, home[2] + k, home[1] + j, home[0] - r, -1 };
-          for (auto e = std::lower_bound(m_Entries.begin(), m_Entries.end(), first);
-               e != m_Entries.end() && e->labels == labels && e->z == first.z && e->y == first.y && e->x <= home[0] + r;
-               ++e)
-            if (const double d2 = squaredDistance(p, e->face); d2 < least) least = d2, best = e->face;
-        }
-    return best < 0 ? std::nullopt : std::optional(m_Faces[best]);
+    for (int r = 1; r <= reach; ++r)
+    {
+      const Index low{ std::max(0, home[0] - r), std::max(0, home[1] - r), std::max(0, home[2] - r) };
+      Nearest best{ low };
+      look(p, labels, home, best); // spares most of the others
+      for (int z = low[2]; z <= std::min(m_Size[2] - 1, home[2] + r); ++z)
+        for (int y = low[1]; y <= std::min(m_Size[1] - 1, home[1] + r); ++y)
+          for (int x = low[0]; x <= std::min(m_Size[0] - 1, home[0] + r); ++x)
+            if (squaredDistance(p, Index{ x, y, z }) <= best.distance2) look(p, labels, { x, y, z }, best);
+      if (best.face >= 0) return m_Faces[best.face];
+    }
+    return {};
   }
 
 private:
   struct Entry
   {
     LabelPair labels;
-    int z, y, x;
     std::int32_t face;
 
-    bool operator<(const Entry& other) const
-    {
-      return std::tie(labels, z, y, x, face) < std::tie(other.labels, other.z, other.y, other.x, other.face);
-    }
+    bool operator<(const Entry& other) const { return std::tie(labels, face) < std::tie(other.labels, other.face); }
   };
 
+  /// Of several at the same distance, the one that is first met from `corner` on, bin by bin.
+  struct Nearest
+  {
+    Index corner;
+    double distance2 = std::numeric_limits<double>::max(); ///< mm^2
+    std::int32_t face = -1;
+  };
+
+  void look(const Vec3& p, const LabelPair& labels, const Index& bin, Nearest& best) const
+  {
+    const std::size_t n = number(bin);
+    const auto end = m_Entries.begin() + m_Start[n + 1];
+    auto e = std::lower_bound(m_Entries.begin() + m_Start[n], end, Entry{ labels, -1 });
+    for (; e != end && e->labels == labels; ++e)
+      if (const double d2 = squaredDistance(p, e->face);
+          d2 < best.distance2 || (d2 == best.distance2 && isMetBefore(e->face, best.face, best.corner)))
+        best.distance2 = d2, best.face = e->face;
+  }
+
+  bool isMetBefore(std::int32_t f, std::int32_t g, const Index& corner) const
+  {
+    const auto met = [&](std::int32_t face)
+    {
+      const Index from = binsOf(face).from;
+      return number({ std::max(from[0], corner[0]), std::max(from[1], corner[1]), std::max(from[2], corner[2]) });
+    };
+    return std::pair(met(f), f) < std::pair(met(g), g);
+  }
+
+  std::size_t number(const Index& bin) const { return (std::size_t(bin[2]) * m_Size[1] + bin[1]) * m_Size[0] + bin[0]; }
+
+  /// The map begins half a voxel before the origin, in the second bin.
   Index binOf(const Vec3& p) const
   {
     Index bin;
-    for (int a = 0; a < 3; ++a) bin[a] = int(std::floor(p[a] * m_PerMm / binSide));
+    for (int a = 0; a < 3; ++a) bin[a] = std::clamp(int(std::floor(p[a] * m_BinsPerMm)) + 1, 0, m_Size[a] - 1);
     return bin;
+  }
+
+  /// From a bin, mm^2, and not the last bits more.
+  double squaredDistance(const Vec3& p, const Index& bin) const
+  {
+    constexpr double slack = 1 - 1e-9;
+    double sum = 0;
+    for (int a = 0; a < 3; ++a)
+    {
+      const double from = p[a] * m_BinsPerMm + 1 - bin[a], gap = std::max({ -from, from - 1, 0.0 });
+      sum += gap * gap;
+    }
+    return slack * sum / (m_BinsPerMm * m_BinsPerMm);
   }
 
   std::array<Vec3, 3> corners(std::int32_t f) const
@@ -113,10 +166,6 @@ private:
   struct Bins
   {
     Index from, to;
-    std::size_t count() const
-    {
-      return std::size_t(to[0] - from[0] + 1) * std::size_t(to[1] - from[1] + 1) * std::size_t(to[2] - from[2] + 1);
-    }
   };
 
   /// That the box of a face reaches into.
@@ -132,14 +181,13 @@ private:
     return { binOf(low), binOf(high) };
   }
 
-  /// In all of them; its entries begin at `at`.
-  void add(std::int32_t f, const TissueMap& blocks, std::size_t at)
+  template <class F>
+  void forEachBin(const Bins& bins, F&& f) const
   {
-    const LabelPair labels = labelsBeside(blocks, faceUnder(f, blocks));
-    const auto [from, to] = binsOf(f);
+    const auto& [from, to] = bins;
     for (int z = from[2]; z <= to[2]; ++z)
       for (int y = from[1]; y <= to[1]; ++y)
-        for (int x = from[0]; x <= to[0]; ++x) m_Entries[at++] = { labels, z, y, x, f };
+        for (int x = from[0]; x <= to[0]; ++x) f(number({ x, y, z }));
   }
 
   /// A voxel face that lattice face f reaches into.
@@ -160,7 +208,9 @@ private:
 
   const TetMesh& m_Mesh;
   const std::vector<std::pair<std::int32_t, std::int32_t>>& m_Faces;
-  const double m_PerMm;
+  const double m_BinsPerMm;
+  Index m_Size;
+  std::vector<std::size_t> m_Start; ///< of each bin's entries, x fastest, and the end
   std::vector<Entry> m_Entries;
 };
 

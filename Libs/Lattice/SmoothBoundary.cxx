@@ -186,36 +186,74 @@ private:
   std::vector<std::pair<double, VoxelWeight>> m_Gaussians; ///< share of the standard deviation, the widest first
 };
 
-/// Points in the order of their lower voxels, found by rows.
+std::uint32_t labelsOf(const Point& point) { return std::uint32_t(point.inside) << 16 | point.outside; }
+
+/// Points in the order of their lower voxels, found by stretches of rows.
 class PointRows
 {
 public:
-  PointRows(const std::vector<Point>& points, const Index& size) : m_Points(points), m_Size(size)
+  PointRows(const std::vector<Point>& points, const Index& size)
+    : m_Points(points), m_Size(size), m_PerRow(std::size_t(size[0] + 1) / stretch + 1)
   {
-    m_Start.assign(std::size_t(size[1] + 1) * (size[2] + 1) + 1, 0);
-    for (const Point& p : points) ++m_Start[row(p.lower[1], p.lower[2]) + 1];
+    m_Start.assign(std::size_t(size[1] + 1) * (size[2] + 1) * m_PerRow + 1, 0);
+    for (const Point& p : points) ++m_Start[stretchOf(p.lower[0], p.lower[1], p.lower[2]) + 1];
     std::partial_sum(m_Start.begin(), m_Start.end(), m_Start.begin());
+    m_Entries.reserve(points.size());
+    for (const Point& p : points) m_Entries.push_back({ p.lower[0], labelsOf(p) });
   }
 
   template <class F>
   void forEachNear(const Index& voxel, int radius, F&& f) const
   {
-    for (int k = std::max(-1, voxel[2] - radius); k <= std::min(m_Size[2] - 1, voxel[2] + radius); ++k)
-      for (int j = std::max(-1, voxel[1] - radius); j <= std::min(m_Size[1] - 1, voxel[1] + radius); ++j)
-      {
-        const auto end = m_Points.begin() + m_Start[row(j, k) + 1];
-        auto at = std::lower_bound(m_Points.begin() + m_Start[row(j, k)], end, voxel[0] - radius,
-                                   [](const Point& p, int i) { return p.lower[0] < i; });
-        for (; at != end && at->lower[0] <= voxel[0] + radius; ++at) f(*at);
-      }
+    forEachEntry(voxel, radius, [&](std::size_t i) { f(m_Points[i]); });
+  }
+
+  /// Those between the same two labels as `point`.
+  template <class F>
+  void forEachLike(const Point& point, int radius, F&& f) const
+  {
+    const std::uint32_t labels = labelsOf(point);
+    forEachEntry(point.lower, radius,
+                 [&](std::size_t i)
+                 {
+                   if (m_Entries[i].labels == labels) f(m_Points[i]);
+                 });
   }
 
 private:
-  std::size_t row(int j, int k) const { return std::size_t(k + 1) * (m_Size[1] + 1) + (j + 1); }
+  static constexpr int stretch = 16; // voxels
+
+  /// All that is asked of most of them, in less memory.
+  struct Entry
+  {
+    std::int32_t x;
+    std::uint32_t labels;
+  };
+
+  template <class F>
+  void forEachEntry(const Index& voxel, int radius, F&& f) const
+  {
+    const int first = std::max(-1, voxel[0] - radius), last = std::min(m_Size[0] - 1, voxel[0] + radius);
+    for (int k = std::max(-1, voxel[2] - radius); k <= std::min(m_Size[2] - 1, voxel[2] + radius); ++k)
+      for (int j = std::max(-1, voxel[1] - radius); j <= std::min(m_Size[1] - 1, voxel[1] + radius); ++j)
+      {
+        const std::size_t end = m_Start[stretchOf(last, j, k) + 1];
+        for (std::size_t i = m_Start[stretchOf(first, j, k)]; i < end; ++i)
+          if (m_Entries[i].x >= first && m_Entries[i].x <= last) f(i);
+      }
+  }
+
+  /// Its number.
+  std::size_t stretchOf(int i, int j, int k) const
+  {
+    return (std::size_t(k + 1) * (m_Size[1] + 1) + (j + 1)) * m_PerRow + std::size_t(i + 1) / stretch;
+  }
 
   const std::vector<Point>& m_Points;
   Index m_Size;
-  std::vector<std::int32_t> m_Start;
+  std::size_t m_PerRow;
+  std::vector<std::int32_t> m_Start; ///< of each stretch's points, and the end
+  std::vector<Entry> m_Entries;
 };
 
 /// Weighted least squares for the height a0 + a1 u + a2 v + a3 u^2 + a4 u v + a5 v^2.
@@ -331,10 +369,9 @@ std::optional<Quadric> quadricAt(const Point& point, const PointRows& rows, doub
   const std::pair<Vec3, Vec3> frame = frameOf(point.normal);
   const Vec3 &u = frame.first, &v = frame.second;
   HeightFit fit;
-  rows.forEachNear(point.lower, int(std::ceil(reach * sigma)),
+  rows.forEachLike(point, int(std::ceil(reach * sigma)),
                    [&](const Point& other)
                    {
-                     if (other.inside != point.inside || other.outside != point.outside) return;
                      const Vec3 d = other.position - point.position;
                      const double d2 = squaredNorm(d), cosine = dot(other.normal, point.normal);
                      if (d2 > squaredReach || cosine < leastCosine) return;
@@ -463,7 +500,7 @@ std::vector<double> offsets(const std::vector<Point>& points)
     const double swept = sign * (p.position - p.centre())[p.axis];
     lost[p.inside] -= swept;
     lost[p.outside] += swept;
-    areaOf[std::uint32_t(p.inside) << 16 | p.outside] += std::abs(p.normal[p.axis]);
+    areaOf[labelsOf(p)] += std::abs(p.normal[p.axis]);
   }
   std::map<std::pair<Label, Label>, double> areas;
   for (const auto& [labels, area] : areaOf) areas[{ Label(labels >> 16), Label(labels) }] = area;

@@ -3,6 +3,7 @@
 
 #include "PaddedMap.h"
 
+#include <cstdint>
 #include <cstdlib>
 
 namespace surgicalmesher
@@ -71,31 +72,34 @@ CornerMask cornersOf(Label label, const Block& block)
   return corners;
 }
 
+using VoxelMask = std::uint32_t; ///< a set of voxels of a neighbourhood, one bit each
+
+/// For each voxel, those beside it, across corners as well.
+std::array<VoxelMask, 27> makeNearVoxels()
+{
+  std::array<VoxelMask, 27> near{};
+  for (int v = 0; v < 27; ++v)
+    for (int w = 0; w < 27; ++w)
+      if (std::abs(w % 3 - v % 3) <= 1 && std::abs(w / 3 % 3 - v / 3 % 3) <= 1 && std::abs(w / 9 - v / 9) <= 1)
+        near[v] |= VoxelMask(1) << w;
+  return near;
+}
+
+const std::array<VoxelMask, 27> nearVoxels = makeNearVoxels();
+
 /// Whether the voxels around the centre that are not of the label hang together, across corners as well.
 bool isOneAround(const Neighbourhood& n, Label label)
 {
-  std::array<int, 27> open{};
-  std::array<bool, 27> seen{};
-  int count = 0, parts = 0;
-  seen[centre] = true;
-  for (int start = 0; start < 27; ++start)
+  VoxelMask others = 0;
+  for (int v = 0; v < 27; ++v) others |= VoxelMask(v != centre && n[v] != label) << v;
+  VoxelMask reached = others & (~others + 1);
+  for (VoxelMask before = 0; reached != before;)
   {
-    if (seen[start] || n[start] == label) continue;
-    if (++parts > 1) return false;
-    seen[start] = true;
-    for (open[count++] = start; count > 0;)
-    {
-      const int v = open[--count], i = v % 3, j = v / 3 % 3, k = v / 9;
-      for (int w = 0; w < 27; ++w)
-      {
-        if (seen[w] || n[w] == label) continue;
-        if (std::abs(w % 3 - i) > 1 || std::abs(w / 3 % 3 - j) > 1 || std::abs(w / 9 - k) > 1) continue;
-        seen[w] = true;
-        open[count++] = w;
-      }
-    }
+    before = reached;
+    for (int v = 0; v < 27; ++v)
+      if (reached >> v & 1) reached |= nearVoxels[v] & others;
   }
-  return parts == 1;
+  return others != 0 && reached == others;
 }
 
 } // namespace
