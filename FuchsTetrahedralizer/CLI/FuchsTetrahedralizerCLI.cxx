@@ -11,6 +11,7 @@
 #include "FuchsTetrahedralizerCLIXML.h"
 #include "MaterialTable.h"
 #include "NodeChoices.h"
+#include "Parallel.h"
 #include "Report.h"
 #include "SecondOrder.h"
 #include "ShellChoices.h"
@@ -252,11 +253,12 @@ void mesh(CommandLine& line)
 
   const std::string stillness = warningOfStillness(result.content.constitutive);
   if (!stillness.empty()) line.warning(stillness);
-  writeMesh(result.content, line.outputFile("mesh"));
+  MeshQuality quality;
+  runInParallel({ [&] { writeMesh(result.content, line.outputFile("mesh")); },
+                  [&] { quality = assessQuality(result.content.mesh, result.content.subMesh, lengths.inWorld); } });
   writeChildAndParent(line, result.content);
   if (const std::string curves = line.outputFile("curveMesh"); !curves.empty()) writeCurves(result.content, curves);
   writeExports(line, result.content, model);
-  const MeshQuality quality = assessQuality(result.content.mesh, result.content.subMesh, lengths.inWorld);
   const std::map<Label, ExplicitStep> steps = explicitSteps(result.content, model.materials);
   MeshReport figures{ result, quality, steps, {}, fromBackground, line.warnings() };
   if (line.flag("conditioning")) figures.conditioning = stiffnessConditioning(result.content.mesh);

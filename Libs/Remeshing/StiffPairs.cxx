@@ -132,7 +132,7 @@ private:
       if (m_Complex.labels[t] == 0) continue;
       const LinearTetrahedron shape = shapeOf(m_Complex, t, v, p);
       const auto& x = m_Complex.tets[t];
-      const int at = int(std::find(x.begin(), x.end(), v) - x.begin());
+      const int at = m_Complex.indexOf(t, v);
       for (int i = 0; i < 4; ++i)
       {
         if (i == at) add(m_Own, stiffnessOf(shape, i, i), 1);
@@ -143,6 +143,21 @@ private:
           add(n.between, stiffnessOf(shape, at, i), 1);
         }
       }
+    }
+  }
+
+  /// Fills m_Neighbours with those of higher numbers, and what is between v and them.
+  void gatherPairs(std::int32_t v)
+  {
+    m_Neighbours.clear();
+    for (const std::int32_t t : m_Operations.star(v))
+    {
+      const auto& x = m_Complex.tets[t];
+      if (m_Complex.labels[t] == 0 || *std::max_element(x.begin(), x.end()) == v) continue;
+      const LinearTetrahedron shape = shapeOf(m_Complex, t);
+      const int at = m_Complex.indexOf(t, v);
+      for (int i = 0; i < 4; ++i)
+        if (x[i] > v) add(neighbour(x[i]).between, stiffnessOf(shape, at, i), 1);
     }
   }
 
@@ -162,10 +177,9 @@ private:
     for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
     {
       if (m_Complex.vertexTet[v] < 0) continue;
-      gather(v, m_Complex.points[v]);
+      gatherPairs(v);
       for (const Neighbour& n : m_Neighbours)
       {
-        if (n.vertex < v) continue;
         const Matrix matrix = scaledMatrix(m_Diagonal[v], m_Diagonal[n.vertex], n.between);
         if (!areBelow(m_Options.eigenvalue, matrix)) pairs.push_back({ largestEigenvalue(matrix), v, n.vertex });
       }
