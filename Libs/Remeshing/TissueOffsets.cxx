@@ -8,6 +8,17 @@
 namespace surgicalmesher
 {
 
+namespace
+{
+
+double offsetOf(Label label, const TissueOffsets& offsets)
+{
+  const auto found = offsets.find(label);
+  return found == offsets.end() ? 0 : found->second;
+}
+
+} // namespace
+
 SheetSide sideOf(const TetComplex& complex, const SheetFace& f)
 {
   const auto at = [&](int k) { return complex.points[f.vertices[k]]; };
@@ -20,11 +31,6 @@ SheetSide sideOf(const TetComplex& complex, const SheetFace& f)
 Vec3 meetingStep(const TetComplex& complex, const Sheet& sheet, const TissueOffsets& offsets)
 {
   constexpr double spring = 0.05; // where all are nearly one plane
-  const auto offset = [&](Label label)
-  {
-    const auto found = offsets.find(label);
-    return found == offsets.end() ? 0 : found->second;
-  };
   Quadric quadric;
   for (const SheetFace& f : sheet.faces)
   {
@@ -33,7 +39,7 @@ Vec3 meetingStep(const TetComplex& complex, const Sheet& sheet, const TissueOffs
     const Vec3 n = side.area / size;
     const double m[6] = { n.x * n.x, n.x * n.y, n.x * n.z, n.y * n.y, n.y * n.z, n.z * n.z };
     for (int i = 0; i < 6; ++i) quadric.m[i] += size * m[i];
-    quadric.g += (offset(side.from) - offset(side.to)) * side.area;
+    quadric.g += (offsetOf(side.from, offsets) - offsetOf(side.to, offsets)) * side.area;
   }
   quadric.addToDiagonal(spring * quadric.trace());
   return quadric.solve(quadric.g);
@@ -51,9 +57,12 @@ void offsetTissuesOfBlock(GuardedOperations& operations, const TissueOffsetOptio
 {
   const TetComplex& complex = operations.complex();
   const double good = sine2OfDegrees(options.goodAngle);
+  const auto stays = [&](std::int32_t t) { return offsetOf(complex.labels[t], options.offsets) == 0; };
   for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
   {
     if (complex.vertexTet[v] < 0 || complex.locked[v] || !complex.onInterface[v]) continue;
+    const std::vector<std::int32_t>& star = operations.star(v);
+    if (std::all_of(star.begin(), star.end(), stays)) continue;
     const Vec3 way = meetingStep(complex, operations.sheet(v), options.offsets);
     if (squaredNorm(way) > 0) moveAlong(operations, v, way, std::min(good, operations.qualityAt(v)));
   }

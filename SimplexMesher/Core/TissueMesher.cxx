@@ -131,8 +131,13 @@ public:
   /// Moves the boundaries themselves for what tissues still lack.
   void offsetTissues(const MeshTargets& targets)
   {
+    constexpr double leastShare = 0.0002; // of a volume
     for (std::size_t round = 0; m_Balances && round < offsetRounds; ++round)
-      run(offsetSweep(targets, m_Balance.offsets(m_Remesher.background())));
+    {
+      TissueOffsets offsets = m_Balance.offsets(m_Remesher.background(), leastShare);
+      if (offsets.empty()) return;
+      run(offsetSweep(targets, std::move(offsets)));
+    }
   }
 
   bool hasUnresolvedFeatures() const { return surgicalmesher::hasUnresolvedFeatures(m_Remesher.background().mesh); }
