@@ -131,14 +131,15 @@ private:
   /// Climbs the worst quality at v along the gradient of its worst tetrahedron and along trial directions.
   bool optimise(std::int32_t v)
   {
+    constexpr double first = 0.12, least = 0.01; // shares of L: shorter steps gain next to nothing
     if (m_Complex.locked[v]) return false;
     double best = m_Operations.qualityAt(v);
     const double start = best;
     const double size = m_Complex.lengths[v];
-    double step = 0.12 * size;
+    double step = first * size;
     const Quadric held = heldAt(m_Operations, v, m_Options.ease);
     std::optional<Vec3> uphill; // from where v is now
-    for (int trial = 0; trial < m_Options.trials && best < m_Target && step > 0.004 * size; ++trial)
+    for (int trial = 0; trial < m_Options.trials && best < m_Target && step > least * size; ++trial)
     {
       const Vec3 p = m_Complex.points[v];
       const bool isRandom = trial % 3 == 2;
