@@ -118,12 +118,14 @@ private:
   bool moveNear(std::int32_t v, Vec3 p, const Quadric& held)
   {
     constexpr int trials = 8;
+    constexpr double hopeless = 0.3; // share of the quality wanted, below which one in ninety comes to it
     const double floor = floorAt(v), now = evenEdges(v, m_Complex.points[v]);
     if (!(evenEdges(v, p) > now)) return false;
     for (int trial = 0; trial <= trials; ++trial)
     {
       const double quality = m_Operations.qualityAt(v, p, -1);
       if (quality >= floor) return evenEdges(v, p) > now && m_Operations.moveWithin(v, p);
+      if (quality < hopeless * floor) return false;
       p += (0.03 * m_Complex.lengths[v]) * easiest(m_Operations, v, held, m_Uphill(m_Operations, v, p, quality));
     }
     return false;
