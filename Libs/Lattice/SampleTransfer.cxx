@@ -48,11 +48,9 @@ class FaceBins
 {
 public:
   FaceBins(const KuhnLattice& lattice, const TissueMap& blocks)
-    : m_Mesh(lattice.background.mesh), m_Faces(lattice.interfaceFaces),
-      m_BinsPerMm(1 / (binSide * blocks.grid.smallestSpacing()))
+    : m_Mesh(lattice.background.mesh), m_Faces(lattice.interfaceFaces), m_Side(double(binSide) * blocks.grid.spacing)
   {
-    const Grid& grid = blocks.grid;
-    for (int a = 0; a < 3; ++a) m_Size[a] = int(grid.size[a] * grid.spacing[a] * m_BinsPerMm) + 3;
+    for (int a = 0; a < 3; ++a) m_Size[a] = blocks.grid.size[a] / binSide + 3;
     m_Start.assign(std::size_t(m_Size[0]) * m_Size[1] * m_Size[2] + 1, 0);
     for (std::size_t f = 0; f < m_Faces.size(); ++f)
       forEachBin(binsOf(std::int32_t(f)), [&](std::size_t bin) { ++m_Start[bin + 1]; });
@@ -129,11 +127,11 @@ private:
 
   std::size_t number(const Index& bin) const { return (std::size_t(bin[2]) * m_Size[1] + bin[1]) * m_Size[0] + bin[0]; }
 
-  /// The map begins half a voxel before the origin, in the second bin.
+  /// The first ones lie before the origin, as the map begins half a voxel before it.
   Index binOf(const Vec3& p) const
   {
     Index bin;
-    for (int a = 0; a < 3; ++a) bin[a] = std::clamp(int(std::floor(p[a] * m_BinsPerMm)) + 1, 0, m_Size[a] - 1);
+    for (int a = 0; a < 3; ++a) bin[a] = std::clamp(int(std::floor(p[a] / m_Side[a])) + 1, 0, m_Size[a] - 1);
     return bin;
   }
 
@@ -144,10 +142,10 @@ private:
     double sum = 0;
     for (int a = 0; a < 3; ++a)
     {
-      const double from = p[a] * m_BinsPerMm + 1 - bin[a], gap = std::max({ -from, from - 1, 0.0 });
+      const double from = p[a] - (bin[a] - 1) * m_Side[a], gap = std::max({ -from, from - m_Side[a], 0.0 });
       sum += gap * gap;
     }
-    return slack * sum / (m_BinsPerMm * m_BinsPerMm);
+    return slack * sum;
   }
 
   std::array<Vec3, 3> corners(std::int32_t f) const
@@ -208,7 +206,7 @@ private:
 
   const TetMesh& m_Mesh;
   const std::vector<std::pair<std::int32_t, std::int32_t>>& m_Faces;
-  const double m_BinsPerMm;
+  const Vec3 m_Side; ///< of a bin, mm
   Index m_Size;
   std::vector<std::size_t> m_Start; ///< of each bin's entries, x fastest, and the end
   std::vector<Entry> m_Entries;

@@ -96,7 +96,7 @@ std::vector<ConditionalSweep> sweepsForRawMesh(double targetAngle, double smalle
 std::vector<ConditionalSweep> sweepsForImprovedMesh(double targetAngle, double smallestLength);
 
 constexpr double leastLack = 0.0005;     ///< share of its volume from which on a tissue is given it back
-constexpr std::size_t restoreRounds = 3; ///< one leaves 0.35 % on jhu189, where repairs have cost 1.4
+constexpr std::size_t restoreRounds = 3; ///< where repairs have cost 1.4 % on jhu189, one leaves 0.35
 /// Gives back the volumes that repairs of the surface have cost.
 Sweep restoringSweep(double targetAngle, TissueOffsets offsets);
 
