@@ -118,7 +118,7 @@ private:
   bool moveNear(std::int32_t v, Vec3 p, const Quadric& held)
   {
     constexpr int trials = 8;
-    constexpr double hopeless = 0.3; // share of the quality wanted, below which one in ninety comes to it
+    constexpr double hopeless = 0.1; // share of the quality wanted, below which one in 150 comes to it
     const double floor = floorAt(v), now = evenEdges(v, m_Complex.points[v]);
     if (!(evenEdges(v, p) > now)) return false;
     for (int trial = 0; trial <= trials; ++trial)
