@@ -2,6 +2,8 @@
 #include "TissueFidelity.h"
 
 #include "BoundaryDistance.h"
+#include "BoundaryFaces.h"
+#include "Parallel.h"
 #include "Triangle.h"
 
 #include <vtkSMPTools.h>
@@ -72,6 +74,8 @@ private:
 /// The triangles by the cells of a regular grid that their boxes touch.
 class TriangleGrid
 {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
 public:
   explicit TriangleGrid(const SurfaceComplex& surface) : m_Surface(surface)
   {
@@ -89,7 +93,7 @@ public:
       extent += norm(to - from);
     }
     m_Origin = low;
-    m_Size = std::max(extent / double(surface.triangles.size()), 1e-9);
+    m_Size = std::max(0.5 * extent / double(surface.triangles.size()), 1e-9);
     const auto cells = [&]
     {
       return std::ceil((high.x - low.x) / m_Size + 1) * std::ceil((high.y - low.y) / m_Size + 1) *
@@ -111,39 +115,19 @@ public:
   /// Squared distances from p to the nearest triangle of each of two tissues; infinite for one without triangles.
   std::array<double, 2> squaredDistances(const Vec3& p, const std::array<Label, 2>& tissues) const
   {
-    std::array<double, 2> best{ infinity, infinity };
-    if (m_Surface.triangles.empty()) return best;
-    Voxel centre;
-    double margin = infinity; // to the wall of the cell that is nearest
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double place = (p[axis] - m_Origin[axis]) / m_Size;
-      centre[axis] = std::clamp(int(std::floor(place)), -1, m_Cells[axis]);
-      const double inCell = place - centre[axis];
-      margin = std::min({ margin, m_Size * std::max(inCell, 0.0), m_Size * std::max(1 - inCell, 0.0) });
-    }
-    const int rings = std::max({ m_Cells[0], m_Cells[1], m_Cells[2] }) + 1;
-    for (int ring = 0; ring <= rings; ++ring)
-    {
-      visitRing(
-        centre, ring,
-        [&](int i, int j, int k)
-        {
-          if (squaredDistanceToCell(p, { i, j, k }) > std::max(tissues[0] ? best[0] : 0, tissues[1] ? best[1] : 0))
-            return;
-          for (std::size_t n = m_First[cell(i, j, k)]; n < m_First[cell(i, j, k) + 1]; ++n)
-            improve(best, p, tissues, m_Triangles[n]);
-        });
-      const double seen = margin + m_Size * ring;
-      const bool isDone = (tissues[0] == 0 || best[0] <= seen * seen) && (tissues[1] == 0 || best[1] <= seen * seen);
-      if (isDone) break;
-    }
-    return best;
+    Search search{ p, tissues };
+    if (m_Surface.triangles.empty()) return search.best;
+    const Voxel seen = findAny(search);
+    if (search.reach() == infinity) return search.best;
+    visitAround(p, search.reach(),
+                [&](int i, int j, int k)
+                {
+                  if (Voxel{ i, j, k } != seen) look(search, i, j, k);
+                });
+    return search.best;
   }
 
 private:
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-
   std::pair<Vec3, Vec3> box(std::size_t t) const
   {
     const auto& [a, b, c] = m_Surface.triangles[t];
@@ -224,20 +208,70 @@ private:
     }
   }
 
-  void improve(std::array<double, 2>& best, const Vec3& p, const std::array<Label, 2>& tissues, std::int32_t t) const
+  /// For the triangles nearest to a place.
+  struct Search
+  {
+    const Vec3& p;
+    const std::array<Label, 2>& tissues;
+    std::array<double, 2> best{ infinity, infinity };     ///< squared distances
+    std::array<double, 2> distance{ infinity, infinity }; ///< their roots
+
+    /// How far a nearer triangle of one of the tissues can be.
+    double reach() const { return std::max(tissues[0] ? distance[0] : 0, tissues[1] ? distance[1] : 0); }
+  };
+
+  /// Ring by ring, until there is a triangle of each tissue, or nothing left to look at. Returns a cell that was looked
+  /// at.
+  Voxel findAny(Search& search) const
+  {
+    Voxel centre;
+    for (int axis = 0; axis < 3; ++axis)
+      centre[axis] = std::clamp(int(std::floor((search.p[axis] - m_Origin[axis]) / m_Size)), -1, m_Cells[axis]);
+    const int rings = std::max({ m_Cells[0], m_Cells[1], m_Cells[2] }) + 1;
+    for (int ring = 0; ring <= rings && search.reach() == infinity; ++ring)
+      visitRing(centre, ring, [&](int i, int j, int k) { look(search, i, j, k); });
+    return centre;
+  }
+
+  void look(Search& search, int i, int j, int k) const
+  {
+    const double reach = search.reach();
+    if (squaredDistanceToCell(search.p, { i, j, k }) > reach * reach) return;
+    for (std::size_t n = m_First[cell(i, j, k)]; n < m_First[cell(i, j, k) + 1]; ++n) improve(search, m_Triangles[n]);
+  }
+
+  /// The cells that a box touches which reaches so far from p.
+  template <class Visit>
+  void visitAround(const Vec3& p, double reach, const Visit& visit) const
+  {
+    const double rounding = 1e-9 * m_Size;
+    Voxel from, to;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const auto cellAt = [&](double place)
+      { return int(std::floor(std::clamp(place / m_Size, -1.0, double(m_Cells[axis])))); };
+      from[axis] = std::max(cellAt(p[axis] - m_Origin[axis] - reach - rounding), 0);
+      to[axis] = std::min(cellAt(p[axis] - m_Origin[axis] + reach + rounding), m_Cells[axis] - 1);
+    }
+    for (int k = from[2]; k <= to[2]; ++k)
+      for (int j = from[1]; j <= to[1]; ++j)
+        for (int i = from[0]; i <= to[0]; ++i) visit(i, j, k);
+  }
+
+  void improve(Search& search, std::int32_t t) const
   {
     const std::array<Label, 2>& labels = m_Surface.labels[t];
     const auto bounds = [&](Label tissue) { return tissue != 0 && (labels[0] == tissue || labels[1] == tissue); };
-    const bool first = bounds(tissues[0]), second = bounds(tissues[1]);
-    if (!first && !second) return;
-    const double worst = std::max(first ? best[0] : 0, second ? best[1] : 0);
+    const std::array<bool, 2> isBound{ bounds(search.tissues[0]), bounds(search.tissues[1]) };
+    if (!isBound[0] && !isBound[1]) return;
     const auto& [centre, radius] = m_Spheres[t];
-    const double farthest = radius + std::sqrt(worst); // of a centre whose triangle can be nearer
-    if (squaredNorm(p - centre) > farthest * farthest) return;
+    const double farthest = // of a centre whose triangle can be nearer
+      radius + std::max(isBound[0] ? search.distance[0] : 0, isBound[1] ? search.distance[1] : 0);
+    if (squaredNorm(search.p - centre) > farthest * farthest) return;
     const auto& [a, b, c] = m_Surface.triangles[t];
-    const double d = squaredDistanceToTriangle(p, m_Surface.points[a], m_Surface.points[b], m_Surface.points[c]);
-    if (first) best[0] = std::min(best[0], d);
-    if (second) best[1] = std::min(best[1], d);
+    const double d = squaredDistanceToTriangle(search.p, m_Surface.points[a], m_Surface.points[b], m_Surface.points[c]);
+    for (int side = 0; side < 2; ++side)
+      if (isBound[side] && d < search.best[side]) search.best[side] = d, search.distance[side] = std::sqrt(d);
   }
 
   const SurfaceComplex& m_Surface;
@@ -254,57 +288,23 @@ private:
   std::vector<Sphere> m_Spheres; ///< around the triangles: spare most of them the full distance
 };
 
-Vec3 faceCentre(const Grid& grid, const Voxel& voxel, int axis)
-{
-  Vec3 p;
-  for (int a = 0; a < 3; ++a) p[a] = (voxel[a] + (a == axis ? 0.5 : 0.0)) * grid.spacing[a];
-  return p;
-}
-
-/// visit(voxel, axis, the labels below and above) of every face between voxels of different labels in slice k, those of
-/// the map's first faces included; k may be -1, as i and j.
-template <class Visit>
-void forFaces(const TissueMap& map, int k, const Visit& visit)
-{
-  for (int j = -1; j < map.grid.size[1]; ++j)
-  {
-    for (int i = -1; i < map.grid.size[0]; ++i)
-    {
-      const Voxel voxel{ i, j, k };
-      const Label below = labelAt(map, voxel);
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        Voxel next = voxel;
-        ++next[axis];
-        const Label above = labelAt(map, next);
-        if (above != below) visit(voxel, axis, std::array<Label, 2>{ below, above });
-      }
-    }
-  }
-}
-
+/// `sums` has a part for each slice that has faces' lower voxels.
 void measureFromMap(const SurfaceComplex& surface, const TissueMap& map, double bound, Sums& sums)
 {
   const TriangleGrid grid(surface);
-  vtkSMPTools::For(-1, map.grid.size[2],
-                   [&](vtkIdType begin, vtkIdType end)
-                   {
-                     for (int k = int(begin); k < int(end); ++k)
-                     {
-                       const std::size_t part = k + 1; // k begins at -1
-                       forFaces(map, k,
-                                [&](const Voxel& voxel, int axis, const std::array<Label, 2>& labels)
-                                {
-                                  const Vec3 p = faceCentre(map.grid, voxel, axis);
-                                  const std::array<double, 2> squared = grid.squaredDistances(p, labels);
-                                  for (int side = 0; side < 2; ++side)
-                                  {
-                                    if (labels[side] != 0)
-                                      add(sums.of(part, labels[side]), std::sqrt(squared[side]), p, bound);
-                                  }
-                                });
-                     }
-                   });
+  parallelForEach(std::size_t(map.grid.size[2]) + 1,
+                  [&](std::size_t part)
+                  {
+                    const auto measure = [&](const VoxelFace& face)
+                    {
+                      const std::array<Label, 2> labels{ labelAt(map, face.lower), labelAt(map, face.upper()) };
+                      const Vec3 p = face.centre(map.grid.spacing);
+                      const std::array<double, 2> squared = grid.squaredDistances(p, labels);
+                      for (int side = 0; side < 2; ++side)
+                        if (labels[side] != 0) add(sums.of(part, labels[side]), std::sqrt(squared[side]), p, bound);
+                    };
+                    forEachBoundaryFace(map, int(part) - 1, measure);
+                  });
 }
 
 /// From p to the nearest face around the tissue in the map, at most eight of the smallest voxel sides.

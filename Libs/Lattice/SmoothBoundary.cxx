@@ -143,6 +143,10 @@ private:
       count[a] = std::min(most, int(std::floor(p[a] + weight.window())) - low[a] + 1);
       for (int i = 0; i < count[a]; ++i) w[a][i] = weight(low[a] + i - p[a]);
     }
+    std::array<std::pair<double, double>, most + 1> ofFirst; // of that many voxels at the beginning of a row
+    for (int i = 0; i < count[0]; ++i)
+      ofFirst[i + 1] = { ofFirst[i].first + w[0][i].first, ofFirst[i].second + w[0][i].second };
+    const auto signOf = [&](Label label) { return double(label == point.inside) - double(label == point.outside); };
     const bool isWithin = isInMap(low, count);
     std::array<Label, most> row;
     double value = 0;
@@ -152,12 +156,13 @@ private:
       {
         const Label* const labels = isWithin ? labelsFrom({ low[0], low[1] + j, low[2] + k }) : row.data();
         for (int i = 0; i < count[0] && !isWithin; ++i) row[i] = labelAt(m_Map, { low[0] + i, low[1] + j, low[2] + k });
-        double sum = 0, slope = 0;
-        for (int i = 0; i < count[0]; ++i)
+        int i = 1; // most rows have one label
+        while (i < count[0] && labels[i] == labels[0]) ++i;
+        double sum = signOf(labels[0]) * ofFirst[i].first, slope = signOf(labels[0]) * ofFirst[i].second;
+        for (; i < count[0]; ++i)
         {
-          const double sign = double(labels[i] == point.inside) - double(labels[i] == point.outside);
-          sum += sign * w[0][i].first;
-          slope += sign * w[0][i].second;
+          sum += signOf(labels[i]) * w[0][i].first;
+          slope += signOf(labels[i]) * w[0][i].second;
         }
         value += sum * w[1][j].first * w[2][k].first;
         gradient.x -= slope * w[1][j].first * w[2][k].first;

@@ -3,6 +3,7 @@
 
 #include "Errors.h"
 #include "LocalTopology.h"
+#include "Parallel.h"
 #include "Place.h"
 
 #include <algorithm>
@@ -42,6 +43,27 @@ int costOf(const Neighbourhood& around, Label label)
   return criticalBlocks(changed) + topology + roughness;
 }
 
+/// Appends the lowest corners of the critical blocks between slices k and k + 1.
+void findInSlice(const PaddedMap& map, int k, std::vector<std::size_t>& result)
+{
+  const auto& size = map.grid.size;
+  const auto corners = cornerSteps(map.grid);
+  std::vector<Label> differs(size[0]);
+  for (int j = 0; j + 1 < size[1]; ++j)
+  {
+    const std::size_t begin = map.grid.index(0, j, k);
+    const Label* a = map.labels.data() + begin;
+    const Label *b = a + corners[2], *c = a + corners[4], *d = a + corners[6];
+    // Uniform blocks cost one comparison.
+    for (int i = 0; i < size[0]; ++i) differs[i] = (a[i] ^ b[i]) | (a[i] ^ c[i]) | (a[i] ^ d[i]);
+    for (int i = 0; i + 1 < size[0]; ++i)
+    {
+      if ((differs[i] | differs[i + 1] | (a[i] ^ a[i + 1])) == 0) continue;
+      if (isCritical({ a[i], a[i + 1], b[i], b[i + 1], c[i], c[i + 1], d[i], d[i + 1] })) result.push_back(begin + i);
+    }
+  }
+}
+
 constexpr std::uint8_t queued = 128; ///< in m_States; the other bits count the changes of the voxel
 constexpr std::uint8_t maximumCount = 127;
 constexpr int patience = 16; ///< changes of a voxel, where there is an original to go back to
@@ -50,26 +72,10 @@ constexpr int patience = 16; ///< changes of a voxel, where there is an original
 
 std::vector<std::size_t> findCriticalBlocks(const PaddedMap& map)
 {
-  const auto& size = map.grid.size;
-  const auto corners = cornerSteps(map.grid);
+  std::vector<std::vector<std::size_t>> slices(std::max(0, map.grid.size[2] - 1));
+  parallelForEach(slices.size(), [&](std::size_t k) { findInSlice(map, int(k), slices[k]); });
   std::vector<std::size_t> result;
-  std::vector<Label> differs(size[0]);
-  for (int k = 0; k + 1 < size[2]; ++k)
-  {
-    for (int j = 0; j + 1 < size[1]; ++j)
-    {
-      const std::size_t begin = map.grid.index(0, j, k);
-      const Label* a = map.labels.data() + begin;
-      const Label *b = a + corners[2], *c = a + corners[4], *d = a + corners[6];
-      // Uniform blocks cost one comparison.
-      for (int i = 0; i < size[0]; ++i) differs[i] = (a[i] ^ b[i]) | (a[i] ^ c[i]) | (a[i] ^ d[i]);
-      for (int i = 0; i + 1 < size[0]; ++i)
-      {
-        if ((differs[i] | differs[i + 1] | (a[i] ^ a[i + 1])) == 0) continue;
-        if (isCritical({ a[i], a[i + 1], b[i], b[i + 1], c[i], c[i + 1], d[i], d[i + 1] })) result.push_back(begin + i);
-      }
-    }
-  }
+  for (const std::vector<std::size_t>& slice : slices) result.insert(result.end(), slice.begin(), slice.end());
   return result;
 }
 
@@ -77,15 +83,15 @@ ContactResolver::ContactResolver(PaddedMap& map)
   : m_Map(map), m_Corners(cornerSteps(map.grid)), m_Around(neighbourSteps(map.grid)), m_States(map.labels.size(), 0),
     m_Voxels(labelCount, 0)
 {
-  for (const Label label : map.labels) ++m_Voxels[label];
+  for (const auto& [label, voxels] : countVoxels(map)) m_Voxels[label] = voxels;
 }
 
-ContactResolver::ContactResolver(PaddedMap& map, const PaddedMap& original, std::vector<bool> fixedVoxels,
+ContactResolver::ContactResolver(PaddedMap& map, const PaddedMap& original, std::function<bool(std::size_t)> isFixed,
                                  const std::set<Label>& closedLabels)
   : ContactResolver(map)
 {
   m_Original = &original;
-  m_Fixed = std::move(fixedVoxels);
+  m_IsFixed = std::move(isFixed);
   m_Closed = closedLabels;
 }
 
@@ -146,7 +152,7 @@ void ContactResolver::restore(std::size_t block)
   for (const std::ptrdiff_t corner : m_Corners)
   {
     const std::size_t voxel = block + corner;
-    m_Fixed[voxel] = true;
+    m_Restored.insert(voxel);
     if (m_Map.labels[voxel] == m_Original->labels[voxel]) continue;
     recordChange(m_Map.labels[voxel], m_Original->labels[voxel]);
     m_Map.labels[voxel] = m_Original->labels[voxel];

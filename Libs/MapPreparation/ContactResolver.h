@@ -7,8 +7,10 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <set>
+#include <unordered_set>
 #include <vector>
 
 namespace surgicalmesher
@@ -29,10 +31,14 @@ public:
   explicit ContactResolver(PaddedMap& map);
 
   /// `original` is well-composed, and the same as the map in all fixed voxels; closed labels gain nothing.
-  ContactResolver(PaddedMap& map, const PaddedMap& original, std::vector<bool> fixedVoxels,
+  ContactResolver(PaddedMap& map, const PaddedMap& original, std::function<bool(std::size_t)> isFixed,
                   const std::set<Label>& closedLabels);
 
-  const std::vector<bool>& fixedVoxels() const { return m_Fixed; } ///< those of restored blocks among them
+  /// Those of the margin and of restored blocks are.
+  bool isFixed(std::size_t voxel) const
+  {
+    return m_Map.isInMargin(voxel) || (m_Original && (m_IsFixed(voxel) || m_Restored.count(voxel) > 0));
+  }
 
   void enqueue(std::size_t block);
   void updateAfter(const RemovedVoxels& removed);
@@ -52,7 +58,6 @@ private:
   void enqueueAround(std::size_t voxel);
   void recordChange(Label from, Label to);
   void restore(std::size_t block);
-  bool isFixed(std::size_t voxel) const { return m_Map.isInMargin(voxel) || (m_Original && m_Fixed[voxel]); }
   Change bestChange(std::size_t block) const;
   void apply(const Change& change);
   int changesOf(std::size_t voxel) const;
@@ -66,7 +71,8 @@ private:
   std::vector<std::size_t> m_Voxels; ///< of each label
   std::vector<std::size_t> m_Queue;
   const PaddedMap* m_Original = nullptr;
-  std::vector<bool> m_Fixed; ///< empty without an original
+  std::function<bool(std::size_t)> m_IsFixed; ///< asked only where there is an original
+  std::unordered_set<std::size_t> m_Restored;
   std::set<Label> m_Closed;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "FeatureSimplification.h"
 
+#include "BoundaryFaces.h"
 #include "Parallel.h"
 #include "RegionRemoval.h"
 #include "VoxelBall.h"
@@ -8,6 +9,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -56,11 +59,10 @@ public:
     for (int index = 0; index <= indexOf(largestDiameter); ++index) m_Balls.emplace_back(grid, index * m_Unit / 2);
   }
 
-  const VoxelBall& ofDiameter(double diameter) const { return m_Balls[indexOf(diameter)]; }
+  const VoxelBall& operator[](int index) const { return m_Balls[index]; }
+  int indexOf(double diameter) const { return int(std::lround(diameter / m_Unit)); } ///< at most 4 * largestSize + 4
 
 private:
-  int indexOf(double diameter) const { return int(std::lround(diameter / m_Unit)); }
-
   double m_Unit;
   std::vector<VoxelBall> m_Balls;
 };
@@ -68,47 +70,74 @@ private:
 /// Cubes of voxels in which something may have to be looked at again.
 class DirtyCubes
 {
+  static constexpr int side = 4;
+
 public:
   explicit DirtyCubes(const Grid& grid) : m_Grid(grid)
   {
     for (int axis = 0; axis < 3; ++axis) m_Count[axis] = (grid.size[axis] + side - 1) / side;
-    m_Dirty.assign(std::size_t(m_Count[0]) * m_Count[1] * m_Count[2], true);
+    m_Changes.assign(std::size_t(m_Count[0]) * m_Count[1] * m_Count[2], 0);
   }
 
-  /// Marks the cubes that hold a voxel within `reach` steps along each axis.
-  void mark(std::size_t voxel, int reach)
+  /// Marks the cubes that hold a voxel with another label beside it, `margin` voxels at the grid's border left out.
+  void markBoundary(const TissueMap& map, int margin)
   {
-    const std::array<int, 3> p = m_Grid.voxelAt(voxel);
+    const auto& size = m_Grid.size;
+    parallelForEach(std::size_t(m_Count[2]),
+                    [&](std::size_t slab)
+                    {
+                      const int from = std::max(margin, int(slab) * side);
+                      const int to = std::min(size[2] - margin, (int(slab) + 1) * side);
+                      const auto mark = [&](std::size_t voxel)
+                      {
+                        const std::array<int, 3> c = m_Grid.voxelAt(voxel);
+                        m_Changes[(slab * m_Count[1] + c[1] / side) * m_Count[0] + c[0] / side] = 1;
+                      };
+                      for (int k = from; k < to; ++k)
+                        for (int j = margin; j < size[1] - margin; ++j)
+                          forEachBoundaryVoxel(map, j, k, margin, size[0] - margin, mark);
+                    });
+  }
+
+  /// Marks the cubes that hold a voxel within `reach` steps along each axis of a box in which so many voxels change.
+  void mark(const std::array<int, 3>& first, const std::array<int, 3>& last, int reach, std::size_t changes)
+  {
     std::array<int, 3> from, to;
     for (int axis = 0; axis < 3; ++axis)
     {
-      from[axis] = std::max(0, p[axis] - reach) / side;
-      to[axis] = std::min(m_Grid.size[axis] - 1, p[axis] + reach) / side;
+      from[axis] = std::max(0, first[axis] - reach) / side;
+      to[axis] = std::min(m_Grid.size[axis] - 1, last[axis] + reach) / side;
     }
     for (int k = from[2]; k <= to[2]; ++k)
-    {
       for (int j = from[1]; j <= to[1]; ++j)
-      {
-        for (int i = from[0]; i <= to[0]; ++i) m_Dirty[(std::size_t(k) * m_Count[1] + j) * m_Count[0] + i] = true;
-      }
-    }
+        for (int i = from[0]; i <= to[0]; ++i)
+          m_Changes[(std::size_t(k) * m_Count[1] + j) * m_Count[0] + i] += std::uint32_t(changes);
   }
 
-  /// The dirty cubes, ascending; all are clean afterwards.
-  std::vector<std::size_t> take()
+  struct Dirty
   {
-    std::vector<std::size_t> cubes;
-    for (std::size_t cube = 0; cube < m_Dirty.size(); ++cube)
-    {
-      if (m_Dirty[cube]) cubes.push_back(cube);
-    }
-    m_Dirty.assign(m_Dirty.size(), false);
+    std::size_t cube;
+    std::uint32_t changes; ///< no fewer than there are within reach of its voxels
+  };
+
+  /// The dirty cubes, ascending; all are clean afterwards.
+  std::vector<Dirty> take()
+  {
+    std::vector<Dirty> cubes;
+    for (std::size_t cube = 0; cube < m_Changes.size(); ++cube)
+      if (m_Changes[cube] > 0) cubes.push_back({ cube, std::exchange(m_Changes[cube], 0) });
     return cubes;
   }
 
-  /// Calls visit(voxel) for every voxel of a cube, `margin` voxels at the grid's border left out.
+  static constexpr int voxels = side * side * side; ///< of a cube
+
+  /// Of all cubes.
+  std::size_t count() const { return m_Changes.size(); }
+
+  /// Calls visit(voxel, its number in the cube) for every voxel of a cube with another label beside it, `margin` voxels
+  /// at the grid's border left out.
   template <typename Visit>
-  void visitVoxels(std::size_t cube, int margin, const Visit& visit) const
+  void visitBoundary(const TissueMap& map, std::size_t cube, int margin, const Visit& visit) const
   {
     const std::array<int, 3> c{ int(cube % m_Count[0]), int(cube / m_Count[0] % m_Count[1]),
                                 int(cube / m_Count[0] / m_Count[1]) };
@@ -119,19 +148,58 @@ public:
       to[axis] = std::min(m_Grid.size[axis] - margin, (c[axis] + 1) * side);
     }
     for (int k = from[2]; k < to[2]; ++k)
-    {
       for (int j = from[1]; j < to[1]; ++j)
       {
-        for (int i = from[0]; i < to[0]; ++i) visit(m_Grid.index(i, j, k));
+        const std::size_t first = m_Grid.index(c[0] * side, j, k);
+        const int row = (k % side * side + j % side) * side;
+        forEachBoundaryVoxel(map, j, k, from[0], to[0], [&](std::size_t v) { visit(v, row + int(v - first)); });
       }
-    }
   }
 
 private:
-  static constexpr int side = 4;
   const Grid& m_Grid;
   std::array<int, 3> m_Count;
-  std::vector<bool> m_Dirty;
+  std::vector<std::uint32_t> m_Changes; ///< by cube; none in clean ones
+};
+
+/// What is remembered of the voxels of a cube.
+struct CubeMemory
+{
+  static constexpr std::uint8_t unknown = 255, none = 0;
+
+  CubeMemory() { balls.fill(unknown); }
+
+  /// Numbers of their balls: L takes longer to find than a voxel to rule on.
+  std::array<std::uint8_t, DirtyCubes::voxels> balls;
+  /// A voxel keeps its label until as many voxels around it have changed; 0: not known.
+  std::array<std::uint8_t, DirtyCubes::voxels> room{};
+
+  void change(std::uint32_t voxels)
+  {
+    const auto all = std::uint8_t(std::min(voxels, std::uint32_t(unknown)));
+    for (std::uint8_t& left : room) left = left > all ? std::uint8_t(left - all) : std::uint8_t(0);
+  }
+};
+
+/// That of the cubes that have been looked at.
+class Memory
+{
+public:
+  explicit Memory(std::size_t cubes) : m_Place(cubes, absent) {}
+
+  void add(std::size_t cube)
+  {
+    if (m_Place[cube] != absent) return;
+    m_Place[cube] = std::uint32_t(m_Cubes.size());
+    m_Cubes.emplace_back();
+  }
+
+  CubeMemory& operator[](std::size_t cube) { return m_Cubes[m_Place[cube]]; }
+
+private:
+  static constexpr std::uint32_t absent = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> m_Place; ///< of each cube in m_Cubes
+  std::vector<CubeMemory> m_Cubes;
 };
 
 /// The two rules.
@@ -142,7 +210,7 @@ public:
              const std::set<Label>& closed)
     : m_Map(map), m_Closed(closed), m_Steps(neighbourSteps(map.grid)), m_Sizes(map, scale, featureScale),
       m_Largest(largest), m_Balls(map.grid, m_Sizes.smallestSpacing(), largest + m_Sizes.smallestSpacing()),
-      m_Dirty(map.grid)
+      m_Dirty(map.grid), m_Memory(m_Dirty.count())
   {
   }
 
@@ -191,53 +259,75 @@ private:
   {
     // A detail narrower than s is gone after s rounds. More would unravel thin sheets from their edges.
     const int rounds = int(std::ceil(m_Largest / m_Sizes.smallestSpacing()));
+    m_Dirty.markBoundary(m_Map, m_Map.margin);
     for (int round = 0; round < rounds; ++round)
-    {
-      for (const auto& changes : findChanges(m_Dirty.take()))
-      {
-        for (const auto& [voxel, label] : changes)
-        {
-          m_Map.labels[voxel] = label;
-          m_Dirty.mark(voxel, m_Map.margin - 1);
-        }
-      }
-    }
+      for (const Changes& changes : findChanges(m_Dirty.take())) apply(changes);
   }
 
-  using Changes = std::vector<std::pair<std::size_t, Label>>;
+  using Changes = std::vector<std::pair<std::size_t, Label>>; ///< of a cube
+
+  void apply(const Changes& changes)
+  {
+    if (changes.empty()) return;
+    std::array<int, 3> first = m_Map.grid.voxelAt(changes[0].first), last = first;
+    for (const auto& [voxel, label] : changes)
+    {
+      m_Map.labels[voxel] = label;
+      const std::array<int, 3> at = m_Map.grid.voxelAt(voxel);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        first[axis] = std::min(first[axis], at[axis]);
+        last[axis] = std::max(last[axis], at[axis]);
+      }
+    }
+    m_Dirty.mark(first, last, m_Map.margin - 1, changes.size());
+  }
 
   /// Per cube, what the share rule asks of the map as it is.
-  std::vector<Changes> findChanges(const std::vector<std::size_t>& cubes) const
+  std::vector<Changes> findChanges(const std::vector<DirtyCubes::Dirty>& cubes)
   {
     std::vector<Changes> changes(cubes.size());
+    for (const DirtyCubes::Dirty& dirty : cubes) m_Memory.add(dirty.cube);
     parallelFor(cubes.size(),
-                [&](vtkIdType c)
+                [&](std::size_t c)
                 {
-                  m_Dirty.visitVoxels(cubes[c], m_Map.margin,
-                                      [&](std::size_t voxel)
-                                      {
-                                        const Label label = ruling(voxel);
-                                        if (label != m_Map.labels[voxel]) changes[c].emplace_back(voxel, label);
-                                      });
+                  auto& [balls, room] = m_Memory[cubes[c].cube];
+                  m_Memory[cubes[c].cube].change(cubes[c].changes);
+                  m_Dirty.visitBoundary(m_Map, cubes[c].cube, m_Map.margin,
+                                        [&, &balls = balls, &room = room](std::size_t voxel, int n)
+                                        {
+                                          if (room[n] > 0) return;
+                                          if (balls[n] == CubeMemory::unknown) balls[n] = ballOf(voxel);
+                                          if (balls[n] == CubeMemory::none) return;
+                                          const Label label = ruling(voxel, m_Balls[balls[n]], room[n]);
+                                          if (label != m_Map.labels[voxel]) changes[c].emplace_back(voxel, label);
+                                        });
                 });
     return changes;
   }
 
-  /// The label that a voxel should have by the share rule.
-  Label ruling(std::size_t voxel) const
+  std::uint8_t ballOf(std::size_t voxel) const
+  {
+    const double size = m_Sizes.at(voxel);
+    // A ball through voxel centres: half a voxel wider on each side than what lies within it.
+    return size == 0 ? CubeMemory::none : std::uint8_t(m_Balls.indexOf(size + m_Sizes.smallestSpacing()));
+  }
+
+  /// The label that a voxel should have by the share rule; `room`: see CubeMemory, set if that is its own.
+  Label ruling(std::size_t voxel, const VoxelBall& ball, std::uint8_t& room) const
   {
     const Label own = m_Map.labels[voxel];
+    if (m_Closed.count(own)) return own;
+    const Label* const centre = m_Map.labels.data() + voxel;
+    const auto required = std::size_t(std::ceil(requiredShare * double(ball.size())));
+    const std::size_t ownShare = ball.count(centre, own);
+    if (ownShare >= required)
+    {
+      room = std::uint8_t(std::min(ownShare - required + 1, std::size_t(255)));
+      return own;
+    }
     std::array<Label, 6> others;
     const int count = othersBeside(voxel, own, others);
-    if (count == 0 || m_Closed.count(own)) return own;
-    const double size = m_Sizes.at(voxel);
-    if (size == 0) return own;
-
-    // A ball through voxel centres: half a voxel wider on each side than what lies within it.
-    const VoxelBall& ball = m_Balls.ofDiameter(size + m_Sizes.smallestSpacing());
-    const Label* const centre = m_Map.labels.data() + voxel;
-    const std::size_t ownShare = ball.count(centre, own);
-    if (ownShare >= std::size_t(std::ceil(requiredShare * ball.size()))) return own;
     Label best = own;
     std::size_t bestShare = ownShare;
     for (int o = 0; o < count; ++o)
@@ -270,6 +360,7 @@ private:
   double m_Largest; ///< s anywhere, mm
   Balls m_Balls;
   DirtyCubes m_Dirty;
+  Memory m_Memory;
 };
 
 /// Tissues of which less than half is left.
@@ -324,18 +415,9 @@ std::set<Label> simplifyFeatures(PaddedMap& map, const ScaleField& scale, const 
   return keptWhole;
 }
 
-std::vector<bool> voxelsBelowScale(const PaddedMap& map, const ScaleField& scale, double featureScale)
+bool isBelowScale(const PaddedMap& map, const ScaleField& scale, double featureScale, std::size_t voxel)
 {
-  const FeatureSizes sizes(map, scale, featureScale);
-  std::vector<bool> below(map.labels.size());
-  constexpr std::size_t together = 1 << 16; // threads must not share a word of the bits
-  parallelForEach((below.size() + together - 1) / together,
-                  [&](std::size_t n)
-                  {
-                    const std::size_t end = std::min(below.size(), (n + 1) * together);
-                    for (std::size_t v = n * together; v < end; ++v) below[v] = map.isInMargin(v) || sizes.at(v) == 0;
-                  });
-  return below;
+  return FeatureSizes(map, scale, featureScale).at(voxel) == 0;
 }
 
 } // namespace surgicalmesher

@@ -17,8 +17,8 @@
 #include "Progress.h"
 #include "ScaleField.h"
 
+#include <cstddef>
 #include <set>
-#include <vector>
 
 namespace surgicalmesher
 {
@@ -39,7 +39,7 @@ int featureMargin(const Grid& grid, const ScaleField& scale, double featureScale
 std::set<Label> simplifyFeatures(PaddedMap& map, const ScaleField& scale, const FeatureOptions& options,
                                  const Progress& progress = {});
 
-/// The voxels where s(x) is below the smallest voxel spacing, and all of the margin.
-std::vector<bool> voxelsBelowScale(const PaddedMap& map, const ScaleField& scale, double featureScale);
+/// Whether s(x) is below the smallest voxel spacing at the voxel that lies at `voxel` in memory.
+bool isBelowScale(const PaddedMap& map, const ScaleField& scale, double featureScale, std::size_t voxel);
 
 } // namespace surgicalmesher

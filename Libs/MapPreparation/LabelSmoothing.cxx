@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LabelSmoothing.h"
 
+#include "BoundaryFaces.h"
 #include "LocalTopology.h"
 #include "Parallel.h"
 
@@ -147,10 +148,13 @@ private:
   void findInSlice(int k, std::vector<Candidate>& result) const
   {
     const auto& size = m_Map.grid.size;
+    const auto consider = [&](std::size_t voxel)
+    {
+      if (!mayChange(voxel)) return;
+      if (const Candidate c = candidate(voxel); c.count > 0) result.push_back(c);
+    };
     for (int j = m_Map.margin; j < size[1] - m_Map.margin; ++j)
-      for (int i = m_Map.margin; i < size[0] - m_Map.margin; ++i)
-        if (const std::size_t voxel = m_Map.grid.index(i, j, k); mayChange(voxel))
-          if (const Candidate c = candidate(voxel); c.count > 0) result.push_back(c);
+      forEachBoundaryVoxel(m_Map, j, k, m_Map.margin, size[0] - m_Map.margin, consider);
   }
 
   /// A voxel with five of its own label beside it is in a wall, and stays.

@@ -3,6 +3,7 @@
 
 #include "DigitalTopology.h"
 #include "Parallel.h"
+#include "UnionFind.h"
 
 #include <algorithm>
 #include <array>
@@ -18,85 +19,60 @@ namespace
 
 using Voxels = std::vector<std::size_t>; // ascending where it serves as a set
 
-constexpr int centre = 13;
-
 bool holds(const Voxels& set, std::size_t voxel) { return std::binary_search(set.begin(), set.end(), voxel); }
 
-bool isFace(int neighbour)
-{
-  return std::find(sixNeighbours.begin(), sixNeighbours.end(), neighbour) != sixNeighbours.end();
-}
-
-/// Whether a part goes on to each neighbour of a voxel.
-std::array<bool, 27> joins(bool throughFacesOnly)
-{
-  std::array<bool, 27> result;
-  for (int n = 0; n < 27; ++n) result[n] = n != centre && (!throughFacesOnly || isFace(n));
-  return result;
-}
-
-/// Takes a set of voxels apart.
-class PartFinder
+/// Goes along a set with places that ascend, too.
+class Cursor
 {
 public:
-  PartFinder(const Voxels& set, const std::array<std::ptrdiff_t, 27>& steps, bool throughFacesOnly)
-    : m_Set(set), m_Steps(steps), m_IsJoined(joins(throughFacesOnly)), m_IsTaken(set.size(), false)
-  {
-  }
+  /// Looks at the set's voxels from `first` to `last`, counted from each place.
+  Cursor(const Voxels& set, std::ptrdiff_t first, std::ptrdiff_t last) : m_Set(set), m_First(first), m_Last(last) {}
 
-  std::vector<Voxels> find()
+  /// Calls f(n) for those at `place`.
+  template <class F>
+  void visitAt(std::size_t place, const F& f)
   {
-    std::vector<Voxels> parts;
-    for (std::size_t n = 0; n < m_Set.size(); ++n)
-      if (!m_IsTaken[n]) parts.push_back(partFrom(n));
-    return parts;
+    const auto offset = [&](std::size_t n) { return std::ptrdiff_t(m_Set[n]) - std::ptrdiff_t(place); };
+    while (m_Next < m_Set.size() && offset(m_Next) < m_First) ++m_Next;
+    for (std::size_t n = m_Next; n < m_Set.size() && offset(n) <= m_Last; ++n) f(n);
   }
 
 private:
-  Voxels partFrom(std::size_t first)
-  {
-    take(first);
-    Voxels part;
-    while (!m_Open.empty())
-    {
-      part.push_back(m_Set[m_Open.back()]);
-      m_Open.pop_back();
-      for (int row = 0; row < 27; row += 3) takeJoined(part.back(), row);
-    }
-    std::sort(part.begin(), part.end());
-    return part;
-  }
-
-  void take(std::size_t n)
-  {
-    m_IsTaken[n] = true;
-    m_Open.push_back(n);
-  }
-
-  /// Of the three neighbours in a row, which are next to each other in the set.
-  void takeJoined(std::size_t voxel, int row)
-  {
-    if (!m_IsJoined[row] && !m_IsJoined[row + 1] && !m_IsJoined[row + 2]) return;
-    const std::ptrdiff_t first = std::ptrdiff_t(voxel) + m_Steps[row];
-    auto at = std::lower_bound(m_Set.begin(), m_Set.end(), std::size_t(std::max<std::ptrdiff_t>(first, 0)));
-    for (; at != m_Set.end() && std::ptrdiff_t(*at) <= first + 2; ++at)
-    {
-      const auto n = std::size_t(at - m_Set.begin());
-      if (m_IsJoined[row + std::ptrdiff_t(*at) - first] && !m_IsTaken[n]) take(n);
-    }
-  }
-
   const Voxels& m_Set;
-  const std::array<std::ptrdiff_t, 27>& m_Steps;
-  const std::array<bool, 27> m_IsJoined;
-  std::vector<bool> m_IsTaken;
-  std::vector<std::size_t> m_Open; ///< numbers in the set, whose neighbours have not been looked at
+  std::ptrdiff_t m_First, m_Last;
+  std::size_t m_Next = 0;
 };
+
+/// Where a voxel's neighbours that come before it are found, row by row.
+std::vector<Cursor> earlierNeighbours(const Voxels& set, const std::array<std::ptrdiff_t, 27>& steps,
+                                      bool throughFacesOnly)
+{
+  const auto cursor = [&](int first, int last) { return Cursor(set, steps[first], steps[last]); };
+  if (throughFacesOnly) return { cursor(4, 4), cursor(10, 10), cursor(12, 12) };
+  return { cursor(0, 2), cursor(3, 5), cursor(6, 8), cursor(9, 11), cursor(12, 12) };
+}
 
 /// The parts that `set` falls into, each ascending, in the order of their first voxels.
 std::vector<Voxels> partsOf(const Voxels& set, const std::array<std::ptrdiff_t, 27>& steps, bool throughFacesOnly)
 {
-  return PartFinder(set, steps, throughFacesOnly).find();
+  std::vector<Cursor> earlier = earlierNeighbours(set, steps, throughFacesOnly);
+  UnionFind joined(set.size());
+  for (std::size_t n = 0; n < set.size(); ++n)
+    for (Cursor& row : earlier)
+      row.visitAt(set[n], [&](std::size_t other) { joined.unite(std::uint32_t(other), std::uint32_t(n)); });
+  std::vector<Voxels> parts;
+  std::vector<std::uint32_t> partOf(set.size()); // of each part's first voxel
+  for (std::uint32_t n = 0; n < set.size(); ++n)
+  {
+    const std::uint32_t first = joined.find(n);
+    if (first == n)
+    {
+      partOf[n] = std::uint32_t(parts.size());
+      parts.emplace_back();
+    }
+    parts[partOf[first]].push_back(set[n]);
+  }
+  return parts;
 }
 
 /// Regions of a map by voxel.
@@ -129,14 +105,15 @@ public:
 
   std::vector<MapChange> find() const
   {
-    const auto losses = changedBy(m_Before), gains = changedBy(m_After);
+    const Voxels voxels = changed();
+    const auto losses = byLabel(voxels, m_Before), gains = byLabel(voxels, m_After);
     std::vector<std::vector<MapChange>> found(losses.size() + gains.size());
     parallelForEach(found.size(),
                     [&](std::size_t n)
                     {
                       const bool isLoss = n < losses.size();
-                      const auto& [label, voxels] = isLoss ? losses[n] : gains[n - losses.size()];
-                      for (const Voxels& piece : partsOf(voxels, m_Steps, isLoss))
+                      const auto& [label, ofLabel] = isLoss ? losses[n] : gains[n - losses.size()];
+                      for (const Voxels& piece : partsOf(ofLabel, m_Steps, isLoss))
                         found[n].push_back(isLoss ? lost(label, piece) : gained(label, piece));
                     });
     std::vector<MapChange> changes;
@@ -148,15 +125,33 @@ public:
   }
 
 private:
-  /// The voxels that differ, by their labels in `map`.
-  std::vector<std::pair<Label, Voxels>> changedBy(const TissueMap& map) const
+  /// The voxels that differ, ascending.
+  Voxels changed() const
   {
-    std::map<Label, Voxels> byLabel;
-    for (std::size_t v = 0; v < m_Before.labels.size(); ++v)
-    {
-      if (m_Before.labels[v] != m_After.labels[v]) byLabel[map.labels[v]].push_back(v);
-    }
-    return { byLabel.begin(), byLabel.end() };
+    const std::size_t slice = std::size_t(m_Before.grid.size[0]) * m_Before.grid.size[1];
+    std::vector<Voxels> slices(m_Before.grid.size[2]);
+    parallelForEach(slices.size(),
+                    [&](std::size_t k)
+                    {
+                      const Label *const before = m_Before.labels.data(), *const after = m_After.labels.data();
+                      const std::size_t end = (k + 1) * slice;
+                      for (std::size_t v = k * slice; v < end; ++v)
+                      {
+                        v = std::size_t(std::mismatch(before + v, before + end, after + v).first - before);
+                        if (v < end) slices[k].push_back(v);
+                      }
+                    });
+    Voxels result;
+    for (const Voxels& voxels : slices) result.insert(result.end(), voxels.begin(), voxels.end());
+    return result;
+  }
+
+  /// Voxels by their labels in `map`.
+  static std::vector<std::pair<Label, Voxels>> byLabel(const Voxels& voxels, const TissueMap& map)
+  {
+    std::map<Label, Voxels> result;
+    for (const std::size_t v : voxels) result[map.labels[v]].push_back(v);
+    return { result.begin(), result.end() };
   }
 
   /// Voxels beside a piece, across corners too, that `belongs` accepts.

@@ -60,14 +60,21 @@ std::vector<bool> findIslands(const PaddedMap& map, const Regions& regions, cons
 }
 
 /// Leaves out the regions that hold a fixed voxel.
-void excludeFixed(std::vector<bool>& chosen, const Regions& regions, const Grid& grid,
-                  const std::vector<bool>& fixedVoxels)
+void excludeFixed(std::vector<bool>& chosen, const Regions& regions, const Grid& grid, const ContactResolver& resolver)
 {
   forEachRun(regions, grid.size[0],
              [&](std::uint32_t region, std::size_t begin, std::size_t end)
              {
-               for (std::size_t v = begin; chosen[region] && v < end; ++v) chosen[region] = !fixedVoxels[v];
+               for (std::size_t v = begin; chosen[region] && v < end; ++v) chosen[region] = !resolver.isFixed(v);
              });
+}
+
+/// Whether the map has another label than before at one of the voxels.
+bool hasChanged(const TissueMap& map, const RemovedVoxels& removed)
+{
+  for (std::size_t n = 0; n < removed.voxels.size(); ++n)
+    if (map.labels[removed.voxels[n]] != removed.labels[n]) return true;
+  return false;
 }
 
 /// Books every voxel that differs: as an island's if it was in an island of the given map, else as a contact's.
@@ -151,7 +158,7 @@ PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, 
 void prepareAgain(PaddedMap& map, const PaddedMap& prepared, const PreparationOptions& options,
                   const ChangeLimits& limits)
 {
-  ContactResolver resolver(map, prepared, limits.fixedVoxels, limits.closedLabels);
+  ContactResolver resolver(map, prepared, limits.isFixed, limits.closedLabels);
   for (const std::size_t block : findCriticalBlocks(map)) resolver.enqueue(block);
   constexpr int maximumRounds = 20;
   for (int round = 0; round < maximumRounds; ++round)
@@ -159,10 +166,9 @@ void prepareAgain(PaddedMap& map, const PaddedMap& prepared, const PreparationOp
     resolver.run();
     const Regions regions = connectedRegions(map);
     std::vector<bool> isIsland = findIslands(map, regions, options);
-    excludeFixed(isIsland, regions, map.grid, resolver.fixedVoxels());
-    const std::vector<Label> before = map.labels;
+    excludeFixed(isIsland, regions, map.grid, resolver);
     const RemovedVoxels cutOff = removeRegions(map, regions, isIsland, limits.closedLabels);
-    if (map.labels == before) break;
+    if (!hasChanged(map, cutOff)) break;
     resolver.updateAfter(cutOff);
   }
   resolver.run();

@@ -12,9 +12,9 @@
 #include "Progress.h"
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <set>
-#include <vector>
 
 namespace surgicalmesher
 {
@@ -59,8 +59,9 @@ PaddedMap preparedMap(const TissueMap& map, int margin, const PreparationOptions
 /// Which voxels of a prepared map a change has to leave alone.
 struct ChangeLimits
 {
-  std::vector<bool> fixedVoxels; ///< by voxel of the padded map: keep their label
-  std::set<Label> closedLabels;  ///< gain no voxel
+  std::function<bool(std::size_t)>
+    isFixed;                    ///< whether a voxel of the padded map keeps its label; those of the margin do
+  std::set<Label> closedLabels; ///< gain no voxel
 };
 
 /// Prepares a changed copy of a prepared map, within limits that the change has kept: removes the islands that it cut

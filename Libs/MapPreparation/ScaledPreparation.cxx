@@ -21,13 +21,11 @@ ScaledPreparationReport prepareAtScale(TissueMap& map, const ScaleField& scale, 
   result.keptWhole = simplifyFeatures(simplified, scale, features, subProgress(progress, 0.3, 0.8));
 
   report(progress, 0.8, "Resolving contacts");
-  ChangeLimits limits{ voxelsBelowScale(prepared, scale, features.featureScale), features.protectedLabels };
-  limits.closedLabels.insert(result.keptWhole.begin(), result.keptWhole.end());
-  for (std::size_t v = 0; v < prepared.labels.size(); ++v)
-  {
-    if (limits.closedLabels.count(prepared.labels[v])) limits.fixedVoxels[v] = true;
-  }
-  prepareAgain(simplified, prepared, preparation, limits);
+  std::set<Label> closed = features.protectedLabels;
+  closed.insert(result.keptWhole.begin(), result.keptWhole.end());
+  const auto isFixed = [&](std::size_t voxel)
+  { return closed.count(prepared.labels[voxel]) > 0 || isBelowScale(prepared, scale, features.featureScale, voxel); };
+  prepareAgain(simplified, prepared, preparation, { isFixed, closed });
   if (presentLabels(simplified) != presentLabels(prepared))
     throw EngineError("map preparation: a tissue got lost in simplification");
 

@@ -25,30 +25,16 @@ public:
   Unifier(PaddedMap& map, const ScaleField& scale, const UniformBlocksOptions& options)
     : m_Map(map), m_Scale(scale), m_Options(options), m_Around(neighbourSteps(map.grid))
   {
+    findMixed();
   }
 
-  /// Blocks of one parity along every axis change at once: what one reads, no other writes.
+  /// Gives blocks one label each, and tries those once more that a neighbour was in the way of. Blocks of one parity
+  /// along every axis change at once: what one reads, no other writes.
   void unify(int side)
   {
-    for (int parity = 0; parity < 8; ++parity)
-    {
-      const std::array<int, 3> first{ parity & 1, parity >> 1 & 1, parity >> 2 };
-      const auto& size = m_Map.grid.size;
-      std::array<int, 3> count;
-      for (int a = 0; a < 3; ++a) count[a] = std::max(0, ((size[a] - 2 * m_Map.margin) / side - first[a] + 1) / 2);
-      std::vector<Balance> lost(count[2]);
-      parallelForEach(std::size_t(count[2]),
-                      [&](std::size_t k)
-                      {
-                        for (int j = 0; j < count[1]; ++j)
-                          for (int i = 0; i < count[0]; ++i)
-                            unify(
-                              { (2 * i + first[0]) * side, (2 * j + first[1]) * side, (2 * int(k) + first[2]) * side },
-                              side, lost[k]);
-                      });
-      for (const Balance& of : lost)
-        for (const auto& [label, voxels] : of) m_Lost[label] += voxels;
-    }
+    std::array<std::vector<Corners>, 8> refused;
+    for (int parity = 0; parity < 8; ++parity) refused[parity] = unifyAll(blocksOf(side, parity), side);
+    for (int parity = 0; parity < 8; ++parity) unifyAll(refused[parity], side);
   }
 
 private:
@@ -59,6 +45,45 @@ private:
   };
 
   using Corner = std::array<int, 3>; ///< of a block: its first voxel in the map
+  using Corners = std::vector<Corner>;
+
+  /// The blocks of a parity that may have several labels, by layers.
+  std::vector<Corners> blocksOf(int side, int parity) const
+  {
+    const std::array<int, 3> first{ parity & 1, parity >> 1 & 1, parity >> 2 };
+    const auto& size = m_Map.grid.size;
+    std::array<int, 3> count;
+    for (int a = 0; a < 3; ++a) count[a] = std::max(0, ((size[a] - 2 * m_Map.margin) / side - first[a] + 1) / 2);
+    std::vector<Corners> layers(count[2]);
+    parallelForEach(
+      layers.size(),
+      [&](std::size_t k)
+      {
+        for (int j = 0; j < count[1]; ++j)
+          for (int i = 0; i < count[0]; ++i)
+          {
+            const Corner corner{ (2 * i + first[0]) * side, (2 * j + first[1]) * side, (2 * int(k) + first[2]) * side };
+            if (mayBeMixed(corner)) layers[k].push_back(corner);
+          }
+      });
+    return layers;
+  }
+
+  /// Returns those that have kept several labels although they are to have one.
+  std::vector<Corners> unifyAll(const std::vector<Corners>& layers, int side)
+  {
+    std::vector<Balance> lost(layers.size());
+    std::vector<Corners> refused(layers.size());
+    parallelForEach(layers.size(),
+                    [&](std::size_t k)
+                    {
+                      for (const Corner& corner : layers[k])
+                        if (!unify(corner, side, lost[k])) refused[k].push_back(corner);
+                    });
+    for (const Balance& of : lost)
+      for (const auto& [label, voxels] : of) m_Lost[label] += voxels;
+    return refused;
+  }
 
   bool isFine(const Corner& corner, int side) const
   {
@@ -67,6 +92,33 @@ private:
     Vec3 middle = grid.position(corner[0], corner[1], corner[2]);
     for (int a = 0; a < 3; ++a) middle[a] += half * grid.spacing[a];
     return side * grid.smallestSpacing() > m_Options.relativeSize * m_Scale(grid.gridToWorld(middle));
+  }
+
+  /// Most of a map's largest blocks have one label, and nothing in them changes.
+  void findMixed()
+  {
+    for (int a = 0; a < 3; ++a) m_Count[a] = (m_Map.grid.size[a] - 2 * m_Map.margin) / largestSide;
+    m_IsMixed.assign(std::size_t(m_Count[0]) * m_Count[1] * m_Count[2], true);
+    parallelForEach(std::size_t(m_Count[2]),
+                    [&](std::size_t k)
+                    {
+                      for (int j = 0; j < m_Count[1]; ++j)
+                        for (int i = 0; i < m_Count[0]; ++i)
+                          m_IsMixed[(k * m_Count[1] + j) * m_Count[0] + i] =
+                            isMixed({ i * largestSide, j * largestSide, int(k) * largestSide }, largestSide);
+                    });
+  }
+
+  /// Whether the largest block that holds the corner, if there is a whole one, had several labels.
+  bool mayBeMixed(const Corner& corner) const
+  {
+    Corner block;
+    for (int a = 0; a < 3; ++a)
+    {
+      block[a] = corner[a] / largestSide;
+      if (block[a] >= m_Count[a]) return true;
+    }
+    return m_IsMixed[(std::size_t(block[2]) * m_Count[1] + block[1]) * m_Count[0] + block[0]];
   }
 
   std::size_t voxelAt(const Corner& corner) const
@@ -107,9 +159,10 @@ private:
     return std::max_element(shares.begin(), shares.end(), less)->label;
   }
 
-  void unify(const Corner& corner, int side, Balance& lost)
+  /// False if the block is to have one label and cannot.
+  bool unify(const Corner& corner, int side, Balance& lost)
   {
-    if (!isMixed(corner, side) || isFine(corner, side)) return;
+    if (!isMixed(corner, side) || isFine(corner, side)) return true;
     std::vector<Share> shares;
     forEachVoxel(corner, side,
                  [&](std::size_t v)
@@ -121,8 +174,8 @@ private:
                    else ++at->voxels;
                  });
     for (const Share& s : shares)
-      if (m_Options.protectedLabels.count(s.label)) return;
-    give(corner, side, majority(shares), shares, lost);
+      if (m_Options.protectedLabels.count(s.label)) return true;
+    return give(corner, side, majority(shares), shares, lost);
   }
 
   struct Change
@@ -132,7 +185,7 @@ private:
   };
 
   /// Gives all voxels of the block to `label`, or none.
-  void give(const Corner& corner, int side, Label label, const std::vector<Share>& shares, Balance& lost)
+  bool give(const Corner& corner, int side, Label label, const std::vector<Share>& shares, Balance& lost)
   {
     std::vector<std::size_t> left;
     forEachVoxel(corner, side,
@@ -156,10 +209,11 @@ private:
     if (!left.empty() || leavesContacts(corner, side) || leavesBehind(changes, side / 2))
     {
       for (const Change& c : changes) m_Map.labels[c.voxel] = c.before;
-      return;
+      return false;
     }
     for (const Share& s : shares) lost[s.label] += s.voxels;
     lost[label] -= side * side * side;
+    return true;
   }
 
   /// Whether a label has nothing left within `most` voxels along an axis of one that it has lost: the end of something
@@ -199,6 +253,8 @@ private:
   const ScaleField& m_Scale;
   const UniformBlocksOptions& m_Options;
   const std::array<std::ptrdiff_t, 27> m_Around;
+  std::array<int, 3> m_Count;  ///< of whole blocks of the largest side
+  std::vector<char> m_IsMixed; ///< these, i fastest
   Balance m_Lost;
 };
 
@@ -212,8 +268,7 @@ TissueMap withUniformBlocks(const TissueMap& map, const ScaleField& scale, const
   if (!hasCubicVoxels(map.grid)) return result;
   PaddedMap work = padded(map, largestSide / 2);
   Unifier unifier(work, scale, options);
-  for (int side = 2; side <= largestSide; side *= 2)
-    for (int round = 0; round < 2; ++round) unifier.unify(side); // what a neighbour was in the way of
+  for (int side = 2; side <= largestSide; side *= 2) unifier.unify(side);
   copyWithoutMargin(work, result);
   return result;
 }

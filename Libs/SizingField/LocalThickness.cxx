@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "LocalThickness.h"
 
+#include "BoundaryFaces.h"
 #include "PaddedMap.h"
 #include "Parallel.h"
 
@@ -43,6 +44,21 @@ public:
   double thickness(std::size_t voxel, double limit) const
   {
     const Vec3& s = m_Map.grid.spacing;
+    const double fewVoxels = 3.5 * std::max({ s.x, s.y, s.z });
+    const Vec3 normal = outwardNormal(voxel);
+    const bool hasNormal = squaredNorm(normal) > 0;
+    const double alongNormal = hasNormal ? chord(voxel, normal, limit) : 0;
+    if (hasNormal && alongAxes(voxel, std::min(fewVoxels, limit))[0] >= fewVoxels) return alongNormal;
+    const std::array<double, 3> along = alongAxes(voxel, limit);
+    if (!hasNormal) return along[0];
+    const bool isFlat = along[0] < fewVoxels && along[1] >= std::min(4 * along[0], limit);
+    return isFlat ? std::min(alongNormal, along[0]) : alongNormal;
+  }
+
+private:
+  /// Chords along the axes, ascending.
+  std::array<double, 3> alongAxes(std::size_t voxel, double limit) const
+  {
     std::array<double, 3> along;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -51,14 +67,9 @@ public:
       along[axis] = chord(voxel, direction, limit);
     }
     std::sort(along.begin(), along.end());
-    const Vec3 normal = outwardNormal(voxel);
-    if (squaredNorm(normal) == 0) return along[0];
-    const double alongNormal = chord(voxel, normal, limit);
-    const bool isFlat = along[0] < 3.5 * std::max({ s.x, s.y, s.z }) && along[1] >= std::min(4 * along[0], limit);
-    return isFlat ? std::min(alongNormal, along[0]) : alongNormal;
+    return along;
   }
 
-private:
   /// Of unit length, or 0 if the labels around show no direction.
   Vec3 outwardNormal(std::size_t voxel) const
   {
@@ -120,29 +131,29 @@ private:
 };
 
 /// Slice k of the map.
-LocalThickness measureSlice(const TissueMap& map, const TissueMap& paddedMap, const ScaleField& scale, int k)
+LocalThickness measureSlice(const Grid& grid, const TissueMap& paddedMap, const ScaleField& scale, int k)
 {
   const Chords chords(paddedMap);
-  const Grid& grid = map.grid;
   LocalThickness result;
+  const auto measure = [&](std::size_t inPadded, int i, int j)
+  {
+    const Label label = paddedMap.labels[inPadded];
+    if (label == 0) return;
+    const double area = chords.exposedArea(inPadded);
+    TissueThickness& tissue = result.tissues[label];
+    tissue.area += area;
+    const double length = scale(grid.gridToWorld(grid.position(i, j, k)));
+    const double thickness = chords.thickness(inPadded, length);
+    if (!(thickness < length)) return;
+    tissue.smallest = tissue.thinArea == 0 ? thickness : std::min(tissue.smallest, thickness);
+    tissue.thinArea += area;
+    result.thinVoxels.push_back({ grid.index(i, j, k), float(thickness) });
+  };
   for (int j = 0; j < grid.size[1]; ++j)
   {
-    for (int i = 0; i < grid.size[0]; ++i)
-    {
-      const std::size_t voxel = grid.index(i, j, k);
-      const std::size_t inPadded = paddedMap.grid.index(i + margin, j + margin, k + margin);
-      const Label label = map.labels[voxel];
-      const double area = label == 0 ? 0 : chords.exposedArea(inPadded);
-      if (area == 0) continue;
-      TissueThickness& tissue = result.tissues[label];
-      tissue.area += area;
-      const double length = scale(grid.gridToWorld({ i * grid.spacing.x, j * grid.spacing.y, k * grid.spacing.z }));
-      const double thickness = chords.thickness(inPadded, length);
-      if (!(thickness < length)) continue;
-      tissue.smallest = tissue.thinArea == 0 ? thickness : std::min(tissue.smallest, thickness);
-      tissue.thinArea += area;
-      result.thinVoxels.push_back({ voxel, float(thickness) });
-    }
+    const std::size_t first = paddedMap.grid.index(margin, j + margin, k + margin);
+    forEachBoundaryVoxel(paddedMap, j + margin, k + margin, margin, margin + grid.size[0],
+                         [&](std::size_t inPadded) { measure(inPadded, int(inPadded - first), j); });
   }
   return result;
 }
@@ -166,7 +177,7 @@ LocalThickness measureThickness(const TissueMap& map, const ScaleField& scale)
 {
   const TissueMap paddedMap = padded(map, margin);
   std::vector<LocalThickness> slices(map.grid.size[2]);
-  parallelFor(map.grid.size[2], [&](vtkIdType k) { slices[k] = measureSlice(map, paddedMap, scale, int(k)); });
+  parallelForEach(slices.size(), [&](std::size_t k) { slices[k] = measureSlice(map.grid, paddedMap, scale, int(k)); });
   LocalThickness result;
   for (const LocalThickness& slice : slices) append(result, slice);
   return result;

@@ -246,21 +246,27 @@ ScaleField followFlatTissues(const ScaleField& scale, const TissueMap& map, cons
   const double longest = *std::max_element(scale.lengths.begin(), scale.lengths.end());
   std::vector<bool> mayBeFlat(labelCount, false);
   for (const auto& [label, t] : thickness) mayBeFlat[label] = t < flattest * longest;
-  std::vector<std::pair<double, std::size_t>> lengths(labelCount); // sum and number, of those
-  for (int k = 0; k < map.grid.size[2]; ++k)
-    for (int j = 0; j < map.grid.size[1]; ++j)
-      for (int i = 0; i < map.grid.size[0]; ++i)
-        if (const Label label = map.labels[map.grid.index(i, j, k)]; mayBeFlat[label])
-        {
-          auto& [sum, number] = lengths[label];
-          sum += scale(map.grid.gridToWorld({ i * h.x, j * h.y, k * h.z }));
-          ++number;
-        }
+  std::vector<std::map<Label, std::pair<double, std::size_t>>> lengths(map.grid.size[2]); // sum and number, of those
+  parallelForEach(lengths.size(),
+                  [&](std::size_t k)
+                  {
+                    for (int j = 0; j < map.grid.size[1]; ++j)
+                      for (int i = 0; i < map.grid.size[0]; ++i)
+                        if (const Label label = map.labels[map.grid.index(i, j, int(k))]; mayBeFlat[label])
+                        {
+                          auto& [sum, number] = lengths[k][label];
+                          sum += scale(map.grid.gridToWorld({ i * h.x, j * h.y, k * h.z }));
+                          ++number;
+                        }
+                  });
   TissueSettings flat;
   for (const auto& [label, t] : thickness)
   {
     if (!mayBeFlat[label]) continue;
-    const auto& [sum, number] = lengths[label];
+    double sum = 0;
+    std::size_t number = 0;
+    for (const auto& slice : lengths)
+      if (const auto at = slice.find(label); at != slice.end()) sum += at->second.first, number += at->second.second;
     const double length = sum / double(number), extent = std::cbrt(double(number) * h.x * h.y * h.z);
     if (t < flattest * length && extent > 0.9 * length) flat[label].maximumEdgeLength = t / flatness;
   }

@@ -79,6 +79,31 @@ void forEachBoundaryFace(const TissueMap& map, int k, F&& f)
   }
 }
 
+/// Calls f(index) for the voxels of row (j, k) from i = `first` up to `last`, which is not one of them, that have another
+/// label beside them, in order. The neighbours of all lie in the map.
+template <class F>
+void forEachBoundaryVoxel(const TissueMap& map, int j, int k, int first, int last, F&& f)
+{
+  constexpr int together = 32; // voxels
+  const std::ptrdiff_t nextRow = map.grid.size[0], nextSlice = nextRow * map.grid.size[1];
+  const std::size_t row = map.grid.index(0, j, k);
+  const auto differences = [&, own = map.labels.data() + row](int i)
+  {
+    const Label *const at = own + i, label = *at;
+    return Label((label ^ at[-1]) | (label ^ at[1]) | (label ^ at[-nextRow]) | (label ^ at[nextRow]) |
+                 (label ^ at[-nextSlice]) | (label ^ at[nextSlice]));
+  };
+  for (int begin = first; begin < last; begin += together)
+  {
+    const int end = std::min(begin + together, last);
+    Label any = 0;
+    for (int i = begin; i < end; ++i) any = Label(any | differences(i));
+    if (any == 0) continue;
+    for (int i = begin; i < end; ++i)
+      if (differences(i) != 0) f(row + i);
+  }
+}
+
 /// The sum of sumOfSlice(k) over all slices that have faces' lower voxels, in their order whatever the threads.
 template <class T, class F>
 T sumOverBoundarySlices(const TissueMap& map, F&& sumOfSlice)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DigitalTopology.h"
 
+#include "Parallel.h"
 #include "UnionFind.h"
 
 #include <algorithm>
@@ -29,19 +30,55 @@ struct RunUnion
   }
 };
 
-void appendRow(RunUnion& u, std::size_t row, bool atBorder)
+/// The runs of a slice, and how many each of its rows has.
+struct SliceRuns
 {
-  const Label* labels = u.row(row);
-  const Index size = Index(u.map.grid.size[0]);
-  for (Index i = 0; i < size;)
+  std::vector<Run> runs;
+  std::vector<std::size_t> perRow;
+};
+
+SliceRuns runsOf(const TissueMap& map, int k)
+{
+  SliceRuns result;
+  const Index size = Index(map.grid.size[0]);
+  for (int j = 0; j < map.grid.size[1]; ++j)
   {
-    const Index begin = i;
-    while (i < size && labels[i] == labels[begin]) ++i;
-    u.regions.runs.push_back({ begin, 0 });
-    const Index set = u.sets.add();
-    if (labels[begin] == 0 && (atBorder || begin == 0 || i == size)) u.sets.unite(set, 0);
+    const std::size_t before = result.runs.size();
+    const Label* labels = map.labels.data() + map.grid.index(0, j, k);
+    for (Index i = 0; i < size;)
+    {
+      const Index begin = i;
+      while (i < size && labels[i] == labels[begin]) ++i;
+      result.runs.push_back({ begin, 0 });
+    }
+    result.perRow.push_back(result.runs.size() - before);
   }
-  u.regions.rowBegins.push_back(u.regions.runs.size());
+  return result;
+}
+
+/// Each a set of its own.
+RunUnion separateRuns(const TissueMap& map)
+{
+  std::vector<SliceRuns> slices(map.grid.size[2]);
+  parallelForEach(slices.size(), [&](std::size_t k) { slices[k] = runsOf(map, int(k)); });
+  RunUnion u{ map, {}, {} };
+  u.regions.rowBegins.assign(1, 0);
+  for (const SliceRuns& slice : slices)
+  {
+    u.regions.runs.insert(u.regions.runs.end(), slice.runs.begin(), slice.runs.end());
+    for (const std::size_t runs : slice.perRow) u.regions.rowBegins.push_back(u.regions.rowBegins.back() + runs);
+  }
+  u.sets = UnionFind(u.regions.runs.size() + 1);
+  return u;
+}
+
+/// Unites the runs of background in a row with the outside where they touch it.
+void uniteWithOutside(RunUnion& u, std::size_t row, bool atBorder)
+{
+  const std::size_t begin = u.regions.rowBegins[row], end = u.regions.rowBegins[row + 1];
+  for (std::size_t r = begin; r < end; ++r)
+    if (u.row(row)[u.regions.runs[r].begin] == 0 && (atBorder || r == begin || r + 1 == end))
+      u.sets.unite(Index(r + 1), 0);
 }
 
 /// Unites the overlapping runs of equal label in two neighbouring rows.
@@ -138,6 +175,12 @@ public:
     }
   }
 
+  void add(const BlockCounts& part)
+  {
+    for (std::size_t r = 0; r < euler.size(); ++r) euler[r] += part.euler[r];
+    m_Edges.insert(m_Edges.end(), part.m_Edges.begin(), part.m_Edges.end());
+  }
+
   /// Every pair of adjacent regions once, ascending.
   std::vector<Edge> takeEdges()
   {
@@ -183,22 +226,35 @@ void addBlockRow(BlockCounts& counts, const std::array<const Index*, 4>& rows, s
   }
 }
 
-BlockCounts countBlocks(const Grid& grid, const Regions& regions)
+/// Adds the blocks whose lower voxels are in the slices from `begin` up to `end`, which is not one of them.
+void addBlocks(BlockCounts& counts, const Grid& grid, const Regions& regions, int begin, int end)
 {
-  BlockCounts counts(regions.list.size());
   RegionSlice below(grid), above(grid);
   const std::size_t rowSize = grid.size[0] + 2;
   std::vector<Index> differs(rowSize);
-  for (int k = -1; k < grid.size[2]; ++k)
+  above.load(regions, begin);
+  for (int k = begin; k < end; ++k)
   {
     std::swap(below, above);
     above.load(regions, k + 1);
     for (int j = -1; j < grid.size[1]; ++j)
-    {
       addBlockRow(counts, { below.row(j), below.row(j + 1), above.row(j), above.row(j + 1) }, rowSize, differs);
-    }
   }
-  return counts;
+}
+
+BlockCounts countBlocks(const Grid& grid, const Regions& regions)
+{
+  constexpr int most = 8, worthwhile = 16; // parts, slices of each
+  const int slices = grid.size[2] + 1, parts = std::clamp(slices / worthwhile, 1, most);
+  std::vector<BlockCounts> counts(parts, BlockCounts(regions.list.size()));
+  parallelForEach(counts.size(),
+                  [&](std::size_t n)
+                  {
+                    const auto sliceAt = [&](std::size_t part) { return int(part) * slices / parts - 1; };
+                    addBlocks(counts[n], grid, regions, sliceAt(n), sliceAt(n + 1));
+                  });
+  for (std::size_t n = 1; n < counts.size(); ++n) counts[0].add(counts[n]);
+  return std::move(counts[0]);
 }
 
 /// Neighbours of every region, in one pool.
@@ -267,15 +323,13 @@ Regions connectedRegions(const TissueMap& map)
 {
   const auto [sizeI, sizeJ, sizeK] = map.grid.size;
   (void)sizeI;
-  RunUnion u{ map, {}, {} };
-  u.sets.add();
-  u.regions.rowBegins.assign(1, 0);
+  RunUnion u = separateRuns(map);
   for (int k = 0; k < sizeK; ++k)
   {
     for (int j = 0; j < sizeJ; ++j)
     {
       const std::size_t row = std::size_t(k) * sizeJ + j;
-      appendRow(u, row, j == 0 || k == 0 || j + 1 == sizeJ || k + 1 == sizeK);
+      uniteWithOutside(u, row, j == 0 || k == 0 || j + 1 == sizeJ || k + 1 == sizeK);
       if (j > 0) uniteRows(u, row - 1, row);
       if (k > 0) uniteRows(u, row - sizeJ, row);
     }
@@ -304,11 +358,7 @@ std::map<Label, Betti> tissueTopology(const TissueMap& map)
   std::map<Label, Betti> result;
   for (std::size_t r = 1; r < topology.size(); ++r)
   {
-    if (regions.list[r].label == 0) continue;
-    Betti& tissue = result[regions.list[r].label];
-    tissue.components += topology[r].components;
-    tissue.tunnels += topology[r].tunnels;
-    tissue.cavities += topology[r].cavities;
+    if (regions.list[r].label != 0) result[regions.list[r].label] += topology[r];
   }
   return result;
 }

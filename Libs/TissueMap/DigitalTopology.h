@@ -23,6 +23,13 @@ struct Betti
   int cavities = 0;   ///< b2
 
   int euler() const { return components - tunnels + cavities; }
+  Betti& operator+=(const Betti& part)
+  {
+    components += part.components;
+    tunnels += part.tunnels;
+    cavities += part.cavities;
+    return *this;
+  }
 };
 
 inline bool operator==(const Betti& a, const Betti& b)

@@ -150,11 +150,12 @@ void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const F
                                        readPreparation(line, results.settings), features, progress);
   results.tissues = map.table;
   const std::string file = line.outputFile("preparedLabelMap");
-  runInParallel({ [&] { results.topology = tissueTopology(map); }, [&] { results.structures = structuresOf(map); },
+  runInParallel({ [&] { results.structures = structuresOf(map); },
                   [&]
                   {
                     if (!file.empty()) writeTissueMap(map, file);
                   } });
+  for (const Structure& structure : results.structures) results.topology[structure.label] += structure.topology;
 }
 
 /// The lengths that the surface follows on the prepared map.

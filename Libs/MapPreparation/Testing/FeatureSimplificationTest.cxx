@@ -3,7 +3,9 @@
 
 #include "DigitalTopology.h"
 #include "MapPreparation.h"
+#include "RegionRemoval.h"
 #include "TissueMapIO.h"
+#include "VoxelBall.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
@@ -172,11 +174,67 @@ TEST(FeatureSimplification, MapBelowTheScaleStays)
   const ScaleField scale = gradedScale(map.grid);
   simplify(map, scale, scaleOf(0.5));
   EXPECT_GT(differences(map, before), 0u);
-  const std::vector<bool> below = voxelsBelowScale(padded(map, 0), scale, 0.5);
+  const PaddedMap unpadded = padded(map, 0);
   for (std::size_t v = 0; v < map.labels.size(); ++v)
   {
-    EXPECT_EQ(below[v], 0.5 * scale.lengths[v] < 1);
-    EXPECT_TRUE(!below[v] || map.labels[v] == before.labels[v]);
+    const bool isBelow = isBelowScale(unpadded, scale, 0.5, v);
+    EXPECT_EQ(isBelow, 0.5 * scale.lengths[v] < 1);
+    EXPECT_TRUE(!isBelow || map.labels[v] == before.labels[v]);
+  }
+}
+
+/// The share rule as FeatureSimplification.h has it, with one size everywhere: every voxel is looked at in every round.
+void applyShareRuleEverywhere(PaddedMap& map, double size, int rounds)
+{
+  const auto steps = neighbourSteps(map.grid);
+  const VoxelBall ball(map.grid, (size + 1) / 2);
+  const auto share = [&](std::size_t v, Label label) { return ball.count(map.labels.data() + v, label); };
+  for (int round = 0; round < rounds; ++round)
+  {
+    std::vector<Label> next = map.labels;
+    for (std::size_t v = 0; v < next.size(); ++v)
+    {
+      if (map.isInMargin(v) || double(share(v, map.labels[v])) >= std::ceil(0.38 * double(ball.size()))) continue;
+      for (const int face : sixNeighbours)
+      {
+        const Label label = map.labels[v + steps[face]];
+        const std::size_t best = share(v, next[v]), other = share(v, label);
+        if (other > best || (other == best && next[v] != map.labels[v] && label < next[v])) next[v] = label;
+      }
+    }
+    map.labels = next;
+  }
+}
+
+/// Islands and pockets under size^3.
+void removeRegionsUnder(PaddedMap& map, double size)
+{
+  const Regions regions = connectedRegions(map);
+  std::vector<bool> isSmall = largestRegions(regions);
+  for (std::size_t r = 0; r < isSmall.size(); ++r)
+    isSmall[r] = r != 0 && (!isSmall[r] || regions.list[r].label == 0) &&
+                 double(regions.list[r].voxels) < size * size * size;
+  removeRegions(map, regions, isSmall);
+}
+
+TEST(FeatureSimplification, LooksAtEveryVoxelThatMayChange)
+{
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 12; ++trial)
+  {
+    const double size = 2 + trial % 3;
+    TissueMap map = noise(random, 26, 3);
+    PaddedMap padding = padded(map, 6);
+    applyShareRuleEverywhere(padding, 3, 3); // noise in lumps, which change for several rounds
+    copyWithoutMargin(padding, map);
+    PaddedMap expected = padded(map, featureMargin(map.grid, uniformScale(2 * size), 0.5)), simplified = expected;
+    removeRegionsUnder(expected, size);
+    applyShareRuleEverywhere(expected, size, int(size));
+    removeRegionsUnder(expected, size);
+    const std::set<Label> keptWhole = simplifyFeatures(simplified, uniformScale(2 * size), scaleOf(0.5));
+    ASSERT_TRUE(keptWhole.empty()) << trial;
+    EXPECT_NE(simplified.labels, padded(map, simplified.margin).labels) << trial;
+    EXPECT_EQ(simplified.labels, expected.labels) << trial;
   }
 }
 

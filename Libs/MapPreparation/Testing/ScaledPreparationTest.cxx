@@ -154,10 +154,11 @@ TEST(ScaledPreparation, KeepsItsPromisesOnNoise)
 
     ASSERT_EQ(countCriticalBlocks(simple), 0u) << "trial " << trial;
     EXPECT_EQ(presentLabels(simple), presentLabels(given)) << "trial " << trial;
-    const std::vector<bool> below = voxelsBelowScale(padded(given, 0), scale, features.featureScale);
+    const PaddedMap unpadded = padded(given, 0);
     for (std::size_t v = 0; v < given.labels.size(); ++v)
     {
-      ASSERT_TRUE(!below[v] || simple.labels[v] == prepared.labels[v]) << "trial " << trial;
+      const bool isBelow = isBelowScale(unpadded, scale, features.featureScale, v);
+      ASSERT_TRUE(!isBelow || simple.labels[v] == prepared.labels[v]) << "trial " << trial;
       for (const Label label : features.protectedLabels)
         ASSERT_EQ(simple.labels[v] == label, prepared.labels[v] == label) << "trial " << trial;
     }

@@ -60,6 +60,31 @@ TEST(BoundaryFaces, AreThoseBetweenLabelsInOrder)
     }
 }
 
+TEST(BoundaryVoxels, AreThoseBesideAnotherLabelInOrder)
+{
+  const std::array<int, 3> sizes[] = { { 3, 3, 3 }, { 6, 4, 3 }, { 34, 5, 4 }, { 35, 3, 3 }, { 100, 7, 5 } };
+  for (unsigned seed = 0; seed < 20; ++seed)
+    for (const auto& size : sizes)
+    {
+      const TissueMap map = mostlyUniform(size, seed);
+      std::vector<std::size_t> walked, expected;
+      for (int k = 1; k + 1 < size[2]; ++k)
+        for (int j = 1; j + 1 < size[1]; ++j)
+        {
+          forEachBoundaryVoxel(map, j, k, 1, size[0] - 1, [&](std::size_t v) { walked.push_back(v); });
+          for (int i = 1; i + 1 < size[0]; ++i)
+          {
+            const auto differs = [&](int di, int dj, int dk)
+            { return labelAt(map, { i + di, j + dj, k + dk }) != labelAt(map, { i, j, k }); };
+            if (differs(-1, 0, 0) || differs(1, 0, 0) || differs(0, -1, 0) || differs(0, 1, 0) || differs(0, 0, -1) ||
+                differs(0, 0, 1))
+              expected.push_back(map.grid.index(i, j, k));
+          }
+        }
+      EXPECT_EQ(walked, expected) << size[0] << ' ' << seed;
+    }
+}
+
 TEST(BoundaryFaces, HaveAVoxelInsideTheMap)
 {
   const TissueMap map = mostlyUniform({ 5, 4, 3 }, 1);
