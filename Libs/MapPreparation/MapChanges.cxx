@@ -159,12 +159,12 @@ private:
   Voxels around(const Voxels& piece, const Predicate& belongs) const
   {
     Voxels result;
-    for (const std::size_t voxel : piece)
+    for (std::size_t begin = 0, end; begin < piece.size(); begin = end)
     {
-      for (const std::ptrdiff_t step : m_Steps)
-      {
-        if (belongs(voxel + step)) result.push_back(voxel + step);
-      }
+      for (end = begin + 1; end < piece.size() && piece[end] == piece[end - 1] + 1;) ++end; // a run along i
+      for (int row = 0; row < 27; row += 3)
+        for (std::size_t v = piece[begin] + m_Steps[row]; v <= piece[end - 1] + m_Steps[row + 2]; ++v)
+          if (belongs(v)) result.push_back(v);
     }
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());

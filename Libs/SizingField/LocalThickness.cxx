@@ -62,9 +62,9 @@ private:
     std::array<double, 3> along;
     for (int axis = 0; axis < 3; ++axis)
     {
-      Vec3 direction;
-      direction[axis] = 1;
-      along[axis] = chord(voxel, direction, limit);
+      const double outwards = reachAlong(axis, m_Strides[axis], voxel, limit);
+      along[axis] =
+        outwards < limit ? outwards + reachAlong(axis, -m_Strides[axis], voxel, limit - outwards) : outwards;
     }
     std::sort(along.begin(), along.end());
     return along;
@@ -83,9 +83,9 @@ private:
         int others = 0;
         for (int di = -margin; di <= margin; ++di)
         {
-          if (row[di] == own) continue;
-          ++others;
-          sum[0] += di;
+          const int isOther = row[di] != own; // without branches, which would be chance
+          others += isOther;
+          sum[0] += isOther * di;
         }
         sum[1] += others * dj;
         sum[2] += others * dk;
@@ -103,7 +103,19 @@ private:
     return outwards < limit ? outwards + reach(voxel, -direction, limit - outwards) : outwards;
   }
 
-  /// How far one stays in the label from the centre of the voxel on, face by face (Amanatides and Woo 1987).
+  /// How far one stays in the label from the centre of the voxel on, along an axis.
+  double reachAlong(int axis, std::ptrdiff_t step, std::size_t voxel, double limit) const
+  {
+    const Label own = m_Map.labels[voxel];
+    const double between = m_Map.grid.spacing[axis];
+    for (double way = between / 2;; way += between)
+    {
+      voxel += step;
+      if (way >= limit || m_Map.labels[voxel] != own) return way;
+    }
+  }
+
+  /// The same in any direction, face by face (Amanatides and Woo 1987).
   double reach(std::size_t voxel, const Vec3& direction, double limit) const
   {
     std::array<double, 3> next, between; // way to the next face across each axis, and from one to the other
