@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace surgicalmesher
 {
@@ -112,7 +114,7 @@ private:
   struct Neighbour
   {
     std::int32_t vertex;
-    Block own{}, between{};
+    Block between{};
   };
 
   void addDiagonals(std::int32_t t, double factor)
@@ -122,28 +124,61 @@ private:
     for (int i = 0; i < 4; ++i) add(m_Diagonal[m_Complex.tets[t][i]], stiffnessOf(shape, i, i), factor);
   }
 
-  /// Fills m_Own and m_Neighbours with what the tetrahedra at v add, were it at p.
-  void gather(std::int32_t v, const Vec3& p)
+  /// A vertex beside the one that is worked on, and where it is in the tetrahedra there.
+  struct Side
   {
-    m_Own = {};
-    m_Neighbours.clear();
+    std::int32_t vertex;
+    std::vector<std::pair<std::size_t, int>> corners; ///< number among m_Tissues, corner
+  };
+
+  /// Fills m_Tissues and m_Sides, in the order of the star.
+  void gatherSides(std::int32_t v)
+  {
+    m_Tissues.clear();
+    m_Sides.clear();
     for (const std::int32_t t : m_Operations.star(v))
     {
       if (m_Complex.labels[t] == 0) continue;
-      const LinearTetrahedron shape = shapeOf(m_Complex, t, v, p);
-      const auto& x = m_Complex.tets[t];
       const int at = m_Complex.indexOf(t, v);
       for (int i = 0; i < 4; ++i)
-      {
-        if (i == at) add(m_Own, stiffnessOf(shape, i, i), 1);
-        else
-        {
-          Neighbour& n = neighbour(x[i]);
-          add(n.own, stiffnessOf(shape, i, i), 1);
-          add(n.between, stiffnessOf(shape, at, i), 1);
-        }
-      }
+        if (i != at) side(m_Complex.tets[t][i]).corners.emplace_back(m_Tissues.size(), i);
+      m_Tissues.push_back({ t, at });
     }
+  }
+
+  Side& side(std::int32_t u)
+  {
+    const auto found = std::find_if(m_Sides.begin(), m_Sides.end(), [&](const Side& s) { return s.vertex == u; });
+    if (found != m_Sides.end()) return *found;
+    m_Sides.push_back({ u, {} });
+    return m_Sides.back();
+  }
+
+  /// Gives the tetrahedra at v their shapes, were it at p; its own block.
+  Block shapesAt(std::int32_t v, const Vec3& p)
+  {
+    Block own{};
+    m_Shapes.clear();
+    for (const auto& [t, at] : m_Tissues)
+    {
+      m_Shapes.push_back(shapeOf(m_Complex, t, v, p));
+      add(own, stiffnessOf(m_Shapes.back(), at, at), 1);
+    }
+    return own;
+  }
+
+  /// Of the pair with that vertex; none where its tetrahedra are turned over.
+  std::optional<Matrix> matrixOf(const Side& side, const Block& own) const
+  {
+    Block others{}, between{};
+    for (const auto& [n, corner] : side.corners)
+    {
+      add(others, stiffnessOf(m_Shapes[n], corner, corner), 1);
+      add(between, stiffnessOf(m_Shapes[n], m_Tissues[n].second, corner), 1);
+    }
+    add(others, m_Diagonal[side.vertex], 1);
+    if (!isPositive(others)) return {};
+    return scaledMatrix(own, others, between);
   }
 
   /// Fills m_Neighbours with those of higher numbers, and what is between v and them.
@@ -192,16 +227,18 @@ private:
   /// is not below.
   double largestAt(std::int32_t v, const Vec3& p, double least, double most = outOfTheQuestion)
   {
-    gather(v, p);
-    if (!isPositive(m_Own)) return outOfTheQuestion;
-    for (Neighbour& n : m_Neighbours)
+    const Block own = shapesAt(v, p);
+    if (!isPositive(own)) return outOfTheQuestion;
+    for (Side& side : m_Sides)
     {
-      add(n.own, m_Diagonal[n.vertex], 1);
-      if (!isPositive(n.own)) return outOfTheQuestion;
-      const Matrix matrix = scaledMatrix(m_Own, n.own, n.between);
-      if (areBelow(least, matrix)) continue;
-      if (!areBelow(most, matrix)) return most;
-      least = std::max(least, largestEigenvalue(matrix));
+      const std::optional<Matrix> matrix = matrixOf(side, own);
+      if (!matrix) return outOfTheQuestion;
+      if (areBelow(least, *matrix)) continue;
+      const bool isRefused = !areBelow(most, *matrix);
+      const double largest = isRefused ? most : largestEigenvalue(*matrix);
+      least = std::max(least, largest);
+      if (least == largest) std::swap(side, m_Sides[0]); // likely the stiffest at the next place, too
+      if (isRefused) return most;
     }
     return least;
   }
@@ -209,6 +246,7 @@ private:
   void soften(std::int32_t v)
   {
     const std::vector<std::int32_t> star = m_Operations.star(v);
+    gatherSides(v);
     for (const std::int32_t t : star) addDiagonals(t, -1);
     descend(v);
     for (const std::int32_t t : star) addDiagonals(t, 1);
@@ -242,8 +280,9 @@ private:
     {
       const Vec3 way = easiest(m_Operations, v, held, trial % 2 == 1 ? m_Directions.next() : down);
       const Vec3 q = m_Complex.points[v] + step * way;
-      const double after = norm(q - start) <= m_Options.reach * size ? largestAt(v, q, soft, now) : now;
-      const bool moved = after < now && m_Operations.move(v, q, floor);
+      const bool isGood = norm(q - start) <= m_Options.reach * size && m_Operations.qualityAt(v, q, floor) >= floor;
+      const double after = isGood ? largestAt(v, q, soft, now) : now;
+      const bool moved = after < now && m_Operations.moveWithin(v, q);
       if (moved) now = after;
       if (moved && now > soft) down = downhill(v, now);
       step *= moved ? 1.3 : 0.8;
@@ -255,8 +294,10 @@ private:
   const StiffPairOptions& m_Options;
   const double m_Good;
   std::vector<Block> m_Diagonal; ///< of each vertex
-  Block m_Own;
   std::vector<Neighbour> m_Neighbours;
+  std::vector<std::pair<std::int32_t, int>> m_Tissues; ///< tetrahedra at a vertex, and which corner it is
+  std::vector<LinearTetrahedron> m_Shapes;             ///< theirs
+  std::vector<Side> m_Sides;
   Directions m_Directions;
 };
 
