@@ -3,6 +3,7 @@
 
 #include "BoundaryDistance.h"
 #include "BoundaryFaces.h"
+#include "Grouped.h"
 #include "Parallel.h"
 #include "Triangle.h"
 
@@ -101,7 +102,12 @@ public:
     };
     while (cells() > 3e7) m_Size *= 1.5;
     for (int axis = 0; axis < 3; ++axis) m_Cells[axis] = int(std::floor((high[axis] - low[axis]) / m_Size)) + 1;
-    fill();
+    m_Triangles = Grouped<std::int32_t>(std::size_t(m_Cells[0]) * m_Cells[1] * m_Cells[2],
+                                        [&](auto&& visit)
+                                        {
+                                          for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+                                            forCells(t, [&](std::size_t c) { visit(c, std::int32_t(t)); });
+                                        });
     for (const auto& [a, b, c] : surface.triangles)
     {
       const Vec3 centre = (surface.points[a] + surface.points[b] + surface.points[c]) / 3;
@@ -158,17 +164,6 @@ private:
     for (int k = from[2]; k <= to[2]; ++k)
       for (int j = from[1]; j <= to[1]; ++j)
         for (int i = from[0]; i <= to[0]; ++i) visit(cell(i, j, k));
-  }
-
-  void fill()
-  {
-    m_First.assign(std::size_t(m_Cells[0]) * m_Cells[1] * m_Cells[2] + 1, 0);
-    for (std::size_t t = 0; t < m_Surface.triangles.size(); ++t) forCells(t, [&](std::size_t c) { ++m_First[c + 1]; });
-    for (std::size_t c = 1; c < m_First.size(); ++c) m_First[c] += m_First[c - 1];
-    m_Triangles.resize(m_First.back());
-    std::vector<std::size_t> next(m_First.begin(), m_First.end() - 1);
-    for (std::size_t t = 0; t < m_Surface.triangles.size(); ++t)
-      forCells(t, [&](std::size_t c) { m_Triangles[next[c]++] = std::int32_t(t); });
   }
 
   /// A bound from below that rounding spares.
@@ -237,7 +232,8 @@ private:
   {
     const double reach = search.reach();
     if (squaredDistanceToCell(search.p, { i, j, k }) > reach * reach) return;
-    for (std::size_t n = m_First[cell(i, j, k)]; n < m_First[cell(i, j, k) + 1]; ++n) improve(search, m_Triangles[n]);
+    const std::size_t at = cell(i, j, k);
+    for (const std::int32_t* t = m_Triangles.begin(at); t != m_Triangles.end(at); ++t) improve(search, *t);
   }
 
   /// The cells that a box touches which reaches so far from p.
@@ -278,8 +274,7 @@ private:
   Vec3 m_Origin;
   double m_Size = 1;
   Voxel m_Cells{ 0, 0, 0 };
-  std::vector<std::size_t> m_First; ///< per cell, into m_Triangles
-  std::vector<std::int32_t> m_Triangles;
+  Grouped<std::int32_t> m_Triangles; ///< by cell
   struct Sphere
   {
     Vec3 centre;

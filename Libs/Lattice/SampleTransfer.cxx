@@ -2,13 +2,13 @@
 #include "SampleTransfer.h"
 
 #include "BoundaryFaces.h"
+#include "Grouped.h"
 #include "Triangle.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -51,22 +51,16 @@ public:
     : m_Mesh(lattice.background.mesh), m_Faces(lattice.interfaceFaces), m_Side(double(binSide) * blocks.grid.spacing)
   {
     for (int a = 0; a < 3; ++a) m_Size[a] = blocks.grid.size[a] / binSide + 3;
-    m_Start.assign(std::size_t(m_Size[0]) * m_Size[1] * m_Size[2] + 1, 0);
-    for (std::size_t f = 0; f < m_Faces.size(); ++f)
-      forEachBin(binsOf(std::int32_t(f)), [&](std::size_t bin) { ++m_Start[bin + 1]; });
-    std::partial_sum(m_Start.begin(), m_Start.end(), m_Start.begin());
-    m_Entries.resize(m_Start.back());
     std::vector<LabelPair> labels(m_Faces.size());
     parallelFor(labels.size(),
                 [&](std::size_t f) { labels[f] = labelsBeside(blocks, faceUnder(std::int32_t(f), blocks)); });
-    std::vector<std::size_t> at(m_Start.begin(), m_Start.end() - 1);
-    for (std::size_t f = 0; f < m_Faces.size(); ++f)
-      forEachBin(binsOf(std::int32_t(f)),
-                 [&](std::size_t bin) {
-                   m_Entries[at[bin]++] = { labels[f], std::int32_t(f) };
-                 });
-    parallelFor(m_Start.size() - 1, [&](std::size_t bin)
-                { std::sort(m_Entries.begin() + m_Start[bin], m_Entries.begin() + m_Start[bin + 1]); });
+    const auto forEachEntry = [&](auto&& visit)
+    {
+      for (std::size_t f = 0; f < m_Faces.size(); ++f)
+        forEachBin(binsOf(std::int32_t(f)), [&](std::size_t bin) { visit(bin, Entry{ labels[f], std::int32_t(f) }); });
+    };
+    m_Entries = Grouped<Entry>(std::size_t(m_Size[0]) * m_Size[1] * m_Size[2], forEachEntry);
+    parallelFor(m_Entries.groups(), [&](std::size_t bin) { std::sort(m_Entries.begin(bin), m_Entries.end(bin)); });
   }
 
   /// (tetrahedron, face) nearest to p between the two labels.
@@ -107,8 +101,8 @@ private:
   void look(const Vec3& p, const LabelPair& labels, const Index& bin, Nearest& best) const
   {
     const std::size_t n = number(bin);
-    const auto end = m_Entries.begin() + m_Start[n + 1];
-    auto e = std::lower_bound(m_Entries.begin() + m_Start[n], end, Entry{ labels, -1 });
+    const Entry* const end = m_Entries.end(n);
+    const Entry* e = std::lower_bound(m_Entries.begin(n), end, Entry{ labels, -1 });
     for (; e != end && e->labels == labels; ++e)
       if (const double d2 = squaredDistance(p, e->face);
           d2 < best.distance2 || (d2 == best.distance2 && isMetBefore(e->face, best.face, best.corner)))
@@ -208,8 +202,7 @@ private:
   const std::vector<std::pair<std::int32_t, std::int32_t>>& m_Faces;
   const Vec3 m_Side; ///< of a bin, mm
   Index m_Size;
-  std::vector<std::size_t> m_Start; ///< of each bin's entries, x fastest, and the end
-  std::vector<Entry> m_Entries;
+  Grouped<Entry> m_Entries; ///< by bin, x fastest
 };
 
 /// Share of the voxel faces that stay where L is `length`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SmoothBoundary.h"
 
+#include "Grouped.h"
 #include "InterfaceSmoothing.h"
 #include "Parallel.h"
 #include "VolumeOffsets.h"
@@ -599,36 +600,23 @@ Vec3 wayTouching(const Vec3& vertex, const PointRows& rows)
   return planes.weight() > 0 ? planes.way(spring) : Vec3{};
 }
 
-/// The samples of the faces at each vertex of a lattice.
-class SamplesAtVertices
+using SamplesAtVertices = Grouped<std::int32_t>; ///< numbers of points
+
+/// The points of the samples of the faces at each vertex of a lattice; `order`: which sample each of the points is.
+SamplesAtVertices samplesAtVertices(const BackgroundMesh& background,
+                                    const std::vector<std::pair<std::int64_t, std::int32_t>>& order)
 {
-public:
-  /// `order`: which sample each of the points is.
-  SamplesAtVertices(const BackgroundMesh& background, const std::vector<std::pair<std::int64_t, std::int32_t>>& order)
-    : m_Start(background.mesh.points.size() + 1, 0)
+  const auto forEachCorner = [&](auto&& visit)
   {
-    const auto forEachCorner = [&](std::size_t point, const auto& f)
-    {
-      const BackgroundMesh::Sample& sample = background.samples[order[point].second];
-      for (int k = 1; k <= 3; ++k) f(background.mesh.tetrahedra[sample.tetrahedron][(sample.face + k) & 3]);
-    };
-    for (std::size_t i = 0; i < order.size(); ++i) forEachCorner(i, [&](std::int32_t v) { ++m_Start[v + 1]; });
-    std::partial_sum(m_Start.begin(), m_Start.end(), m_Start.begin());
-    m_Points.resize(m_Start.back());
-    std::vector<std::int32_t> at(m_Start.begin(), m_Start.end() - 1);
     for (std::size_t i = 0; i < order.size(); ++i)
-      forEachCorner(i, [&](std::int32_t v) { m_Points[at[v]++] = std::int32_t(i); });
-  }
-
-  template <class F>
-  void forEach(std::int32_t vertex, F&& f) const
-  {
-    for (std::int32_t n = m_Start[vertex]; n < m_Start[vertex + 1]; ++n) f(m_Points[n]);
-  }
-
-private:
-  std::vector<std::int32_t> m_Start, m_Points;
-};
+    {
+      const BackgroundMesh::Sample& sample = background.samples[order[i].second];
+      for (int k = 1; k <= 3; ++k)
+        visit(std::size_t(background.mesh.tetrahedra[sample.tetrahedron][(sample.face + k) & 3]), std::int32_t(i));
+    }
+  };
+  return SamplesAtVertices(background.mesh.points.size(), forEachCorner);
+}
 
 /// Of the samples that the triangles at vertex number `v` hold, the less the farther off.
 MeetingPlanes planesHeld(const Vec3& vertex, double length, const std::vector<Point>& points,
@@ -637,12 +625,11 @@ MeetingPlanes planesHeld(const Vec3& vertex, double length, const std::vector<Po
   constexpr double ofLength = 0.13; // standard deviation of the weights, a voxel at least
   const double sigma = std::max(1.0, ofLength * length);
   MeetingPlanes planes;
-  samples.forEach(v,
-                  [&](std::int32_t n)
-                  {
-                    const Vec3 way = points[n].position - vertex;
-                    planes.add(points[n].normal, way, std::exp(-0.5 * squaredNorm(way) / (sigma * sigma)));
-                  });
+  for (const std::int32_t* n = samples.begin(v); n != samples.end(v); ++n)
+  {
+    const Vec3 way = points[*n].position - vertex;
+    planes.add(points[*n].normal, way, std::exp(-0.5 * squaredNorm(way) / (sigma * sigma)));
+  }
   return planes;
 }
 
@@ -729,7 +716,7 @@ std::vector<Vec3> meetingPoints(const BackgroundMesh& background, const std::vec
   constexpr double coarse = 2, leastWeight = 1e-9; // voxels
   const Vec3& mm = grid.spacing;
   const PointRows rows(points, grid.size);
-  const SamplesAtVertices samples(background, order);
+  const SamplesAtVertices samples = samplesAtVertices(background, order);
   std::vector<Vec3> result(vertices.size());
   parallelFor(vertices.size(),
               [&](std::size_t i)

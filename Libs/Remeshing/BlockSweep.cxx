@@ -2,6 +2,7 @@
 #include "BlockSweep.h"
 
 #include "Compaction.h"
+#include "Grouped.h"
 #include "Parallel.h"
 
 #include <algorithm>
@@ -146,7 +147,7 @@ public:
   {
     std::vector<std::size_t> order(m_Blocks.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
-    const auto samples = [&](std::size_t b) { return m_SampleStart[b + 1] - m_SampleStart[b]; };
+    const auto samples = [&](std::size_t b) { return m_Samples.size(b); };
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return samples(a) > samples(b); });
     return order;
   }
@@ -245,15 +246,13 @@ private:
 
   void sortSamples()
   {
-    const std::size_t n = m_Background.samples.size();
-    const std::vector<std::int32_t>& block = m_BlockOf;
-    m_SampleStart.assign(m_Blocks.size() + 1, 0);
-    for (const auto& e : m_Background.samples) ++m_SampleStart[block[e.tetrahedron] + 1];
-    std::partial_sum(m_SampleStart.begin(), m_SampleStart.end(), m_SampleStart.begin());
-    m_SampleOrder.resize(n);
-    std::vector<std::size_t> at(m_SampleStart.begin(), m_SampleStart.end() - 1);
-    for (std::size_t e = 0; e < n; ++e)
-      m_SampleOrder[at[block[m_Background.samples[e].tetrahedron]]++] = std::int32_t(e);
+    const std::vector<BackgroundMesh::Sample>& samples = m_Background.samples;
+    m_Samples = Grouped<std::int32_t>(m_Blocks.size(),
+                                      [&](auto&& visit)
+                                      {
+                                        for (std::size_t e = 0; e < samples.size(); ++e)
+                                          visit(std::size_t(m_BlockOf[samples[e].tetrahedron]), std::int32_t(e));
+                                      });
     m_Known = std::int32_t(m_Background.mesh.points.size());
   }
 
@@ -298,10 +297,10 @@ private:
     }
     TetComplex complex(std::move(points), std::move(lengths), std::move(tets), std::move(labels),
                        std::move(neighbours));
-    complex.samples.reserve(m_SampleStart[b + 1] - m_SampleStart[b]);
-    for (std::size_t i = m_SampleStart[b]; i < m_SampleStart[b + 1]; ++i)
+    complex.samples.reserve(m_Samples.size(b));
+    for (const std::int32_t* s = m_Samples.begin(b); s != m_Samples.end(b); ++s)
     {
-      const auto& e = m_Background.samples[m_SampleOrder[i]];
+      const auto& e = m_Background.samples[*s];
       complex.addSample(m_LocalTet[e.tetrahedron], e.face, e.position, e.tolerance, e.normal);
     }
     return complex;
@@ -355,9 +354,9 @@ private:
 
   BackgroundMesh& m_Background;
   std::int32_t m_Known = 0;
-  std::vector<std::int32_t> m_BlockOf, m_Order, m_LocalTet, m_SampleOrder;
+  std::vector<std::int32_t> m_BlockOf, m_Order, m_LocalTet;
   std::vector<Range> m_Blocks;
-  std::vector<std::size_t> m_SampleStart;
+  Grouped<std::int32_t> m_Samples; ///< by block
   std::vector<BlockResult> m_Results;
 };
 

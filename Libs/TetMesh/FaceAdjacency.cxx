@@ -2,12 +2,12 @@
 #include "FaceAdjacency.h"
 
 #include "Compaction.h"
+#include "Grouped.h"
 
 #include <vtkSMPTools.h>
 
 #include <algorithm>
 #include <mutex>
-#include <numeric>
 
 namespace surgicalmesher
 {
@@ -67,22 +67,18 @@ FaceAdjacency faceAdjacency(const TetMesh& mesh)
 std::vector<std::int32_t> matchOpenFaces(const std::vector<std::array<std::int32_t, 4>>& tetrahedra,
                                          std::size_t pointCount, AcrossFaces& across)
 {
-  // Sorted by their first points by counting: of all faces of a mesh, some twenty of each are left to compare.
-  const auto forEachOpen = [&](auto&& f)
+  // By their first points: of all faces of a mesh, some twenty of each are left to compare.
+  const auto forEachOpen = [&](auto&& visit)
   {
     for (std::size_t t = 0; t < across.size(); ++t)
       for (int local = 0; local < 4; ++local)
-        if (across[t][local] < 0) f(std::int32_t(t), local, sortedFace(tetrahedra[t], local));
+      {
+        if (across[t][local] >= 0) continue;
+        const std::array<std::int32_t, 3> p = sortedFace(tetrahedra[t], local);
+        visit(std::size_t(p[0]), Face{ std::uint64_t(p[1]) << 32 | std::uint32_t(p[2]), std::int32_t(t), local });
+      }
   };
-  using Points = std::array<std::int32_t, 3>;
-  std::vector<std::size_t> end(pointCount + 1, 0);
-  forEachOpen([&](std::int32_t, int, const Points& p) { ++end[p[0] + 1]; });
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<Face> faces(end.back());
-  forEachOpen(
-    [&](std::int32_t t, int local, const Points& p) {
-      faces[end[p[0]]++] = { std::uint64_t(p[1]) << 32 | std::uint32_t(p[2]), t, local };
-    });
+  Grouped<Face> faces(pointCount, forEachOpen);
   std::vector<std::int32_t> overused;
   std::mutex mutex;
   vtkSMPTools::For(0, vtkIdType(pointCount),
@@ -90,7 +86,7 @@ std::vector<std::int32_t> matchOpenFaces(const std::vector<std::array<std::int32
                    {
                      std::vector<std::int32_t> here;
                      for (vtkIdType v = first; v < last; ++v)
-                       pairFaces(faces.data() + (v ? end[v - 1] : 0), faces.data() + end[v], across, here);
+                       pairFaces(faces.begin(std::size_t(v)), faces.end(std::size_t(v)), across, here);
                      const std::lock_guard<std::mutex> lock(mutex);
                      overused.insert(overused.end(), here.begin(), here.end());
                    });

@@ -2,6 +2,7 @@
 #include "MeshQuality.h"
 
 #include "FaceAdjacency.h"
+#include "Grouped.h"
 #include "JsonMember.h"
 #include "Parallel.h"
 #include "TetQuality.h"
@@ -99,37 +100,31 @@ Edges edgesOf(const TetMesh& mesh)
     std::int32_t tetrahedron, local;
   };
   const std::size_t n = mesh.points.size();
-  // Counted by their lower ends, some thirty are left to sort for each.
-  std::vector<std::size_t> end(n + 1, 0);
-  const auto forEachUse = [&](auto&& f)
-  {
-    for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-      for (int e = 0; e < 6; ++e)
-      {
-        const auto [low, high] =
-          std::minmax(mesh.tetrahedra[t][kEdgeCorners[e][0]], mesh.tetrahedra[t][kEdgeCorners[e][1]]);
-        f(low, Use{ high, std::int32_t(t), e });
-      }
-  };
-  forEachUse([&](std::int32_t low, const Use&) { ++end[low + 1]; });
-  std::partial_sum(end.begin(), end.end(), end.begin());
-  std::vector<Use> uses(end.back());
-  forEachUse([&](std::int32_t low, const Use& use) { uses[end[low]++] = use; });
-  vtkSMPTools::For(0, vtkIdType(n),
-                   [&](vtkIdType first, vtkIdType last)
-                   {
-                     for (vtkIdType v = first; v < last; ++v)
-                       std::sort(uses.begin() + (v ? end[v - 1] : 0), uses.begin() + end[v],
-                                 [](const Use& a, const Use& b) { return a.high < b.high; });
-                   });
+  // By their lower ends, some thirty are left to sort for each.
+  Grouped<Use> uses(n,
+                    [&](auto&& visit)
+                    {
+                      for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+                        for (int e = 0; e < 6; ++e)
+                        {
+                          const auto [low, high] =
+                            std::minmax(mesh.tetrahedra[t][kEdgeCorners[e][0]], mesh.tetrahedra[t][kEdgeCorners[e][1]]);
+                          visit(std::size_t(low), Use{ high, std::int32_t(t), e });
+                        }
+                    });
+  const auto isLower = [](const Use& a, const Use& b) { return a.high < b.high; };
+  parallelFor(n, [&](std::size_t v) { std::sort(uses.begin(v), uses.end(v), isLower); });
   Edges edges;
   edges.ofTetrahedron.resize(mesh.tetrahedra.size());
-  for (std::size_t v = 0, i = 0; v < n; ++v)
-    for (std::int32_t before = -1; i < end[v]; before = uses[i++].high)
+  for (std::size_t v = 0; v < n; ++v)
+  {
+    std::int32_t before = -1;
+    for (const Use* use = uses.begin(v); use != uses.end(v); before = (use++)->high)
     {
-      if (uses[i].high != before) edges.ends.push_back({ std::int32_t(v), uses[i].high });
-      edges.ofTetrahedron[uses[i].tetrahedron][uses[i].local] = std::int32_t(edges.ends.size()) - 1;
+      if (use->high != before) edges.ends.push_back({ std::int32_t(v), use->high });
+      edges.ofTetrahedron[use->tetrahedron][use->local] = std::int32_t(edges.ends.size()) - 1;
     }
+  }
   return edges;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "DigitalTopology.h"
 
+#include "Grouped.h"
 #include "Parallel.h"
 #include "UnionFind.h"
 
@@ -257,49 +258,37 @@ BlockCounts countBlocks(const Grid& grid, const Regions& regions)
   return std::move(counts[0]);
 }
 
-/// Neighbours of every region, in one pool.
-struct Adjacency
-{
-  std::vector<std::size_t> begins;
-  std::vector<Index> neighbours;
-};
+using Adjacency = Grouped<Index>; ///< neighbours of every region
 
 Adjacency adjacency(std::size_t regions, const std::vector<Edge>& edges)
 {
-  Adjacency result;
-  result.begins.assign(regions + 1, 0);
-  for (const Edge& e : edges)
-  {
-    ++result.begins[e.first + 1];
-    ++result.begins[e.second + 1];
-  }
-  for (std::size_t r = 0; r < regions; ++r) result.begins[r + 1] += result.begins[r];
-  result.neighbours.resize(2 * edges.size());
-  auto next = result.begins;
-  for (const Edge& e : edges)
-  {
-    result.neighbours[next[e.first]++] = e.second;
-    result.neighbours[next[e.second]++] = e.first;
-  }
-  return result;
+  return Adjacency(regions,
+                   [&](auto&& visit)
+                   {
+                     for (const Edge& e : edges)
+                     {
+                       visit(e.first, e.second);
+                       visit(e.second, e.first);
+                     }
+                   });
 }
 
 /// How many parts each region cuts off from the outside: the components that the connected graph falls into without the
 /// region, minus one. Depth-first search from the outside after Hopcroft and Tarjan 1973, without recursion.
 std::vector<int> enclosedParts(const Adjacency& graph)
 {
-  const std::size_t count = graph.begins.size() - 1;
+  const std::size_t count = graph.groups();
   std::vector<int> enclosed(count, 0);
   std::vector<Index> order(count, 0), low(count, 0), path{ 0 };
-  auto next = graph.begins;
+  std::vector<std::size_t> next(count, 0); // of each region's neighbours
   Index visited = 1;
   order[0] = low[0] = visited;
   while (!path.empty())
   {
     const Index region = path.back();
-    if (next[region] < graph.begins[region + 1])
+    if (next[region] < graph.size(region))
     {
-      const Index neighbour = graph.neighbours[next[region]++];
+      const Index neighbour = graph.begin(region)[next[region]++];
       if (order[neighbour] == 0)
       {
         order[neighbour] = low[neighbour] = ++visited;

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+/// Values sorted into groups by counting: those of a group lie together, in the order in which they came.
+
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace surgicalmesher
+{
+
+template <class Value>
+class Grouped
+{
+public:
+  Grouped() = default;
+
+  /// `forEach(visit)` calls visit(group, value) for every value; it is called twice, and has to do the same both times.
+  /// Groups are numbered from 0 up to `groups`, which is not one of them.
+  template <class ForEach>
+  Grouped(std::size_t groups, const ForEach& forEach) : m_Start(groups + 1, 0)
+  {
+    forEach([&](std::size_t group, const Value&) { ++m_Start[group + 1]; });
+    std::partial_sum(m_Start.begin(), m_Start.end(), m_Start.begin());
+    m_Values.resize(m_Start.back());
+    std::vector<std::size_t> next(m_Start.begin(), m_Start.end() - 1);
+    forEach([&](std::size_t group, const Value& value) { m_Values[next[group]++] = value; });
+  }
+
+  std::size_t groups() const { return m_Start.size() - 1; }
+  std::size_t size(std::size_t group) const { return m_Start[group + 1] - m_Start[group]; }
+
+  const Value* begin(std::size_t group) const { return m_Values.data() + m_Start[group]; }
+  const Value* end(std::size_t group) const { return m_Values.data() + m_Start[group + 1]; }
+  Value* begin(std::size_t group) { return m_Values.data() + m_Start[group]; }
+  Value* end(std::size_t group) { return m_Values.data() + m_Start[group + 1]; }
+
+private:
+  std::vector<std::size_t> m_Start{ 0 }; ///< of each group in m_Values, and the end
+  std::vector<Value> m_Values;
+};
+
+} // namespace surgicalmesher
