@@ -94,7 +94,8 @@ public:
       extent += norm(to - from);
     }
     m_Origin = low;
-    m_Size = std::max(0.5 * extent / double(surface.triangles.size()), 1e-9);
+    constexpr double ofBox = 0.5; // smaller cells hold fewer triangles, of which most are in more of them
+    m_Size = std::max(ofBox * extent / double(surface.triangles.size()), 1e-9);
     const auto cells = [&]
     {
       return std::ceil((high.x - low.x) / m_Size + 1) * std::ceil((high.y - low.y) / m_Size + 1) *

@@ -165,7 +165,7 @@ private:
 /// What is remembered of the voxels of a cube.
 struct CubeMemory
 {
-  static constexpr std::uint8_t unknown = 255, none = 0;
+  static constexpr std::uint8_t unknown = 255, none = 0, mostRoom = 255;
 
   CubeMemory() { balls.fill(unknown); }
 
@@ -176,7 +176,7 @@ struct CubeMemory
 
   void change(std::uint32_t voxels)
   {
-    const auto all = std::uint8_t(std::min(voxels, std::uint32_t(unknown)));
+    const auto all = std::uint8_t(std::min(voxels, std::uint32_t(mostRoom)));
     for (std::uint8_t& left : room) left = left > all ? std::uint8_t(left - all) : std::uint8_t(0);
   }
 };
@@ -291,19 +291,23 @@ private:
     parallelFor(cubes.size(),
                 [&](std::size_t c)
                 {
-                  auto& [balls, room] = m_Memory[cubes[c].cube];
-                  m_Memory[cubes[c].cube].change(cubes[c].changes);
+                  CubeMemory& memory = m_Memory[cubes[c].cube];
+                  memory.change(cubes[c].changes);
                   m_Dirty.visitBoundary(m_Map, cubes[c].cube, m_Map.margin,
-                                        [&, &balls = balls, &room = room](std::size_t voxel, int n)
-                                        {
-                                          if (room[n] > 0) return;
-                                          if (balls[n] == CubeMemory::unknown) balls[n] = ballOf(voxel);
-                                          if (balls[n] == CubeMemory::none) return;
-                                          const Label label = ruling(voxel, m_Balls[balls[n]], room[n]);
-                                          if (label != m_Map.labels[voxel]) changes[c].emplace_back(voxel, label);
-                                        });
+                                        [&](std::size_t voxel, int n) { look(voxel, n, memory, changes[c]); });
                 });
     return changes;
+  }
+
+  /// At a voxel, number n of its cube.
+  void look(std::size_t voxel, int n, CubeMemory& memory, Changes& changes) const
+  {
+    std::uint8_t &ball = memory.balls[n], &room = memory.room[n];
+    if (room > 0) return;
+    if (ball == CubeMemory::unknown) ball = ballOf(voxel);
+    if (ball == CubeMemory::none) return;
+    const Label label = ruling(voxel, m_Balls[ball], room);
+    if (label != m_Map.labels[voxel]) changes.emplace_back(voxel, label);
   }
 
   std::uint8_t ballOf(std::size_t voxel) const
@@ -313,7 +317,7 @@ private:
     return size == 0 ? CubeMemory::none : std::uint8_t(m_Balls.indexOf(size + m_Sizes.smallestSpacing()));
   }
 
-  /// The label that a voxel should have by the share rule; `room`: see CubeMemory, set if that is its own.
+  /// The label that a voxel should have by the share rule; `room`: see CubeMemory, set where its own fills enough.
   Label ruling(std::size_t voxel, const VoxelBall& ball, std::uint8_t& room) const
   {
     const Label own = m_Map.labels[voxel];
@@ -323,7 +327,7 @@ private:
     const std::size_t ownShare = ball.count(centre, own);
     if (ownShare >= required)
     {
-      room = std::uint8_t(std::min(ownShare - required + 1, std::size_t(255)));
+      room = std::uint8_t(std::min(ownShare - required + 1, std::size_t(CubeMemory::mostRoom)));
       return own;
     }
     std::array<Label, 6> others;

@@ -212,8 +212,8 @@ void removeRegionsUnder(PaddedMap& map, double size)
   const Regions regions = connectedRegions(map);
   std::vector<bool> isSmall = largestRegions(regions);
   for (std::size_t r = 0; r < isSmall.size(); ++r)
-    isSmall[r] = r != 0 && (!isSmall[r] || regions.list[r].label == 0) &&
-                 double(regions.list[r].voxels) < size * size * size;
+    isSmall[r] =
+      r != 0 && (!isSmall[r] || regions.list[r].label == 0) && double(regions.list[r].voxels) < size * size * size;
   removeRegions(map, regions, isSmall);
 }
 
