@@ -59,7 +59,7 @@ std::set<Label> simplify(TissueMap& map, const ScaleField& scale, const FeatureO
                          const Progress& progress = {})
 {
   PaddedMap work = padded(map, featureMargin(map.grid, scale, options.featureScale));
-  const std::set<Label> keptWhole = simplifyFeatures(work, scale, options, progress);
+  std::set<Label> keptWhole = simplifyFeatures(work, scale, options, progress);
   copyWithoutMargin(work, map);
   return keptWhole;
 }
