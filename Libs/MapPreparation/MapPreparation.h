@@ -59,9 +59,8 @@ PaddedMap preparedMap(const TissueMap& map, int margin, const PreparationOptions
 /// Which voxels of a prepared map a change has to leave alone.
 struct ChangeLimits
 {
-  std::function<bool(std::size_t)>
-    isFixed;                    ///< whether a voxel of the padded map keeps its label; those of the margin do
-  std::set<Label> closedLabels; ///< gain no voxel
+  std::function<bool(std::size_t)> isFixed; ///< whether a voxel of the padded map keeps its label
+  std::set<Label> closedLabels;             ///< gain no voxel
 };
 
 /// Prepares a changed copy of a prepared map, within limits that the change has kept: removes the islands that it cut

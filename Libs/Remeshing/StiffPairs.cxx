@@ -87,6 +87,17 @@ double largestEigenvalue(Matrix m)
 bool isPositive(const Block& own) { return own[0] > 0 && own[4] > 0 && own[8] > 0; }
 constexpr double outOfTheQuestion = 6; // the trace
 
+/// That of a vertex, at the end if there was none.
+template <class Entry>
+Entry& entryOf(std::int32_t vertex, std::vector<Entry>& entries)
+{
+  const auto found =
+    std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.vertex == vertex; });
+  if (found != entries.end()) return *found;
+  entries.push_back({ vertex, {} });
+  return entries.back();
+}
+
 class StiffPairs
 {
 public:
@@ -141,17 +152,9 @@ private:
       if (m_Complex.labels[t] == 0) continue;
       const int at = m_Complex.indexOf(t, v);
       for (int i = 0; i < 4; ++i)
-        if (i != at) side(m_Complex.tets[t][i]).corners.emplace_back(m_Tissues.size(), i);
+        if (i != at) entryOf(m_Complex.tets[t][i], m_Sides).corners.emplace_back(m_Tissues.size(), i);
       m_Tissues.push_back({ t, at });
     }
-  }
-
-  Side& side(std::int32_t u)
-  {
-    const auto found = std::find_if(m_Sides.begin(), m_Sides.end(), [&](const Side& s) { return s.vertex == u; });
-    if (found != m_Sides.end()) return *found;
-    m_Sides.push_back({ u, {} });
-    return m_Sides.back();
   }
 
   /// Gives the tetrahedra at v their shapes, were it at p; its own block.
@@ -192,17 +195,8 @@ private:
       const LinearTetrahedron shape = shapeOf(m_Complex, t);
       const int at = m_Complex.indexOf(t, v);
       for (int i = 0; i < 4; ++i)
-        if (x[i] > v) add(neighbour(x[i]).between, stiffnessOf(shape, at, i), 1);
+        if (x[i] > v) add(entryOf(x[i], m_Neighbours).between, stiffnessOf(shape, at, i), 1);
     }
-  }
-
-  Neighbour& neighbour(std::int32_t u)
-  {
-    const auto found =
-      std::find_if(m_Neighbours.begin(), m_Neighbours.end(), [&](const auto& n) { return n.vertex == u; });
-    if (found != m_Neighbours.end()) return *found;
-    m_Neighbours.push_back({ u });
-    return m_Neighbours.back();
   }
 
   /// Stiffest first.
