@@ -74,8 +74,9 @@ TEST(BoundaryVoxels, AreThoseBesideAnotherLabelInOrder)
           forEachBoundaryVoxel(map, j, k, 1, size[0] - 1, [&](std::size_t v) { walked.push_back(v); });
           for (int i = 1; i + 1 < size[0]; ++i)
           {
-            const auto differs = [&](int di, int dj, int dk)
-            { return labelAt(map, { i + di, j + dj, k + dk }) != labelAt(map, { i, j, k }); };
+            const auto differs = [&](int di, int dj, int dk) {
+              return labelAt(map, { i + di, j + dj, k + dk }) != labelAt(map, { i, j, k });
+            };
             if (differs(-1, 0, 0) || differs(1, 0, 0) || differs(0, -1, 0) || differs(0, 1, 0) || differs(0, 0, -1) ||
                 differs(0, 0, 1))
               expected.push_back(map.grid.index(i, j, k));
