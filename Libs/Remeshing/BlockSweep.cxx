@@ -142,13 +142,14 @@ public:
     m_Results.resize(m_Blocks.size());
   }
 
-  /// The blocks, those with the most samples first: it takes most of the time, and what comes last leaves threads idle.
+  /// The blocks, those first that most of the interface lies in: it takes most of the time, and what comes last leaves
+  /// threads idle.
   std::vector<std::size_t> longestFirst() const
   {
-    std::vector<std::size_t> order(m_Blocks.size());
+    std::vector<std::size_t> order(m_Blocks.size()), size(m_Blocks.size());
+    parallelForEach(size.size(), [&](std::size_t b) { size[b] = interfaceOf(b); });
     std::iota(order.begin(), order.end(), std::size_t(0));
-    const auto samples = [&](std::size_t b) { return m_Samples.size(b); };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return samples(a) > samples(b); });
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
     return order;
   }
 
@@ -178,7 +179,7 @@ public:
     m_Background.neighbours.resize(starts.back().tetrahedron);
     m_Background.samples.resize(starts.back().samples);
     parallelForEach(m_Results.size(), [&](vtkIdType b) { place(m_Results[b], starts[b]); });
-    matchOpenFaces(mesh.tetrahedra, mesh.points.size(), m_Background.neighbours); // between blocks
+    if (m_Results.size() > 1) matchOpenFaces(mesh.tetrahedra, mesh.points.size(), m_Background.neighbours);
     const std::vector<std::int32_t> used = compactPointsByUse(mesh.tetrahedra, mesh.points.size());
     mesh.points = valuesAt(mesh.points, used);
     m_Background.lengths = valuesAt(m_Background.lengths, used);
@@ -212,6 +213,19 @@ private:
     for (auto& e : r.samples) e.tetrahedron += first;
     std::copy(r.samples.begin(), r.samples.end(), m_Background.samples.begin() + start.samples);
     r = {};
+  }
+
+  /// How much of the interface a block has: faces on some of its tetrahedra, or samples while neighbours are not known.
+  std::size_t interfaceOf(std::size_t b) const
+  {
+    constexpr std::size_t stride = 8; // enough to tell blocks apart
+    if (m_Background.neighbours.empty()) return m_Samples.size(b);
+    const std::vector<Label>& labels = m_Background.mesh.labels;
+    std::size_t faces = 0;
+    for (std::size_t i = m_Blocks[b].begin; i < m_Blocks[b].end; i += stride)
+      for (const std::int32_t n : m_Background.neighbours[m_Order[i]])
+        if (n >= 0 && labels[n] != labels[m_Order[i]]) ++faces;
+    return faces;
   }
 
   void divide(const std::vector<Centroid>& centroids, std::size_t most)
