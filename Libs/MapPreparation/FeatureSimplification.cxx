@@ -10,7 +10,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -88,11 +90,7 @@ public:
                     {
                       const int from = std::max(margin, int(slab) * side);
                       const int to = std::min(size[2] - margin, (int(slab) + 1) * side);
-                      const auto mark = [&](std::size_t voxel)
-                      {
-                        const std::array<int, 3> c = m_Grid.voxelAt(voxel);
-                        m_Changes[(slab * m_Count[1] + c[1] / side) * m_Count[0] + c[0] / side] = 1;
-                      };
+                      const auto mark = [&](std::size_t voxel) { m_Changes[cubeOf(voxel)] = 1; };
                       for (int k = from; k < to; ++k)
                         for (int j = margin; j < size[1] - margin; ++j)
                           forEachBoundaryVoxel(map, j, k, margin, size[0] - margin, mark);
@@ -102,6 +100,13 @@ public:
   /// Marks the cubes that hold a voxel within `reach` steps along each axis of a box in which so many voxels change.
   void mark(const std::array<int, 3>& first, const std::array<int, 3>& last, int reach, std::size_t changes)
   {
+    forEachNear(first, last, reach, [&](std::size_t cube) { m_Changes[cube] += std::uint32_t(changes); });
+  }
+
+  /// Calls visit(cube) for the cubes that hold a voxel within `reach` steps along each axis of a box.
+  template <typename Visit>
+  void forEachNear(const std::array<int, 3>& first, const std::array<int, 3>& last, int reach, const Visit& visit) const
+  {
     std::array<int, 3> from, to;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -110,8 +115,13 @@ public:
     }
     for (int k = from[2]; k <= to[2]; ++k)
       for (int j = from[1]; j <= to[1]; ++j)
-        for (int i = from[0]; i <= to[0]; ++i)
-          m_Changes[(std::size_t(k) * m_Count[1] + j) * m_Count[0] + i] += std::uint32_t(changes);
+        for (int i = from[0]; i <= to[0]; ++i) visit((std::size_t(k) * m_Count[1] + j) * m_Count[0] + i);
+  }
+
+  std::size_t cubeOf(std::size_t voxel) const
+  {
+    const std::array<int, 3> at = m_Grid.voxelAt(voxel);
+    return (std::size_t(at[2] / side) * m_Count[1] + at[1] / side) * m_Count[0] + at[0] / side;
   }
 
   struct Dirty
@@ -202,30 +212,80 @@ private:
   std::vector<CubeMemory> m_Cubes;
 };
 
+/// A voxel that goes to another label.
+struct Change
+{
+  std::size_t voxel;
+  std::size_t cube; ///< that it lies in
+  Label before, after;
+
+  bool operator<(const Change& other) const
+  {
+    return std::tie(cube, voxel, after) < std::tie(other.cube, other.voxel, other.after);
+  }
+};
+
+using Changes = std::vector<Change>; ///< ascending, of different voxels
+
+/// What the rules have changed, step by step.
+struct Course
+{
+  Changes small;               ///< regions
+  std::vector<Changes> rounds; ///< of the share rule
+  Changes cutOff;              ///< regions, by the share rule
+};
+
 /// The two rules.
 class Simplifier
 {
 public:
-  Simplifier(PaddedMap& map, const ScaleField& scale, double featureScale, double largest,
-             const std::set<Label>& closed)
-    : m_Map(map), m_Closed(closed), m_Steps(neighbourSteps(map.grid)), m_Sizes(map, scale, featureScale),
-      m_Largest(largest), m_Balls(map.grid, m_Sizes.smallestSpacing(), largest + m_Sizes.smallestSpacing()),
-      m_Dirty(map.grid), m_Memory(m_Dirty.count())
+  Simplifier(PaddedMap& map, const ScaleField& scale, double featureScale, double largest)
+    : m_Map(map), m_Steps(neighbourSteps(map.grid)), m_Sizes(map, scale, featureScale), m_Largest(largest),
+      m_Balls(map.grid, m_Sizes.smallestSpacing(), largest + m_Sizes.smallestSpacing()), m_Dirty(map.grid),
+      m_Memory(m_Dirty.count())
   {
   }
 
-  void run()
+  /// Simplifies the map, without touching the labels in `closed`. After takeBack() once more, with further ones among
+  /// them: then only what these touch, and what comes out otherwise for it, is looked at again.
+  void run(const std::set<Label>& closed)
   {
-    removeSmallRegions();
-    applyShareRule();
-    removeSmallRegions(); // that the share rule cut off
+    const Course last = std::exchange(m_Course, {});
+    const std::set<Label> wereClosed = std::exchange(m_Closed, closed);
+    m_Course.small = removeSmallRegions();
+    m_Memory = Memory(m_Dirty.count());
+    m_Dirty.take();
+    m_IsOpen.assign(m_Dirty.count(), last.rounds.empty());
+    if (last.rounds.empty()) m_Dirty.markBoundary(m_Map, m_Map.margin);
+    else openAround(wereClosed, differences(last.small, m_Course.small));
+    applyShareRule(last.rounds);
+    m_Course.cutOff = removeSmallRegions();
+  }
+
+  void takeBack()
+  {
+    const auto undo = [&](const Changes& changes)
+    {
+      for (const Change& c : changes) m_Map.labels[c.voxel] = c.before;
+    };
+    undo(m_Course.cutOff);
+    std::for_each(m_Course.rounds.rbegin(), m_Course.rounds.rend(), undo);
+    undo(m_Course.small);
   }
 
 private:
-  void removeSmallRegions()
+  Changes removeSmallRegions()
   {
     const Regions regions = connectedRegions(m_Map);
-    removeRegions(m_Map, regions, smallRegions(regions), m_Closed);
+    const RemovedVoxels removed = removeRegions(m_Map, regions, smallRegions(regions), m_Closed);
+    Changes changes;
+    for (std::size_t n = 0; n < removed.voxels.size(); ++n)
+    {
+      const std::size_t v = removed.voxels[n];
+      changes.push_back({ v, m_Dirty.cubeOf(v), removed.labels[n], m_Map.labels[v] });
+    }
+    std::sort(changes.begin(), changes.end());
+    return changes;
   }
 
   /// A region counts as small by the least s in it.
@@ -255,59 +315,139 @@ private:
     return isSmall;
   }
 
-  void applyShareRule()
+  /// `last`: the rounds that closed cubes go through once more; none if all are open.
+  void applyShareRule(const std::vector<Changes>& last)
   {
     // A detail narrower than s is gone after s rounds. More would unravel thin sheets from their edges.
     const int rounds = int(std::ceil(m_Largest / m_Sizes.smallestSpacing()));
-    m_Dirty.markBoundary(m_Map, m_Map.margin);
     for (int round = 0; round < rounds; ++round)
-      for (const Changes& changes : findChanges(m_Dirty.take())) apply(changes);
+      m_Course.rounds.push_back(last.empty() ? applyRound() : applyRoundAgain(last[round]));
   }
 
-  using Changes = std::vector<std::pair<std::size_t, Label>>; ///< of a cube
+  Changes applyRound()
+  {
+    Changes changes = findChanges(m_Dirty.take());
+    apply(changes);
+    return changes;
+  }
+
+  /// In closed cubes as it was `last`.
+  Changes applyRoundAgain(const Changes& last)
+  {
+    std::vector<DirtyCubes::Dirty> dirty = m_Dirty.take();
+    dirty.erase(std::remove_if(dirty.begin(), dirty.end(), [&](const auto& d) { return !m_IsOpen[d.cube]; }),
+                dirty.end());
+    const Changes found = findChanges(dirty);
+    Changes kept, left, all;
+    std::partition_copy(last.begin(), last.end(), std::back_inserter(left), std::back_inserter(kept),
+                        [&](const Change& c) { return m_IsOpen[c.cube]; });
+    std::merge(kept.begin(), kept.end(), found.begin(), found.end(), std::back_inserter(all));
+    apply(all);
+    open(differences(left, found));
+    return all;
+  }
+
+  static Changes differences(const Changes& a, const Changes& b)
+  {
+    Changes result;
+    std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+    return result;
+  }
+
+  /// Opens the cubes that the rule may look from at a voxel changed, or at one of a label not closed before.
+  void openAround(const std::set<Label>& wereClosed, const Changes& changed)
+  {
+    open(changed);
+    std::set<Label> labels;
+    std::set_difference(m_Closed.begin(), m_Closed.end(), wereClosed.begin(), wereClosed.end(),
+                        std::inserter(labels, labels.end()));
+    for (const std::size_t v : boundaryOf(labels)) open(v, 1);
+  }
+
+  void open(const Changes& changes)
+  {
+    for (const Change& c : changes) open(c.voxel, m_Map.margin - 1);
+  }
+
+  /// Opens the cubes that hold a voxel within `reach` steps along each axis of one.
+  void open(std::size_t voxel, int reach)
+  {
+    const std::array<int, 3> at = m_Map.grid.voxelAt(voxel);
+    m_Dirty.forEachNear(at, at, reach, [&](std::size_t cube) { m_IsOpen[cube] = true; });
+    m_Dirty.mark(at, at, reach, 1);
+  }
+
+  /// The voxels of these labels with another one beside them.
+  std::vector<std::size_t> boundaryOf(const std::set<Label>& labels) const
+  {
+    const auto& size = m_Map.grid.size;
+    const int margin = m_Map.margin;
+    std::vector<std::vector<std::size_t>> slices(std::size_t(size[2] - 2 * margin));
+    parallelForEach(slices.size(),
+                    [&](std::size_t slice)
+                    {
+                      const auto keep = [&](std::size_t v)
+                      {
+                        if (labels.count(m_Map.labels[v])) slices[slice].push_back(v);
+                      };
+                      for (int j = margin; j < size[1] - margin; ++j)
+                        forEachBoundaryVoxel(m_Map, j, margin + int(slice), margin, size[0] - margin, keep);
+                    });
+    std::vector<std::size_t> result;
+    for (const auto& slice : slices) result.insert(result.end(), slice.begin(), slice.end());
+    return result;
+  }
 
   void apply(const Changes& changes)
   {
-    if (changes.empty()) return;
-    std::array<int, 3> first = m_Map.grid.voxelAt(changes[0].first), last = first;
-    for (const auto& [voxel, label] : changes)
+    for (auto first = changes.begin(), end = first; first != changes.end(); first = end)
     {
-      m_Map.labels[voxel] = label;
-      const std::array<int, 3> at = m_Map.grid.voxelAt(voxel);
-      for (int axis = 0; axis < 3; ++axis)
+      end = std::find_if(first, changes.end(), [&](const Change& c) { return c.cube != first->cube; });
+      std::array<int, 3> low = m_Map.grid.voxelAt(first->voxel), high = low;
+      for (auto c = first; c != end; ++c)
       {
-        first[axis] = std::min(first[axis], at[axis]);
-        last[axis] = std::max(last[axis], at[axis]);
+        m_Map.labels[c->voxel] = c->after;
+        const std::array<int, 3> at = m_Map.grid.voxelAt(c->voxel);
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          low[axis] = std::min(low[axis], at[axis]);
+          high[axis] = std::max(high[axis], at[axis]);
+        }
       }
+      m_Dirty.mark(low, high, m_Map.margin - 1, std::size_t(end - first));
     }
-    m_Dirty.mark(first, last, m_Map.margin - 1, changes.size());
   }
 
-  /// Per cube, what the share rule asks of the map as it is.
-  std::vector<Changes> findChanges(const std::vector<DirtyCubes::Dirty>& cubes)
+  /// What the share rule asks of the map as it is, in these cubes.
+  Changes findChanges(const std::vector<DirtyCubes::Dirty>& cubes)
   {
     std::vector<Changes> changes(cubes.size());
     for (const DirtyCubes::Dirty& dirty : cubes) m_Memory.add(dirty.cube);
     parallelFor(cubes.size(),
                 [&](std::size_t c)
                 {
-                  CubeMemory& memory = m_Memory[cubes[c].cube];
+                  const std::size_t cube = cubes[c].cube;
+                  CubeMemory& memory = m_Memory[cube];
                   memory.change(cubes[c].changes);
-                  m_Dirty.visitBoundary(m_Map, cubes[c].cube, m_Map.margin,
-                                        [&](std::size_t voxel, int n) { look(voxel, n, memory, changes[c]); });
+                  const auto visit = [&](std::size_t voxel, int n)
+                  {
+                    const Label label = ruling(voxel, n, memory);
+                    if (label != m_Map.labels[voxel]) changes[c].push_back({ voxel, cube, m_Map.labels[voxel], label });
+                  };
+                  m_Dirty.visitBoundary(m_Map, cube, m_Map.margin, visit);
                 });
-    return changes;
+    Changes all;
+    for (const Changes& of : changes) all.insert(all.end(), of.begin(), of.end());
+    return all;
   }
 
-  /// At a voxel, number n of its cube.
-  void look(std::size_t voxel, int n, CubeMemory& memory, Changes& changes) const
+  /// The label that a voxel, number n of its cube, should have by the share rule.
+  Label ruling(std::size_t voxel, int n, CubeMemory& memory) const
   {
     std::uint8_t &ball = memory.balls[n], &room = memory.room[n];
-    if (room > 0) return;
+    if (room > 0) return m_Map.labels[voxel];
     if (ball == CubeMemory::unknown) ball = ballOf(voxel);
-    if (ball == CubeMemory::none) return;
-    const Label label = ruling(voxel, m_Balls[ball], room);
-    if (label != m_Map.labels[voxel]) changes.emplace_back(voxel, label);
+    return ball == CubeMemory::none ? m_Map.labels[voxel] : ruling(voxel, m_Balls[ball], room);
   }
 
   std::uint8_t ballOf(std::size_t voxel) const
@@ -317,7 +457,7 @@ private:
     return size == 0 ? CubeMemory::none : std::uint8_t(m_Balls.indexOf(size + m_Sizes.smallestSpacing()));
   }
 
-  /// The label that a voxel should have by the share rule; `room`: see CubeMemory, set where its own fills enough.
+  /// The same by its ball; `room`: see CubeMemory, set where its own label fills enough.
   Label ruling(std::size_t voxel, const VoxelBall& ball, std::uint8_t& room) const
   {
     const Label own = m_Map.labels[voxel];
@@ -358,13 +498,15 @@ private:
   }
 
   PaddedMap& m_Map;
-  const std::set<Label>& m_Closed;
   std::array<std::ptrdiff_t, 27> m_Steps;
   FeatureSizes m_Sizes;
   double m_Largest; ///< s anywhere, mm
   Balls m_Balls;
+  std::set<Label> m_Closed;
+  Course m_Course; ///< the last
   DirtyCubes m_Dirty;
-  Memory m_Memory;
+  std::vector<char> m_IsOpen; ///< per cube: may go otherwise than in the course before
+  Memory m_Memory;            ///< of open ones
 };
 
 /// Tissues of which less than half is left.
@@ -403,20 +545,17 @@ std::set<Label> simplifyFeatures(PaddedMap& map, const ScaleField& scale, const 
 
   const std::map<Label, std::size_t> voxels = countVoxels(map);
   std::set<Label> closed = options.protectedLabels;
-  PaddedMap simplified;
+  Simplifier simplifier(map, scale, options.featureScale, largest);
   for (double done = 0;; done += (0.9 - done) / 2)
   {
     report(progress, done, "Simplifying features");
-    simplified = map;
-    Simplifier(simplified, scale, options.featureScale, largest, closed).run();
-    const std::set<Label> tooSmall = halved(voxels, simplified);
-    if (tooSmall.empty()) break;
+    simplifier.run(closed);
+    const std::set<Label> tooSmall = halved(voxels, map);
+    if (tooSmall.empty()) return keptWhole;
+    simplifier.takeBack();
     keptWhole.insert(tooSmall.begin(), tooSmall.end());
     closed.insert(tooSmall.begin(), tooSmall.end());
   }
-  report(progress, 1, "Simplifying features");
-  map.labels.swap(simplified.labels);
-  return keptWhole;
 }
 
 bool isBelowScale(const PaddedMap& map, const ScaleField& scale, double featureScale, std::size_t voxel)
