@@ -2,13 +2,14 @@
 #include "MapChanges.h"
 
 #include "DigitalTopology.h"
+#include "Grouped.h"
 #include "Parallel.h"
 #include "UnionFind.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <map>
+#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -106,16 +107,19 @@ public:
   std::vector<MapChange> find() const
   {
     const Voxels voxels = changed();
-    const auto losses = byLabel(voxels, m_Before), gains = byLabel(voxels, m_After);
-    std::vector<std::vector<MapChange>> found(losses.size() + gains.size());
-    parallelForEach(found.size(),
-                    [&](std::size_t n)
-                    {
-                      const bool isLoss = n < losses.size();
-                      const auto& [label, ofLabel] = isLoss ? losses[n] : gains[n - losses.size()];
-                      for (const Voxels& piece : partsOf(ofLabel, m_Steps, isLoss))
-                        found[n].push_back(isLoss ? lost(label, piece) : gained(label, piece));
-                    });
+    Grouped<std::size_t> losses, gains;
+    runInParallel({ [&] { losses = byLabel(voxels, m_Before); }, [&] { gains = byLabel(voxels, m_After); } });
+    std::vector<std::vector<MapChange>> found(losses.groups() + gains.groups());
+    const auto pieces = [&](std::size_t n)
+    {
+      const bool isLoss = n < losses.groups();
+      const std::size_t label = isLoss ? n : n - losses.groups();
+      const Grouped<std::size_t>& groups = isLoss ? losses : gains;
+      for (const Voxels& piece : partsOf({ groups.begin(label), groups.end(label) }, m_Steps, isLoss))
+        found[n].push_back(isLoss ? lost(Label(label), piece) : gained(Label(label), piece));
+    };
+    const std::vector<std::size_t> order = largestFirst(losses, gains);
+    parallelForEach(order.size(), [&](std::size_t n) { pieces(order[n]); });
     std::vector<MapChange> changes;
     for (const std::vector<MapChange>& each : found) changes.insert(changes.end(), each.begin(), each.end());
     std::stable_sort(changes.begin(), changes.end(),
@@ -147,11 +151,24 @@ private:
   }
 
   /// Voxels by their labels in `map`.
-  static std::vector<std::pair<Label, Voxels>> byLabel(const Voxels& voxels, const TissueMap& map)
+  static Grouped<std::size_t> byLabel(const Voxels& voxels, const TissueMap& map)
   {
-    std::map<Label, Voxels> result;
-    for (const std::size_t v : voxels) result[map.labels[v]].push_back(v);
-    return { result.begin(), result.end() };
+    return Grouped<std::size_t>(std::size_t(std::numeric_limits<Label>::max()) + 1,
+                                [&](auto&& visit)
+                                {
+                                  for (const std::size_t v : voxels) visit(map.labels[v], v);
+                                });
+  }
+
+  /// The groups of both that hold something, counted on in the second: what comes last leaves threads idle.
+  static std::vector<std::size_t> largestFirst(const Grouped<std::size_t>& a, const Grouped<std::size_t>& b)
+  {
+    const auto size = [&](std::size_t n) { return n < a.groups() ? a.size(n) : b.size(n - a.groups()); };
+    std::vector<std::size_t> order;
+    for (std::size_t n = 0; n < a.groups() + b.groups(); ++n)
+      if (size(n) > 0) order.push_back(n);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t m, std::size_t n) { return size(m) > size(n); });
+    return order;
   }
 
   /// Voxels beside a piece, across corners too, that `belongs` accepts.
