@@ -254,12 +254,13 @@ void mesh(CommandLine& line)
   const std::string stillness = warningOfStillness(result.content.constitutive);
   if (!stillness.empty()) line.warning(stillness);
   MeshQuality quality;
+  std::map<Label, ExplicitStep> steps;
   runInParallel({ [&] { writeMesh(result.content, line.outputFile("mesh")); },
-                  [&] { quality = assessQuality(result.content.mesh, result.content.subMesh, lengths.inWorld); } });
+                  [&] { quality = assessQuality(result.content.mesh, result.content.subMesh, lengths.inWorld); },
+                  [&] { steps = explicitSteps(result.content, model.materials); } });
   writeChildAndParent(line, result.content);
   if (const std::string curves = line.outputFile("curveMesh"); !curves.empty()) writeCurves(result.content, curves);
   writeExports(line, result.content, model);
-  const std::map<Label, ExplicitStep> steps = explicitSteps(result.content, model.materials);
   MeshReport figures{ result, quality, steps, {}, fromBackground, line.warnings() };
   if (line.flag("conditioning")) figures.conditioning = stiffnessConditioning(result.content.mesh);
   const std::string reportFile = line.outputFile("report");

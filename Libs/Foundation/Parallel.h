@@ -24,10 +24,20 @@ void parallelFor(std::size_t count, F&& f)
                    });
 }
 
-/// The same for few and long calls: handed out one by one.
+/// The same on threads that have nothing else to do: within another of these loops, one after the other. A single call
+/// is no loop.
+template <class F>
+void parallelForIfIdle(std::size_t count, F&& f)
+{
+  if (!vtkSMPTools::IsParallelScope()) return parallelFor(count, f);
+  for (std::size_t i = 0; i < count; ++i) f(i);
+}
+
+/// parallelFor() for few and long calls: handed out one by one.
 template <class F>
 void parallelForEach(std::size_t count, F&& f)
 {
+  if (count == 1) return f(std::size_t(0));
   vtkSMPTools::For(0, vtkIdType(count), 1,
                    [&](vtkIdType begin, vtkIdType end)
                    {

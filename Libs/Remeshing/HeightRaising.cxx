@@ -3,6 +3,7 @@
 
 #include "FaceAdjacency.h"
 #include "MeshQuality.h"
+#include "Parallel.h"
 #include "TetQuality.h"
 #include "VertexSteps.h"
 
@@ -27,11 +28,13 @@ public:
 
   void run()
   {
-    findLimits();
+    std::vector<double> heights = heightsInTissues();
+    findLimits(heights);
     for (int pass = 0; pass < m_Options.passes; ++pass)
     {
+      if (pass > 0) heights = heightsInTissues();
       bool any = false;
-      for (const auto& [height, t] : lowTetrahedra())
+      for (const auto& [height, t] : lowTetrahedra(heights))
         if (m_Complex.alive(t) && heightOf(t) < limitOf(t))
           any = (collapseAnEdge(t) || removeAnEdge(t) || moveVertices(t)) || any;
       if (!any) return;
@@ -41,14 +44,29 @@ public:
 private:
   using Low = std::pair<double, std::int32_t>;
 
+  static constexpr double outside = std::numeric_limits<double>::infinity();
+
+  /// By tetrahedron; `outside` in the background.
+  std::vector<double> heightsInTissues() const
+  {
+    std::vector<double> result(m_Complex.tets.size(), outside);
+    parallelForIfIdle(result.size(),
+                      [&](std::size_t n)
+                      {
+                        const auto t = std::int32_t(n);
+                        if (m_Complex.alive(t) && m_Complex.labels[t] != 0) result[n] = heightOf(t);
+                      });
+    return result;
+  }
+
   /// A tissue of which more than a few tetrahedra are low is thin itself.
-  void findLimits()
+  void findLimits(const std::vector<double>& heights)
   {
     constexpr double few = 0.03; // share; a tenth inflated a spinal cord not much wider than L by 4 %
-    std::map<Label, std::vector<double>> heights;
-    for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
-      if (m_Complex.alive(t) && m_Complex.labels[t] != 0) heights[m_Complex.labels[t]].push_back(heightOf(t));
-    for (auto& [label, each] : heights)
+    std::map<Label, std::vector<double>> heightsOf;
+    for (std::size_t t = 0; t < heights.size(); ++t)
+      if (heights[t] != outside) heightsOf[m_Complex.labels[t]].push_back(heights[t]);
+    for (auto& [label, each] : heightsOf)
     {
       const auto at = each.begin() + std::ptrdiff_t(few * double(each.size()));
       std::nth_element(each.begin(), at, each.end());
@@ -58,12 +76,11 @@ private:
   double limitOf(std::int32_t t) const { return m_Limits[m_Complex.labels[t]]; }
 
   /// Ascending, no more than are worked on.
-  std::vector<Low> lowTetrahedra() const
+  std::vector<Low> lowTetrahedra(const std::vector<double>& heights) const
   {
     std::vector<Low> low;
-    for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
-      if (m_Complex.alive(t) && m_Complex.labels[t] != 0)
-        if (const double height = heightOf(t); height < limitOf(t)) low.push_back({ height, t });
+    for (std::int32_t t = 0; t < std::int32_t(heights.size()); ++t)
+      if (heights[t] != outside && heights[t] < limitOf(t)) low.push_back({ heights[t], t });
     const auto most = std::max<std::size_t>(100, std::size_t(m_Options.worstShare * double(m_Complex.tets.size())));
     std::sort(low.begin(), low.end());
     low.resize(std::min(low.size(), most));

@@ -3,12 +3,14 @@
 
 #include "FaceAdjacency.h"
 #include "GroupDescent.h"
+#include "Parallel.h"
 #include "TetQuality.h"
 #include "VertexSteps.h"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace surgicalmesher
 {
@@ -48,9 +50,9 @@ public:
     for (int pass = 0; pass < m_Options.passes; ++pass)
     {
       std::vector<std::pair<double, std::int32_t>> bad;
-      for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
-        if (m_Complex.alive(t) && isTouched(t))
-          if (const double q = m_Operations.quality(t); q < m_Target) bad.push_back({ q, t });
+      const std::vector<double> qualities = qualitiesOfTouched();
+      for (std::int32_t t = 0; t < std::int32_t(qualities.size()); ++t)
+        if (qualities[t] < m_Target) bad.push_back({ qualities[t], t });
       if (bad.empty()) break;
       std::sort(bad.begin(), bad.end());
       bad.resize(std::min(bad.size(), shareOf(m_Options.worstShare)));
@@ -65,6 +67,19 @@ private:
   std::size_t shareOf(double share) const
   {
     return std::max<std::size_t>(100, std::size_t(share * double(m_Complex.tets.size())));
+  }
+
+  /// By tetrahedron; infinite where nothing has changed.
+  std::vector<double> qualitiesOfTouched() const
+  {
+    std::vector<double> result(m_Complex.tets.size(), std::numeric_limits<double>::infinity());
+    parallelForIfIdle(result.size(),
+                      [&](std::size_t n)
+                      {
+                        const auto t = std::int32_t(n);
+                        if (m_Complex.alive(t) && isTouched(t)) result[n] = m_Operations.quality(t);
+                      });
+    return result;
   }
 
   /// Whether anything near t has changed since it was last tried.
@@ -138,17 +153,19 @@ private:
     const double size = m_Complex.lengths[v];
     double step = first * size;
     const Quadric held = heldAt(m_Operations, v, m_Options.ease);
-    std::optional<Vec3> uphill; // from where v is now
+    Vec3 uphill; // from where v is now
+    bool knowsUphill = false;
     for (int trial = 0; trial < m_Options.trials && best < m_Target && step > least * size; ++trial)
     {
       const Vec3 p = m_Complex.points[v];
       const bool isRandom = trial % 3 == 2;
-      if (!isRandom && !uphill) uphill = easiest(m_Operations, v, held, m_Uphill(m_Operations, v, p, best));
-      const Vec3 q = p + step * (isRandom ? easiest(m_Operations, v, held, m_Directions.next()) : *uphill);
+      if (!isRandom && !std::exchange(knowsUphill, true))
+        uphill = easiest(m_Operations, v, held, m_Uphill(m_Operations, v, p, best));
+      const Vec3 q = p + step * (isRandom ? easiest(m_Operations, v, held, m_Directions.next()) : uphill);
       if (m_Operations.qualityAt(v, q, best) > best && m_Operations.moveWithin(v, q))
       {
         best = m_Operations.qualityAt(v);
-        uphill.reset();
+        knowsUphill = false;
         step *= 1.3;
       }
       else step *= 0.8;

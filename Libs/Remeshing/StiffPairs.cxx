@@ -2,6 +2,7 @@
 #include "StiffPairs.h"
 
 #include "LinearTetrahedron.h"
+#include "Parallel.h"
 #include "TetQuality.h"
 #include "VertexSteps.h"
 
@@ -184,35 +185,47 @@ private:
     return scaledMatrix(own, others, between);
   }
 
-  /// Fills m_Neighbours with those of higher numbers, and what is between v and them.
-  void gatherPairs(std::int32_t v)
+  /// Of v with neighbours of higher numbers; `star`: the tetrahedra there.
+  void addStiffPairs(std::int32_t v, const std::vector<std::int32_t>& star, std::vector<Pair>& pairs) const
   {
-    m_Neighbours.clear();
-    for (const std::int32_t t : m_Operations.star(v))
+    std::vector<Neighbour> neighbours;
+    neighbours.reserve(star.size());
+    for (const std::int32_t t : star)
     {
       const auto& x = m_Complex.tets[t];
       if (m_Complex.labels[t] == 0 || *std::max_element(x.begin(), x.end()) == v) continue;
       const LinearTetrahedron shape = shapeOf(m_Complex, t);
       const int at = m_Complex.indexOf(t, v);
       for (int i = 0; i < 4; ++i)
-        if (x[i] > v) add(entryOf(x[i], m_Neighbours).between, stiffnessOf(shape, at, i), 1);
+        if (x[i] > v) add(entryOf(x[i], neighbours).between, stiffnessOf(shape, at, i), 1);
+    }
+    for (const Neighbour& n : neighbours)
+    {
+      const Matrix matrix = scaledMatrix(m_Diagonal[v], m_Diagonal[n.vertex], n.between);
+      if (!areBelow(m_Options.eigenvalue, matrix)) pairs.push_back({ largestEigenvalue(matrix), v, n.vertex });
     }
   }
 
   /// Stiffest first.
   std::vector<Pair> stiffPairs()
   {
+    constexpr std::size_t parts = 16;
+    const std::size_t count = m_Complex.points.size();
+    std::vector<std::vector<Pair>> found(parts);
+    parallelForIfIdle(parts,
+                      [&](std::size_t part)
+                      {
+                        TetComplex::Marks marks{ std::vector<std::uint32_t>(m_Complex.tets.size(), 0) };
+                        std::vector<std::int32_t> star;
+                        for (std::size_t v = part * count / parts; v < (part + 1) * count / parts; ++v)
+                        {
+                          if (m_Complex.vertexTet[v] < 0) continue;
+                          m_Complex.star(std::int32_t(v), star, marks);
+                          addStiffPairs(std::int32_t(v), star, found[part]);
+                        }
+                      });
     std::vector<Pair> pairs;
-    for (std::int32_t v = 0; v < std::int32_t(m_Complex.points.size()); ++v)
-    {
-      if (m_Complex.vertexTet[v] < 0) continue;
-      gatherPairs(v);
-      for (const Neighbour& n : m_Neighbours)
-      {
-        const Matrix matrix = scaledMatrix(m_Diagonal[v], m_Diagonal[n.vertex], n.between);
-        if (!areBelow(m_Options.eigenvalue, matrix)) pairs.push_back({ largestEigenvalue(matrix), v, n.vertex });
-      }
-    }
+    for (const std::vector<Pair>& of : found) pairs.insert(pairs.end(), of.begin(), of.end());
     std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) { return x.value > y.value; });
     return pairs;
   }
@@ -287,8 +300,7 @@ private:
   const TetComplex& m_Complex;
   const StiffPairOptions& m_Options;
   const double m_Good;
-  std::vector<Block> m_Diagonal; ///< of each vertex
-  std::vector<Neighbour> m_Neighbours;
+  std::vector<Block> m_Diagonal;                       ///< of each vertex
   std::vector<std::pair<std::int32_t, int>> m_Tissues; ///< tetrahedra at a vertex, and which corner it is
   std::vector<LinearTetrahedron> m_Shapes;             ///< theirs
   std::vector<Side> m_Sides;

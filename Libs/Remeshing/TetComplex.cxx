@@ -32,7 +32,8 @@ TetComplex::TetComplex(std::vector<Vec3> points_, std::vector<float> lengths_, s
                        std::vector<Label> labels_, std::vector<Tet> neighbours_)
   : points(std::move(points_)), lengths(std::move(lengths_)), locked(points.size(), 0), onInterface(points.size(), 0),
     vertexTet(points.size(), -1), tets(std::move(tets_)), neighbours(std::move(neighbours_)),
-    labels(std::move(labels_)), sampleHeads(tets.size(), { -1, -1, -1, -1 }), m_Mark(tets.size(), 0)
+    labels(std::move(labels_)),
+    sampleHeads(tets.size(), { -1, -1, -1, -1 }), m_Marks{ std::vector<std::uint32_t>(tets.size(), 0) }
 {
   for (std::size_t t = 0; t < tets.size(); ++t)
     for (std::int32_t v : tets[t])
@@ -64,13 +65,13 @@ double TetComplex::qualityWith(std::int32_t t, std::int32_t v, const Vec3& p) co
                     x[3] == v ? p : points[x[3]]);
 }
 
-void TetComplex::star(std::int32_t v, std::vector<std::int32_t>& out)
+void TetComplex::star(std::int32_t v, std::vector<std::int32_t>& out, Marks& marks) const
 {
-  const std::uint32_t stamp = ++m_Stamp;
+  const std::uint32_t search = ++marks.search;
   if (out.size() < 32) out.resize(32);
   std::size_t n = 1, room = out.size();
   out[0] = vertexTet[v];
-  m_Mark[out[0]] = stamp;
+  marks.of[out[0]] = search;
   for (std::size_t i = 0; i < n; ++i)
   {
     if (n + 4 > room) out.resize(room *= 2);
@@ -79,8 +80,8 @@ void TetComplex::star(std::int32_t v, std::vector<std::int32_t>& out)
     for (int k = 0; k < 4; ++k)
     {
       const std::int32_t t = across[k];
-      if (x[k] == v || t < 0 || m_Mark[t] == stamp) continue;
-      m_Mark[t] = stamp;
+      if (x[k] == v || t < 0 || marks.of[t] == search) continue;
+      marks.of[t] = search;
       out[n++] = t;
     }
   }
@@ -191,7 +192,7 @@ std::int32_t TetComplex::allocate()
   neighbours.push_back({ -1, -1, -1, -1 });
   labels.push_back(0);
   sampleHeads.push_back({ -1, -1, -1, -1 });
-  m_Mark.push_back(0);
+  m_Marks.of.push_back(0);
   return std::int32_t(tets.size()) - 1;
 }
 

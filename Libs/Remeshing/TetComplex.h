@@ -70,8 +70,16 @@ public:
   /// Quality of tetrahedron t with vertex v at position p.
   double qualityWith(std::int32_t t, std::int32_t v, const Vec3& p) const;
 
+  /// Which tetrahedra a search has met.
+  struct Marks
+  {
+    std::vector<std::uint32_t> of; ///< per tetrahedron, the number of the last search that has
+    std::uint32_t search = 0;
+  };
   /// Tetrahedra at vertex v.
-  void star(std::int32_t v, std::vector<std::int32_t>& tetrahedra);
+  void star(std::int32_t v, std::vector<std::int32_t>& tetrahedra) { star(v, tetrahedra, m_Marks); }
+  /// The same in the same order, for searches on several threads, each with marks of its own, as many as tetrahedra.
+  void star(std::int32_t v, std::vector<std::int32_t>& tetrahedra, Marks& marks) const;
   /// Tetrahedra around edge ab in cyclic order, and the vertices between them (ring[i] in tetrahedra i-1 and i).
   /// False if the edge lies on the border of the block. `seed` is one tetrahedron at the edge.
   bool ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::vector<std::int32_t>& tetrahedra,
@@ -114,8 +122,7 @@ public:
 private:
   std::int32_t allocate();
 
-  std::vector<std::uint32_t> m_Mark; ///< per tetrahedron, for star()
-  std::uint32_t m_Stamp = 0;
+  Marks m_Marks;
   std::vector<std::int32_t> m_Free;
 };
 

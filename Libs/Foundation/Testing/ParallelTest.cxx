@@ -5,11 +5,25 @@
 
 #include <atomic>
 #include <stdexcept>
+#include <vector>
 
 namespace surgicalmesher
 {
 namespace
 {
+
+TEST(ParallelLoops, CallForEveryNumberOnceInsideAnotherToo)
+{
+  for (const std::size_t count : { 0, 1, 2, 1000 })
+  {
+    std::vector<std::atomic<int>> calls(count);
+    parallelFor(count, [&](std::size_t i) { ++calls[i]; });
+    parallelForEach(count, [&](std::size_t i) { ++calls[i]; });
+    parallelForIfIdle(count, [&](std::size_t i) { ++calls[i]; });
+    parallelForEach(3, [&](std::size_t) { parallelForIfIdle(count, [&](std::size_t i) { ++calls[i]; }); });
+    for (const std::atomic<int>& times : calls) EXPECT_EQ(times, 6);
+  }
+}
 
 TEST(RunInParallel, RunsAllAndThrowsWhatTheFirstThatFailsHasThrown)
 {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace surgicalmesher
 {
 namespace
@@ -138,10 +140,13 @@ TEST(TetComplex, StarAndRingAreThoseFoundByLookingAtAll)
 {
   std::mt19937 random(2);
   TetComplex complex = complexOf(randomLattice(random));
-  std::vector<std::int32_t> star;
+  std::vector<std::int32_t> star, same;
+  TetComplex::Marks marks{ std::vector<std::uint32_t>(complex.tets.size(), 0) };
   for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
   {
     complex.star(v, star);
+    std::as_const(complex).star(v, same, marks);
+    EXPECT_EQ(star, same);
     EXPECT_EQ(asSet(star), havingBoth(complex, v, v));
     EXPECT_EQ(asSet(star).size(), star.size());
     if (v % 7 == 0)
