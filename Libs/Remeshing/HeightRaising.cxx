@@ -80,7 +80,7 @@ private:
   {
     std::vector<Low> low;
     for (std::int32_t t = 0; t < std::int32_t(heights.size()); ++t)
-      if (heights[t] != outside && heights[t] < limitOf(t)) low.push_back({ heights[t], t });
+      if (heights[t] < limitOf(t)) low.push_back({ heights[t], t });
     const auto most = std::max<std::size_t>(100, std::size_t(m_Options.worstShare * double(m_Complex.tets.size())));
     std::sort(low.begin(), low.end());
     low.resize(std::min(low.size(), most));

@@ -207,7 +207,7 @@ private:
   }
 
   /// Stiffest first.
-  std::vector<Pair> stiffPairs()
+  std::vector<Pair> stiffPairs() const
   {
     constexpr std::size_t parts = 16;
     const std::size_t count = m_Complex.points.size();
