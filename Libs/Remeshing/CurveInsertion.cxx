@@ -129,14 +129,6 @@ void addSamples(TetComplex& complex, double tolerance)
     complex.addSample(alive[sample.tetrahedron], sample.face, sample.position, sample.tolerance);
 }
 
-bool isWorkLeft(const TetComplex& complex, double targetAngle)
-{
-  const double target = sine2OfDegrees(targetAngle);
-  for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
-    if (complex.alive(t) && complex.labels[t] != 0 && complex.quality(t) < target) return true;
-  return false;
-}
-
 /// The arcs of each curve put together.
 std::vector<CurveChain> chainsOf(const CurveChains& chains)
 {
@@ -176,9 +168,8 @@ std::vector<CurveChain> insertCurves(TetMesh& mesh, const CurveNetwork& curves, 
   const double smallest = *std::min_element(complex.lengths.begin(), complex.lengths.end());
   RemesherOptions remeshing;
   remeshing.featureAngle = options.featureAngle;
-  for (const ConditionalSweep& next : sweepsForCurves(options.targetAngle, smallest))
-    if (next.worthwhileShare < 0 || isWorkLeft(complex, options.targetAngle))
-      runSweep(complex, length, next.sweep, remeshing, &chains);
+  for (const TetrahedralSweep& next : sweepsForCurves(options.targetAngle, smallest))
+    runSweep(complex, length, next.sweep, remeshing, {}, &chains);
   std::vector<CurveChain> result = chainsOf(chains);
   mesh = neighbourhood.mesh(result);
   return result;

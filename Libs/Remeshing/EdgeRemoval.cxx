@@ -233,10 +233,12 @@ bool GuardedOperations::closeRing(std::int32_t a, std::int32_t b, double minimum
   return true;
 }
 
-bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double minimumQuality)
+bool GuardedOperations::removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed,
+                                   std::optional<double> minimumQuality)
 {
-  return openRing(a, b, seed, maximumRing) && fillRing(a, b, minimumQuality, WorstCounts{}) &&
-         closeRing(a, b, minimumQuality);
+  if (!openRing(a, b, seed, maximumRing)) return false;
+  const double least = minimumQuality ? *minimumQuality : clearlyBetter(worstQuality(m_Ring));
+  return fillRing(a, b, least, WorstCounts{}) && closeRing(a, b, least);
 }
 
 bool GuardedOperations::removeLowEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double goodQuality)

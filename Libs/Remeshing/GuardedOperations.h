@@ -35,6 +35,9 @@ struct OperationCounts
   OperationCounts& operator+=(const OperationCounts& more);
 };
 
+/// The quality from which on something counts as better than q.
+inline double clearlyBetter(double q) { return q * 1.0001 + 1e-9; }
+
 class GuardedOperations
 {
 public:
@@ -130,8 +133,9 @@ public:
 
   // --- edge removal (EdgeRemoval.cxx)
   /// Replaces the tetrahedra around edge ab by the best ones without it (Klincsek 1980, as Shewchuk uses it); an edge
-  /// inside the sheet between two labels becomes the other diagonal of its two triangles.
-  bool removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double minimumQuality);
+  /// inside the sheet between two labels becomes the other diagonal of its two triangles. Without `minimumQuality`, all
+  /// are to be better than the worst around ab.
+  bool removeEdge(std::int32_t a, std::int32_t b, std::int32_t seed, std::optional<double> minimumQuality = {});
 
   /// The same for the least height of the tissues' tetrahedra, whose worst quality may fall to `goodQuality`.
   bool removeLowEdge(std::int32_t a, std::int32_t b, std::int32_t seed, double goodQuality);
@@ -148,6 +152,9 @@ public:
   /// sheet's bending. `refusals`, if given, are asked, and told.
   bool swapEdge(std::int32_t a, std::int32_t b, std::int32_t seed, const SwapGoal& goal,
                 SwapRefusals* refusals = nullptr);
+
+  /// Around the edge removed last.
+  const std::vector<std::int32_t>& ringVertices() const { return m_RingVertices; }
 
   // --- edge split (EdgeSplit.cxx)
   /// Splits edge ab at p. Returns the new vertex, nothing if it may not be.

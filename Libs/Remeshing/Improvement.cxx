@@ -121,12 +121,10 @@ private:
                        [&](std::int32_t a, std::int32_t b)
                        {
                          if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
-                         if (!m_Complex.ring(a, b, t, m_Ring, m_RingVertices)) return false;
-                         if (!m_Operations.removeEdge(a, b, t, m_Operations.worstQuality(m_Ring) * 1.0001 + 1e-9))
-                           return false;
+                         if (!m_Operations.removeEdge(a, b, t)) return false;
                          m_Touched.resize(m_Complex.points.size(), 1);
                          m_Touched[a] = m_Touched[b] = 1;
-                         for (std::int32_t v : m_RingVertices) m_Touched[v] = 1;
+                         for (const std::int32_t v : m_Operations.ringVertices()) m_Touched[v] = 1;
                          return true;
                        });
   }
@@ -273,10 +271,10 @@ private:
                          for (const auto& [u, v] : { std::pair(a, b), std::pair(b, a) })
                          {
                            if (m_Complex.locked[u]) continue;
-                           const double before = m_Operations.qualityAt(u) * 1.0001 + 1e-9;
+                           const double better = clearlyBetter(m_Operations.qualityAt(u));
                            const Vec3 from = m_Complex.points[u], to = m_Complex.points[v];
                            for (double share : { 1.0, 0.5 })
-                             if (m_Operations.collapse(u, v, from + share * (to - from), before, m_Options.longEdge))
+                             if (m_Operations.collapse(u, v, from + share * (to - from), better, m_Options.longEdge))
                              {
                                touchStar(v);
                                return true;
@@ -323,7 +321,7 @@ private:
       if (const double value = halves(q); value > best) best = value, p = q;
       else step *= 0.85;
     }
-    const double better = before * 1.0001 + 1e-9;
+    const double better = clearlyBetter(before);
     const auto v = best > better ? m_Operations.split(a, b, seed, p, better) : std::nullopt;
     if (!v) return false;
     touchStar(*v);

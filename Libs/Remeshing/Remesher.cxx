@@ -44,11 +44,13 @@ EnvelopeBounds boundsOf(const Stage& stage, const RemesherOptions& options)
 } // namespace
 
 OperationCounts runSweep(TetComplex& block, const SizingFunction& length, const Sweep& sweep,
-                         const RemesherOptions& options, CurveChains* curves)
+                         const RemesherOptions& options, const Progress& progress, CurveChains* curves)
 {
   OperationCounts counts;
-  for (const Stage& stage : sweep.stages)
+  for (std::size_t n = 0; n < sweep.stages.size(); ++n)
   {
+    report(progress, double(n) / double(sweep.stages.size()), sweep.name);
+    const Stage& stage = sweep.stages[n];
     GuardedOperations operations(block, length, boundsOf(stage, options), sweep.stiff ? options.rigidity : 0, curves);
     for (const Pass& pass : stage.passes) std::visit(RunPass{ operations }, pass);
     counts += operations.counts();
@@ -67,14 +69,15 @@ void Remesher::run(const Sweep& sweep)
 {
   m_Counts = {};
   std::mutex mutex;
+  const Progress progress = [&](double fraction, const std::string&)
+  { report(m_Progress, (double(m_Round) + fraction) / double(m_Sweeps), sweep.name); };
   const auto work = [&](TetComplex& block)
   {
-    const OperationCounts counts = runSweep(block, m_Length, sweep, m_Options);
+    const Progress ofStages = sweep.whole ? progress : Progress(); // several blocks report for themselves
+    const OperationCounts counts = runSweep(block, m_Length, sweep, m_Options, ofStages);
     const std::lock_guard<std::mutex> lock(mutex);
     m_Counts += counts;
   };
-  const auto progress = [&](double fraction, const std::string&)
-  { report(m_Progress, (double(m_Round) + fraction) / double(m_Sweeps), sweep.name); };
   sweepBlocks(m_Background, int(m_Round), sweep.whole ? wholeMesh : defaultBlockSize(m_Background.mesh), work,
               progress);
   ++m_Round;

@@ -19,9 +19,9 @@ struct RemesherOptions
   double rigidity = 0;      ///< of the interface against bending, see quadricOf
 };
 
-/// Runs the stages of a sweep on one block. `curves`: see GuardedOperations.
+/// Runs the stages of a sweep on one block. `progress` gets the share of them done; `curves`: see GuardedOperations.
 OperationCounts runSweep(TetComplex& block, const SizingFunction& length, const Sweep& sweep,
-                         const RemesherOptions& options, CurveChains* curves = nullptr);
+                         const RemesherOptions& options, const Progress& progress = {}, CurveChains* curves = nullptr);
 
 class Remesher
 {

@@ -351,8 +351,6 @@ std::size_t surfaceSweepCount(const MeshSizes& sizes)
 namespace
 {
 
-constexpr double always = -1;
-
 /// One row of the tables below.
 struct VolumeRow
 {
@@ -368,10 +366,9 @@ struct VolumeRow
   int passes = 2;       ///< likewise
   double splitEdge = 0; ///< 0: no splits
   bool whole = false;
-  double worthwhileShare = 0;
   bool softens = false;  ///< pairs of vertices, first, within the tolerance as it is
   double height = 0;     ///< mm, see HeightOptions, and nothing else is done then but softening; 0: not raised
-  bool balanced = false; ///< see ConditionalSweep
+  bool balanced = false; ///< see TetrahedralSweep
 };
 
 /// Within the tolerance as it is first: what is raised so leaves no dent. Beyond it not quite as high: what lacks little
@@ -385,7 +382,7 @@ std::vector<Stage> raisedHeights(const EnvelopeBounds& beyond, double height)
            { beyond, { RaiseHeights{ { .height = dentingShare * height } } } } };
 }
 
-ConditionalSweep sweepOf(const VolumeRow& row)
+TetrahedralSweep sweepOf(const VolumeRow& row)
 {
   Stage stage{ { .rmsLimit = row.rmsLimit,
                  .toleranceFactor = row.tolerance,
@@ -408,13 +405,25 @@ ConditionalSweep sweepOf(const VolumeRow& row)
   Sweep sweep{ "improvement", { stage }, row.whole };
   if (row.height > 0) sweep.stages = raisedHeights(stage.bounds, row.height);
   if (row.softens) sweep.stages.insert(sweep.stages.begin(), { { .rmsLimit = 1 }, { SoftenPairs{} } });
-  return { std::move(sweep), row.worthwhileShare, row.balanced };
+  return { std::move(sweep), row.balanced };
 }
 
-std::vector<ConditionalSweep> sweepsOf(const std::vector<VolumeRow>& rows)
+/// Rows over the whole mesh that follow one another are one sweep: to take the mesh apart and put it together again costs
+/// more than most of them.
+std::vector<TetrahedralSweep> sweepsOf(const std::vector<VolumeRow>& rows)
 {
-  std::vector<ConditionalSweep> sweeps;
-  std::transform(rows.begin(), rows.end(), std::back_inserter(sweeps), sweepOf);
+  std::vector<TetrahedralSweep> sweeps;
+  for (const VolumeRow& row : rows)
+  {
+    TetrahedralSweep next = sweepOf(row);
+    if (sweeps.empty() || !sweeps.back().sweep.whole || !next.sweep.whole)
+    {
+      sweeps.push_back(std::move(next));
+      continue;
+    }
+    std::vector<Stage>& stages = sweeps.back().sweep.stages;
+    stages.insert(stages.end(), next.sweep.stages.begin(), next.sweep.stages.end());
+  }
   return sweeps;
 }
 
@@ -438,9 +447,7 @@ std::vector<VolumeRow> repairRows(double t)
 VolumeRow lastRow(double smallestLength)
 {
   constexpr double share = 0.4; // the lattice has 0.82; more costs angles in lattices of one length
-  return {
-    .tolerance = 4, .whole = true, .worthwhileShare = always, .softens = true, .height = share * smallestLength
-  };
+  return { .tolerance = 4, .whole = true, .softens = true, .height = share * smallestLength };
 }
 
 } // namespace
@@ -448,20 +455,20 @@ VolumeRow lastRow(double smallestLength)
 /// No relaxation and no collapses: the lattice has its sizes, and both destroy it. For the same reason polishing spares
 /// its vertices. In the end the surface goes back to its samples as far as angles allow, and with
 /// them to the volumes that tissues had.
-std::vector<ConditionalSweep> sweepsForRawMesh(double t, double smallestLength)
+std::vector<TetrahedralSweep> sweepsForRawMesh(double t, double smallestLength)
 {
   const PolishingOptions polishing{ .sparesWhole = true };
   const PolishingOptions back{ .goodAngle = 28.4, .fit = 3, .sparesWhole = true };
   std::vector<VolumeRow> rows = repairRows(t);
   // clang-format off
   rows.insert(rows.begin(), {
-    { .rmsLimit = 0.3, .polishes = 2, .polishing = polishing, .angle = t, .trials = 8, .worthwhileShare = always },
-    { .rmsLimit = 0.5, .polishes = 2, .polishing = polishing, .angle = t, .trials = 12, .worthwhileShare = always },
-    { .rmsLimit = 0.8, .tolerance = 1.5, .polishes = 3, .polishing = polishing, .angle = t, .trials = 16, .worthwhileShare = always },
+    { .rmsLimit = 0.3, .polishes = 2, .polishing = polishing, .angle = t, .trials = 8 },
+    { .rmsLimit = 0.5, .polishes = 2, .polishing = polishing, .angle = t, .trials = 12 },
+    { .rmsLimit = 0.8, .tolerance = 1.5, .polishes = 3, .polishing = polishing, .angle = t, .trials = 16 },
   });
   constexpr std::size_t balancingRounds = 3;
   rows.insert(rows.end(), balancingRounds,
-              { .rmsLimit = 0.4, .polishes = 2, .polishing = back, .worthwhileShare = always, .balanced = true });
+              { .rmsLimit = 0.4, .polishes = 2, .polishing = back, .balanced = true });
   // clang-format on
   rows.push_back(lastRow(smallestLength));
   return sweepsOf(rows);
@@ -471,14 +478,14 @@ namespace
 {
 
 /// The surface gives way only where no angle comes right without.
-std::vector<ConditionalSweep> repairsOfImprovedMesh(double t, double smallestLength, bool swaps)
+std::vector<TetrahedralSweep> repairsOfImprovedMesh(double t, double smallestLength, bool swaps)
 {
   const PolishingOptions polishing{ .sparesWhole = true };
   std::vector<VolumeRow> rows = repairRows(t);
   // clang-format off
   rows.insert(rows.begin(), {
-    { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 12, .worthwhileShare = always },
-    { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 16, .worthwhileShare = always },
+    { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 12 },
+    { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 16 },
     { .rmsLimit = 0.8, .tolerance = 0.5, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
     { .rmsLimit = 0.8, .tolerance = 1.5, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
   });
@@ -491,7 +498,7 @@ std::vector<ConditionalSweep> repairsOfImprovedMesh(double t, double smallestLen
 
 } // namespace
 
-std::vector<ConditionalSweep> sweepsForImprovedMesh(double t, double smallestLength)
+std::vector<TetrahedralSweep> sweepsForImprovedMesh(double t, double smallestLength)
 {
   return repairsOfImprovedMesh(t, smallestLength, true);
 }
@@ -506,17 +513,17 @@ Sweep restoringSweep(double targetAngle, TissueOffsets offsets)
 }
 
 /// Only what tracing has cut is short: collapses leave the rest of the lattice alone, and so do swaps.
-std::vector<ConditionalSweep> sweepsForCurves(double t, double smallestLength)
+std::vector<TetrahedralSweep> sweepsForCurves(double t, double smallestLength)
 {
   constexpr double shortEdge = 0.6, anyLevel = 1e9;
-  std::vector<ConditionalSweep> sweeps;
+  std::vector<TetrahedralSweep> sweeps;
   for (const double leastAngle : { 1.0, 5.0, 12.0, 18.0 })
   {
     const Coarsen coarsen{ anyLevel, { .shortEdge = shortEdge, .minimumAngle = leastAngle } };
     const Stage stage{ { .rmsLimit = 1 }, { coarsen, improve(t, 12, 2) } };
-    sweeps.push_back({ { "curves", { stage } }, always });
+    sweeps.push_back({ { "curves", { stage } } });
   }
-  const std::vector<ConditionalSweep> repairs = repairsOfImprovedMesh(t, smallestLength, false);
+  const std::vector<TetrahedralSweep> repairs = repairsOfImprovedMesh(t, smallestLength, false);
   sweeps.insert(sweeps.end(), repairs.begin(), repairs.end());
   return sweeps;
 }

@@ -78,22 +78,19 @@ Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets);
 std::size_t surfaceSweepCount(const MeshSizes& sizes);
 
 // --- tetrahedral stage
-/// A sweep, and when it is worth while.
-struct ConditionalSweep
+struct TetrahedralSweep
 {
   Sweep sweep;
-  /// Run only if more than this share of the tetrahedra is below the target angle; negative: always.
-  double worthwhileShare;
   bool balanced = false; ///< VolumeBalance is applied before it
 };
 
 /// For tetrahedra that nobody has improved yet, such as constrained Delaunay's. `targetAngle` in degrees, dihedral;
 /// `smallestLength`: the least L in tissues, mm, of which the last sweep makes every height a fair share,
 /// after it has softened pairs of vertices.
-std::vector<ConditionalSweep> sweepsForRawMesh(double targetAngle, double smallestLength);
+std::vector<TetrahedralSweep> sweepsForRawMesh(double targetAngle, double smallestLength);
 /// For a mesh whose surface the surface stage improved to `targetAngle`, whatever fills it: the surface is held, but
 /// where an angle cannot be mended otherwise, and slides within its tolerance where pairs of vertices are softened.
-std::vector<ConditionalSweep> sweepsForImprovedMesh(double targetAngle, double smallestLength);
+std::vector<TetrahedralSweep> sweepsForImprovedMesh(double targetAngle, double smallestLength);
 
 constexpr double leastLack = 0.0005;     ///< share of its volume from which on a tissue is given it back
 constexpr std::size_t restoreRounds = 3; ///< where repairs have cost 1.4 % on jhu189, one leaves 0.35
@@ -101,6 +98,6 @@ constexpr std::size_t restoreRounds = 3; ///< where repairs have cost 1.4 % on j
 Sweep restoringSweep(double targetAngle, TissueOffsets offsets);
 
 /// For tetrahedra that curves have just been traced through, their chains as short as the tetrahedra they cut.
-std::vector<ConditionalSweep> sweepsForCurves(double targetAngle, double smallestLength);
+std::vector<TetrahedralSweep> sweepsForCurves(double targetAngle, double smallestLength);
 
 } // namespace surgicalmesher

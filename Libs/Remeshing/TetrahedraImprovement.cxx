@@ -41,7 +41,7 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
   for (const Vec3& p : mesh.points) background.lengths.push_back(float(length(p)));
   addInterfaceSamples(background, options.surfaceTolerance);
   const double smallest = smallestLength(background);
-  const std::vector<ConditionalSweep> sweeps = options.isImproved ? sweepsForImprovedMesh(options.targetAngle, smallest)
+  const std::vector<TetrahedralSweep> sweeps = options.isImproved ? sweepsForImprovedMesh(options.targetAngle, smallest)
                                                                   : sweepsForRawMesh(options.targetAngle, smallest);
   RemesherOptions remeshing;
   remeshing.featureAngle = options.featureAngle;
@@ -49,13 +49,10 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
   Remesher remesher(std::move(background), length, remeshing, progress, sweeps.size() + rounds);
   const std::map<Label, double> volumes = tissueVolumes(mesh);
   VolumeBalance balance(volumes, options.surfaceTolerance * smallest);
-  for (const auto& [sweep, worthwhileShare, balanced] : sweeps)
+  for (const auto& [sweep, balanced] : sweeps)
   {
     if (balanced) balance.apply(remesher.background(), balancingGain);
-    const TetMesh& now = remesher.background().mesh;
-    const double most = worthwhileShare * double(now.tetrahedra.size());
-    if (most < 0 || double(countBelow(now, options.targetAngle)) > most) remesher.run(sweep);
-    else remesher.skip();
+    remesher.run(sweep);
   }
   const VolumeBalance wanted(volumes, 0.1 * smallest);
   for (std::size_t round = 0; round < rounds; ++round)

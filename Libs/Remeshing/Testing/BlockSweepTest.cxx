@@ -3,11 +3,13 @@
 #include "Coarsening.h"
 #include "ComplexInvariants.h"
 #include "RandomMaps.h"
+#include "Remesher.h"
 #include "Triangle.h"
 
 #include <gtest/gtest.h>
 #include <vtkSMPTools.h>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <stdexcept>
@@ -309,6 +311,27 @@ TEST(BlockSweep, ProgressRisesWithinItsRange)
       ++calls;
     });
   EXPECT_GT(calls, 3);
+}
+
+TEST(BlockSweep, AWholeSweepReportsItsStagesAndEndsBetweenThem)
+{
+  const BackgroundMesh before = randomAmbient(8, 2);
+  const Stage stage{ {}, { Coarsen{ 2, {} } } };
+  const Sweep sweep{ "three stages", { stage, stage, stage }, true };
+  std::vector<double> fractions;
+  Remesher all(before, scale, {}, [&](double fraction, const std::string&) { fractions.push_back(fraction); });
+  all.run(sweep);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  for (const double share : { 1 / 3.0, 2 / 3.0 })
+    EXPECT_NE(std::find(fractions.begin(), fractions.end(), share), fractions.end()) << share;
+
+  const auto cancel = [](double fraction, const std::string&)
+  {
+    if (fraction > 0.5) throw std::runtime_error("cancelled");
+  };
+  Remesher cancelled(before, scale, {}, cancel);
+  EXPECT_THROW(cancelled.run(sweep), std::runtime_error);
+  EXPECT_TRUE(identical(cancelled.background(), before));
 }
 
 } // namespace surgicalmesher

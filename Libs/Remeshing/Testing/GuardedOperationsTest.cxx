@@ -849,6 +849,7 @@ TEST(EdgeRemoval, RefusesWhatQualityOrSamplesForbid)
   {
     GuardedOperations operations(complex, unitScale);
     EXPECT_FALSE(operations.removeEdge(0, 1, 0, same * 1.01));
+    EXPECT_FALSE(operations.removeEdge(0, 1, 0)) << "no better than now";
   }
   // With the ends of ab lifted, the other diagonal passes below the samples of the old sheet.
   TetMesh mesh = meshOf(octahedron({ 1, 1, 2, 2 }));
@@ -862,6 +863,20 @@ TEST(EdgeRemoval, RefusesWhatQualityOrSamplesForbid)
     GuardedOperations operations(bent, unitScale);
     const auto [a, b] = endsAlongX(bent);
     EXPECT_EQ(operations.removeEdge(a, b, tetrahedronAt(bent, a, b), anyQuality), tolerance > 0.1f);
+  }
+}
+
+TEST(EdgeRemoval, IsToBeatTheWorstAroundTheEdgeIfNoQualityIsAskedFor)
+{
+  const TetMesh regular = meshOf(octahedron({ 1, 1, 1, 1 }));
+  for (const auto& [stretch, expected] : { std::pair(2.0, true), std::pair(0.5, false) })
+  {
+    TetMesh mesh = regular;
+    for (Vec3& p : mesh.points) p.x *= stretch;
+    TetComplex complex = complexOf(mesh);
+    GuardedOperations operations(complex, unitScale);
+    const auto [a, b] = endsAlongX(complex);
+    EXPECT_EQ(operations.removeEdge(a, b, tetrahedronAt(complex, a, b)), expected) << stretch;
   }
 }
 

@@ -36,5 +36,15 @@ TEST(Schedule, CountsTrianglesInEveryRepair)
     for (const Sweep& sweep : repairSweeps(targets, sizes)) EXPECT_GT(sweep.stages.back().bounds.triangleWeight, 1);
 }
 
+TEST(Schedule, TakesTheWholeMeshApartOnceForAllThatFollowsOneAnother)
+{
+  for (const auto& sweeps : { sweepsForRawMesh(28.5, 1), sweepsForImprovedMesh(28.5, 1), sweepsForCurves(28.5, 1) })
+  {
+    EXPECT_TRUE(sweeps.back().sweep.whole);
+    for (std::size_t n = 1; n < sweeps.size(); ++n)
+      EXPECT_FALSE(sweeps[n - 1].sweep.whole && sweeps[n].sweep.whole) << n;
+  }
+}
+
 } // namespace
 } // namespace surgicalmesher
