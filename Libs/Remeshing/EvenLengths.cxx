@@ -98,7 +98,8 @@ private:
     for (const double times : { 1.0, 1.25 })
     {
       const Vec3 to = p + (times * lacking * m_Complex.targetLength(v, u) / along) * direction;
-      if (moveNear(v, onSheet(v, u, to), held)) return true;
+      const Outcome outcome = moveNear(v, onSheet(v, u, to), held);
+      if (outcome != Outcome::tooNear) return outcome == Outcome::moved;
     }
     return false;
   }
@@ -114,21 +115,29 @@ private:
     return p + (length > most ? most / length : 1) * step;
   }
 
+  enum class Outcome
+  {
+    moved,
+    hopeless,
+    tooNear ///< angles are good, but lengths no longer even, or samples against it: from farther away may do
+  };
+
   /// Moves v to p, or from there uphill to where its angles are good enough, if more lengths are then even.
-  bool moveNear(std::int32_t v, Vec3 p, const Quadric& held)
+  Outcome moveNear(std::int32_t v, Vec3 p, const Quadric& held)
   {
     constexpr int trials = 8;
     constexpr double hopeless = 0.1; // share of the quality wanted, below which one in 150 comes to it
     const double floor = floorAt(v), now = evenEdges(v, m_Complex.points[v]);
-    if (!(evenEdges(v, p) > now)) return false;
+    if (!(evenEdges(v, p) > now)) return Outcome::hopeless;
     for (int trial = 0; trial <= trials; ++trial)
     {
       const double quality = m_Operations.qualityAt(v, p, -1);
-      if (quality >= floor) return evenEdges(v, p) > now && m_Operations.moveWithin(v, p);
-      if (quality < hopeless * floor) return false;
+      if (quality >= floor)
+        return evenEdges(v, p) > now && m_Operations.moveWithin(v, p) ? Outcome::moved : Outcome::tooNear;
+      if (quality < hopeless * floor) return Outcome::hopeless;
       p += (0.03 * m_Complex.lengths[v]) * easiest(m_Operations, v, held, m_Uphill(m_Operations, v, p, quality));
     }
-    return false;
+    return Outcome::hopeless;
   }
 
   /// Moves v to the fit of its faces to their samples, where that costs no even length.

@@ -198,7 +198,7 @@ private:
   /// The group, to better than `before`, never falling to less than a share of it.
   bool moveTogether(double before, double dip)
   {
-    constexpr int hopeless = 6; // of what is not better by then, a tenth comes to be
+    constexpr int hopeless = 3; // of what is not better by then, one in thirty comes to be
     double after = m_Group.worst();
     for (int round = 0; round < m_Options.together && after < m_Target; ++round)
     {

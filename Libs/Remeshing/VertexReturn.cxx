@@ -56,7 +56,9 @@ private:
     constexpr double least = 0.05; // share of what the worst was, on the way
     const Vec3 from = m_Complex.points[v];
     if (!m_Operations.move(v, from + way, least * before)) return false;
-    if (mends(std::min(m_Good, before)) && (isFine(v) || foldedAround() <= folded + rounding * norm(way))) return true;
+    // Of what folds more, one in forty would be unfolded by what mends the angles.
+    const auto isOpen = [&] { return isFine(v) || foldedAround() <= folded + rounding * norm(way); };
+    if (isOpen() && mends(std::min(m_Good, before)) && isOpen()) return true;
     m_Group.takeBack();
     m_Operations.moveBack(v, from);
     m_Operations.reassignSamples(v);
