@@ -7,8 +7,8 @@ usage: benchmark.py BIN OUTDIR [--case PATTERN] [--threads N,N] [--page]
 BIN holds the three modules, Mesh3Driver and TetGenDriver; a driver that is missing is left out. Runs the cases whose
 names match the regular expression, prints a line for each run, and puts the records into OUTDIR/benchmark.json, beside
 those of other cases from earlier runs: every record has its commit and its machine. --page draws the curves of all
-records and writes the tables into Docs/Benchmarks.md. With --map, the one case is that map, resampled to voxels of
---spacing (1 mm).
+records and writes the tables into Docs/Benchmarks.md; it wants a record of every case. With --map, the one case is that
+map, resampled to voxels of --spacing (1 mm).
 """
 import argparse
 import json
@@ -150,6 +150,15 @@ def merged(old, new):
     return sorted(records.values(), key=lambda r: (order.get(r["case"], len(order)), r["program"], r["threads"]))
 
 
+def require_every_case(parser, cases, records):
+    """Refuses a page that would lose what was measured elsewhere, before time goes into measuring the rest."""
+    known = {case.name for case in cases} | {record["case"] for record in records}
+    missing = [case.name for case in inputs.CASES if case.name not in known]
+    if missing:
+        parser.error(f"--page: this folder has no record of {', '.join(missing)}, expected every case: "
+                     "measure them, too")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("modules")
@@ -178,6 +187,8 @@ def main():
     os.makedirs(arguments.folder, exist_ok=True)
     os.chdir(arguments.folder)
     records = read_records("benchmark.json")
+    if arguments.page:
+        require_every_case(parser, cases, records)
     for case in cases:
         new = list(run_case(case, modules, [int(n) for n in arguments.threads.split(",")], surface_options))
         records = merged(records, new)
