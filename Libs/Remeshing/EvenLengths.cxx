@@ -119,7 +119,7 @@ private:
   {
     moved,
     hopeless,
-    tooNear ///< angles are good, but lengths no longer even, or samples against it: from farther away may do
+    tooNear ///< angles are good, but lengths no longer even, or samples against it: farther away they may not be
   };
 
   /// Moves v to p, or from there uphill to where its angles are good enough, if more lengths are then even.
