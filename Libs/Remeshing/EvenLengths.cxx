@@ -118,7 +118,7 @@ private:
   enum class Outcome
   {
     moved,
-    hopeless,
+    refused,
     tooNear ///< angles are good, but lengths no longer even, or samples against it: farther away they may not be
   };
 
@@ -128,16 +128,16 @@ private:
     constexpr int trials = 8;
     constexpr double hopeless = 0.1; // share of the quality wanted, below which one in 150 comes to it
     const double floor = floorAt(v), now = evenEdges(v, m_Complex.points[v]);
-    if (!(evenEdges(v, p) > now)) return Outcome::hopeless;
+    if (!(evenEdges(v, p) > now)) return Outcome::refused;
     for (int trial = 0; trial <= trials; ++trial)
     {
       const double quality = m_Operations.qualityAt(v, p, -1);
       if (quality >= floor)
         return evenEdges(v, p) > now && m_Operations.moveWithin(v, p) ? Outcome::moved : Outcome::tooNear;
-      if (quality < hopeless * floor) return Outcome::hopeless;
+      if (quality < hopeless * floor) return Outcome::refused;
       p += (0.03 * m_Complex.lengths[v]) * easiest(m_Operations, v, held, m_Uphill(m_Operations, v, p, quality));
     }
-    return Outcome::hopeless;
+    return Outcome::refused;
   }
 
   /// Moves v to the fit of its faces to their samples, where that costs no even length.

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -51,6 +52,15 @@ inline Sheet sheetOf(TetComplex& complex, std::int32_t v)
   Sheet sheet;
   gatherSheet(complex, v, star, sheet);
   return sheet;
+}
+
+/// The worst quality, which lets tetrahedra outside off with a smaller one.
+inline double worstQuality(const GuardedOperations& operations, const TetComplex& complex)
+{
+  double worst = std::numeric_limits<double>::max();
+  for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+    if (complex.alive(t)) worst = std::min(worst, operations.quality(t));
+  return worst;
 }
 
 /// The living tetrahedra and the points they use.

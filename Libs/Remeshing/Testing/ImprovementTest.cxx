@@ -55,16 +55,6 @@ TetMesh shaken(TetMesh mesh, std::mt19937& random, double vertexDistance)
   return mesh;
 }
 
-double worstOf(const GuardedOperations& operations, const TetComplex& complex)
-{
-  double worst = 1e9;
-  for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
-  {
-    if (complex.alive(t)) worst = std::min(worst, operations.quality(t));
-  }
-  return worst;
-}
-
 double worstOf(const TetMesh& mesh)
 {
   double worst = 1;
@@ -84,15 +74,15 @@ void expectPromisesKept(double worstMayFallTo, bool mustImprove, const std::func
     const TissueMap map = randomWellComposedMap(random, { 5, 5, 5 }, 1 + int(seed % 4));
     TetComplex complex = complexOf(shaken(tetrahedraOf(map), random, 0.35), 1.5f, 0.4f);
     GuardedOperations operations(complex, scale);
-    const double before = worstOf(operations, complex);
+    const double before = worstQuality(operations, complex);
     const auto topology = meshTopology(withBackgroundAsTissue(meshOf(complex)));
     const double volume = volumeOf(meshOf(complex));
     const ComplexState start(complex);
     const auto places = samplePlaces(complex);
     work(operations);
     ASSERT_TRUE(isConsistent(complex));
-    EXPECT_GE(worstOf(operations, complex), std::min(before, worstMayFallTo));
-    improved += worstOf(operations, complex) > before;
+    EXPECT_GE(worstQuality(operations, complex), std::min(before, worstMayFallTo));
+    improved += worstQuality(operations, complex) > before;
     EXPECT_EQ(meshTopology(withBackgroundAsTissue(meshOf(complex))), topology);
     EXPECT_NEAR(volumeOf(meshOf(complex)), volume, 1e-9 * volume);
     for (const auto& [label, tissue] : checkSurface(interfaceOf(withBackgroundAsTissue(meshOf(complex)))))
@@ -537,7 +527,7 @@ TEST(Improvement, MovingTogetherKeepsEveryPromiseAndGetsFarther)
                          options.targetAngle = 40;
                          options.together = together;
                          improveBlock(operations, options);
-                         sum += worstOf(operations, operations.complex());
+                         sum += worstQuality(operations, operations.complex());
                        });
     return sum;
   };

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -173,18 +172,11 @@ TEST(VertexReturn, KeepsWhatEveryOperationKeeps)
       return count;
     };
     const auto topology = meshTopology(withBackgroundAsTissue(meshOf(complex)));
-    const auto worst = [&] // of what guarded operations keep: tetrahedra outside may become worse than any inside
-    {
-      double least = std::numeric_limits<double>::max();
-      for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
-        if (complex.alive(t)) least = std::min(least, operations.quality(t));
-      return least;
-    };
-    const double worstBefore = worst();
+    const double worst = worstQuality(operations, complex);
     before += farOff();
     returnVerticesOfBlock(operations, optionsOf(28.5));
     after += farOff();
-    EXPECT_GE(worst(), worstBefore);
+    EXPECT_GE(worstQuality(operations, complex), worst);
     EXPECT_EQ(meshTopology(withBackgroundAsTissue(meshOf(complex))), topology);
     ASSERT_TRUE(isConsistent(complex));
   }
