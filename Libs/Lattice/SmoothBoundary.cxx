@@ -3,6 +3,7 @@
 
 #include "Grouped.h"
 #include "InterfaceSmoothing.h"
+#include "LabelRuns.h"
 #include "Parallel.h"
 #include "VolumeOffsets.h"
 
@@ -10,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -93,21 +93,6 @@ double scaleAt(double length)
   return std::clamp(1 + perVoxel * (length - from), 1.0, most);
 }
 
-/// How many of a row's labels, one at least, are like the first; four of them are looked at together.
-int runLength(const Label* row, int count)
-{
-  constexpr int together = sizeof(std::uint64_t) / sizeof(Label);
-  const std::uint64_t likeFirst = row[0] * std::uint64_t(0x0001000100010001);
-  int i = 0;
-  for (std::uint64_t labels; i + together <= count; i += together)
-  {
-    std::memcpy(&labels, row + i, sizeof labels);
-    if (labels != likeFirst) break;
-  }
-  while (i < count && row[i] == row[0]) ++i;
-  return i;
-}
-
 /// Where the smoothed indicators of a point's two labels are equal.
 class IndicatorTie
 {
@@ -173,7 +158,7 @@ private:
       {
         const Label* const labels = isWithin ? labelsFrom({ low[0], low[1] + j, low[2] + k }) : row.data();
         for (int i = 0; i < count[0] && !isWithin; ++i) row[i] = labelAt(m_Map, { low[0] + i, low[1] + j, low[2] + k });
-        int i = runLength(labels, count[0]); // most rows have one label
+        int i = int(runLength(labels, std::size_t(count[0]))); // most rows have one label
         double sum = signOf(labels[0]) * ofFirst[i].first, slope = signOf(labels[0]) * ofFirst[i].second;
         for (; i < count[0]; ++i)
         {

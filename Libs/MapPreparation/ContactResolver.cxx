@@ -32,15 +32,20 @@ std::array<std::ptrdiff_t, 8> cornerSteps(const Grid& grid)
   return { 0, 1, j, j + 1, k, k + 1, k + j, k + j + 1 };
 }
 
-/// Critical blocks left if the centre is given to `label`, plus parts split or joined, plus growth of the interface.
-int costOf(const Neighbourhood& around, Label label)
+/// What it costs to take the centre away from its label, whichever gets it: parts of that split or joined, and the
+/// interface that it grows by, less the critical blocks that there are.
+int costOfLoss(const Neighbourhood& around)
 {
   const Label old = around[centre];
-  const int topology = std::abs(partsAround(around, old) - 1) + std::abs(partsAround(around, label) - 1);
-  const int roughness = faceContacts(around, old) - faceContacts(around, label);
+  return std::abs(partsAround(around, old) - 1) + faceContacts(around, old) - criticalBlocks(around);
+}
+
+/// What it costs to give it to `label`: critical blocks left, parts split or joined, less the interface that goes.
+int costOfGain(const Neighbourhood& around, Label label)
+{
   Neighbourhood changed = around;
   changed[centre] = label;
-  return criticalBlocks(changed) + topology + roughness;
+  return criticalBlocks(changed) + std::abs(partsAround(around, label) - 1) - faceContacts(around, label);
 }
 
 /// Appends the lowest corners of the critical blocks between slices k and k + 1.
@@ -171,13 +176,13 @@ ContactResolver::Change ContactResolver::bestChange(std::size_t block) const
     const std::size_t voxel = block + m_Corners[c];
     if (isFixed(voxel) || (labels[c] != 0 && m_Voxels[labels[c]] == 1)) continue;
     const Neighbourhood around = gather(m_Map, voxel, m_Around);
-    const int price = changesOf(voxel) - criticalBlocks(around);
+    const int price = changesOf(voxel) + costOfLoss(around);
     for (int l = 0; l < 8; ++l)
     {
       if (labels[l] == labels[c] || std::find(labels.begin(), labels.begin() + l, labels[l]) != labels.begin() + l)
         continue;
       if (m_Closed.count(labels[l])) continue;
-      const Change change{ price + costOf(around, labels[l]), noise(voxel, labels[l]), voxel, labels[l] };
+      const Change change{ price + costOfGain(around, labels[l]), noise(voxel, labels[l]), voxel, labels[l] };
       if (std::tie(change.cost, change.noise) < std::tie(best.cost, best.noise)) best = change;
     }
   }

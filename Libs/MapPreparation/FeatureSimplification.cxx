@@ -186,30 +186,25 @@ private:
     return changes;
   }
 
-  /// A region counts as small by the least s in it.
+  /// A region counts as small by the least s in it, which is looked for until it is too large for that.
   std::vector<bool> smallRegions(const Regions& regions) const
   {
     const Vec3& s = m_Map.grid.spacing;
     const double voxelVolume = s.x * s.y * s.z;
+    const auto isUnder = [&](std::size_t region, double size)
+    { return regions.list[region].voxels * voxelVolume < size * size * size; };
     std::vector<bool> isSmall = largestRegions(regions);
-    std::vector<double> least(regions.list.size(), 0);
     for (std::size_t r = 0; r < isSmall.size(); ++r)
     {
-      const auto [label, voxels] = regions.list[r];
-      isSmall[r] = (!isSmall[r] || (label == 0 && r != 0)) && !m_Closed.count(label) &&
-                   voxels * voxelVolume < m_Largest * m_Largest * m_Largest;
-      least[r] = m_Largest;
+      const Label label = regions.list[r].label;
+      isSmall[r] = (!isSmall[r] || (label == 0 && r != 0)) && !m_Closed.count(label) && isUnder(r, m_Largest);
     }
     forEachRun(regions, m_Map.grid.size[0],
                [&](std::uint32_t region, std::size_t begin, std::size_t end)
                {
                  for (std::size_t v = begin; isSmall[region] && v < end; ++v)
-                   least[region] = std::min(least[region], m_Sizes.at(v));
+                   isSmall[region] = isUnder(region, m_Sizes.at(v));
                });
-    for (std::size_t r = 0; r < isSmall.size(); ++r)
-    {
-      isSmall[r] = isSmall[r] && regions.list[r].voxels * voxelVolume < least[r] * least[r] * least[r];
-    }
     return isSmall;
   }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace surgicalmesher
@@ -109,6 +110,13 @@ struct Candidate
   }
 };
 
+/// All that balancing asks of a candidate with one rival, as most have, in little memory: it asks over and over.
+struct Bid
+{
+  Label own, rival;
+  float gain;
+};
+
 class LabelSmoother
 {
 public:
@@ -143,6 +151,15 @@ private:
     parallelForEach(slices.size(), [&](std::size_t k) { findInSlice(int(k) + margin, slices[k]); });
     for (const std::vector<Candidate>& slice : slices)
       m_Candidates.insert(m_Candidates.end(), slice.begin(), slice.end());
+    findSlices();
+  }
+
+  void findSlices()
+  {
+    const std::size_t voxels = std::size_t(m_Map.grid.size[0]) * m_Map.grid.size[1];
+    m_SliceBegins.assign(std::size_t(m_Map.grid.size[2]) + 1, 0);
+    for (const Candidate& c : m_Candidates) ++m_SliceBegins[c.voxel / voxels + 1];
+    std::partial_sum(m_SliceBegins.begin(), m_SliceBegins.end(), m_SliceBegins.begin());
   }
 
   void findInSlice(int k, std::vector<Candidate>& result) const
@@ -201,20 +218,32 @@ private:
     return best;
   }
 
-  /// m_Gained, were all to make their choices now.
-  std::vector<std::int32_t> gainedByChoices() const
+  /// m_Gained, were all to make their choices now: the bids, and candidates with several rivals.
+  std::vector<std::int32_t> gainedByChoices(const std::vector<Bid>& bids,
+                                            const std::vector<const Candidate*>& candidates) const
   {
     constexpr std::size_t parts = 16;
     std::vector<std::vector<std::int32_t>> gained(parts, std::vector<std::int32_t>(m_Gained.size(), 0));
+    const auto shareOf = [](std::size_t part, std::size_t count, auto&& visit)
+    {
+      for (std::size_t i = part * count / parts; i < (part + 1) * count / parts; ++i) visit(i);
+    };
     parallelForEach(parts,
                     [&](std::size_t part)
                     {
-                      const std::size_t n = m_Candidates.size();
-                      for (std::size_t i = part * n / parts; i < (part + 1) * n / parts; ++i)
-                      {
-                        const Candidate& c = m_Candidates[i];
-                        if (const int r = choice(c); r >= 0) --gained[part][c.own], ++gained[part][c.labels[r]];
-                      }
+                      const auto change = [&](Label from, Label to) { --gained[part][from], ++gained[part][to]; };
+                      shareOf(part, bids.size(),
+                              [&](std::size_t i)
+                              {
+                                const auto& [own, rival, gain] = bids[i];
+                                if (gain + m_Constants[rival] - m_Constants[own] > 0) change(own, rival);
+                              });
+                      shareOf(part, candidates.size(),
+                              [&](std::size_t i)
+                              {
+                                const Candidate& c = *candidates[i];
+                                if (const int r = choice(c); r >= 0) change(c.own, c.labels[r]);
+                              });
                     });
     std::vector<std::int32_t> sum = m_Gained;
     for (const std::vector<std::int32_t>& part : gained)
@@ -229,11 +258,16 @@ private:
   {
     constexpr int rounds = 60;
     constexpr float first = 0.05F, longest = 0.1F, most = 0.8F;
+    std::vector<Bid> bids;
+    std::vector<const Candidate*> others;
+    for (const Candidate& c : m_Candidates)
+      if (c.count == 1) bids.push_back({ c.own, c.labels[0], c.gains[0] });
+      else others.push_back(&c);
     std::vector<float> steps(m_Constants.size(), first);
     std::vector<std::int32_t> before(m_Constants.size(), 0);
     for (int round = 0; round < rounds; ++round)
     {
-      const std::vector<std::int32_t> gained = gainedByChoices();
+      const std::vector<std::int32_t> gained = gainedByChoices(bids, others);
       for (std::size_t label = 1; label < gained.size(); ++label)
       {
         if (gained[label] == 0) continue;
@@ -266,6 +300,7 @@ private:
     }
     const auto isSettled = [&](const Candidate& c) { return isChanged(c) || choice(c) >= 0; };
     m_Candidates.erase(std::remove_if(m_Candidates.begin(), m_Candidates.end(), isSettled), m_Candidates.end());
+    findSlices();
   }
 
   void give(const Candidate& c, Label label)
@@ -332,7 +367,9 @@ private:
 
   std::vector<Candidate>::iterator firstFrom(std::size_t voxel)
   {
-    return std::lower_bound(m_Candidates.begin(), m_Candidates.end(), voxel,
+    const std::size_t slice = voxel / (std::size_t(m_Map.grid.size[0]) * m_Map.grid.size[1]);
+    const auto begin = m_Candidates.begin();
+    return std::lower_bound(begin + m_SliceBegins[slice], begin + m_SliceBegins[slice + 1], voxel,
                             [](const Candidate& c, std::size_t v) { return c.voxel < v; });
   }
 
@@ -349,20 +386,26 @@ private:
   const LabelSmoothingOptions& m_Options;
   const Kernel m_Usual, m_Fine, m_Coarse;
   const std::array<std::ptrdiff_t, 27> m_Around;
-  std::vector<std::int32_t> m_Gained;  ///< voxels, by label
-  std::vector<float> m_Constants;      ///< by label, added to its smoothed indicator
-  std::vector<Candidate> m_Candidates; ///< by voxel, ascending
+  std::vector<std::int32_t> m_Gained;        ///< voxels, by label
+  std::vector<float> m_Constants;            ///< by label, added to its smoothed indicator
+  std::vector<Candidate> m_Candidates;       ///< by voxel, ascending
+  std::vector<std::ptrdiff_t> m_SliceBegins; ///< first candidate of each slice of the map, and the end
 };
 
 } // namespace
 
 SmoothedLabels smoothLabels(const TissueMap& map, const ScaleField& scale, const LabelSmoothingOptions& options)
 {
-  const PaddedMap before = padded(map, reach);
-  PaddedMap after = before;
+  PaddedMap before, after;
+  runInParallel({ [&] { before = padded(map, reach); }, [&] { after = padded(map, reach); } });
   LabelSmoother(after, scale, options).run();
-  SmoothedLabels result{ map, mapChanges(before, after) };
-  copyWithoutMargin(after, result.map);
+  SmoothedLabels result;
+  runInParallel({ [&] { result.changes = mapChanges(before, after); },
+                  [&]
+                  {
+                    result.map = map;
+                    copyWithoutMargin(after, result.map);
+                  } });
   return result;
 }
 

@@ -3,7 +3,7 @@
 
 #include "PaddedMap.h"
 
-#include <cstdint>
+#include <algorithm>
 #include <cstdlib>
 
 namespace surgicalmesher
@@ -72,37 +72,43 @@ CornerMask cornersOf(Label label, const Block& block)
   return corners;
 }
 
-using VoxelMask = std::uint32_t; ///< a set of voxels of a neighbourhood, one bit each
-
-/// For each voxel, those beside it, across corners as well.
-std::array<VoxelMask, 27> makeNearVoxels()
+/// For each voxel, those beside it, across faces or corners as well, by how many steps along axes they are away at most.
+std::array<VoxelMask, 27> makeNearVoxels(int mostSteps)
 {
   std::array<VoxelMask, 27> near{};
   for (int v = 0; v < 27; ++v)
     for (int w = 0; w < 27; ++w)
-      if (std::abs(w % 3 - v % 3) <= 1 && std::abs(w / 3 % 3 - v / 3 % 3) <= 1 && std::abs(w / 9 - v / 9) <= 1)
-        near[v] |= VoxelMask(1) << w;
+    {
+      const int i = std::abs(w % 3 - v % 3), j = std::abs(w / 3 % 3 - v / 3 % 3), k = std::abs(w / 9 - v / 9);
+      if (std::max({ i, j, k }) <= 1 && i + j + k <= mostSteps) near[v] |= VoxelMask(1) << w;
+    }
   return near;
 }
 
-const std::array<VoxelMask, 27> nearVoxels = makeNearVoxels();
+const std::array<VoxelMask, 27> acrossFaces = makeNearVoxels(1), acrossCorners = makeNearVoxels(3);
 
 /// Whether the voxels around the centre that are not of the label hang together, across corners as well.
 bool isOneAround(const Neighbourhood& n, Label label)
 {
   VoxelMask others = 0;
   for (int v = 0; v < 27; ++v) others |= VoxelMask(v != centre && n[v] != label) << v;
-  VoxelMask reached = others & (~others + 1);
-  for (VoxelMask before = 0; reached != before;)
-  {
-    before = reached;
-    for (int v = 0; v < 27; ++v)
-      if (reached >> v & 1) reached |= nearVoxels[v] & others;
-  }
-  return others != 0 && reached == others;
+  return others != 0 && firstPart(others, false) == others;
 }
 
 } // namespace
+
+VoxelMask firstPart(VoxelMask voxels, bool throughFacesOnly)
+{
+  const std::array<VoxelMask, 27>& near = throughFacesOnly ? acrossFaces : acrossCorners;
+  VoxelMask part = voxels & (~voxels + 1);
+  for (VoxelMask before = 0; part != before;)
+  {
+    before = part;
+    for (int v = 0; v < 27; ++v)
+      if (part >> v & 1) part |= near[v] & voxels;
+  }
+  return part;
+}
 
 bool isCritical(const Block& block)
 {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace surgicalmesher
 {
@@ -35,6 +36,12 @@ int criticalBlocks(const Neighbourhood& around);
 /// a face count. One means that the centre can join or leave the label without its surroundings falling apart or
 /// meeting.
 int partsAround(const Neighbourhood& around, Label label);
+
+/// Some of the voxels of a neighbourhood, one bit each.
+using VoxelMask = std::uint32_t;
+
+/// Those that hang together with the lowest of them, through faces alone or across edges and corners as well.
+VoxelMask firstPart(VoxelMask voxels, bool throughFacesOnly);
 
 /// Whether the centre can go to `label` with its own label and that one keeping their topology under (6, 26)
 /// connectivity: it is a simple point of both (Bertrand and Malandain 1994).

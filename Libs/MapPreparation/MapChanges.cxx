@@ -3,6 +3,7 @@
 
 #include "DigitalTopology.h"
 #include "Grouped.h"
+#include "LocalTopology.h"
 #include "Parallel.h"
 #include "UnionFind.h"
 
@@ -198,27 +199,55 @@ private:
                        });
   }
 
+  /// The parts into which the voxels beside a piece fall that `belongs` accepts: the first voxel of each; `throughFacesOnly`
+  /// is asked of the parts, and of how they touch the piece. Most pieces are single voxels.
+  template <typename Predicate>
+  Voxels partsBeside(const Voxels& piece, const Predicate& belongs, bool throughFacesOnly) const
+  {
+    if (piece.size() == 1) return partsBesideVoxel(piece[0], belongs, throughFacesOnly);
+    Voxels firsts;
+    for (const Voxels& part : partsOf(around(piece, belongs), m_Steps, throughFacesOnly))
+      if (!throughFacesOnly || touchesByFace(part, piece)) firsts.push_back(part.front());
+    return firsts;
+  }
+
+  template <typename Predicate>
+  Voxels partsBesideVoxel(std::size_t voxel, const Predicate& belongs, bool throughFacesOnly) const
+  {
+    VoxelMask faces = 0, left = 0;
+    for (const int face : sixNeighbours) faces |= VoxelMask(1) << face;
+    for (int n = 0; n < 27; ++n) left |= VoxelMask(belongs(voxel + m_Steps[n])) << n;
+    Voxels firsts;
+    for (int n = 0; n < 27; ++n)
+    {
+      if ((left >> n & 1) == 0) continue;
+      const VoxelMask part = firstPart(left, throughFacesOnly);
+      if (!throughFacesOnly || (part & faces) != 0) firsts.push_back(voxel + m_Steps[n]);
+      left &= ~part;
+    }
+    return firsts;
+  }
+
+  /// `parts`: see partsBeside(), of what remains of the tissue.
+  ChangeKind kindOfLoss(const Voxels& parts) const
+  {
+    if (parts.empty()) return ChangeKind::Island;
+    if (parts.size() == 1) return ChangeKind::End;
+    const std::uint32_t region = m_RegionsAfter.at(parts[0]);
+    const auto isInRegion = [&](std::size_t voxel) { return m_RegionsAfter.at(voxel) == region; };
+    return std::all_of(parts.begin(), parts.end(), isInRegion) ? ChangeKind::Handle : ChangeKind::Neck;
+  }
+
   MapChange lost(Label label, const Voxels& piece) const
   {
     const auto remains = [&](std::size_t v) { return m_Before.labels[v] == label && m_After.labels[v] == label; };
-    std::vector<std::uint32_t> regions; // that the piece joined
-    for (const Voxels& part : partsOf(around(piece, remains), m_Steps, true))
-    {
-      if (touchesByFace(part, piece)) regions.push_back(m_RegionsAfter.at(part.front()));
-    }
-    const bool areOne =
-      std::count(regions.begin(), regions.end(), regions.empty() ? 0 : regions[0]) == std::ptrdiff_t(regions.size());
-    const ChangeKind kind = regions.empty()       ? ChangeKind::Island
-                            : regions.size() == 1 ? ChangeKind::End
-                            : areOne              ? ChangeKind::Handle
-                                                  : ChangeKind::Neck;
-    return { label, kind, piece.size(), placeOf(piece) };
+    return { label, kindOfLoss(partsBeside(piece, remains, true)), piece.size(), placeOf(piece) };
   }
 
   MapChange gained(Label label, const Voxels& piece) const
   {
     const auto remains = [&](std::size_t v) { return m_Before.labels[v] != label && m_After.labels[v] != label; };
-    const std::size_t parts = partsOf(around(piece, remains), m_Steps, false).size();
+    const std::size_t parts = partsBeside(piece, remains, false).size();
     const ChangeKind kind = parts == 0 ? ChangeKind::Cavity : parts == 1 ? ChangeKind::Cleft : ChangeKind::Tunnel;
     return { label, kind, piece.size(), placeOf(piece) };
   }

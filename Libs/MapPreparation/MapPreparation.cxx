@@ -2,9 +2,11 @@
 #include "MapPreparation.h"
 
 #include "ContactResolver.h"
+#include "Parallel.h"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace surgicalmesher
 {
@@ -77,32 +79,45 @@ bool hasChanged(const TissueMap& map, const RemovedVoxels& removed)
   return false;
 }
 
+/// A voxel of the prepared map, and the label that it has in the given one.
+struct Differing
+{
+  std::size_t voxel;
+  Label before;
+};
+
+/// Those of slice k.
+std::vector<Differing> differencesIn(const TissueMap& map, const PaddedMap& prepared, int k)
+{
+  std::vector<Differing> result;
+  for (int j = 0; j < map.grid.size[1]; ++j)
+  {
+    const Label* before = map.labels.data() + map.grid.index(0, j, k);
+    const std::size_t row = prepared.grid.index(prepared.margin, j + prepared.margin, k + prepared.margin);
+    for (int i = 0; i < map.grid.size[0]; ++i)
+      if (before[i] != prepared.labels[row + i]) result.push_back({ row + i, before[i] });
+  }
+  return result;
+}
+
 /// Books every voxel that differs: as an island's if it was in an island of the given map, else as a contact's.
 void countChanges(const TissueMap& map, const PaddedMap& prepared, const std::vector<std::size_t>& islandVoxels,
                   PreparationReport& report)
 {
-  const auto& size = map.grid.size;
-  for (int k = 0; k < size[2]; ++k)
-  {
-    for (int j = 0; j < size[1]; ++j)
+  std::vector<std::vector<Differing>> slices(map.grid.size[2]);
+  parallelFor(slices.size(), [&](std::size_t k) { slices[k] = differencesIn(map, prepared, int(k)); });
+  for (const std::vector<Differing>& slice : slices)
+    for (const auto& [voxel, before] : slice)
     {
-      const Label* before = map.labels.data() + map.grid.index(0, j, k);
-      const std::size_t row = prepared.grid.index(prepared.margin, j + prepared.margin, k + prepared.margin);
-      for (int i = 0; i < size[0]; ++i)
+      if (std::binary_search(islandVoxels.begin(), islandVoxels.end(), voxel))
       {
-        const Label after = prepared.labels[row + i];
-        if (before[i] == after) continue;
-        if (std::binary_search(islandVoxels.begin(), islandVoxels.end(), row + i))
-        {
-          ++report.changes[before[i]].islandVoxels;
-          continue;
-        }
-        ++report.changes[before[i]].voxelsLost;
-        ++report.changes[after].voxelsGained;
-        ++report.contactVoxelsChanged;
+        ++report.changes[before].islandVoxels;
+        continue;
       }
+      ++report.changes[before].voxelsLost;
+      ++report.changes[prepared.labels[voxel]].voxelsGained;
+      ++report.contactVoxelsChanged;
     }
-  }
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "BoundaryFaces.h"
 #include "Gradation.h"
+#include "LabelRuns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,10 +96,11 @@ void visitVoxels(const TissueMap& map, const TissueSettings& settings, const Vis
 {
   std::vector<const TissueSetting*> byLabel(std::size_t(1) << 16, nullptr);
   for (const auto& [label, setting] : settings) byLabel[label] = &setting;
-  for (std::size_t v = 0; v < map.labels.size(); ++v)
-  {
-    if (const TissueSetting* setting = byLabel[map.labels[v]]) visit(v, *setting);
-  }
+  forEachLabelRun(map.labels, 0, map.labels.size(),
+                  [&](Label label, std::size_t begin, std::size_t end)
+                  {
+                    for (std::size_t v = begin; byLabel[label] && v < end; ++v) visit(v, *byLabel[label]);
+                  });
 }
 
 } // namespace

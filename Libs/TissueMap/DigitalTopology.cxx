@@ -2,6 +2,7 @@
 #include "DigitalTopology.h"
 
 #include "Grouped.h"
+#include "LabelRuns.h"
 #include "Parallel.h"
 #include "UnionFind.h"
 
@@ -46,12 +47,7 @@ SliceRuns runsOf(const TissueMap& map, int k)
   {
     const std::size_t before = result.runs.size();
     const Label* labels = map.labels.data() + map.grid.index(0, j, k);
-    for (Index i = 0; i < size;)
-    {
-      const Index begin = i;
-      while (i < size && labels[i] == labels[begin]) ++i;
-      result.runs.push_back({ begin, 0 });
-    }
+    for (Index i = 0; i < size; i += Index(runLength(labels + i, size - i))) result.runs.push_back({ i, 0 });
     result.perRow.push_back(result.runs.size() - before);
   }
   return result;
@@ -73,13 +69,16 @@ RunUnion separateRuns(const TissueMap& map)
   return u;
 }
 
-/// Unites the runs of background in a row with the outside where they touch it.
-void uniteWithOutside(RunUnion& u, std::size_t row, bool atBorder)
+/// Unites the runs of background in a row that touch the outside with `outside`, a set that does; 0: none is known yet.
+void uniteWithOutside(RunUnion& u, std::size_t row, bool atBorder, Index& outside)
 {
   const std::size_t begin = u.regions.rowBegins[row], end = u.regions.rowBegins[row + 1];
   for (std::size_t r = begin; r < end; ++r)
-    if (u.row(row)[u.regions.runs[r].begin] == 0 && (atBorder || r == begin || r + 1 == end))
-      u.sets.unite(Index(r + 1), 0);
+  {
+    if ((!atBorder && r != begin && r + 1 != end) || u.row(row)[u.regions.runs[r].begin] != 0) continue;
+    if (outside == 0) outside = Index(r + 1);
+    u.sets.unite(Index(r + 1), outside);
+  }
 }
 
 /// Unites the overlapping runs of equal label in two neighbouring rows.
@@ -94,6 +93,51 @@ void uniteRows(RunUnion& u, std::size_t rowA, std::size_t rowB)
     const Index stopA = u.end(a, rowA), stopB = u.end(b, rowB);
     a += stopA <= stopB;
     b += stopB <= stopA;
+  }
+}
+
+/// Unites what touches in the slices from `begin` up to `end`, which is not one of them; no other set is looked at.
+/// Returns one that touches the outside; 0 if none does.
+Index uniteSlices(RunUnion& u, int begin, int end)
+{
+  const int sizeJ = u.map.grid.size[1], sizeK = u.map.grid.size[2];
+  Index outside = 0;
+  for (int k = begin; k < end; ++k)
+    for (int j = 0; j < sizeJ; ++j)
+    {
+      const std::size_t row = std::size_t(k) * sizeJ + j;
+      uniteWithOutside(u, row, j == 0 || k == 0 || j + 1 == sizeJ || k + 1 == sizeK, outside);
+      if (j > 0) uniteRows(u, row - 1, row);
+      if (k > begin) uniteRows(u, row - sizeJ, row);
+    }
+  return outside;
+}
+
+/// A share of slices for each of some threads: that of part n begins at begin(n), and ends where the next begins.
+struct SliceParts
+{
+  int slices, count;
+
+  explicit SliceParts(int slices) : slices(slices), count(std::clamp(slices / worthwhile, 1, most)) {}
+  int begin(std::size_t part) const { return int(part) * slices / count; }
+
+private:
+  static constexpr int most = 8, worthwhile = 16; // parts, slices of each
+};
+
+/// Part by part, then where these meet.
+void uniteAll(RunUnion& u)
+{
+  const int sizeJ = u.map.grid.size[1];
+  const SliceParts parts(u.map.grid.size[2]);
+  std::vector<Index> outside(parts.count);
+  parallelForEach(outside.size(),
+                  [&](std::size_t n) { outside[n] = uniteSlices(u, parts.begin(n), parts.begin(n + 1)); });
+  for (std::size_t n = 0; n < outside.size(); ++n)
+  {
+    u.sets.unite(outside[n], 0);
+    const std::size_t row = std::size_t(parts.begin(n)) * sizeJ;
+    for (int j = 0; n > 0 && j < sizeJ; ++j) uniteRows(u, row + j - sizeJ, row + j);
   }
 }
 
@@ -245,15 +289,10 @@ void addBlocks(BlockCounts& counts, const Grid& grid, const Regions& regions, in
 
 BlockCounts countBlocks(const Grid& grid, const Regions& regions)
 {
-  constexpr int most = 8, worthwhile = 16; // parts, slices of each
-  const int slices = grid.size[2] + 1, parts = std::clamp(slices / worthwhile, 1, most);
-  std::vector<BlockCounts> counts(parts, BlockCounts(regions.list.size()));
-  parallelForEach(counts.size(),
-                  [&](std::size_t n)
-                  {
-                    const auto sliceAt = [&](std::size_t part) { return int(part) * slices / parts - 1; };
-                    addBlocks(counts[n], grid, regions, sliceAt(n), sliceAt(n + 1));
-                  });
+  const SliceParts parts(grid.size[2] + 1); // from the one below the map on
+  std::vector<BlockCounts> counts(parts.count, BlockCounts(regions.list.size()));
+  parallelForEach(counts.size(), [&](std::size_t n)
+                  { addBlocks(counts[n], grid, regions, parts.begin(n) - 1, parts.begin(n + 1) - 1); });
   for (std::size_t n = 1; n < counts.size(); ++n) counts[0].add(counts[n]);
   return std::move(counts[0]);
 }
@@ -310,19 +349,8 @@ std::vector<int> enclosedParts(const Adjacency& graph)
 
 Regions connectedRegions(const TissueMap& map)
 {
-  const auto [sizeI, sizeJ, sizeK] = map.grid.size;
-  (void)sizeI;
   RunUnion u = separateRuns(map);
-  for (int k = 0; k < sizeK; ++k)
-  {
-    for (int j = 0; j < sizeJ; ++j)
-    {
-      const std::size_t row = std::size_t(k) * sizeJ + j;
-      uniteWithOutside(u, row, j == 0 || k == 0 || j + 1 == sizeJ || k + 1 == sizeK);
-      if (j > 0) uniteRows(u, row - 1, row);
-      if (k > 0) uniteRows(u, row - sizeJ, row);
-    }
-  }
+  uniteAll(u);
   numberRegions(u);
   return std::move(u.regions);
 }

@@ -1,10 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "PaddedMap.h"
 
+#include "Parallel.h"
+
 #include <algorithm>
 
 namespace surgicalmesher
 {
+
+namespace
+{
+
+/// Calls f(its first voxel in the map, the same in the padded one) for every row of the map, on all threads.
+template <class F>
+void forEachRow(const TissueMap& map, const PaddedMap& paddedMap, F&& f)
+{
+  const int margin = paddedMap.margin;
+  parallelFor(std::size_t(map.grid.size[2]),
+              [&](std::size_t slice)
+              {
+                const int k = int(slice);
+                for (int j = 0; j < map.grid.size[1]; ++j)
+                  f(map.grid.index(0, j, k), paddedMap.grid.index(margin, j + margin, k + margin));
+              });
+}
+
+} // namespace
 
 bool PaddedMap::isInMargin(std::size_t index) const
 {
@@ -23,28 +44,23 @@ PaddedMap padded(const TissueMap& map, int margin)
   result.margin = margin;
   for (int& size : result.grid.size) size += 2 * margin;
   result.labels.assign(result.grid.voxelCount(), 0);
-  for (int k = 0; k < map.grid.size[2]; ++k)
-  {
-    for (int j = 0; j < map.grid.size[1]; ++j)
-    {
-      const Label* row = map.labels.data() + map.grid.index(0, j, k);
-      std::copy(row, row + map.grid.size[0], result.labels.data() + result.grid.index(margin, j + margin, k + margin));
-    }
-  }
+  forEachRow(map, result,
+             [&](std::size_t inMap, std::size_t inPadded)
+             {
+               const Label* row = map.labels.data() + inMap;
+               std::copy(row, row + map.grid.size[0], result.labels.data() + inPadded);
+             });
   return result;
 }
 
 void copyWithoutMargin(const PaddedMap& paddedMap, TissueMap& map)
 {
-  const int margin = paddedMap.margin;
-  for (int k = 0; k < map.grid.size[2]; ++k)
-  {
-    for (int j = 0; j < map.grid.size[1]; ++j)
-    {
-      const Label* row = paddedMap.labels.data() + paddedMap.grid.index(margin, j + margin, k + margin);
-      std::copy(row, row + map.grid.size[0], map.labels.data() + map.grid.index(0, j, k));
-    }
-  }
+  forEachRow(map, paddedMap,
+             [&](std::size_t inMap, std::size_t inPadded)
+             {
+               const Label* row = paddedMap.labels.data() + inPadded;
+               std::copy(row, row + map.grid.size[0], map.labels.data() + inMap);
+             });
 }
 
 std::array<std::ptrdiff_t, 27> neighbourSteps(const Grid& grid)

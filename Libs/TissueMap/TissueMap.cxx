@@ -1,30 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueMap.h"
 
+#include "LabelRuns.h"
 #include "Parallel.h"
 
 #include <algorithm>
 
 namespace surgicalmesher
 {
-
-namespace
-{
-
-/// Run by run: one voxel after the other would wait for its label's count to be written.
-void countRuns(std::vector<Label>::const_iterator begin, std::vector<Label>::const_iterator end,
-               std::vector<std::size_t>& counts)
-{
-  while (begin != end)
-  {
-    const Label label = *begin;
-    const auto next = std::find_if(begin, end, [label](Label other) { return other != label; });
-    counts[label] += std::size_t(next - begin);
-    begin = next;
-  }
-}
-
-} // namespace
 
 std::vector<Label> presentLabels(const TissueMap& map)
 {
@@ -52,9 +35,9 @@ std::map<Label, std::size_t> countVoxels(const TissueMap& map)
   parallelForEach(parts,
                   [&](std::size_t n)
                   {
-                    const auto begin = map.labels.begin() + std::ptrdiff_t(n * map.labels.size() / parts);
-                    const auto end = map.labels.begin() + std::ptrdiff_t((n + 1) * map.labels.size() / parts);
-                    countRuns(begin, end, counts[n]);
+                    forEachLabelRun(map.labels, n * map.labels.size() / parts, (n + 1) * map.labels.size() / parts,
+                                    [&](Label label, std::size_t begin, std::size_t end)
+                                    { counts[n][label] += end - begin; });
                   });
   std::map<Label, std::size_t> result;
   for (std::size_t label = 0; label < labelCount; ++label)

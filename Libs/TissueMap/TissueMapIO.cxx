@@ -4,6 +4,7 @@
 #include "CanonicalGrid.h"
 #include "Errors.h"
 #include "ImageData.h"
+#include "Parallel.h"
 #include "SeparateProcess.h"
 #include "TextFile.h"
 
@@ -337,7 +338,7 @@ void visitData(const Volume& volume, Function function)
   }
 }
 
-/// convert(const T* voxel) of every voxel, in the order of the canonical grid.
+/// convert(const T* voxel) of every voxel, in the order of the canonical grid. Of those that throw the first is heard.
 template <typename Out, typename Convert>
 std::vector<Out> gather(const Volume& volume, Convert convert)
 {
@@ -345,17 +346,20 @@ std::vector<Out> gather(const Volume& volume, Convert convert)
   visitData(volume,
             [&](const auto* data)
             {
-              Out* out = values.data();
               const std::array<int, 3>& size = volume.grid.size;
-              for (int k = 0; k < size[2]; ++k)
+              const auto convertSlice = [&, data](int k)
               {
+                Out* out = values.data() + volume.grid.index(0, 0, k);
                 for (int j = 0; j < size[1]; ++j)
                 {
                   const std::ptrdiff_t row = volume.first + j * volume.stride[1] + k * volume.stride[2];
                   for (int i = 0; i < size[0]; ++i)
                     *out++ = convert(data + (row + i * volume.stride[0]) * volume.components);
                 }
-              }
+              };
+              std::vector<std::function<void()>> slices;
+              for (int k = 0; k < size[2]; ++k) slices.emplace_back([&, k] { convertSlice(k); });
+              runInParallel(slices);
             });
   return values;
 }

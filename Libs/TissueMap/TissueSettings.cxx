@@ -2,6 +2,7 @@
 #include "TissueSettings.h"
 
 #include "Errors.h"
+#include "LabelRuns.h"
 #include "TextFile.h"
 #include "TextTable.h"
 #include "TissueMapIO.h"
@@ -234,11 +235,14 @@ TissueSelection selectTissues(TissueMap& map, TissueSettings& settings)
     selection.voxelsLeft[label] = 0;
     map.table.erase(label);
   }
-  for (Label& label : map.labels)
-  {
-    if (label != 0 && becomes[label] == 0) ++selection.voxelsLeft[label];
-    label = becomes[label];
-  }
+  if (selection.groups.empty() && selection.voxelsLeft.empty()) return selection;
+  forEachLabelRun(map.labels, 0, map.labels.size(),
+                  [&](Label label, std::size_t begin, std::size_t end)
+                  {
+                    if (label != 0 && becomes[label] == 0) selection.voxelsLeft[label] += end - begin;
+                    if (becomes[label] == label) return;
+                    std::fill(map.labels.data() + begin, map.labels.data() + end, becomes[label]);
+                  });
   return selection;
 }
 

@@ -79,6 +79,13 @@ std::size_t differences(const TissueMap& a, const TissueMap& b)
   return count;
 }
 
+/// Every voxel twice along i.
+TissueMap stretched(const TissueMap& map)
+{
+  const auto& n = map.grid.size;
+  return paintedMap({ 2 * n[0], n[1], n[2] }, [&](int i, int j, int k) { return int(labelAt(map, { i / 2, j, k })); });
+}
+
 } // namespace
 
 TEST(MapChanges, StrandIsANeckWhereItAloneJoins)
@@ -122,6 +129,27 @@ TEST(MapChanges, IslandAndTipByTissue)
   EXPECT_EQ(theOnly(ChangeKind::Island, 3, changes).voxels, 4u);
   EXPECT_EQ(theOnly(ChangeKind::End, 1, changes).voxels, 12u);
   EXPECT_TRUE(changesBetween(before, before).empty());
+}
+
+TEST(MapChanges, APieceIsOfTheSameKindWithTwiceTheVoxels)
+{
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 200; ++trial)
+  {
+    const TissueMap before = noise(random, 7, 2);
+    TissueMap after = before;
+    for (Label& label : after.labels)
+      if (random() % 20 == 0) label = Label(random() % 3);
+    const std::vector<MapChange> changes = changesBetween(before, after);
+    const std::vector<MapChange> same = changesBetween(stretched(before), stretched(after));
+    ASSERT_EQ(changes.size(), same.size()) << trial;
+    for (std::size_t n = 0; n < same.size(); ++n)
+    {
+      EXPECT_EQ(changes[n].label, same[n].label);
+      EXPECT_EQ(changes[n].kind, same[n].kind) << trial << ": " << changes[n].voxels;
+      EXPECT_EQ(2 * changes[n].voxels, same[n].voxels);
+    }
+  }
 }
 
 TEST(ScaledPreparation, WithoutFeatureScaleIsPreparation)
