@@ -4,12 +4,19 @@
 #include "Tetrahedralizer.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "MapPreparation.h"
 #include "MeshChecks.h"
+#include "ScaleMaps.h"
 #include "Shapes.h"
 #include "SurfacePreparation.h"
+#include "TissueMapIO.h"
+#include "TissueMesher.h"
 #include "VoxelMesh.h"
+#include "WorstAngle.h"
 
 #include <gtest/gtest.h>
+
+#include <fstream>
 
 namespace surgicalmesher
 {
@@ -79,6 +86,25 @@ TEST(TetrahedralizeTissues, GivesACopyElsewhereTheSameMeshInTheFrameOfItsScale)
   const TetMesh there = tetrahedralizeTissues(inputOf(moved, true), lengthsOf(elsewhere), {}).content.mesh;
   EXPECT_EQ(here.labels, there.labels);
   EXPECT_EQ(here.tetrahedra, there.tetrahedra);
+}
+
+TEST(TetrahedralizeTissues, LeavesNoBadAngleWhereElementsAreLongerThanTissuesAreWide)
+{
+  const std::string file = "/usr/share/mricron/templates/brodmann.nii.gz";
+  if (!std::ifstream(file)) GTEST_SKIP() << "Debian's mricron-data is not installed";
+  TissueMap map = readTissueMap(file);
+  prepareMap(map, {});
+  const ScaleField scale = radialScale(map.grid, { 0, -20, -5 }, 8, 40, 10, 25);
+  TissueMap inFrame = map;
+  inFrame.grid = inOwnFrame(map.grid);
+  TetrahedralizerInput input;
+  input.name = file;
+  input.background.emplace();
+  input.background->mesh = meshTissues(inFrame, inFrameOf(map.grid, scale), {}).background.mesh;
+  for (Vec3& p : input.background->mesh.points) p = map.grid.gridToWorld(p);
+  input.surface = interfaceOf(input.background->mesh);
+  const TetMesh mesh = tetrahedralizeTissues(std::move(input), lengthsOf(scale), {}).content.mesh;
+  EXPECT_GT(worstAngle(mesh), 23);
 }
 
 TEST(FillableSurface, MakesTissuesOfClosedShellsAndRefusesWhatCannotBeFilled)

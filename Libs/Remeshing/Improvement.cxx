@@ -198,13 +198,12 @@ private:
   /// The group, to better than `before`, never falling to less than a share of it.
   bool moveTogether(double before, double dip)
   {
-    constexpr int hopeless = 3; // of what is not better by then, one in thirty comes to be
     double after = m_Group.worst();
     for (int round = 0; round < m_Options.together && after < m_Target; ++round)
     {
       if (!m_Group.step(dip * before)) break;
       after = m_Group.worst();
-      if (round + 1 == hopeless && !(after > before)) break;
+      if (round + 1 == m_Options.patience && !(after > before)) break;
     }
     if (after > before * (1 + 1e-3))
     {

@@ -19,6 +19,7 @@ struct ImprovementOptions
   double ease = 0.02;     ///< as in PolishingOptions
   int trials = 12;        ///< positions tried for each vertex
   int together = 0;       ///< rounds in which the vertices around what resists all else move together
+  int patience = 3;       ///< rounds after which that is given up if nothing is better: one in thirty would be, later
   double worstShare = 1;  ///< of the tetrahedra, the worst, that are worked on in one pass; a hundred at least
   double togetherShare =
     0.001;        ///< of the tetrahedra, the worst, for which that is tried in one pass; of a hundred at least

@@ -401,6 +401,7 @@ TetrahedralSweep sweepOf(const VolumeRow& row)
                                       .trials = row.trials,
                                       // Where many are bad, moving together costs more than all the rest.
                                       .together = row.splitEdge > 0 ? 20 : 0,
+                                      .patience = 20, // nothing comes after it that would mend what is left
                                       .passes = row.passes } });
   Sweep sweep{ "improvement", { stage }, row.whole };
   if (row.height > 0) sweep.stages = raisedHeights(stage.bounds, row.height);

@@ -515,7 +515,7 @@ TEST(Improvement, HeldInterfaceStaysAsItIs)
 
 TEST(Improvement, MovingTogetherKeepsEveryPromiseAndGetsFarther)
 {
-  const auto sumOfWorst = [](int together, bool split)
+  const auto sumOfWorst = [](int together, bool split, int patience)
   {
     double sum = 0;
     expectPromisesKept(1, true,
@@ -526,13 +526,16 @@ TEST(Improvement, MovingTogetherKeepsEveryPromiseAndGetsFarther)
                          options.splitEdge = 1e9; // by itself no split is good enough
                          options.targetAngle = 40;
                          options.together = together;
+                         options.patience = patience;
                          improveBlock(operations, options);
                          sum += worstQuality(operations, operations.complex());
                        });
     return sum;
   };
-  EXPECT_GT(sumOfWorst(20, false), sumOfWorst(0, false));
-  EXPECT_GT(sumOfWorst(20, true), sumOfWorst(0, false));
+  const double alone = sumOfWorst(0, false, 0), together = sumOfWorst(20, false, 3);
+  EXPECT_GT(together, alone);
+  EXPECT_GT(sumOfWorst(20, true, 3), alone);
+  EXPECT_GT(sumOfWorst(20, false, 20), together);
 }
 
 /// Edges of even length, those inside a label counted as evenLengthsOfBlock does.
