@@ -72,7 +72,8 @@ CornerMask cornersOf(Label label, const Block& block)
   return corners;
 }
 
-/// For each voxel, those beside it, across faces or corners as well, by how many steps along axes they are away at most.
+/// For each voxel, those that touch it and are at most so many steps along axes away: 1 across faces alone, 3 across
+/// corners as well.
 std::array<VoxelMask, 27> makeNearVoxels(int mostSteps)
 {
   std::array<VoxelMask, 27> near{};
