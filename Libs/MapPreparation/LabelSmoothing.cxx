@@ -117,6 +117,12 @@ struct Bid
   float gain;
 };
 
+struct Bidders
+{
+  std::vector<Bid> bids;
+  std::vector<const Candidate*> others; ///< with several rivals
+};
+
 class LabelSmoother
 {
 public:
@@ -218,33 +224,32 @@ private:
     return best;
   }
 
-  /// m_Gained, were all to make their choices now: the bids, and candidates with several rivals.
-  std::vector<std::int32_t> gainedByChoices(const std::vector<Bid>& bids,
-                                            const std::vector<const Candidate*>& candidates) const
+  Bidders bidders() const
+  {
+    Bidders result;
+    for (const Candidate& c : m_Candidates)
+      if (c.count == 1) result.bids.push_back({ c.own, c.labels[0], c.gains[0] });
+      else result.others.push_back(&c);
+    return result;
+  }
+
+  /// Adds to `gained` what the labels would gain by the choices of part number `part`.
+  void addChoices(const Bidders& bidders, std::size_t part, std::size_t parts, std::vector<std::int32_t>& gained) const
+  {
+    const auto begin = [&](const auto& all) { return all.begin() + std::ptrdiff_t(part * all.size() / parts); };
+    const auto end = [&](const auto& all) { return all.begin() + std::ptrdiff_t((part + 1) * all.size() / parts); };
+    for (auto bid = begin(bidders.bids); bid != end(bidders.bids); ++bid)
+      if (bid->gain + m_Constants[bid->rival] - m_Constants[bid->own] > 0) --gained[bid->own], ++gained[bid->rival];
+    for (auto c = begin(bidders.others); c != end(bidders.others); ++c)
+      if (const int r = choice(**c); r >= 0) --gained[(*c)->own], ++gained[(*c)->labels[r]];
+  }
+
+  /// m_Gained, were all to make their choices now.
+  std::vector<std::int32_t> gainedByChoices(const Bidders& bidders) const
   {
     constexpr std::size_t parts = 16;
     std::vector<std::vector<std::int32_t>> gained(parts, std::vector<std::int32_t>(m_Gained.size(), 0));
-    const auto shareOf = [](std::size_t part, std::size_t count, auto&& visit)
-    {
-      for (std::size_t i = part * count / parts; i < (part + 1) * count / parts; ++i) visit(i);
-    };
-    parallelForEach(parts,
-                    [&](std::size_t part)
-                    {
-                      const auto change = [&](Label from, Label to) { --gained[part][from], ++gained[part][to]; };
-                      shareOf(part, bids.size(),
-                              [&](std::size_t i)
-                              {
-                                const auto& [own, rival, gain] = bids[i];
-                                if (gain + m_Constants[rival] - m_Constants[own] > 0) change(own, rival);
-                              });
-                      shareOf(part, candidates.size(),
-                              [&](std::size_t i)
-                              {
-                                const Candidate& c = *candidates[i];
-                                if (const int r = choice(c); r >= 0) change(c.own, c.labels[r]);
-                              });
-                    });
+    parallelForEach(parts, [&](std::size_t part) { addChoices(bidders, part, parts, gained[part]); });
     std::vector<std::int32_t> sum = m_Gained;
     for (const std::vector<std::int32_t>& part : gained)
       for (std::size_t label = 0; label < sum.size(); ++label) sum[label] += part[label];
@@ -258,16 +263,12 @@ private:
   {
     constexpr int rounds = 60;
     constexpr float first = 0.05F, longest = 0.1F, most = 0.8F;
-    std::vector<Bid> bids;
-    std::vector<const Candidate*> others;
-    for (const Candidate& c : m_Candidates)
-      if (c.count == 1) bids.push_back({ c.own, c.labels[0], c.gains[0] });
-      else others.push_back(&c);
+    const Bidders all = bidders();
     std::vector<float> steps(m_Constants.size(), first);
     std::vector<std::int32_t> before(m_Constants.size(), 0);
     for (int round = 0; round < rounds; ++round)
     {
-      const std::vector<std::int32_t> gained = gainedByChoices(bids, others);
+      const std::vector<std::int32_t> gained = gainedByChoices(all);
       for (std::size_t label = 1; label < gained.size(); ++label)
       {
         if (gained[label] == 0) continue;
