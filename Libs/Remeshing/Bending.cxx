@@ -57,16 +57,12 @@ std::int32_t cornerBeyond(const TetComplex& complex, const SheetFace& face, std:
   std::int32_t apex = complex.tets[t][across];
   for (;;)
   {
-    int next = 0; // the other face at ab
-    while (complex.tets[t][next] == a || complex.tets[t][next] == b || complex.tets[t][next] == apex) ++next;
+    const int next = complex.indexOf(t, complex.fourthVertex(t, a, b, apex)); // the other face at ab
     const std::int32_t n = complex.neighbours[t][next];
     if (n < 0) return -1;
     if (complex.labels[n] != complex.labels[t])
       return isOuter || labelPair(complex.labels[n], complex.labels[t]) == face.labels ? apex : -1;
-    const std::int32_t shared = apex;
-    apex = -1;
-    for (std::int32_t x : complex.tets[n])
-      if (x != a && x != b && x != shared) apex = x;
+    apex = complex.fourthVertex(n, a, b, apex);
     t = n;
   }
 }

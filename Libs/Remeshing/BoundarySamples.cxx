@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BoundarySamples.h"
 
+#include "Prefetch.h"
+
 #include <limits>
 
 namespace surgicalmesher
@@ -20,6 +22,13 @@ void Sheet::addFace(const TetComplex& complex, std::int32_t t, int face)
                     labelPair(complex.labels[t], complex.labels[complex.neighbours[t][face]]),
                     { v[(face + 1) & 3], v[(face + 2) & 3], v[(face + 3) & 3] },
                     complex.holder(t, face) });
+  prefetch(&complex.sampleHeads[faces.back().holder.first]);
+}
+
+void Sheet::prefetchSamples(const TetComplex& complex, std::size_t k) const
+{
+  const auto [t, face] = faces[k].holder;
+  if (const std::int32_t e = complex.sampleHeads[t][face]; e >= 0) prefetch(&complex.samples[e]);
 }
 
 void Sheet::addSamples(const TetComplex& complex, std::size_t k)
@@ -42,10 +51,8 @@ void gatherSheet(const TetComplex& complex, std::int32_t v, const std::vector<st
   if (!complex.onInterface[v]) return;
   for (std::int32_t t : star)
     for (int i = 0; i < 4; ++i)
-    {
-      const std::int32_t n = complex.neighbours[t][i];
-      if (complex.tets[t][i] != v && n > t && complex.labels[n] != complex.labels[t]) sheet.addFace(complex, t, i);
-    }
+      if (complex.tets[t][i] != v && complex.isInterfaceOfLesser(t, i)) sheet.addFace(complex, t, i);
+  for (std::size_t k = 0; k < sheet.faces.size(); ++k) sheet.prefetchSamples(complex, k);
   for (std::size_t k = 0; k < sheet.faces.size(); ++k) sheet.addSamples(complex, k);
 }
 

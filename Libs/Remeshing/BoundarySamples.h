@@ -43,6 +43,8 @@ struct Sheet
   void addFace(const TetComplex& complex, std::int32_t t, int face);
   /// Adds the samples of face number k, once those of the faces before it are there.
   void addSamples(const TetComplex& complex, std::size_t k);
+  /// Begins to fetch the first of them: a list is slow to follow.
+  void prefetchSamples(const TetComplex& complex, std::size_t k) const;
 };
 
 /// Collects the interface faces at v, each once, whose tetrahedra are `star`.

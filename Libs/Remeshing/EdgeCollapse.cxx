@@ -105,9 +105,8 @@ bool GuardedOperations::gatherCollapsingFaces(std::int32_t u, std::int32_t v, co
       for (int i = 0; i < 4; ++i)
       {
         const std::int32_t n = c.neighbours[t][i];
-        if (c.tets[t][i] == end || n < 0 || c.labels[n] == c.labels[t]) continue;
+        if (c.tets[t][i] == end || !c.isInterfaceOfLesser(t, i)) continue;
         if (c.contains(n, other)) continue; // dealt with from the ring
-        if (n < t) continue;
         if (changing) m_Envelope.addOldFace(t, i);
         addMoved(t, i, c.labels[t], c.labels[n], t, i, changing);
       }

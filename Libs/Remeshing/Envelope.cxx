@@ -212,6 +212,7 @@ bool Envelope::samplesStay()
   {
     std::size_t i = m_Old.samples.size();
     m_Old.addSamples(m_Complex, k);
+    if (k + 1 < m_Old.faces.size()) m_Old.prefetchSamples(m_Complex, k + 1);
     for (; i < m_Old.samples.size(); ++i)
       if (!sampleStays(m_Old, m_Old.samples[i])) return false;
   }

@@ -105,23 +105,24 @@ const std::vector<GuardedOperations::Neighbour>& GuardedOperations::neighbours(s
 {
   if (m_NeighboursVertex == v) return m_Neighbours;
   m_NeighboursVertex = v;
-  m_Neighbours.clear();
+  const std::vector<std::int32_t>& star = this->star(v);
+  m_Neighbours.resize(4 * star.size());
   m_Seen.resize(m_Complex.points.size());
   ++m_Search;
-  for (std::int32_t t : star(v))
-    for (std::int32_t x : m_Complex.tets[t])
+  std::int32_t count = 0;
+  for (std::int32_t t : star)
+    for (const int k : TetComplex::otherCorners[m_Complex.indexOf(t, v)])
     {
-      if (x == v) continue;
-      Seen& seen = m_Seen[x];
+      const std::int32_t x = m_Complex.tets[t][k];
       const Label label = m_Complex.labels[t];
-      if (seen.search == m_Search)
-      {
-        if (label != seen.label) m_Neighbours[seen.at].alongInterface = true;
-        continue;
-      }
-      seen = { m_Search, std::int32_t(m_Neighbours.size()), label };
-      m_Neighbours.push_back({ x, false });
+      Seen& seen = m_Seen[x];
+      const bool isNew = seen.search != m_Search;
+      m_Neighbours[count] = { x, false }; // stays only if x is new, for which there is no foreseeing
+      seen = { m_Search, isNew ? count : seen.at, isNew ? label : seen.label };
+      m_Neighbours[seen.at].alongInterface |= label != seen.label;
+      count += std::int32_t(isNew);
     }
+  m_Neighbours.resize(count);
   return m_Neighbours;
 }
 

@@ -2,6 +2,7 @@
 #include "Quadric.h"
 
 #include "Bending.h"
+#include "Prefetch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,7 @@ Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet,
 Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust,
                     double rigidity)
 {
+  constexpr std::ptrdiff_t ahead = 4; // samples, as long as a normal takes to come
   Quadric quadric;
   const bool hasNormals = !complex.sampleNormals.empty();
   auto sample = sheet.samples.begin();
@@ -72,6 +74,7 @@ Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, co
     double weight = 0;
     for (; sample != sheet.samples.end() && std::size_t(sample->from) == k; ++sample)
     {
+      if (hasNormals && sheet.samples.end() - sample > ahead) prefetch(&complex.sampleNormals[(sample + ahead)->id]);
       const Vec3 d = sample->position - p;
       const double b = std::clamp(1 + dot(slope, d), 0.0, 1.0);
       const double height = dot(unit, d), w = robust > 0 ? robust / (robust + std::abs(height)) : 1;

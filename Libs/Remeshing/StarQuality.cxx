@@ -72,7 +72,7 @@ void StarQuality::gatherTriangles(const TetComplex& complex, std::int32_t v, con
     const auto& x = complex.tets[t];
     for (int i = 0; i < 4; ++i)
     {
-      if (complex.neighbours[t][i] < t || x[i] == v || !complex.isInterface(t, i)) continue;
+      if (x[i] == v || !complex.isInterfaceOfLesser(t, i)) continue;
       std::array<std::int32_t, 2> others;
       for (int k = 0, found = 0; k < 4; ++k)
         if (k != i && x[k] != v) others[found++] = x[k];

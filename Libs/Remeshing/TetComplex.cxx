@@ -2,6 +2,7 @@
 #include "TetComplex.h"
 
 #include "FaceAdjacency.h"
+#include "Prefetch.h"
 #include "TetQuality.h"
 
 #include <algorithm>
@@ -75,14 +76,17 @@ void TetComplex::star(std::int32_t v, std::vector<std::int32_t>& out, Marks& mar
   for (std::size_t i = 0; i < n; ++i)
   {
     if (n + 4 > room) out.resize(room *= 2);
-    const Tet& x = tets[out[i]];
     const Tet& across = neighbours[out[i]];
-    for (int k = 0; k < 4; ++k)
+    for (const int k : otherCorners[indexOf(out[i], v)])
     {
       const std::int32_t t = across[k];
-      if (x[k] == v || t < 0 || marks.of[t] == search) continue;
-      marks.of[t] = search;
-      out[n++] = t;
+      if (t < 0) continue;
+      std::uint32_t& mark = marks.of[t];
+      out[n] = t; // stays only if it is new, for which there is no foreseeing
+      n += std::size_t(mark != search);
+      mark = search;
+      prefetch(&tets[t]);
+      prefetch(&neighbours[t]);
     }
   }
   out.resize(n);
@@ -93,25 +97,14 @@ bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::ve
 {
   tetrahedra.clear();
   vertices.clear();
-  std::int32_t t = seed, from = -1;
   // Which of the two rotations is taken is fixed by the seed's winding: (a, b, from, to) positive.
-  {
-    const Tet& x = tets[t];
-    Vec3 q[2];
-    std::int32_t ids[2] = {};
-    int n = 0;
-    for (std::int32_t v : x)
-      if (v != a && v != b) ids[n] = v, q[n++] = points[v];
-    from = orient(points[a], points[b], q[0], q[1]) > 0 ? ids[0] : ids[1];
-  }
+  static constexpr int third[4][4] = { { 0, 2, 3, 1 }, { 3, 0, 0, 2 }, { 1, 3, 0, 0 }, { 2, 0, 1, 0 } };
+  std::int32_t t = seed, from = tets[t][third[indexOf(t, a)][indexOf(t, b)]];
   do {
     tetrahedra.push_back(t);
     vertices.push_back(from);
-    const int i = indexOf(t, from);
-    std::int32_t to = -1;
-    for (std::int32_t v : tets[t])
-      if (v != a && v != b && v != from) to = v;
-    t = neighbours[t][i];
+    const std::int32_t to = fourthVertex(t, a, b, from);
+    t = neighbours[t][indexOf(t, from)];
     if (t < 0) return false;
     from = to;
   } while (t != seed);
@@ -145,8 +138,8 @@ void TetComplex::collapse(std::int32_t u, std::int32_t v, const std::vector<std:
 {
   for (std::int32_t t : starOfU)
   {
-    const int iv = indexOf(t, v), iu = indexOf(t, u);
-    if (iv < 0)
+    const int iu = indexOf(t, u);
+    if (!contains(t, v))
     {
       tets[t][iu] = v;
       vertexTet[v] = t;
@@ -154,8 +147,8 @@ void TetComplex::collapse(std::int32_t u, std::int32_t v, const std::vector<std:
   }
   for (std::int32_t t : starOfU)
   {
+    if (!contains(t, u)) continue;
     const int iv = indexOf(t, v), iu = indexOf(t, u);
-    if (iu < 0) continue;
     const std::int32_t nu = neighbours[t][iv], nv = neighbours[t][iu]; // nu keeps the face at u, nv the one at v
     int ju = -1, jv = -1;
     if (nu >= 0)

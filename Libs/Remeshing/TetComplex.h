@@ -35,6 +35,8 @@ class TetComplex
 {
 public:
   using Tet = std::array<std::int32_t, 4>;
+  /// The corners of a tetrahedron besides each of them.
+  static constexpr int otherCorners[4][3] = { { 1, 2, 3 }, { 0, 2, 3 }, { 0, 1, 3 }, { 0, 1, 2 } };
 
   /// `tets` must be positively wound and face-to-face. `lengths` is the target edge length at each point, mm.
   /// `neighbours` may be empty: then they are found.
@@ -58,12 +60,24 @@ public:
 
   // --- queries
   bool alive(std::int32_t t) const { return tets[t][0] >= 0; }
+  // Without branches: which corner it is, or whether one is, cannot be foreseen, and all guards ask.
+  /// Of v, a vertex of t.
   int indexOf(std::int32_t t, std::int32_t v) const
   {
     const Tet& x = tets[t];
-    return x[0] == v ? 0 : x[1] == v ? 1 : x[2] == v ? 2 : x[3] == v ? 3 : -1;
+    return (int(x[1] == v) | 2 * int(x[2] == v) | 3 * int(x[3] == v)) & 3;
   }
-  bool contains(std::int32_t t, std::int32_t v) const { return indexOf(t, v) >= 0; }
+  bool contains(std::int32_t t, std::int32_t v) const
+  {
+    const Tet& x = tets[t];
+    return (int(x[0] == v) | int(x[1] == v) | int(x[2] == v) | int(x[3] == v)) != 0;
+  }
+  /// The one besides three of the vertices of t.
+  std::int32_t fourthVertex(std::int32_t t, std::int32_t a, std::int32_t b, std::int32_t c) const
+  {
+    const Tet& x = tets[t];
+    return (x[0] ^ x[1]) ^ (x[2] ^ x[3]) ^ (a ^ b ^ c);
+  }
   /// Of edge ab, mm: the mean of its ends'.
   double targetLength(std::int32_t a, std::int32_t b) const { return 0.5 * (lengths[a] + lengths[b]); }
   double quality(std::int32_t t) const;
@@ -89,6 +103,13 @@ public:
   bool isInterface(std::int32_t t, int i) const
   {
     return neighbours[t][i] >= 0 && labels[neighbours[t][i]] != labels[t];
+  }
+
+  /// The same, if t is the lesser of its two tetrahedra: among those of a star, each such face once.
+  bool isInterfaceOfLesser(std::int32_t t, int i) const
+  {
+    const std::int32_t n = neighbours[t][i];
+    return (int(n > t) & int(labels[n < 0 ? t : n] != labels[t])) != 0;
   }
 
   /// Whether t may have such a face at all: spares most tetrahedra the look at their neighbours.

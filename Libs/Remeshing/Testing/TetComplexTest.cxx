@@ -156,6 +156,29 @@ TEST(TetComplex, StarAndRingAreThoseFoundByLookingAtAll)
   }
 }
 
+TEST(TetComplex, CornersAndInterfaceFacesAreThoseFoundByLookingAtAll)
+{
+  std::mt19937 random(31);
+  for (int round = 0; round < 20; ++round)
+  {
+    const TetMesh mesh = blockOf(randomLattice(random), 1.5);
+    const TetComplex c(mesh.points, std::vector<float>(mesh.points.size(), 1), mesh.tetrahedra, mesh.labels);
+    for (std::int32_t t = 0; t < std::int32_t(c.tets.size()); ++t)
+    {
+      const auto& x = c.tets[t];
+      for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+        EXPECT_EQ(c.contains(t, v), std::count(x.begin(), x.end(), v) == 1);
+      for (int i = 0; i < 4; ++i)
+      {
+        const auto& [a, b, d] = TetComplex::otherCorners[i];
+        EXPECT_EQ(c.indexOf(t, x[i]), i);
+        EXPECT_EQ(c.fourthVertex(t, x[a], x[b], x[d]), x[i]);
+        EXPECT_EQ(c.isInterfaceOfLesser(t, i), c.isInterface(t, i) && t < c.neighbours[t][i]);
+      }
+    }
+  }
+}
+
 TEST(TetComplex, HolderIsTheSideOfTheLargerLabel)
 {
   std::mt19937 random(3);
