@@ -330,7 +330,7 @@ vtkNew<vtkPolyData> interfaceOf(const TetComplex& complex)
   for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
     for (int i = 0; i < 4; ++i)
     {
-      if (!complex.alive(t) || complex.neighbours[t][i] <= t || !complex.isInterface(t, i)) continue;
+      if (!complex.alive(t) || !complex.isInterfaceOfLesser(t, i)) continue;
       const auto& x = complex.tets[t];
       triangles->InsertNextCell({ x[(i + 1) & 3], x[(i + 2) & 3], x[(i + 3) & 3] });
     }

@@ -46,7 +46,7 @@ double GuardedOperations::quality(std::int32_t t) const
   if (m_TriangleWeight == 0 || !c.mayHaveInterface(t)) return result;
   const auto corner = [&](int i) { return c.points[c.tets[t][i & 3]]; };
   for (int i = 0; i < 4; ++i)
-    if (c.neighbours[t][i] > t && c.isInterface(t, i))
+    if (c.isInterfaceOfLesser(t, i))
       result = std::min(result, m_TriangleWeight * smallestSine2(corner(i + 1), corner(i + 2), corner(i + 3)));
   return result;
 }
@@ -106,7 +106,7 @@ const std::vector<GuardedOperations::Neighbour>& GuardedOperations::neighbours(s
   if (m_NeighboursVertex == v) return m_Neighbours;
   m_NeighboursVertex = v;
   const std::vector<std::int32_t>& star = this->star(v);
-  m_Neighbours.resize(4 * star.size());
+  m_Neighbours.resize(3 * star.size()); // at most
   m_Seen.resize(m_Complex.points.size());
   ++m_Search;
   std::int32_t count = 0;

@@ -97,7 +97,8 @@ bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::ve
 {
   tetrahedra.clear();
   vertices.clear();
-  // Which of the two rotations is taken is fixed by the seed's winding: (a, b, from, to) positive.
+  // Which of the two rotations is taken is fixed by the seed's winding: (a, b, from, to) positive, an even permutation
+  // of its corners. By the corners of a and b, that of `from`; no edge on the diagonal.
   static constexpr int third[4][4] = { { 0, 2, 3, 1 }, { 3, 0, 0, 2 }, { 1, 3, 0, 0 }, { 2, 0, 1, 0 } };
   std::int32_t t = seed, from = tets[t][third[indexOf(t, a)][indexOf(t, b)]];
   do {

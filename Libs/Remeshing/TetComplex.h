@@ -18,6 +18,7 @@
 #include "BackgroundMesh.h"
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -35,7 +36,7 @@ class TetComplex
 {
 public:
   using Tet = std::array<std::int32_t, 4>;
-  /// The corners of a tetrahedron besides each of them.
+  /// The corners of a tetrahedron besides each of them, ascending, not wound as in kFaceCorners.
   static constexpr int otherCorners[4][3] = { { 1, 2, 3 }, { 0, 2, 3 }, { 0, 1, 3 }, { 0, 1, 2 } };
 
   /// `tets` must be positively wound and face-to-face. `lengths` is the target edge length at each point, mm.
@@ -60,10 +61,11 @@ public:
 
   // --- queries
   bool alive(std::int32_t t) const { return tets[t][0] >= 0; }
-  // Without branches: which corner it is, or whether one is, cannot be foreseen, and all guards ask.
-  /// Of v, a vertex of t.
+  // What follows has no branches: which corner it is, or whether one is, cannot be foreseen, and all guards ask.
+  /// Which corner of t is v, which must be one.
   int indexOf(std::int32_t t, std::int32_t v) const
   {
+    assert(contains(t, v));
     const Tet& x = tets[t];
     return (int(x[1] == v) | 2 * int(x[2] == v) | 3 * int(x[3] == v)) & 3;
   }
