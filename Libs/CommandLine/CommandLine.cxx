@@ -420,6 +420,7 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
     auto data = std::make_unique<CommandLine::Private>();
     data->description = parseModuleDescription(xml);
     data->arguments = parseArguments(data->description, arguments);
+    useLargePages();
     const auto warn = [&executable](const std::string& text)
     { writeToStderr(executable + ": warning: " + text + "\n"); };
     data->progress = std::make_unique<ProgressReport>(std::cout, progressFormat(data->arguments),

@@ -7,8 +7,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <deque>
+#include <filesystem>
+#include <fstream>
 #include <initializer_list>
 #include <mutex>
+#include <system_error>
 #include <vector>
 
 #ifdef _WIN32
@@ -132,6 +135,45 @@ void returnFreedMemory()
   mallopt(M_TOP_PAD, 2 * most);
 #endif
 }
+
+#ifdef __GLIBC__
+
+namespace
+{
+
+/// What the process was started with, whatever has become of main()'s arguments.
+std::vector<std::string> ownCommandLine()
+{
+  std::vector<std::string> words;
+  std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+  for (std::string word; std::getline(stream, word, '\0');) words.push_back(word);
+  return words;
+}
+
+} // namespace
+
+void useLargePages()
+{
+  constexpr const char* tunables = "GLIBC_TUNABLES";
+  if (std::getenv(tunables)) return; // which ends it, the second time
+  std::error_code failure;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failure);
+  if (failure || self.filename().string().rfind("ld", 0) == 0) return; // the loader, given the program to run
+  std::vector<std::string> words = ownCommandLine();
+  if (words.empty()) return;
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  setenv(tunables, "glibc.malloc.hugetlb=1", 1);
+  execv(self.c_str(), arguments.data()); // comes back only if it fails
+  unsetenv(tunables);
+}
+
+#else
+
+void useLargePages() {}
+
+#endif
 
 void writeToStderr(const std::string& text) { writeAll(stderrDescriptor.load(), text.data(), text.size()); }
 

@@ -4,6 +4,7 @@ Usage: test_runtime.py CommandLineTestModule
 """
 import json
 import os
+import platform
 import pty
 import re
 import resource
@@ -16,6 +17,7 @@ import unittest
 import xml.dom.minidom
 
 MODULE = os.path.abspath(sys.argv.pop(1))
+LOADER = "/lib64/ld-linux-x86-64.so.2"
 
 
 class Runtime(unittest.TestCase):
@@ -270,10 +272,10 @@ class Runtime(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
-    def wait_for_half(self, folder, prepare=None, result=None):
+    def wait_for_half(self, folder, prepare=None, result=None, environment=None):
         process = subprocess.Popen(
             [MODULE, "--act", "wait", "--extra", self.extra, "in", result or self.result], stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE, text=True, preexec_fn=prepare)
+            stderr=subprocess.PIPE, text=True, preexec_fn=prepare, env=environment)
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
@@ -351,6 +353,36 @@ class Runtime(unittest.TestCase):
             self.assertEqual(self.run_module("in", result).returncode, 0)
             self.assertEqual(os.listdir(self.folder), [name])
             os.remove(result)
+
+    @staticmethod
+    def environment_of(process):
+        with open("/proc/%d/environ" % process.pid, "rb") as file:
+            return file.read().split(b"\0")
+
+    @staticmethod
+    def with_tunables(value):
+        others = {name: text for name, text in os.environ.items() if name != "GLIBC_TUNABLES"}
+        return others if value is None else dict(others, GLIBC_TUNABLES=value)
+
+    @unittest.skipUnless(platform.libc_ver()[0] == "glibc", "only glibc is told so")
+    def test_large_pages_are_asked_for_in_the_same_process(self):
+        process = self.wait_for_half(self.folder, environment=self.with_tunables(None))
+        self.assertIn(b"GLIBC_TUNABLES=glibc.malloc.hugetlb=1", self.environment_of(process))
+        with open("/proc/%d/comm" % process.pid) as file:
+            self.assertEqual(file.read().strip(), os.path.basename(MODULE)[:15])
+        self.end(process, signal.SIGTERM)
+
+    @unittest.skipUnless(platform.libc_ver()[0] == "glibc", "only glibc is told so")
+    def test_tunables_of_the_user_stay(self):
+        process = self.wait_for_half(self.folder, environment=self.with_tunables("glibc.malloc.perturb=1"))
+        self.assertIn(b"GLIBC_TUNABLES=glibc.malloc.perturb=1", self.environment_of(process))
+        self.end(process, signal.SIGTERM)
+
+    @unittest.skipUnless(os.path.exists(LOADER), "another loader")
+    def test_run_by_the_loader(self):
+        done = subprocess.run([LOADER, MODULE, "--act", "succeed", "--count", "1", "in", self.result],
+                              capture_output=True, text=True, timeout=120, env=self.with_tunables(None))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_killed_half_way_and_run_again(self):
         self.end(self.wait_for_half(self.folder), signal.SIGKILL)
