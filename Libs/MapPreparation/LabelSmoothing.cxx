@@ -155,6 +155,9 @@ private:
     const int margin = m_Map.margin;
     std::vector<std::vector<Candidate>> slices(m_Map.grid.size[2] - 2 * margin);
     parallelForEach(slices.size(), [&](std::size_t k) { findInSlice(int(k) + margin, slices[k]); });
+    std::size_t count = 0;
+    for (const std::vector<Candidate>& slice : slices) count += slice.size();
+    m_Candidates.reserve(count); // memory: they are the largest array of all where boundaries are rough
     for (const std::vector<Candidate>& slice : slices)
       m_Candidates.insert(m_Candidates.end(), slice.begin(), slice.end());
     findSlices();
