@@ -13,10 +13,10 @@ bool stdoutIsTerminal();
 /// them; some tens of megabytes stay for those that come next.
 void returnFreedMemory();
 
-/// Large arrays in large pages, where the system has them for those who ask (Linux with glibc 2.35 or later): most of them
-/// are walked through once, and asking for small pages one by one takes longer than that. The C library can only be told
-/// before it starts: the program starts itself again, in the same process, once. To be called before anything else has
-/// happened. Whoever has set GLIBC_TUNABLES has had his say already, and nothing is done.
+/// From then on memory comes in large pages, where the system has them for those who ask (transparent huge pages: Linux
+/// with glibc 2.35 or later): most arrays are walked through once, and small pages one by one take longer than that. The C
+/// library must be told before it starts: the program starts itself again, in the same process, once, and nothing may have
+/// happened before that it could not do twice. Where GLIBC_TUNABLES is set, nothing is done.
 void useLargePages();
 
 std::string hostName();

@@ -157,7 +157,7 @@ private:
     parallelForEach(slices.size(), [&](std::size_t k) { findInSlice(int(k) + margin, slices[k]); });
     std::size_t count = 0;
     for (const std::vector<Candidate>& slice : slices) count += slice.size();
-    m_Candidates.reserve(count); // memory: they are the largest array of all where boundaries are rough
+    m_Candidates.reserve(count); // growing, they would for a while be there twice
     for (const std::vector<Candidate>& slice : slices)
       m_Candidates.insert(m_Candidates.end(), slice.begin(), slice.end());
     findSlices();
