@@ -131,9 +131,13 @@ class ConfigurationTest(unittest.TestCase):
         self.point = read_config()["patients"]["p0"]["targetPoint"]
 
     def meshed(self, process, folder="out"):
-        """The patients that have a mesh."""
+        """The patients that have a mesh; prints what became of the others."""
         self.assertEqual(process.returncode, 0, process.stdout)
-        return {name for name, row in read_summary(folder).items() if row["state"] == "meshed"}
+        rows = read_summary(folder)
+        for name, row in rows.items():
+            if row["state"] != "meshed":
+                print(f"{self.id()}: {name}: {row['state']}: {row['error']}", flush=True)
+        return {name for name, row in rows.items() if row["state"] == "meshed"}
 
     def test_b07_names_are_text_whatever_yaml_makes_of_them(self):
         names = ("010", "007", "1e3", "yes", "2026-11-23", "1_0", "p.1")
