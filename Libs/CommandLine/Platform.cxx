@@ -158,9 +158,8 @@ void useLargePages()
   if (std::getenv(tunables)) return; // which ends it, the second time
   std::error_code failure;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failure);
-  if (failure || self.filename().string().rfind("ld", 0) == 0) return; // the loader, given the program to run
   std::vector<std::string> words = ownCommandLine();
-  if (words.empty()) return;
+  if (failure || words.empty()) return;
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

@@ -380,9 +380,11 @@ class Runtime(unittest.TestCase):
 
     @unittest.skipUnless(os.path.exists(LOADER), "another loader")
     def test_run_by_the_loader(self):
-        done = subprocess.run([LOADER, MODULE, "--act", "succeed", "--count", "1", "in", self.result],
+        done = subprocess.run([LOADER, MODULE, "--act", "succeed", "--count", "1", "--text", "", "in", self.result],
                               capture_output=True, text=True, timeout=120, env=self.with_tunables(None))
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+        with open(self.result) as file:
+            self.assertTrue(file.read().startswith("\n"))  # words that are empty are words
 
     def test_killed_half_way_and_run_again(self):
         self.end(self.wait_for_half(self.folder), signal.SIGKILL)
