@@ -375,13 +375,26 @@ void Envelope::addMovedFaces(const Vec3& p)
   }
 }
 
+/// Whether all its samples do. The one that did not at the last place comes first: two in three refuse the next, too.
+bool Envelope::sheetStays()
+{
+  auto& samples = m_Sheet.samples;
+  const std::size_t first = m_LastRefusing < samples.size() ? m_LastRefusing : 0;
+  for (std::size_t n = 0, at = first; n < samples.size(); ++n, at = at + 1 < samples.size() ? at + 1 : 0)
+  {
+    if (sampleStays(m_Sheet, samples[at])) continue;
+    m_LastRefusing = at;
+    return false;
+  }
+  return true;
+}
+
 bool Envelope::moveSheet(const Vec3& p)
 {
+  if (growsSpike(p)) return false;
   addMovedFaces(p);
-  auto& samples = m_Sheet.samples;
-  if (!featuresStay(m_Sheet)) return false;
-  if (!std::all_of(samples.begin(), samples.end(), [&](SheetSample& sample) { return sampleStays(m_Sheet, sample); }) ||
-      !meanSquareStays(m_Sheet) || growsSpike(p) || spansGap(m_Sheet, m_SheetVertex, m_Complex.points[m_SheetVertex]))
+  if (!featuresStay(m_Sheet) || !sheetStays() || !meanSquareStays(m_Sheet) ||
+      spansGap(m_Sheet, m_SheetVertex, m_Complex.points[m_SheetVertex]))
     return false;
   attachMoved();
   return true;

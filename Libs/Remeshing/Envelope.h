@@ -150,6 +150,7 @@ private:
   double squaredDistanceToBoth(const Sheet& sheet, const SheetSample& sample) const;
   bool sampleStays(const Sheet& sheet, SheetSample& sample);
   bool meanSquareStays(const Sheet& sheet);
+  bool sheetStays();
   bool growsSpike(const Vec3& p) const;
   bool leavesPlane(const SheetSample& sample, const Vec3& p) const;
   bool spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) const;
@@ -171,6 +172,7 @@ private:
   std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of the new faces
   std::int32_t m_SheetVertex = -1;                     ///< whose m_Sheet is; -1: nobody's
   Sheet m_Sheet;
+  std::size_t m_LastRefusing = 0; ///< of its samples, or of those of another one before
 };
 
 } // namespace surgicalmesher

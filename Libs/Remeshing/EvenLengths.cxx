@@ -135,7 +135,7 @@ private:
       if (quality >= floor)
         return evenEdges(v, p) > now && m_Operations.moveWithin(v, p) ? Outcome::moved : Outcome::tooNear;
       if (quality < hopeless * floor) return Outcome::refused;
-      p += (0.03 * m_Complex.lengths[v]) * easiest(m_Operations, v, held, m_Uphill(m_Operations, v, p, quality));
+      p += (0.03 * m_Complex.lengths[v]) * easiest(m_Operations, v, held, uphill(m_Operations, v, p, quality));
     }
     return Outcome::refused;
   }
@@ -156,7 +156,6 @@ private:
   TetComplex& m_Complex;
   const EdgeLengthOptions& m_Options;
   const double m_Good;
-  Uphill m_Uphill;
   std::vector<std::uint8_t> m_IsTouched; ///< vertices beside which a length has changed
 };
 

@@ -55,12 +55,13 @@ void GroupDescent::takeBack()
 /// Sum over the star of v, were it at p, of the squares of what the sines lack to somewhat more than the target.
 double GroupDescent::lack(std::int32_t v, const Vec3& p)
 {
-  const double wanted = std::sqrt(1.15 * m_Target);
+  const double enough = 1.15 * m_Target * (1 + 1e-9), wanted = std::sqrt(1.15 * m_Target);
   double sum = 0;
   StarQuality& star = m_Operations.measured(v);
   const std::vector<double>& qualities = star.each(p);
   for (std::size_t i = 0; i < star.size(); ++i)
   {
+    if (qualities[i] > enough) continue;
     const double missing = wanted - std::sqrt(std::max(0.0, qualities[i]));
     if (missing > 0) sum += missing * missing;
   }

@@ -151,15 +151,15 @@ private:
     const double size = m_Complex.lengths[v];
     double step = first * size;
     const Quadric held = heldAt(m_Operations, v, m_Options.ease);
-    Vec3 uphill; // from where v is now
+    Vec3 up; // from where v is now
     bool knowsUphill = false;
     for (int trial = 0; trial < m_Options.trials && best < m_Target && step > least * size; ++trial)
     {
       const Vec3 p = m_Complex.points[v];
       const bool isRandom = trial % 3 == 2;
       if (!isRandom && !std::exchange(knowsUphill, true))
-        uphill = easiest(m_Operations, v, held, m_Uphill(m_Operations, v, p, best));
-      const Vec3 q = p + step * (isRandom ? easiest(m_Operations, v, held, m_Directions.next()) : uphill);
+        up = easiest(m_Operations, v, held, uphill(m_Operations, v, p, best));
+      const Vec3 q = p + step * (isRandom ? easiest(m_Operations, v, held, m_Directions.next()) : up);
       if (m_Operations.qualityAt(v, q, best) > best && m_Operations.moveWithin(v, q))
       {
         best = m_Operations.qualityAt(v);
@@ -332,7 +332,6 @@ private:
   const ImprovementOptions& m_Options;
   const double m_Target;
   Directions m_Directions;
-  Uphill m_Uphill;
   GroupDescent m_Group;
   std::vector<std::uint8_t> m_Touched; ///< per vertex
   std::size_t m_TogetherLeft = 0;      ///< in this pass

@@ -3,6 +3,7 @@
 
 #include "TetQuality.h"
 
+#include <algorithm>
 #include <limits>
 
 // A copy of the loops for processors that handle four doubles at once, chosen when the program starts. Without fused
@@ -148,6 +149,40 @@ const std::vector<double>& StarQuality::each(const Vec3& p)
   // In the place of what fills up the last group of tetrahedra.
   for (std::size_t i = 0; i < m_Triangles.size(); ++i) measure(m_Triangles[i], p, m_Each.data() + m_Size + i * lanes);
   return m_Each;
+}
+
+/// Most groups have nothing as bad as that, and are measured once.
+template <class Groups, class Measure>
+inline void StarQuality::addGradients(const Groups& groups, std::size_t size, const Vec3& p, double h, double most,
+                                      Measure&& measure, Vec3& sum)
+{
+  for (std::size_t i = 0; i < groups.size(); ++i)
+  {
+    double now[lanes], moved[3][lanes];
+    measure(groups[i], p, now);
+    if (lesser(lesser(now[0], now[1]), lesser(now[2], now[3])) > most) continue;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Vec3 q = p;
+      q[axis] += h;
+      measure(groups[i], q, moved[axis]);
+    }
+    for (std::size_t k = 0; k < std::min(lanes, size - i * lanes); ++k)
+    {
+      const Vec3 gradient{ moved[0][k] - now[k], moved[1][k] - now[k], moved[2][k] - now[k] };
+      if (const double n = norm(gradient); n > 0 && now[k] <= most) sum += gradient / n;
+    }
+  }
+}
+
+WITH_WIDE_COPY
+Vec3 StarQuality::sumOfGradients(const Vec3& p, double h, double most) const
+{
+  const auto ofGroup = [&](const auto& group, const Vec3& at, double* quality) { measure(group, at, quality); };
+  Vec3 sum;
+  addGradients(m_Groups, m_Size, p, h, most, ofGroup, sum);
+  addGradients(m_Triangles, m_TriangleCount, p, h, most, ofGroup, sum);
+  return sum;
 }
 
 } // namespace surgicalmesher

@@ -29,6 +29,10 @@ public:
   /// The result lives until the next call.
   const std::vector<double>& each(const Vec3& p);
 
+  /// The sum of the unit gradients, by differences of step h (mm), of all that are no better than `most` with the vertex
+  /// at p.
+  Vec3 sumOfGradients(const Vec3& p, double h, double most) const;
+
   std::size_t size() const { return m_Size + m_TriangleCount; }
   bool isBackground(std::size_t i) const { return i < m_Size && m_Groups[i / lanes].weight[i % lanes] != 1; }
 
@@ -50,6 +54,9 @@ private:
   void gatherTriangles(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star);
   template <class Groups, class Measure>
   static double worstOf(const Groups& groups, double without, double atLeast, double worst, Measure&& measure);
+  template <class Groups, class Measure>
+  static void addGradients(const Groups& groups, std::size_t size, const Vec3& p, double h, double most,
+                           Measure&& measure, Vec3& sum);
 
   std::vector<Group> m_Groups;        ///< the last one filled up with its first tetrahedron
   std::vector<Triangles> m_Triangles; ///< the last one filled up with its last triangle

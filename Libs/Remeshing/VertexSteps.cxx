@@ -44,22 +44,10 @@ bool isWhole(GuardedOperations& operations, std::int32_t v)
          operations.qualityAt(v) >= good;
 }
 
-Vec3 Uphill::operator()(GuardedOperations& operations, std::int32_t v, const Vec3& p, double worst)
+Vec3 uphill(GuardedOperations& operations, std::int32_t v, const Vec3& p, double worst)
 {
   const double h = 1e-4 * operations.complex().lengths[v];
-  StarQuality& star = operations.measured(v);
-  m_Now = star.each(p);
-  m_Gradients.assign(star.size(), {});
-  for (int a = 0; a < 3; ++a)
-  {
-    Vec3 up = p;
-    up[a] += h;
-    const std::vector<double>& moved = star.each(up);
-    for (std::size_t i = 0; i < star.size(); ++i) m_Gradients[i][a] = moved[i] - m_Now[i];
-  }
-  Vec3 sum;
-  for (std::size_t i = 0; i < star.size(); ++i)
-    if (const double n = norm(m_Gradients[i]); n > 0 && m_Now[i] <= 1.15 * worst) sum += m_Gradients[i] / n;
+  const Vec3 sum = operations.measured(v).sumOfGradients(p, h, 1.15 * worst);
   const double n = norm(sum);
   return n > 0 ? sum / n : Vec3{ 1, 0, 0 };
 }

@@ -52,17 +52,8 @@ private:
   std::uint64_t m_State = 88172645463325252ull;
 };
 
-/// The way up from the worst tetrahedra at a vertex.
-class Uphill
-{
-public:
-  /// Unit direction at v, were it at p, that lifts the worst tetrahedra, whose quality is `worst`: the sum of the unit
-  /// gradients of all that are nearly as bad.
-  Vec3 operator()(GuardedOperations& operations, std::int32_t v, const Vec3& p, double worst);
-
-private:
-  std::vector<double> m_Now;
-  std::vector<Vec3> m_Gradients;
-};
+/// Unit direction at v, were it at p, that lifts the worst tetrahedra, whose quality is `worst`: the sum of the unit
+/// gradients of all that are nearly as bad.
+Vec3 uphill(GuardedOperations& operations, std::int32_t v, const Vec3& p, double worst);
 
 } // namespace surgicalmesher

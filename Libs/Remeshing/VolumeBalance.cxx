@@ -28,7 +28,8 @@ Vec3 normal(const TetMesh& mesh, std::int32_t t, int i)
 VolumeBalance::Lack VolumeBalance::lackOf(const BackgroundMesh& background) const
 {
   const TetMesh& mesh = background.mesh;
-  Lack lack{ m_Volumes, {} };
+  Lack lack{ std::vector<double>(labelCount), {} };
+  for (const auto& [label, volume] : m_Volumes) lack.volumes[label] = volume;
   for (std::int32_t t = 0; t < std::int32_t(mesh.tetrahedra.size()); ++t)
   {
     const Label label = mesh.labels[t];
@@ -47,7 +48,7 @@ TissueOffsets VolumeBalance::offsets(const BackgroundMesh& background, double le
   const Lack lack = lackOf(background);
   std::map<Label, double> lacking;
   for (const auto& [label, volume] : m_Volumes)
-    if (std::abs(lack.volumes.at(label)) >= leastShare * volume) lacking[label] = gain * lack.volumes.at(label);
+    if (std::abs(lack.volumes[label]) >= leastShare * volume) lacking[label] = gain * lack.volumes[label];
   const auto moving = [&](Label label) { return lacking.count(label) > 0 ? label : Label(0); }; // 0 stays
   std::map<std::pair<Label, Label>, double> areas;
   for (const auto& [pair, area] : lack.areas)
@@ -66,7 +67,7 @@ void VolumeBalance::apply(BackgroundMesh& background, double gain)
   for (const auto& [pair, size] : lack.areas) area[pair.first] += size, area[pair.second] += size;
   std::vector<double> steps(labelCount);
   for (const auto& [label, volume] : m_Volumes)
-    if (label != 0 && area[label] > 0) steps[label] = stepOf(label, gain * (lack.volumes.at(label) / area[label]));
+    if (label != 0 && area[label] > 0) steps[label] = stepOf(label, gain * (lack.volumes[label] / area[label]));
   for (auto& sample : background.samples)
   {
     const std::int32_t t = sample.tetrahedron;

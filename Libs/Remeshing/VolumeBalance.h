@@ -30,7 +30,7 @@ public:
 private:
   struct Lack
   {
-    std::map<Label, double> volumes;                 ///< mm^3, of each tissue
+    std::vector<double> volumes;                     ///< mm^3, by label
     std::map<std::pair<Label, Label>, double> areas; ///< mm^2, by the labels on both sides, each pair once
   };
   Lack lackOf(const BackgroundMesh& background) const;

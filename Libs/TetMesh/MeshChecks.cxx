@@ -3,6 +3,7 @@
 
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "Grouped.h"
 #include "Parallel.h"
 #include "UnionFind.h"
 
@@ -164,24 +165,27 @@ private:
 
   void addEdges(std::map<Label, int>& result) const
   {
-    std::vector<std::tuple<std::int32_t, std::int32_t, Label>> edges;
-    edges.reserve(6 * m_Mesh.tetrahedra.size());
-    for (std::size_t t = 0; t < m_Mesh.tetrahedra.size(); ++t)
+    using Edge = std::pair<std::int32_t, Label>; // by its higher point, of a tetrahedron with that label
+    Grouped<Edge> edges(m_Mesh.points.size(),
+                        [&](auto&& visit)
+                        {
+                          for (std::size_t t = 0; t < m_Mesh.tetrahedra.size(); ++t)
+                            for (const auto& [a, b] : kEdgeCorners)
+                            {
+                              const auto [low, high] = std::minmax(m_Mesh.tetrahedra[t][a], m_Mesh.tetrahedra[t][b]);
+                              visit(std::size_t(low), Edge{ high, m_Mesh.labels[t] });
+                            }
+                        });
+    for (std::size_t low = 0; low < edges.groups(); ++low)
     {
-      for (const auto& [a, b] : kEdgeCorners)
+      std::sort(edges.begin(low), edges.end(low));
+      const Edge* const end = std::unique(edges.begin(low), edges.end(low));
+      for (const Edge *edge = edges.begin(low), *next; edge != end; edge = next)
       {
-        const auto [low, high] = std::minmax(m_Mesh.tetrahedra[t][a], m_Mesh.tetrahedra[t][b]);
-        edges.emplace_back(low, high, m_Mesh.labels[t]);
+        const auto& [high, label] = *edge;
+        for (next = edge + 1; next != end && next->first == high;) ++next;
+        if (next - edge == 1 && m_HullEdges.count({ std::int32_t(low), high }) == 0) ++result[label];
       }
-    }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    for (std::size_t begin = 0, end; begin < edges.size(); begin = end)
-    {
-      const auto& [low, high, label] = edges[begin];
-      for (end = begin + 1; end < edges.size() && std::get<0>(edges[end]) == low && std::get<1>(edges[end]) == high;)
-        ++end;
-      if (end - begin == 1 && m_HullEdges.count({ low, high }) == 0) ++result[label];
     }
   }
 

@@ -1154,6 +1154,32 @@ TEST(Move, ManyTakenBackLeaveNoSampleBeyondItsTolerance)
   EXPECT_GT(lost[false], 0);
 }
 
+/// The sample that refused last is asked first, whosever it was.
+TEST(Move, IsAllowedOrRefusedWhateverWasRefusedBefore)
+{
+  std::mt19937 random(1);
+  TetComplex fresh = complexOf(tetrahedraOf(randomWellComposedMap(random, { 8, 8, 8 }, 3)), 1, 0.3f);
+  TetComplex experienced = fresh;
+  const EnvelopeBounds bounds{ .rmsLimit = 0.6, .vertexDistance = 1.4 };
+  GuardedOperations operations(experienced, unitScale, bounds);
+  std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+  std::size_t allowed = 0, refused = 0;
+  for (std::int32_t v = 0; v < std::int32_t(fresh.points.size()); ++v)
+  {
+    if (!fresh.onInterface[v] || fresh.locked[v]) continue;
+    for (int trial = 0; trial < 10; ++trial)
+    {
+      const Vec3 p = fresh.points[v] + Vec3{ uniform(random), uniform(random), uniform(random) };
+      const bool moves = GuardedOperations(fresh, unitScale, bounds).move(v, p, anyQuality);
+      ASSERT_EQ(operations.move(v, p, anyQuality), moves) << "vertex " << v << ", trial " << trial;
+      ++(moves ? allowed : refused);
+    }
+  }
+  EXPECT_TRUE(ComplexState(experienced) == ComplexState(fresh));
+  EXPECT_GT(allowed, 100u);
+  EXPECT_GT(refused, 100u);
+}
+
 TEST(LockedVertices, NeverMoveOrGo)
 {
   TetComplex complex = complexOf(tetrahedraOf(paintedMap({ 3, 3, 3 }, [](int i, int, int) { return i < 2; })));

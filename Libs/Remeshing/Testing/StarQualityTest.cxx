@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <numeric>
 #include <random>
 
 namespace surgicalmesher
@@ -99,6 +101,40 @@ TEST_P(Stars, AreMeasuredAsTheirTetrahedraOneByOne)
       EXPECT_NEAR(quality.worst(p, -1, without), worstWithout, 1e-12);
     }
     EXPECT_LT(quality.worst(p, worst + 1), worst + 1) << "may stop early, but below what was asked";
+  }
+}
+
+TEST_P(Stars, AddTheGradientsOfWhatIsBadAlone)
+{
+  constexpr double h = 1e-4;
+  std::mt19937 random(2);
+  const TetComplex complex = starOf(GetParam(), random);
+  std::vector<std::int32_t> star(GetParam());
+  std::iota(star.begin(), star.end(), 0);
+  StarQuality quality;
+  quality.gather(complex, 0, star, 1.0);
+  std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    const Vec3 p{ uniform(random), uniform(random), uniform(random) };
+    const std::vector<double> now = quality.each(p);
+    for (const double most : { *std::min_element(now.begin(), now.begin() + quality.size()), now[0], 1e9 })
+    {
+      Vec3 sum;
+      for (std::size_t i = 0; i < quality.size(); ++i)
+      {
+        if (now[i] > most) continue;
+        Vec3 gradient;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          Vec3 q = p;
+          q[axis] += h;
+          gradient[axis] = quality.each(q)[i] - now[i];
+        }
+        if (const double n = norm(gradient); n > 0) sum += gradient / n;
+      }
+      EXPECT_EQ(quality.sumOfGradients(p, h, most), sum);
+    }
   }
 }
 
