@@ -2,6 +2,7 @@
 #include "AmbientMatch.h"
 
 #include "FaceAdjacency.h"
+#include "Parallel.h"
 
 #include <algorithm>
 #include <utility>
@@ -42,8 +43,11 @@ std::vector<PlacedTriangle> placedTriangles(const SurfaceComplex& surface)
 
 bool isInterfaceOf(const SurfaceComplex& surface, const TetMesh& background)
 {
-  return surface.labels.size() == surface.triangles.size() &&
-         placedTriangles(surface) == placedTriangles(interfaceOf(background));
+  if (surface.labels.size() != surface.triangles.size()) return false;
+  std::vector<PlacedTriangle> triangles, interface;
+  runInParallel(
+    { [&] { interface = placedTriangles(interfaceOf(background)); }, [&] { triangles = placedTriangles(surface); } });
+  return triangles == interface;
 }
 
 } // namespace surgicalmesher

@@ -29,11 +29,11 @@ std::vector<std::array<Vec3, 3>> subdivided(const std::array<Vec3, 3>& p, int n)
 void addInterfaceSamples(BackgroundMesh& background, double tolerance)
 {
   const TetMesh& mesh = background.mesh;
-  const auto neighbours = faceAdjacency(mesh);
+  background.neighbours = faceAdjacency(mesh).across;
   for (std::int32_t t = 0; t < std::int32_t(mesh.tetrahedra.size()); ++t)
     for (std::int32_t i = 0; i < 4; ++i)
     {
-      const std::int32_t n = neighbours.across[t][i];
+      const std::int32_t n = background.neighbours[t][i];
       if (n < 0 || mesh.labels[n] >= mesh.labels[t]) continue;
       std::array<Vec3, 3> p;
       double length = 0;

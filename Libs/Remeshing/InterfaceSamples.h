@@ -7,8 +7,8 @@
 namespace surgicalmesher
 {
 
-/// Adds samples on every interface triangle, about half a target length apart, with a tolerance of `tolerance` times
-/// the mean target length of the triangle's corners.
+/// Finds the neighbours, and adds samples on every interface triangle, about half a target length apart, with a tolerance
+/// of `tolerance` times the mean target length of the triangle's corners.
 void addInterfaceSamples(BackgroundMesh& background, double tolerance);
 
 } // namespace surgicalmesher
