@@ -204,40 +204,10 @@ public:
     m_Start.assign(std::size_t(size[1] + 1) * (size[2] + 1) * m_PerRow + 1, 0);
     for (const Point& p : points) ++m_Start[stretchOf(p.lower[0], p.lower[1], p.lower[2]) + 1];
     std::partial_sum(m_Start.begin(), m_Start.end(), m_Start.begin());
-    m_Entries.reserve(points.size());
-    for (const Point& p : points) m_Entries.push_back({ p.lower[0], labelsOf(p) });
   }
 
   template <class F>
   void forEachNear(const Index& voxel, int radius, F&& f) const
-  {
-    forEachEntry(voxel, radius, [&](std::size_t i) { f(m_Points[i]); });
-  }
-
-  /// Those between the same two labels as `point`.
-  template <class F>
-  void forEachLike(const Point& point, int radius, F&& f) const
-  {
-    const std::uint32_t labels = labelsOf(point);
-    forEachEntry(point.lower, radius,
-                 [&](std::size_t i)
-                 {
-                   if (m_Entries[i].labels == labels) f(m_Points[i]);
-                 });
-  }
-
-private:
-  static constexpr int stretch = 16; // voxels
-
-  /// All that is asked of most of them, in less memory.
-  struct Entry
-  {
-    std::int32_t x;
-    std::uint32_t labels;
-  };
-
-  template <class F>
-  void forEachEntry(const Index& voxel, int radius, F&& f) const
   {
     const int first = std::max(-1, voxel[0] - radius), last = std::min(m_Size[0] - 1, voxel[0] + radius);
     for (int k = std::max(-1, voxel[2] - radius); k <= std::min(m_Size[2] - 1, voxel[2] + radius); ++k)
@@ -245,9 +215,12 @@ private:
       {
         const std::size_t end = m_Start[stretchOf(last, j, k) + 1];
         for (std::size_t i = m_Start[stretchOf(first, j, k)]; i < end; ++i)
-          if (m_Entries[i].x >= first && m_Entries[i].x <= last) f(i);
+          if (m_Points[i].lower[0] >= first && m_Points[i].lower[0] <= last) f(m_Points[i]);
       }
   }
+
+private:
+  static constexpr int stretch = 16; // voxels
 
   /// Its number.
   std::size_t stretchOf(int i, int j, int k) const
@@ -259,6 +232,78 @@ private:
   Index m_Size;
   std::size_t m_PerRow;
   std::vector<std::int32_t> m_Start; ///< of each stretch's points, and the end
+};
+
+/// Points between the same two labels, in the order of their lower voxels, found by rows that have any: what lies between
+/// other labels is nine in ten of an atlas, and is not even looked at.
+class LikePoints
+{
+public:
+  /// `points` in the order of their lower voxels.
+  explicit LikePoints(const std::vector<Point>& points) : m_Points(points)
+  {
+    std::vector<std::pair<std::uint32_t, std::int32_t>> order(points.size());
+    parallelFor(points.size(), [&](std::size_t i) { order[i] = { labelsOf(points[i]), std::int32_t(i) }; });
+    vtkSMPTools::Sort(order.begin(), order.end());
+    m_Entries.reserve(points.size());
+    for (const auto& [labels, i] : order) add(labels, i);
+    m_Slices.push_back(std::int32_t(m_Rows.size()));
+    m_Rows.push_back({ 0, std::int32_t(m_Entries.size()) });
+  }
+
+  template <class F>
+  void forEachLike(const Point& point, int radius, F&& f) const
+  {
+    const auto [x, y, z] = point.lower;
+    const Pair& pair = *std::lower_bound(m_Pairs.begin(), m_Pairs.end(), labelsOf(point),
+                                         [](const Pair& p, std::uint32_t labels) { return p.labels < labels; });
+    const int last = std::min(z + radius - pair.first, pair.slices - 1);
+    for (int k = std::max(0, z - radius - pair.first); k <= last; ++k)
+    {
+      const auto end = m_Rows.begin() + m_Slices[pair.begin + k + 1];
+      auto row = std::lower_bound(m_Rows.begin() + m_Slices[pair.begin + k], end, y - radius,
+                                  [](const Row& r, int j) { return r.j < j; });
+      for (; row != end && row->j <= y + radius; ++row)
+        for (std::int32_t i = row->begin; i < row[1].begin && m_Entries[i].x <= x + radius; ++i)
+          if (m_Entries[i].x >= x - radius) f(m_Points[m_Entries[i].point]);
+    }
+  }
+
+private:
+  struct Pair
+  {
+    std::uint32_t labels;
+    int first;          ///< k of its first slice
+    int slices;         ///< how many it has
+    std::int32_t begin; ///< in m_Slices
+  };
+  struct Row
+  {
+    int j;
+    std::int32_t begin; ///< in m_Entries
+  };
+  struct Entry
+  {
+    std::int32_t x, point;
+  };
+
+  /// The next of the pairs' points.
+  void add(std::uint32_t labels, std::int32_t i)
+  {
+    const auto [x, y, z] = m_Points[i].lower;
+    const bool isNewPair = m_Pairs.empty() || m_Pairs.back().labels != labels;
+    if (isNewPair) m_Pairs.push_back({ labels, z, 0, std::int32_t(m_Slices.size()) });
+    Pair& pair = m_Pairs.back();
+    const bool isNewSlice = z >= pair.first + pair.slices;
+    for (; pair.slices <= z - pair.first; ++pair.slices) m_Slices.push_back(std::int32_t(m_Rows.size()));
+    if (isNewSlice || m_Rows.back().j != y) m_Rows.push_back({ y, std::int32_t(m_Entries.size()) });
+    m_Entries.push_back({ x, i });
+  }
+
+  const std::vector<Point>& m_Points;
+  std::vector<Pair> m_Pairs;          ///< by labels
+  std::vector<std::int32_t> m_Slices; ///< first row of each pair's slices, and the end
+  std::vector<Row> m_Rows;            ///< those that have any, and the end
   std::vector<Entry> m_Entries;
 };
 
@@ -369,23 +414,23 @@ struct Quadric
 };
 
 /// None of too few neighbours.
-std::optional<Quadric> quadricAt(const Point& point, const PointRows& rows, double sigma)
+std::optional<Quadric> quadricAt(const Point& point, const LikePoints& all, double sigma)
 {
   const double squaredReach = reach * reach * sigma * sigma;
   const std::pair<Vec3, Vec3> frame = frameOf(point.normal);
   const Vec3 &u = frame.first, &v = frame.second;
   HeightFit fit;
-  rows.forEachLike(point, int(std::ceil(reach * sigma)),
-                   [&](const Point& other)
-                   {
-                     const Vec3 d = other.position - point.position;
-                     const double d2 = squaredNorm(d), cosine = dot(other.normal, point.normal);
-                     if (d2 > squaredReach || cosine < leastCosine) return;
-                     // A voxel face counts by the area that it stands for.
-                     const double area = std::abs(other.normal[other.axis]);
-                     const double weight = area * cosine * cosine * std::exp(-0.5 * d2 / (sigma * sigma));
-                     fit.add(dot(u, d) / sigma, dot(v, d) / sigma, dot(point.normal, d), weight);
-                   });
+  all.forEachLike(point, int(std::ceil(reach * sigma)),
+                  [&](const Point& other)
+                  {
+                    const Vec3 d = other.position - point.position;
+                    const double d2 = squaredNorm(d), cosine = dot(other.normal, point.normal);
+                    if (d2 > squaredReach || cosine < leastCosine) return;
+                    // A voxel face counts by the area that it stands for.
+                    const double area = std::abs(other.normal[other.axis]);
+                    const double weight = area * cosine * cosine * std::exp(-0.5 * d2 / (sigma * sigma));
+                    fit.add(dot(u, d) / sigma, dot(v, d) / sigma, dot(point.normal, d), weight);
+                  });
   Quadric result{ point.position, point.normal, u, v, sigma, {}, 0, 0 };
   if (!fit.solve(0.01, result.a)) return {};
   result.misfit = fit.misfit(result.a);
@@ -402,13 +447,13 @@ bool isPlain(const Quadric& q, double sigma)
 
 /// The widest quadric at a point, in steps of `sigma`, as long as the boundary is plain; none where a fit of `sigma` is
 /// all there is.
-std::optional<Quadric> widerQuadricAt(const Point& point, const PointRows& rows, double sigma)
+std::optional<Quadric> widerQuadricAt(const Point& point, const LikePoints& all, double sigma)
 {
   constexpr int widest = 5;
   std::optional<Quadric> best;
   for (int width = 2; width <= widest; ++width)
   {
-    const std::optional<Quadric> wider = quadricAt(point, rows, width * sigma);
+    const std::optional<Quadric> wider = quadricAt(point, all, width * sigma);
     if (!wider || !isPlain(*wider, width * sigma)) return best;
     best = wider;
     if (!isPlain(*best, (width + 1) * sigma)) return best;
@@ -451,14 +496,14 @@ PointGroups groupsOf(const std::vector<Point>& points, const std::vector<float>&
 
 /// Moves points of a group that look the same way onto one wide quadric, at the first of them: one at the edge of a wall
 /// is not to go by what is only as wide farther in.
-void fitWider(const std::vector<Point>& points, std::vector<std::int32_t> group, const PointRows& rows, double sigma,
+void fitWider(const std::vector<Point>& points, std::vector<std::int32_t> group, const LikePoints& all, double sigma,
               std::vector<Point>& fitted)
 {
   constexpr double sameWay = 0.9; // cosine between normals
   while (!group.empty())
   {
     const Point& first = points[group.front()];
-    const auto quadric = widerQuadricAt(first, rows, sigma * first.scale);
+    const auto quadric = widerQuadricAt(first, all, sigma * first.scale);
     const auto others =
       std::stable_partition(group.begin(), group.end(),
                             [&](std::int32_t i) {
@@ -471,15 +516,16 @@ void fitWider(const std::vector<Point>& points, std::vector<std::int32_t> group,
 
 /// The points on quadrics as wide as the boundary is plain: a narrow fit does not see beyond the flat cap of a large ball,
 /// or a terrace of a gentle slope. What is wide changes little from point to point, and is fitted once for some.
-std::vector<Point> fitted(const std::vector<Point>& points, const PointRows& rows, double sigma)
+std::vector<Point> fitted(const std::vector<Point>& points, double sigma)
 {
+  const LikePoints all(points);
   std::vector<Point> result = points;
   std::vector<float> cover(points.size(), 0); // of plain ones
   parallelFor(points.size(),
               [&](std::size_t i)
               {
                 const double own = sigma * points[i].scale;
-                const std::optional<Quadric> narrow = quadricAt(points[i], rows, own);
+                const std::optional<Quadric> narrow = quadricAt(points[i], all, own);
                 if (!narrow) return;
                 result[i] = narrow->onto(points[i]);
                 if (isPlain(*narrow, 2 * own)) cover[i] = float(narrow->cover);
@@ -489,7 +535,7 @@ std::vector<Point> fitted(const std::vector<Point>& points, const PointRows& row
               [&](std::size_t g)
               {
                 const auto at = groups.order.begin();
-                fitWider(points, { at + groups.start[g], at + groups.start[g + 1] }, rows, sigma, result);
+                fitWider(points, { at + groups.start[g], at + groups.start[g + 1] }, all, sigma, result);
               });
   parallelFor(points.size(), [&](std::size_t i) { keepLabels(result[i]); });
   return result;
@@ -685,7 +731,7 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
                 tie.place(points[i]);
                 keepLabels(points[i]);
               });
-  points = fitted(points, PointRows(points, size), perGaussian * sigma);
+  points = fitted(points, perGaussian * sigma);
   const std::vector<double> offset = offsets(points);
   parallelFor(n, [&](std::size_t i)
               { points[i].position += (offset[points[i].inside] - offset[points[i].outside]) * points[i].normal; });

@@ -411,6 +411,11 @@ void Envelope::handToNearest(const Vec3& p)
 void Envelope::attachMoved()
 {
   auto& [faces, samples] = m_Sheet;
+  if (std::all_of(samples.begin(), samples.end(), [](const SheetSample& sample) { return sample.to == sample.from; }))
+  {
+    for (const SheetSample& sample : samples) m_Complex.samples[sample.id].distance2 = sample.distance2;
+    return;
+  }
   detach(m_Sheet);
   m_Holders.clear();
   for (const SheetFace& f : faces) m_Holders.push_back(f.holder);
