@@ -179,6 +179,27 @@ double Envelope::squaredDistanceToBoth(const Sheet& sheet, const SheetSample& sa
   return std::max(toBoundary(Label(labels)), toBoundary(Label(labels >> 16)));
 }
 
+/// Whether squaredDistanceToBoth() is at most so much.
+bool Envelope::isNearBoth(const Sheet& sheet, const SheetSample& sample, double most2) const
+{
+  const auto isNear = [&](Label label)
+  {
+    bool isGone = true;
+    for (const Face& f : m_NewFaces)
+    {
+      if (!hasLabel(f.labels, label)) continue;
+      isGone = false;
+      const auto& [a, b, c] = f.corners;
+      const double height = dot(f.normal, sample.position - a);
+      if (height * height <= most2 * (1 + 1e-9) && squaredDistanceToTriangle(sample.position, a, b, c) <= most2)
+        return true;
+    }
+    return isGone && label == 0;
+  };
+  const LabelPair labels = sheet.faces[sample.from].labels;
+  return isNear(Label(labels)) && isNear(Label(labels >> 16));
+}
+
 /// Hands a sample to the nearest new face of its labels; false if it would lie beyond its tolerance and farther than it
 /// does now. For labels that others come between, see separatedFactor; where two labels cease to touch, their samples
 /// are let go if the boundary of either stays within tolerance.
@@ -189,7 +210,7 @@ bool Envelope::sampleStays(const Sheet& sheet, SheetSample& sample)
   if (sample.distance2 <= std::max(tolerance2, m_LeastTolerance2)) return true;
   if (hasFace && sample.distance2 <= squaredDistanceNow(sheet, sample) * (1 + 1e-9)) return true;
   if (hasFace && sample.distance2 > m_SquaredSeparatedFactor * tolerance2) return false;
-  return squaredDistanceToBoth(sheet, sample) <= tolerance2;
+  return isNearBoth(sheet, sample, tolerance2);
 }
 
 /// Whether the mean square of the samples' distances, in units of the tolerance, is within the limit or does not grow.

@@ -148,6 +148,7 @@ private:
   double squaredDistanceNow(const Sheet& sheet, const SheetSample& sample);
   bool findNearestFace(const Sheet& sheet, SheetSample& sample) const;
   double squaredDistanceToBoth(const Sheet& sheet, const SheetSample& sample) const;
+  bool isNearBoth(const Sheet& sheet, const SheetSample& sample, double most2) const;
   bool sampleStays(const Sheet& sheet, SheetSample& sample);
   bool meanSquareStays(const Sheet& sheet);
   bool sheetStays();
