@@ -36,6 +36,7 @@ void GuardedOperations::changed()
 {
   m_Star.vertex = m_NeighboursVertex = m_RefusedVertex = -1;
   for (Star& star : m_Targets) star.vertex = -1;
+  for (Star& star : m_Recent) star.vertex = -1;
   m_Envelope.forgetSheet();
 }
 
@@ -62,12 +63,21 @@ const std::vector<std::int32_t>& GuardedOperations::starOf(std::int32_t v, Star&
 {
   if (star.vertex != v)
   {
+    if (&star == &m_Star && recall(v)) return star.tets;
     m_Complex.star(v, star.tets);
     star.vertex = v;
     star.isMeasured = false;
     star.ends.clear();
   }
   return star.tets;
+}
+
+/// Whether m_Star is that of v again; what it was stays known.
+bool GuardedOperations::recall(std::int32_t v)
+{
+  const auto known = std::find_if(m_Recent.begin(), m_Recent.end(), [v](const Star& star) { return star.vertex == v; });
+  std::swap(m_Star, known != m_Recent.end() ? *known : m_Recent[m_NextRecent++ % m_Recent.size()]);
+  return known != m_Recent.end();
 }
 
 GuardedOperations::Star& GuardedOperations::target(std::int32_t v)

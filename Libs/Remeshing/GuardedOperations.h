@@ -197,6 +197,7 @@ private:
 
   const std::vector<std::int32_t>& starOf(std::int32_t v, Star& star);
   StarQuality& measured(std::int32_t v, Star& star);
+  bool recall(std::int32_t v);
   Star& target(std::int32_t v);
   const std::vector<std::int32_t>& endsAt(Star& star);
   void changed();
@@ -230,6 +231,8 @@ private:
   Star m_Star;                          ///< of the vertex worked on
   std::array<Star, 8> m_Targets;        ///< of those it may go into, which come by turns
   std::size_t m_NextTarget = 0;         ///< whose place goes to the next
+  std::array<Star, 16> m_Recent;        ///< of vertices worked on before, which many are again soon
+  std::size_t m_NextRecent = 0;         ///< whose place goes to the next
   std::int32_t m_NeighboursVertex = -1; ///< whose m_Neighbours are; -1: nobody's
   std::vector<Neighbour> m_Neighbours;
   struct Seen

@@ -48,6 +48,8 @@ void GuardedOperations::place(std::int32_t v, const Vec3& p)
   if (m_Star.vertex != v) m_Star.isMeasured = false;
   for (Star& star : m_Targets)
     if (star.vertex != v) star.isMeasured = false;
+  for (Star& star : m_Recent)
+    if (star.vertex != v) star.isMeasured = false;
 }
 
 } // namespace surgicalmesher

@@ -297,6 +297,22 @@ void expectGuarded(const ComplexState& before, const std::vector<SamplePlace>& p
 
 long total(const OperationCounts& c) { return c.collapses + c.moves + c.flips + c.splits + c.relabels; }
 
+/// What is known of vertices from before is true still: a dozen are asked about, over and over.
+void expectKnownStars(GuardedOperations& operations, const EnvelopeBounds& bounds, std::mt19937& random)
+{
+  TetComplex& complex = operations.complex();
+  GuardedOperations fresh(complex, unitScale, bounds);
+  std::vector<std::int32_t> star;
+  for (int n = 0; n < 3; ++n)
+  {
+    const auto v = std::int32_t(complex.points.size() / 2 + random() % 12);
+    if (complex.vertexTet[v] < 0) continue;
+    complex.star(v, star);
+    EXPECT_EQ(operations.star(v), star);
+    EXPECT_EQ(operations.qualityAt(v), fresh.qualityAt(v));
+  }
+}
+
 } // namespace
 
 /// Thousands of operations on random maps, legal and illegal ones.
@@ -314,8 +330,8 @@ TEST_P(RandomOperations, KeepEveryPromise)
     const TissueMap map = randomWellComposedMap(random, { 4, 4, 4 }, 1 + int(seed % 4));
     TetComplex complex =
       complexOf(tetrahedraOf(map), 1, std::array<float, 3>{ 0.15f, 0.6f, float(anyDistance) }[seed % 3]);
-    GuardedOperations operations(complex, [](const Vec3&) { return 1.0f; },
-                                 { rmsLimit, 1, seed % 2 ? triangleWeight : 0, 0, separatedFactor });
+    const EnvelopeBounds bounds{ rmsLimit, 1, seed % 2 ? triangleWeight : 0, 0, separatedFactor };
+    GuardedOperations operations(complex, unitScale, bounds);
     const auto topology = topologyOf(complex);
     const double volume = volumeOf(meshOf(complex));
     const TetMesh start = meshOf(complex);
@@ -339,6 +355,7 @@ TEST_P(RandomOperations, KeepEveryPromise)
         const bool hasOtherTriangles = keysOf(triangles) != keysOf(interfaceTriangles(complex));
         EXPECT_EQ(now.t1 + now.t2 + now.t7 - counts.t1 - counts.t2 - counts.t7, hasOtherTriangles);
       }
+      expectKnownStars(operations, bounds, random);
       if (a.done && ++done % 4 == 0)
       {
         EXPECT_TRUE(isKept(topology, topologyOf(complex)));
