@@ -14,6 +14,7 @@ namespace
 {
 
 /// What the plane through a sample with this normal, `way` from the vertex, says of its place: the more, the nearer it is.
+template <bool hasGoal>
 void addPlane(const std::array<float, 3>& normal, const Vec3& way, Quadric& quadric)
 {
   constexpr double share = 0.3; // against the face's distance to the sample
@@ -21,10 +22,45 @@ void addPlane(const std::array<float, 3>& normal, const Vec3& way, Quadric& quad
   const double perRadius2 = squaredNorm(n), near = 1 - squaredNorm(way) * perRadius2;
   if (perRadius2 == 0 || near <= 0) return;
   const double w = share * near * near / perRadius2;
-  quadric.g += (w * dot(n, way)) * n;
+  if (hasGoal) quadric.g += (w * dot(n, way)) * n;
   double* m = quadric.m;
   m[0] += w * n.x * n.x, m[1] += w * n.x * n.y, m[2] += w * n.x * n.z;
   m[3] += w * n.y * n.y, m[4] += w * n.y * n.z, m[5] += w * n.z * n.z;
+}
+
+/// Of the samples, see quadricOf; without a goal, g is left out.
+template <bool hasGoal>
+Quadric ofSamples(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust)
+{
+  constexpr std::ptrdiff_t ahead = 4; // samples, as long as a normal takes to come
+  Quadric quadric;
+  const bool hasNormals = !complex.sampleNormals.empty();
+  auto sample = sheet.samples.begin();
+  for (std::size_t k = 0; k < sheet.faces.size(); ++k)
+  {
+    const SheetFace& f = sheet.faces[k];
+    const int own = f.vertices[0] == v ? 0 : f.vertices[1] == v ? 1 : 2;
+    const Vec3 x = complex.points[f.vertices[(own + 1) % 3]], y = complex.points[f.vertices[(own + 2) % 3]];
+    const Vec3 n = cross(x - p, y - p);
+    const double area2 = squaredNorm(n); // positive, as the tetrahedra on both sides are
+    const Vec3 unit = n / std::sqrt(area2);
+    const Vec3 slope = cross(unit, y - x) / std::sqrt(area2); // gradient of v's barycentric coordinate
+    double weight = 0;
+    for (; sample != sheet.samples.end() && std::size_t(sample->from) == k; ++sample)
+    {
+      if (hasNormals && sheet.samples.end() - sample > ahead) prefetch(&complex.sampleNormals[(sample + ahead)->id]);
+      const Vec3 d = sample->position - p;
+      const double b = std::clamp(1 + dot(slope, d), 0.0, 1.0);
+      const double height = dot(unit, d), w = robust > 0 ? robust / (robust + std::abs(height)) : 1;
+      weight += w * b * b;
+      if (hasGoal) quadric.g += (w * b * height) * unit;
+      if (hasNormals) addPlane<hasGoal>(complex.sampleNormal(sample->id), d, quadric);
+    }
+    double* m = quadric.m;
+    m[0] += weight * unit.x * unit.x, m[1] += weight * unit.x * unit.y, m[2] += weight * unit.x * unit.z;
+    m[3] += weight * unit.y * unit.y, m[4] += weight * unit.y * unit.z, m[5] += weight * unit.z * unit.z;
+  }
+  return quadric;
 }
 
 } // namespace
@@ -55,37 +91,15 @@ Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet,
   return quadricWith(complex, v, complex.points[v], sheet, robust, rigidity);
 }
 
+Quadric resistanceOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet)
+{
+  return ofSamples<false>(complex, v, complex.points[v], sheet, 0);
+}
+
 Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust,
                     double rigidity)
 {
-  constexpr std::ptrdiff_t ahead = 4; // samples, as long as a normal takes to come
-  Quadric quadric;
-  const bool hasNormals = !complex.sampleNormals.empty();
-  auto sample = sheet.samples.begin();
-  for (std::size_t k = 0; k < sheet.faces.size(); ++k)
-  {
-    const SheetFace& f = sheet.faces[k];
-    const int own = f.vertices[0] == v ? 0 : f.vertices[1] == v ? 1 : 2;
-    const Vec3 x = complex.points[f.vertices[(own + 1) % 3]], y = complex.points[f.vertices[(own + 2) % 3]];
-    const Vec3 n = cross(x - p, y - p);
-    const double area2 = squaredNorm(n); // positive, as the tetrahedra on both sides are
-    const Vec3 unit = n / std::sqrt(area2);
-    const Vec3 slope = cross(unit, y - x) / std::sqrt(area2); // gradient of v's barycentric coordinate
-    double weight = 0;
-    for (; sample != sheet.samples.end() && std::size_t(sample->from) == k; ++sample)
-    {
-      if (hasNormals && sheet.samples.end() - sample > ahead) prefetch(&complex.sampleNormals[(sample + ahead)->id]);
-      const Vec3 d = sample->position - p;
-      const double b = std::clamp(1 + dot(slope, d), 0.0, 1.0);
-      const double height = dot(unit, d), w = robust > 0 ? robust / (robust + std::abs(height)) : 1;
-      weight += w * b * b;
-      quadric.g += (w * b * height) * unit;
-      if (hasNormals) addPlane(complex.sampleNormal(sample->id), d, quadric);
-    }
-    double* m = quadric.m;
-    m[0] += weight * unit.x * unit.x, m[1] += weight * unit.x * unit.y, m[2] += weight * unit.x * unit.z;
-    m[3] += weight * unit.y * unit.y, m[4] += weight * unit.y * unit.z, m[5] += weight * unit.z * unit.z;
-  }
+  Quadric quadric = ofSamples<true>(complex, v, p, sheet, robust);
   if (rigidity > 0)
   {
     const Quadric bending = bendingOf(complex, v, p, sheet);

@@ -30,7 +30,10 @@ struct Quadric
 Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust = 0,
                   double rigidity = 0);
 
-/// The same, were v at p.
+/// What quadricOf() says of how the samples resist a step of v, and not of where they want it: m alone.
+Quadric resistanceOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet);
+
+/// The same as quadricOf(), were v at p.
 Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust,
                     double rigidity = 0);
 

@@ -10,7 +10,7 @@ namespace surgicalmesher
 
 Quadric heldAt(GuardedOperations& operations, std::int32_t v, double ease)
 {
-  Quadric held = quadricOf(operations.complex(), v, operations.sheet(v), 0);
+  Quadric held = resistanceOf(operations.complex(), v, operations.sheet(v));
   held.addToDiagonal(operations.complex().onInterface[v] ? ease * held.trace() : 1);
   return held;
 }
