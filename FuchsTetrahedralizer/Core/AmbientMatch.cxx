@@ -44,10 +44,10 @@ std::vector<PlacedTriangle> placedTriangles(const SurfaceComplex& surface)
 bool isInterfaceOf(const SurfaceComplex& surface, const TetMesh& background)
 {
   if (surface.labels.size() != surface.triangles.size()) return false;
-  std::vector<PlacedTriangle> triangles, interface;
+  std::vector<PlacedTriangle> wanted, found;
   runInParallel(
-    { [&] { interface = placedTriangles(interfaceOf(background)); }, [&] { triangles = placedTriangles(surface); } });
-  return triangles == interface;
+    { [&] { found = placedTriangles(interfaceOf(background)); }, [&] { wanted = placedTriangles(surface); } });
+  return found == wanted;
 }
 
 } // namespace surgicalmesher

@@ -179,7 +179,7 @@ double Envelope::squaredDistanceToBoth(const Sheet& sheet, const SheetSample& sa
   return std::max(toBoundary(Label(labels)), toBoundary(Label(labels >> 16)));
 }
 
-/// Whether squaredDistanceToBoth() is at most so much.
+/// Whether squaredDistanceToBoth() is at most that: one face of each label tells, and most are not even measured.
 bool Envelope::isNearBoth(const Sheet& sheet, const SheetSample& sample, double most2) const
 {
   const auto isNear = [&](Label label)
@@ -396,7 +396,8 @@ void Envelope::addMovedFaces(const Vec3& p)
   }
 }
 
-/// Whether all its samples do. The one that did not at the last place comes first: two in three refuse the next, too.
+/// Whether all samples of the sheet stay. The one that refused the last place comes first: two in three refuse the next,
+/// too.
 bool Envelope::sheetStays()
 {
   auto& samples = m_Sheet.samples;
