@@ -74,6 +74,6 @@ def assert_one_refused(test, refused):
             test.assertIn(refused + ".nrrd", row["error"])
             test.assertIn("truncated", row["error"])
         else:
-            test.assertTrue(os.path.exists(mesh), patient)
+            test.assertTrue(os.path.exists(mesh), row)
             test.assertEqual((row["state"], row["error"], row["wrongTissues"]), ("meshed", "", "0"))
             test.assertGreater(int(row["tetrahedra"]), 0)
