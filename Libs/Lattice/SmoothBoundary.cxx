@@ -234,8 +234,8 @@ private:
   std::vector<std::int32_t> m_Start; ///< of each stretch's points, and the end
 };
 
-/// Points between the same two labels, in the order of their lower voxels, found by rows that have any: what lies between
-/// other labels is nine in ten of an atlas, and is not even looked at.
+/// Points between the same two labels, in the order of their lower voxels, found by rows that have any: to look at those
+/// between other labels, only to pass them over, takes half the time of the fits in an atlas.
 class LikePoints
 {
 public:

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "StarQuality.h"
+#include "ComplexInvariants.h"
+#include "RandomMaps.h"
 #include "TetQuality.h"
 
 #include <gtest/gtest.h>
@@ -41,6 +43,35 @@ double expected(const TetComplex& complex, std::int32_t t, const Vec3& p)
 {
   const double q = complex.qualityWith(t, 0, p);
   return q > 0 && complex.labels[t] == 0 ? backgroundLeniency * q : q;
+}
+
+/// Around `middle`, against differences of each by itself.
+void expectSumsOfGradients(StarQuality& quality, const Vec3& middle, std::mt19937& random)
+{
+  constexpr double h = 1e-4;
+  std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+  for (int trial = 0; trial < 20; ++trial)
+  {
+    const Vec3 p = middle + Vec3{ uniform(random), uniform(random), uniform(random) };
+    const std::vector<double> now = quality.each(p);
+    for (const double most : { *std::min_element(now.begin(), now.begin() + quality.size()), now[0], 1e9 })
+    {
+      Vec3 sum;
+      for (std::size_t i = 0; i < quality.size(); ++i)
+      {
+        if (now[i] > most) continue;
+        Vec3 gradient;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          Vec3 q = p;
+          q[axis] += h;
+          gradient[axis] = quality.each(q)[i] - now[i];
+        }
+        if (const double n = norm(gradient); n > 0) sum += gradient / n;
+      }
+      EXPECT_EQ(quality.sumOfGradients(p, h, most), sum);
+    }
+  }
 }
 
 class Stars : public ::testing::TestWithParam<std::size_t>
@@ -106,36 +137,32 @@ TEST_P(Stars, AreMeasuredAsTheirTetrahedraOneByOne)
 
 TEST_P(Stars, AddTheGradientsOfWhatIsBadAlone)
 {
-  constexpr double h = 1e-4;
   std::mt19937 random(2);
   const TetComplex complex = starOf(GetParam(), random);
   std::vector<std::int32_t> star(GetParam());
   std::iota(star.begin(), star.end(), 0);
   StarQuality quality;
-  quality.gather(complex, 0, star, 1.0);
-  std::uniform_real_distribution<double> uniform(-0.3, 0.3);
-  for (int trial = 0; trial < 20; ++trial)
+  quality.gather(complex, 0, star);
+  expectSumsOfGradients(quality, {}, random);
+}
+
+/// With triangles between labels.
+TEST(StarQuality, AddsTheGradientsOfTrianglesAsWell)
+{
+  std::mt19937 random(3);
+  TetComplex complex = test::complexOf(test::tetrahedraOf(test::randomWellComposedMap(random, { 5, 5, 5 }, 3)), 1, 1);
+  std::vector<std::int32_t> star;
+  std::size_t withTriangles = 0;
+  for (std::int32_t v = 0; v < std::int32_t(complex.points.size()); ++v)
   {
-    const Vec3 p{ uniform(random), uniform(random), uniform(random) };
-    const std::vector<double> now = quality.each(p);
-    for (const double most : { *std::min_element(now.begin(), now.begin() + quality.size()), now[0], 1e9 })
-    {
-      Vec3 sum;
-      for (std::size_t i = 0; i < quality.size(); ++i)
-      {
-        if (now[i] > most) continue;
-        Vec3 gradient;
-        for (int axis = 0; axis < 3; ++axis)
-        {
-          Vec3 q = p;
-          q[axis] += h;
-          gradient[axis] = quality.each(q)[i] - now[i];
-        }
-        if (const double n = norm(gradient); n > 0) sum += gradient / n;
-      }
-      EXPECT_EQ(quality.sumOfGradients(p, h, most), sum);
-    }
+    if (!complex.onInterface[v]) continue;
+    complex.star(v, star);
+    StarQuality quality;
+    quality.gather(complex, v, star, 0.3); // light, so that they are the worst
+    withTriangles += quality.size() > star.size();
+    expectSumsOfGradients(quality, complex.points[v], random);
   }
+  EXPECT_GT(withTriangles, 20u);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEverySize, Stars, ::testing::Values(1, 3, 4, 5, 24));
