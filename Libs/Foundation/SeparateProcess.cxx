@@ -3,6 +3,8 @@
 
 #ifndef _WIN32
 
+#include <vtkSMPTools.h>
+
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
@@ -19,6 +21,9 @@ namespace
 {
 
 constexpr int kFailed = 1;
+
+/// A process that works may have to share its core; one that waits for what never comes uses no processor time.
+constexpr int kClockPerProcessorTime = 10;
 
 bool sendAll(int descriptor, const char* bytes, std::size_t size)
 {
@@ -67,6 +72,7 @@ void setLimits(int mostSeconds)
   if (mostSeconds == 0) return;
   const rlimit seconds{ rlim_t(mostSeconds), rlim_t(mostSeconds) };
   setrlimit(RLIMIT_CPU, &seconds);
+  alarm(unsigned(mostSeconds) * kClockPerProcessorTime);
 }
 
 /// Ends without flushing or destroying anything: all of that is the parent's.
@@ -75,6 +81,8 @@ void setLimits(int mostSeconds)
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
+  // A fork has the thread that made it and no other: loops handed to the threads of a pool would wait for them for ever.
+  vtkSMPTools::SetBackend("Sequential");
   try
   {
     _exit(sendAnswer(descriptor, work()) ? 0 : kFailed);

@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SeparateProcess.h"
 
+#include "Parallel.h"
+
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+#ifndef _WIN32
+#include <unistd.h>
+#endif
 
 namespace surgicalmesher
 {
@@ -27,8 +36,36 @@ TEST(SeparateProcess, AnswersOrTellsThatThereIsNoAnswer)
   EXPECT_EQ(runInSeparateProcess(endless, 1), std::nullopt);
   EXPECT_EQ(runInSeparateProcess([&] { return large; }, 1), large);
   EXPECT_EQ(runInSeparateProcess([]() -> std::string { std::_Exit(0); }).value_or(""), "") << "left without an answer";
+  EXPECT_EQ(runInSeparateProcess([]() -> std::string { return std::to_string(pause()); }, 1), std::nullopt)
+    << "waits for ever, and uses no processor time";
 #endif
 }
+
+#ifndef _WIN32
+void loopInParallel(int times)
+{
+  std::vector<double> values(4000);
+  for (int time = 0; time < times; ++time) parallelFor(values.size(), [&](std::size_t i) { values[i] += double(i); });
+}
+
+TEST(SeparateProcess, LoopsDoWithoutThreadsThatStayedBehind)
+{
+  EXPECT_EQ(runInSeparateProcess([] { return std::string(vtkSMPTools::GetBackend()); }), "Sequential");
+
+  std::atomic<bool> done{ false };
+  std::thread busy( // so that what threads share is held by one of them at any moment
+    [&]
+    {
+      while (!done) loopInParallel(1);
+    });
+  constexpr int processes = 100;
+  int answers = 0;
+  while (answers < processes && runInSeparateProcess([] { return loopInParallel(100), std::string(); }, 1)) ++answers;
+  done = true;
+  busy.join();
+  EXPECT_EQ(answers, processes);
+}
+#endif
 
 } // namespace
 } // namespace surgicalmesher
