@@ -255,15 +255,20 @@ void mesh(CommandLine& line)
   if (!stillness.empty()) line.warning(stillness);
   MeshQuality quality;
   std::map<Label, ExplicitStep> steps;
+  std::map<Label, Betti> topology;
+  const std::string reportFile = line.outputFile("report");
   runInParallel({ [&] { writeMesh(result.content, line.outputFile("mesh")); },
                   [&] { quality = assessQuality(result.content.mesh, result.content.subMesh, lengths.inWorld); },
-                  [&] { steps = explicitSteps(result.content, model.materials); } });
+                  [&] { steps = explicitSteps(result.content, model.materials); },
+                  [&]
+                  {
+                    if (!reportFile.empty()) topology = meshTopology(result.content.mesh);
+                  } });
   writeChildAndParent(line, result.content);
   if (const std::string curves = line.outputFile("curveMesh"); !curves.empty()) writeCurves(result.content, curves);
   writeExports(line, result.content, model);
-  MeshReport figures{ result, quality, steps, {}, fromBackground, line.warnings() };
+  MeshReport figures{ result, quality, steps, topology, {}, fromBackground, line.warnings() };
   if (line.flag("conditioning")) figures.conditioning = stiffnessConditioning(result.content.mesh);
-  const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty()) writeBytes(reportJson(figures), reportFile);
   line.message(summaryOf(figures));
   returnFigures(line, quality.whole);

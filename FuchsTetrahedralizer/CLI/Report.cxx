@@ -2,7 +2,6 @@
 #include "Report.h"
 
 #include "JsonReport.h"
-#include "MeshChecks.h"
 #include "SolverReport.h"
 
 #include <rapidjson/document.h>
@@ -26,9 +25,9 @@ void writeSubMeshes(JsonWriter& json, const SubMeshes& division)
               });
 }
 
-void writeTopology(JsonWriter& json, const TetMesh& mesh)
+void writeTopology(JsonWriter& json, const std::map<Label, Betti>& topology)
 {
-  writeObjects(json, "topology", meshTopology(mesh),
+  writeObjects(json, "topology", topology,
                [&](const auto& tissue)
                {
                  const auto& [label, betti] = tissue;
@@ -61,7 +60,7 @@ std::string reportJson(const MeshReport& report)
     {
       writeMember(json, "start", report.fromBackground ? "ambient tetrahedra" : "constrained Delaunay");
       writeSubMeshes(json, report.mesh.division);
-      writeTopology(json, content.mesh);
+      writeTopology(json, report.topology);
       json.Key("quality");
       members.Accept(json);
       writeWarnings(json, report.warnings);

@@ -3,6 +3,7 @@
 /// What a run of the volume stage made: JSON, and a line for the terminal.
 
 #include "ExplicitStep.h"
+#include "MeshChecks.h"
 #include "MeshQuality.h"
 #include "StiffnessConditioning.h"
 #include "Tetrahedralizer.h"
@@ -20,6 +21,7 @@ struct MeshReport
   const FiniteElementMesh& mesh;
   const MeshQuality& quality;
   const std::map<Label, ExplicitStep>& steps;
+  const std::map<Label, Betti>& topology;
   std::optional<StiffnessConditioning> conditioning; ///< it takes its time
   bool fromBackground;                               ///< tetrahedra, not from the surface alone
   std::vector<std::string> warnings;

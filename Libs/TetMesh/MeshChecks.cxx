@@ -359,12 +359,15 @@ void requireSound(const SurfaceComplex& surface, const std::string& stage)
 
 void requireSound(const TetMesh& mesh, const std::string& stage)
 {
-  const MeshDefects defects = checkMesh(mesh);
-  requireNone(defects.invertedOrFlat, stage, "inverted or flat tetrahedra");
-  requireNone(defects.overusedFaces, stage, "tetrahedra with a face that more than two share");
-  requireNone(defects.unusedPoints, stage, "points of no tetrahedron");
-  requireNone(defects.duplicatePoints, stage, "points on top of another");
-  requireSound(interfaceOf(mesh), stage);
+  const auto checkTetrahedra = [&]
+  {
+    const MeshDefects defects = checkMesh(mesh);
+    requireNone(defects.invertedOrFlat, stage, "inverted or flat tetrahedra");
+    requireNone(defects.overusedFaces, stage, "tetrahedra with a face that more than two share");
+    requireNone(defects.unusedPoints, stage, "points of no tetrahedron");
+    requireNone(defects.duplicatePoints, stage, "points on top of another");
+  };
+  runInParallel({ checkTetrahedra, [&] { requireSound(interfaceOf(mesh), stage); } });
 }
 
 } // namespace surgicalmesher
