@@ -29,6 +29,7 @@
 #include <vtkSMPTools.h>
 
 #include <filesystem>
+#include <functional>
 #include <set>
 
 using namespace surgicalmesher;
@@ -58,13 +59,13 @@ TargetLengths readLengths(const CommandLine& line, const SurfaceFile& content)
 }
 
 /// The surface and, if there are, its background tetrahedra.
-TetrahedralizerInput readInput(CommandLine& line, SurfaceFile&& content, const SizingFunction& edgeLength)
+TetrahedralizerInput readInput(CommandLine& line, SurfaceFile&& content, const std::function<MeshFile()>& readAmbient,
+                               const SizingFunction& edgeLength)
 {
   TetrahedralizerInput input;
   input.name = line.text("surface");
   input.tissues = std::move(content.tissues);
-  const std::string ambient = line.text("ambient");
-  if (ambient.empty())
+  if (!readAmbient)
   {
     FillableSurface prepared = fillableSurface(content.surface, edgeLength, input.name);
     input.surface = std::move(prepared.surface);
@@ -76,10 +77,10 @@ TetrahedralizerInput readInput(CommandLine& line, SurfaceFile&& content, const S
     return input;
   }
   input.surface = std::move(content.surface);
-  input.background = readMesh(ambient);
+  input.background = readAmbient();
   if (!isInterfaceOf(input.surface, input.background->mesh))
   {
-    throw InputError(ambient + ": these tetrahedra are of another surface than " + input.name +
+    throw InputError(line.text("ambient") + ": these tetrahedra are of another surface than " + input.name +
                      ", expected the two files that one run has written");
   }
   return input;
@@ -238,12 +239,14 @@ void mesh(CommandLine& line)
   TetrahedralizerOptions options;
   options.constitutive = readConstitutiveRule(line);
   options.placement = readPlacement(line);
+  std::function<MeshFile()> readAmbient; // meanwhile
+  if (const std::string ambient = line.text("ambient"); !ambient.empty()) readAmbient = beginReadingMesh(ambient);
   SurfaceFile content = readSurface(line.text("surface"));
   const bool isOfMap = !content.boundaryDistance.empty(); // folded where the map has cracks, which are no edges to keep
   options.featureAngle = isOfMap ? 0 : line.number("featureAngle");
   const TargetLengths lengths = readLengths(line, content);
   options.curves = readCurveNetwork(line, lengths.inWorld);
-  TetrahedralizerInput input = readInput(line, std::move(content), lengths.inWorld);
+  TetrahedralizerInput input = readInput(line, std::move(content), readAmbient, lengths.inWorld);
   for (const std::string& warning : warningsOfPlaces(options.constitutive, input.surface)) line.warning(warning);
   const FiniteElementOptions model = readFiniteElementOptions(line, input);
 

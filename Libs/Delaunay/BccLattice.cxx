@@ -225,21 +225,36 @@ double scatter(const Places& place, int axis)
   return double(bits >> 11) / double(std::uint64_t(1) << 52) - 1;
 }
 
+/// Calls f(i, walk) for every i below `count`, those of a fixed part in their order along a walk of its own: what it finds
+/// does not depend on the number of threads.
+template <class F>
+void forEachAlongWalks(std::size_t count, const SurfaceLocator& locator, const F& f)
+{
+  constexpr std::size_t ofPart = 400;
+  parallelForEach((count + ofPart - 1) / ofPart,
+                  [&](std::size_t part)
+                  {
+                    SurfaceWalk walk(locator);
+                    for (std::size_t i = part * ofPart; i < std::min(count, (part + 1) * ofPart); ++i) f(i, walk);
+                  });
+}
+
 /// L(x) at the points of a grid that lie in tissues; at the surface's own if none does.
 std::vector<double> lengthsInside(const SurfaceComplex& surface, const SurfaceLocator& locator, const Vec3& low,
                                   const Vec3& high, const SizingFunction& edgeLength)
 {
   constexpr std::size_t perAxis = 20;
   std::vector<double> found(perAxis * perAxis * perAxis, 0);
-  const auto measure = [&](vtkIdType i)
+  const auto measure = [&](std::size_t i, SurfaceWalk& walk)
   {
     const std::array<std::size_t, 3> at{ i % perAxis, i / perAxis % perAxis, i / (perAxis * perAxis) };
     Vec3 p;
     for (int axis = 0; axis < 3; ++axis)
       p[axis] = low[axis] + (double(at[axis]) + 0.5) / double(perAxis) * (high[axis] - low[axis]);
-    if (locator.ask(p).inside) found[i] = checkedLength(edgeLength, p);
+    const auto known = walk.known(p);
+    if ((known ? *known : walk.ask(p)).inside) found[i] = checkedLength(edgeLength, p);
   };
-  parallelFor(found.size(), measure);
+  forEachAlongWalks(found.size(), locator, measure);
   found.erase(std::remove(found.begin(), found.end(), 0.0), found.end());
   if (found.empty())
     for (const Vec3& p : surface.points) found.push_back(checkedLength(edgeLength, p));
@@ -273,17 +288,21 @@ std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunct
   const std::vector<Places>& places = octree.places();
   std::vector<char> keep(places.size());
   std::vector<Vec3> points(places.size());
-  const auto decide = [&](vtkIdType i)
+  const auto isDense = [&](std::size_t i, double length, const SurfaceLocator::Answer& answer)
+  { return answer.inside || octree.hasPlaceAt(places[i], length + kOutsideGrowth * answer.distance); };
+  const auto decide = [&](std::size_t i, SurfaceWalk& walk)
   {
     Vec3& p = points[i] = octree.positionOf(places[i]);
     const double length = edgeLength(p);
-    const SurfaceLocator::Answer answer = locator.ask(p);
-    const bool dense = answer.inside || octree.hasPlaceAt(places[i], length + kOutsideGrowth * answer.distance);
+    const auto known = walk.known(p);
+    if (known && !isDense(i, length, *known)) return; // even less so farther away
+    const SurfaceLocator::Answer answer = walk.ask(p);
+    const bool dense = isDense(i, length, answer);
     keep[i] = dense && answer.distance >= clearance * length;
     if (answer.distance >= kNear * length) return;
     for (int axis = 0; axis < 3; ++axis) p[axis] += kOffLattice * length * scatter(places[i], axis);
   };
-  parallelFor(places.size(), [&](vtkIdType i) { decide(i); });
+  forEachAlongWalks(places.size(), locator, decide);
   std::vector<Vec3> result;
   for (std::size_t i = 0; i < places.size(); ++i)
   {

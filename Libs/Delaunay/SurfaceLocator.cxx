@@ -24,11 +24,11 @@ SurfaceLocator::SurfaceLocator(const SurfaceComplex& surface) : m_Surface(surfac
   m_Tree.accelerate_distance_queries();
 }
 
-SurfaceLocator::Answer SurfaceLocator::ask(const Vec3& p) const
+SurfaceLocator::Answer SurfaceLocator::ask(const Vec3& p, std::optional<bool> inside) const
 {
   const auto [closest, primitive] = m_Tree.closest_point_and_primitive(cgal(p));
   const double squared = CGAL::squared_distance(cgal(p), closest);
-  return { std::sqrt(squared), labelTowards(p, primitive) != 0 };
+  return { std::sqrt(squared), inside ? *inside : labelTowards(p, primitive) != 0 };
 }
 
 /// The label at p: on the near side of the first triangle on the way to the middle of the closest one. (The closest
@@ -41,6 +41,21 @@ Label SurfaceLocator::labelTowards(const Vec3& p, Iterator closest) const
   const auto& [i, j, k] = m_Surface.triangles[first - m_Triangles.begin()];
   const bool front = orient(m_Surface.points[i], m_Surface.points[j], m_Surface.points[k], p) > 0;
   return m_Surface.labels[first - m_Triangles.begin()][front ? 1 : 0];
+}
+
+std::optional<SurfaceLocator::Answer> SurfaceWalk::known(const Vec3& p) const
+{
+  const double least = m_Answer.distance - norm(p - m_Last);
+  if (!(least > 0)) return {};
+  return SurfaceLocator::Answer{ least, m_Answer.inside };
+}
+
+SurfaceLocator::Answer SurfaceWalk::ask(const Vec3& p)
+{
+  const auto before = known(p);
+  m_Answer = m_Locator.ask(p, before ? std::optional<bool>(before->inside) : std::nullopt);
+  m_Last = p;
+  return m_Answer;
 }
 
 } // namespace surgicalmesher

@@ -11,6 +11,7 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 #ifdef __linux__
 #include <sys/prctl.h>
 #endif
@@ -93,14 +94,23 @@ void setLimits(int mostSeconds)
   }
 }
 
+/// The status it exits with, once it does; kFailed if a signal ends it.
+int endOf(pid_t child)
+{
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return kFailed;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : kFailed;
+}
+
 } // namespace
 
-std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work, int mostSeconds)
+SeparateProcess::SeparateProcess(const std::function<std::string()>& work, int mostSeconds)
 {
   int ends[2];
-  if (pipe(ends) != 0) return {};
-  const pid_t child = fork();
-  if (child == 0)
+  if (pipe(ends) != 0) return;
+  m_Child = fork();
+  if (m_Child == 0)
   {
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL); // a cancelled run takes its child along
@@ -110,14 +120,22 @@ std::optional<std::string> runInSeparateProcess(const std::function<std::string(
     runAsChild(ends[1], work);
   }
   close(ends[1]);
-  std::optional<std::string> answer;
-  if (child > 0) answer = receiveAnswer(ends[0]);
-  close(ends[0]);
-  int status = kFailed;
-  while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
-  {
-  }
-  if (child < 0 || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return {};
+  m_Answers = ends[0];
+}
+
+SeparateProcess::~SeparateProcess()
+{
+  if (m_Answers >= 0) close(m_Answers);
+  if (m_Child < 0) return;
+  kill(m_Child, SIGKILL);
+  endOf(m_Child);
+}
+
+std::optional<std::string> SeparateProcess::answer()
+{
+  if (m_Child < 0) return {};
+  std::optional<std::string> answer = receiveAnswer(m_Answers);
+  if (endOf(std::exchange(m_Child, -1)) != 0) return {};
   return answer;
 }
 
@@ -128,11 +146,15 @@ std::optional<std::string> runInSeparateProcess(const std::function<std::string(
 namespace surgicalmesher
 {
 
-std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work, int)
+SeparateProcess::SeparateProcess(const std::function<std::string()>& work, int) : m_Work(work) {}
+
+SeparateProcess::~SeparateProcess() = default;
+
+std::optional<std::string> SeparateProcess::answer()
 {
   try
   {
-    return work();
+    return m_Work();
   }
   catch (...)
   {

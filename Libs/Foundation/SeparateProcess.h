@@ -10,11 +10,36 @@
 namespace surgicalmesher
 {
 
-/// What `work` returns, or nothing if its process did not come to that: it crashed, aborted, exited, or `work` threw.
-/// So it is if it takes more than `mostSeconds` of processor time or ten times as long by the clock (0: no limit).
-/// `work` sees this process's memory as it is now; what it changes there, and what it prints, is lost. Its loops run on
-/// one thread.
-/// Where processes can't be forked (Windows) it runs in this one, unprotected.
-std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work, int mostSeconds = 0);
+/// Work in a process of its own, which sees this one's memory as it is when that begins; what it changes there, and what
+/// it prints, is lost. Its loops run on one thread. Where processes can't be forked (Windows) it waits for answer(), and
+/// runs in this one, unprotected.
+class SeparateProcess
+{
+public:
+  /// Begins. The process ends when it has taken `mostSeconds` of processor time, or ten times as long by the clock (0: no
+  /// limit).
+  explicit SeparateProcess(const std::function<std::string()>& work, int mostSeconds = 0);
+  /// Ends the process, if nobody has waited for its answer.
+  ~SeparateProcess();
+  SeparateProcess(const SeparateProcess&) = delete;
+  SeparateProcess& operator=(const SeparateProcess&) = delete;
+
+  /// Waits for what `work` returns; nothing if the process did not come to that: it crashed, aborted, exited, took too
+  /// long, or `work` threw. To be asked once.
+  std::optional<std::string> answer();
+
+private:
+#ifdef _WIN32
+  std::function<std::string()> m_Work;
+#else
+  int m_Child = -1;   ///< -1: there is none, or none any more
+  int m_Answers = -1; ///< the end of a pipe to read from
+#endif
+};
+
+inline std::optional<std::string> runInSeparateProcess(const std::function<std::string()>& work, int mostSeconds = 0)
+{
+  return SeparateProcess(work, mostSeconds).answer();
+}
 
 } // namespace surgicalmesher

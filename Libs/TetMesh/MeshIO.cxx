@@ -407,12 +407,17 @@ void writePolygons(const PolygonFile& content, const std::string& file)
   writePolyData(data, file);
 }
 
-MeshFile readMesh(const std::string& file)
+MeshFile readMesh(const std::string& file) { return beginReadingMesh(file)(); }
+
+std::function<MeshFile()> beginReadingMesh(const std::string& file)
 {
-  const VTKFile source = readVTKFile(file, { ".vtu", ".vtk" });
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(source.data);
-  if (!grid) refuse(file, "holds polygonal data, expected an unstructured grid");
-  return meshOfGrid(grid, source.ras, file);
+  return [file, end = beginReadingVTKFile(file, { ".vtu", ".vtk" })]
+  {
+    const VTKFile source = end();
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(source.data);
+    if (!grid) refuse(file, "holds polygonal data, expected an unstructured grid");
+    return meshOfGrid(grid, source.ras, file);
+  };
 }
 
 MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name)

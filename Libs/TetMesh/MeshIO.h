@@ -11,6 +11,7 @@
 #include "CurveChain.h"
 #include "TetMesh.h"
 
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -86,6 +87,10 @@ struct MeshFile
 /// Refused, beyond what readSurface refuses: cells other than tetrahedra, no TissueLabel, tetrahedra that are inverted
 /// or flat, points that no tetrahedron uses.
 MeshFile readMesh(const std::string& file);
+
+/// Begins to read it while this process goes on; what is returned ends it, to be called once. Both throw as readMesh()
+/// does.
+std::function<MeshFile()> beginReadingMesh(const std::string& file);
 
 /// The same from memory. `ras`: the grid's coordinates are RAS, which its field data need not know; `name` stands for
 /// the file in messages.

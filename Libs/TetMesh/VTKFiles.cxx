@@ -28,7 +28,9 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <new>
+#include <optional>
 
 namespace surgicalmesher
 {
@@ -223,6 +225,17 @@ vtkSmartPointer<vtkPointSet> fromXML(const std::string& text, const std::string&
   return outputOf(reader.Get(), file, "VTK");
 }
 
+VTKFile fileOf(std::optional<std::string> answer, const std::string& file, int mostSeconds)
+{
+  if (!answer || answer->size() < 2)
+    refuse(file, "damaged: its reader crashed or did not end within " + std::to_string(mostSeconds) + " s");
+  if (answer->back() == Refused) throw InputError(answer->substr(0, answer->size() - 1));
+  const bool isGrid = answer->back() == Grid, ras = answer->end()[-2] == 'r';
+  answer->resize(answer->size() - 2);
+  return { isGrid ? fromXML<vtkXMLUnstructuredGridReader>(*answer, file) : fromXML<vtkXMLPolyDataReader>(*answer, file),
+           ras };
+}
+
 int mostSecondsFor(const std::string& file)
 {
   std::error_code error;
@@ -247,19 +260,18 @@ void requireValidCells(vtkPointSet* data, const std::string& name)
 
 VTKFile readVTKFile(const std::string& file, const std::vector<std::string>& extensions)
 {
+  return beginReadingVTKFile(file, extensions)();
+}
+
+std::function<VTKFile()> beginReadingVTKFile(const std::string& file, const std::vector<std::string>& extensions)
+{
   text::requireReadableFile(file);
   const std::string extension = text::extensionOf(file);
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     refuse(file, "unknown kind of file '" + extension + "', expected " + listed(extensions));
   const int mostSeconds = mostSecondsFor(file);
-  auto answer = runInSeparateProcess([&] { return answerFor(file); }, mostSeconds);
-  if (!answer || answer->size() < 2)
-    refuse(file, "damaged: its reader crashed or did not end within " + std::to_string(mostSeconds) + " s");
-  if (answer->back() == Refused) throw InputError(answer->substr(0, answer->size() - 1));
-  const bool isGrid = answer->back() == Grid, ras = answer->end()[-2] == 'r';
-  answer->resize(answer->size() - 2);
-  return { isGrid ? fromXML<vtkXMLUnstructuredGridReader>(*answer, file) : fromXML<vtkXMLPolyDataReader>(*answer, file),
-           ras };
+  const auto reader = std::make_shared<SeparateProcess>([&] { return answerFor(file); }, mostSeconds);
+  return [file, reader, mostSeconds] { return fileOf(reader->answer(), file, mostSeconds); };
 }
 
 } // namespace surgicalmesher

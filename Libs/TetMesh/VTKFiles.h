@@ -6,6 +6,7 @@
 #include <vtkPointSet.h>
 #include <vtkSmartPointer.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ struct VTKFile
 /// or cells in its header than it has room for, cells of points that are not there, or more than ten seconds and half a
 /// second for each megabyte.
 VTKFile readVTKFile(const std::string& file, const std::vector<std::string>& extensions);
+
+/// Begins to read a file while this process goes on; what is returned ends it, to be called once. Both throw as
+/// readVTKFile() does.
+std::function<VTKFile()> beginReadingVTKFile(const std::string& file, const std::vector<std::string>& extensions);
 
 /// Throws InputError, with `name`, unless the cells' offsets ascend and their ids are those of points: VTK's filters
 /// would leave their memory.
