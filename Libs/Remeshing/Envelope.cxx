@@ -411,26 +411,22 @@ bool Envelope::sheetStays()
   return true;
 }
 
-bool Envelope::moveSheet(const Vec3& p)
+bool Envelope::allowsSheetAt(const Vec3& p)
 {
   if (growsSpike(p)) return false;
   addMovedFaces(p);
-  if (!featuresStay(m_Sheet) || !sheetStays() || !meanSquareStays(m_Sheet) ||
-      spansGap(m_Sheet, m_SheetVertex, m_Complex.points[m_SheetVertex]))
-    return false;
-  attachMoved();
-  return true;
+  return featuresStay(m_Sheet) && sheetStays() && meanSquareStays(m_Sheet) &&
+         !spansGap(m_Sheet, m_SheetVertex, m_Complex.points[m_SheetVertex]);
 }
 
 void Envelope::handToNearest(const Vec3& p)
 {
   addMovedFaces(p);
   for (SheetSample& sample : m_Sheet.samples) findNearestFace(m_Sheet, sample);
-  attachMoved();
+  handOn();
 }
 
-/// Hands the samples of the sheet to their faces, and puts them in the order of these again.
-void Envelope::attachMoved()
+void Envelope::handOn()
 {
   auto& [faces, samples] = m_Sheet;
   if (std::all_of(samples.begin(), samples.end(), [](const SheetSample& sample) { return sample.to == sample.from; }))

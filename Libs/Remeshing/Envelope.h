@@ -106,8 +106,11 @@ public:
   bool watchesFeatures() const { return m_Sides.areWatched(); }
   /// The part of a step of the sheet's vertex that leaves features as they are.
   Vec3 alongFeatures(const Vec3& step);
-  /// Whether features, samplesStay() and vertexDistance allow the vertex of the sheet at p; hands the samples on if so.
-  bool moveSheet(const Vec3& p);
+  /// Whether features, samplesStay() and vertexDistance allow the vertex of the sheet at p.
+  bool allowsSheetAt(const Vec3& p);
+  /// After that: hands the samples of the sheet to the faces as they are with the vertex there, and puts them in the order
+  /// of these.
+  void handOn();
   /// Hands the samples of the sheet to the nearest of its faces as they are with the vertex at p, however far.
   void handToNearest(const Vec3& p);
   /// Whether a sample of the sheet is beyond its tolerance.
@@ -156,7 +159,6 @@ private:
   bool leavesPlane(const SheetSample& sample, const Vec3& p) const;
   bool spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) const;
   void addMovedFaces(const Vec3& p);
-  void attachMoved();
   void detach(const Sheet& sheet);
   void attach(const std::vector<SheetSample>& samples, const std::vector<std::pair<std::int32_t, int>>& holders);
 
