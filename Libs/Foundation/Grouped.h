@@ -2,8 +2,12 @@
 #pragma once
 /// Values sorted into groups by counting: those of a group lie together, in the order in which they came.
 
+#include "Parallel.h"
+
+#include <array>
 #include <cstddef>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace surgicalmesher
@@ -25,6 +29,32 @@ public:
     m_Values.resize(m_Start.back());
     std::vector<std::size_t> next(m_Start.begin(), m_Start.end() - 1);
     forEach([&](std::size_t group, const Value& value) { m_Values[next[group]++] = value; });
+  }
+
+  /// Of the values of `count` things, looked at on several threads: `forEachOf(first, last, visit)` calls visit(group,
+  /// value) for those of the things from `first` up to `last`, which is not one of them; it must not throw.
+  template <class ForEachOf>
+  Grouped(std::size_t groups, std::size_t count, const ForEachOf& forEachOf) : m_Start(groups + 1)
+  {
+    constexpr std::size_t parts = 4;
+    std::array<std::vector<std::size_t>, parts> next; // of each group's values in a part: how many, then where
+    const auto inParts = [&](auto&& visitorOf)
+    {
+      parallelForEach(parts, [&](std::size_t p)
+                      { forEachOf(count * p / parts, count * (p + 1) / parts, visitorOf(next[p])); });
+    };
+    for (auto& of : next) of.assign(groups, 0);
+    inParts([](auto& of) { return [&of](std::size_t group, const Value&) { ++of[group]; }; });
+    std::size_t at = 0;
+    for (std::size_t group = 0; group < groups; ++group)
+    {
+      m_Start[group] = at;
+      for (auto& of : next) at += std::exchange(of[group], at);
+    }
+    m_Start[groups] = at;
+    m_Values.resize(at);
+    inParts([this](auto& of)
+            { return [this, &of](std::size_t group, const Value& value) { m_Values[of[group]++] = value; }; });
   }
 
   std::size_t groups() const { return m_Start.size() - 1; }

@@ -54,12 +54,12 @@ public:
     std::vector<LabelPair> labels(m_Faces.size());
     parallelFor(labels.size(),
                 [&](std::size_t f) { labels[f] = labelsBeside(blocks, faceUnder(std::int32_t(f), blocks)); });
-    const auto forEachEntry = [&](auto&& visit)
+    const auto forEachEntry = [&](std::size_t begin, std::size_t end, auto&& visit)
     {
-      for (std::size_t f = 0; f < m_Faces.size(); ++f)
+      for (std::size_t f = begin; f < end; ++f)
         forEachBin(binsOf(std::int32_t(f)), [&](std::size_t bin) { visit(bin, Entry{ labels[f], std::int32_t(f) }); });
     };
-    m_Entries = Grouped<Entry>(std::size_t(m_Size[0]) * m_Size[1] * m_Size[2], forEachEntry);
+    m_Entries = Grouped<Entry>(std::size_t(m_Size[0]) * m_Size[1] * m_Size[2], m_Faces.size(), forEachEntry);
     parallelFor(m_Entries.groups(), [&](std::size_t bin) { std::sort(m_Entries.begin(bin), m_Entries.end(bin)); });
   }
 

@@ -68,9 +68,9 @@ std::vector<std::int32_t> matchOpenFaces(const std::vector<std::array<std::int32
                                          std::size_t pointCount, AcrossFaces& across)
 {
   // By their first points: of all faces of a mesh, some twenty of each are left to compare.
-  const auto forEachOpen = [&](auto&& visit)
+  const auto forEachOpen = [&](std::size_t begin, std::size_t end, auto&& visit)
   {
-    for (std::size_t t = 0; t < across.size(); ++t)
+    for (std::size_t t = begin; t < end; ++t)
       for (int local = 0; local < 4; ++local)
       {
         if (across[t][local] >= 0) continue;
@@ -78,7 +78,7 @@ std::vector<std::int32_t> matchOpenFaces(const std::vector<std::array<std::int32
         visit(std::size_t(p[0]), Face{ std::uint64_t(p[1]) << 32 | std::uint32_t(p[2]), std::int32_t(t), local });
       }
   };
-  Grouped<Face> faces(pointCount, forEachOpen);
+  Grouped<Face> faces(pointCount, across.size(), forEachOpen);
   std::vector<std::int32_t> overused;
   std::mutex mutex;
   vtkSMPTools::For(0, vtkIdType(pointCount),

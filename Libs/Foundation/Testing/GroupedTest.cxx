@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 #include <utility>
 
@@ -30,6 +31,27 @@ TEST(Grouped, KeepsTheOrderOfEachGroup)
     all += expected.size();
   }
   EXPECT_EQ(all, given.size());
+}
+
+TEST(Grouped, IsTheSameOnSeveralThreads)
+{
+  for (const std::size_t count : { 0, 1, 3, 1000 })
+  {
+    std::mt19937 random(2);
+    std::vector<std::size_t> group(count);
+    for (std::size_t& of : group) of = random() % 7;
+    const auto forEachOf = [&](std::size_t first, std::size_t last, auto&& visit)
+    {
+      for (std::size_t i = first; i < last; ++i)
+        for (int n = 0; n < 3; ++n) visit((group[i] + n) % 9, std::pair(i, n));
+    };
+    const Grouped<std::pair<std::size_t, int>> alone(9, [&](auto&& visit) { forEachOf(0, count, visit); });
+    const Grouped<std::pair<std::size_t, int>> together(9, count, forEachOf);
+    ASSERT_EQ(together.groups(), 9u);
+    for (std::size_t of = 0; of < 9; ++of)
+      EXPECT_TRUE(std::equal(together.begin(of), together.end(of), alone.begin(of), alone.end(of)))
+        << count << ", " << of;
+  }
 }
 
 TEST(Grouped, MayBeEmpty)
