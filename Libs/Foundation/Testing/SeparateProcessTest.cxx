@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 #ifndef _WIN32
+#include <sys/wait.h>
 #include <unistd.h>
 #endif
 
@@ -38,6 +39,22 @@ TEST(SeparateProcess, AnswersOrTellsThatThereIsNoAnswer)
   EXPECT_EQ(runInSeparateProcess([]() -> std::string { std::_Exit(0); }).value_or(""), "") << "left without an answer";
   EXPECT_EQ(runInSeparateProcess([]() -> std::string { return std::to_string(pause()); }, 1), std::nullopt)
     << "waits for ever, and uses no processor time";
+#endif
+}
+
+TEST(SeparateProcess, SeveralRunAtOnceAndNobodyWaitsForTheUnasked)
+{
+  std::string seen = "before";
+  SeparateProcess first([&] { return seen; });
+  seen = "between";
+  SeparateProcess second([&] { return seen; });
+#ifndef _WIN32 // where work begins when it is asked for
+  EXPECT_EQ(second.answer(), "between");
+  EXPECT_EQ(first.answer(), "before");
+  { // ends here, although pause() never does
+    const SeparateProcess unasked([] { return std::to_string(pause()); });
+  }
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "no process is left behind";
 #endif
 }
 
