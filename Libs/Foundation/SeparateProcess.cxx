@@ -86,7 +86,9 @@ void setLimits(int mostSeconds)
   vtkSMPTools::SetBackend("Sequential");
   try
   {
-    _exit(sendAnswer(descriptor, work()) ? 0 : kFailed);
+    const std::string answer = work();
+    alarm(0); // the parent may have other things to do first
+    _exit(sendAnswer(descriptor, answer) ? 0 : kFailed);
   }
   catch (...)
   {

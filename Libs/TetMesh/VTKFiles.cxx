@@ -270,7 +270,7 @@ std::function<VTKFile()> beginReadingVTKFile(const std::string& file, const std:
   if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
     refuse(file, "unknown kind of file '" + extension + "', expected " + listed(extensions));
   const int mostSeconds = mostSecondsFor(file);
-  const auto reader = std::make_shared<SeparateProcess>([&] { return answerFor(file); }, mostSeconds);
+  const auto reader = std::make_shared<SeparateProcess>([file] { return answerFor(file); }, mostSeconds);
   return [file, reader, mostSeconds] { return fileOf(reader->answer(), file, mostSeconds); };
 }
 

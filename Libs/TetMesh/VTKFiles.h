@@ -23,7 +23,7 @@ struct VTKFile
 /// Reads a file of one of `extensions`, which are of .vtp, .vtu, .vtk (polygonal data or an unstructured grid), .stl,
 /// .ply and .obj, with all its arrays. Throws InputError with the file's name: missing, of another extension, damaged, more points
 /// or cells in its header than it has room for, cells of points that are not there, or more than ten seconds and half a
-/// second for each megabyte.
+/// second for each megabyte, of processor time; by the clock ten times as long.
 VTKFile readVTKFile(const std::string& file, const std::vector<std::string>& extensions);
 
 /// Begins to read a file while this process goes on; what is returned ends it, to be called once. Both throw as
