@@ -41,8 +41,6 @@ TargetLengths readLengths(const CommandLine& line, const SurfaceFile& content)
 {
   const std::string scaleFile = line.text("scale");
   const double uniform = line.number("edgeLength");
-  if (!scaleFile.empty() && uniform > 0)
-    throw UsageError("--scale and --edgeLength are both given, expected one of them");
   if (uniform > 0) return lengthsOf([uniform](const Vec3&) { return uniform; });
   if (!scaleFile.empty())
   {
@@ -141,6 +139,8 @@ CurveNetwork readCurveNetwork(const CommandLine& line, const SizingFunction& edg
 /// What the command line alone can tell.
 void requireUsableOptions(CommandLine& line)
 {
+  if (line.given("scale") && line.number("edgeLength") > 0)
+    throw UsageError("--scale and --edgeLength are both given, expected one of them");
   if (line.flag("conditioning") && !line.given("report"))
     throw UsageError("--conditioning is given, but no --report, expected both");
   if (line.given("curveMesh") && line.texts("curves").empty())
@@ -239,7 +239,7 @@ void mesh(CommandLine& line)
   TetrahedralizerOptions options;
   options.constitutive = readConstitutiveRule(line);
   options.placement = readPlacement(line);
-  std::function<MeshFile()> readAmbient; // meanwhile
+  std::function<MeshFile()> readAmbient; // its reader runs while the surface is read, and ends if that is refused
   if (const std::string ambient = line.text("ambient"); !ambient.empty()) readAmbient = beginReadingMesh(ambient);
   SurfaceFile content = readSurface(line.text("surface"));
   const bool isOfMap = !content.boundaryDistance.empty(); // folded where the map has cracks, which are no edges to keep

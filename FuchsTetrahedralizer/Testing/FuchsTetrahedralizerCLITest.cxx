@@ -86,6 +86,9 @@ TEST_F(FuchsTetrahedralizerCLI, RefusesAmbientTetrahedraAtFault)
     expectRefused("--edgeLength 2 --ambient " + file + " ball.vtp m.vtu", 1, file + ": ");
   }
   expectRefused("--edgeLength 2 --ambient . ball.vtp m.vtu", 1, "is a folder");
+  folder.write("text.vtp", "not a surface\n");
+  expectRefused("--edgeLength 2 --ambient whole.vtu text.vtp m.vtu", 1, "text.vtp: ");
+  expectRefused("--edgeLength 2 --scale scale.nrrd --ambient missing.vtu ball.vtp m.vtu", 2, "both");
 }
 
 TEST_F(FuchsTetrahedralizerCLI, RefusesScalesAtFault)

@@ -225,12 +225,12 @@ double scatter(const Places& place, int axis)
   return double(bits >> 11) / double(std::uint64_t(1) << 52) - 1;
 }
 
-/// Calls f(i, walk) for every i below `count`, those of a fixed part in their order along a walk of its own: what it finds
-/// does not depend on the number of threads.
+/// Calls f(i, walk) for every i below `count`, those of a fixed part in their order along a walk of its own: what it
+/// finds does not depend on the number of threads.
 template <class F>
 void forEachAlongWalks(std::size_t count, const SurfaceLocator& locator, const F& f)
 {
-  constexpr std::size_t ofPart = 400;
+  constexpr std::size_t ofPart = 400; // few enough for all threads to share, and one in hundreds begins anew
   parallelForEach((count + ofPart - 1) / ofPart,
                   [&](std::size_t part)
                   {
@@ -244,18 +244,25 @@ std::vector<double> lengthsInside(const SurfaceComplex& surface, const SurfaceLo
                                   const Vec3& high, const SizingFunction& edgeLength)
 {
   constexpr std::size_t perAxis = 20;
-  std::vector<double> found(perAxis * perAxis * perAxis, 0);
-  const auto measure = [&](std::size_t i, SurfaceWalk& walk)
+  const auto pointOf = [&](std::size_t i)
   {
     const std::array<std::size_t, 3> at{ i % perAxis, i / perAxis % perAxis, i / (perAxis * perAxis) };
     Vec3 p;
     for (int axis = 0; axis < 3; ++axis)
       p[axis] = low[axis] + (double(at[axis]) + 0.5) / double(perAxis) * (high[axis] - low[axis]);
-    const auto known = walk.known(p);
-    if ((known ? *known : walk.ask(p)).inside) found[i] = checkedLength(edgeLength, p);
+    return p;
   };
-  forEachAlongWalks(found.size(), locator, measure);
-  found.erase(std::remove(found.begin(), found.end(), 0.0), found.end());
+  std::vector<char> isInside(perAxis * perAxis * perAxis);
+  forEachAlongWalks(isInside.size(), locator,
+                    [&](std::size_t i, SurfaceWalk& walk)
+                    {
+                      const Vec3 p = pointOf(i);
+                      const auto known = walk.known(p);
+                      isInside[i] = (known ? *known : walk.ask(p)).inside;
+                    });
+  std::vector<double> found;
+  for (std::size_t i = 0; i < isInside.size(); ++i)
+    if (isInside[i]) found.push_back(checkedLength(edgeLength, pointOf(i)));
   if (found.empty())
     for (const Vec3& p : surface.points) found.push_back(checkedLength(edgeLength, p));
   return found;

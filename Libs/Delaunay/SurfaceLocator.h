@@ -52,8 +52,8 @@ class SurfaceWalk
 public:
   explicit SurfaceWalk(const SurfaceLocator& locator) : m_Locator(locator) {}
 
-  /// What the last point that was asked about tells of p: its side, and a distance that it has at least; nothing where p
-  /// is too far from it.
+  /// What the last point that was asked about tells of p: its side, and a distance that it has at least; nothing where
+  /// p is too far from it.
   std::optional<SurfaceLocator::Answer> known(const Vec3& p) const;
 
   SurfaceLocator::Answer ask(const Vec3& p);

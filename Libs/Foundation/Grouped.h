@@ -32,11 +32,12 @@ public:
   }
 
   /// Of the values of `count` things, looked at on several threads: `forEachOf(first, last, visit)` calls visit(group,
-  /// value) for those of the things from `first` up to `last`, which is not one of them; it must not throw.
+  /// value) for those of the things from `first` up to `last`, which is not one of them. It is called twice for each,
+  /// on any thread, has to do the same both times, and must not throw.
   template <class ForEachOf>
   Grouped(std::size_t groups, std::size_t count, const ForEachOf& forEachOf) : m_Start(groups + 1)
   {
-    constexpr std::size_t parts = 4;
+    constexpr std::size_t parts = 4; // more would take more memory, a number for each group, than they save time
     std::array<std::vector<std::size_t>, parts> next; // of each group's values in a part: how many, then where
     const auto inParts = [&](auto&& visitorOf)
     {

@@ -73,6 +73,11 @@ void setLimits(int mostSeconds)
   if (mostSeconds == 0) return;
   const rlimit seconds{ rlim_t(mostSeconds), rlim_t(mostSeconds) };
   setrlimit(RLIMIT_CPU, &seconds);
+  std::signal(SIGALRM, SIG_DFL); // whoever started the program may have it ignored or blocked
+  sigset_t alarms;
+  sigemptyset(&alarms);
+  sigaddset(&alarms, SIGALRM);
+  sigprocmask(SIG_UNBLOCK, &alarms, nullptr);
   alarm(unsigned(mostSeconds) * kClockPerProcessorTime);
 }
 
@@ -82,7 +87,7 @@ void setLimits(int mostSeconds)
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  // A fork has the thread that made it and no other: loops handed to the threads of a pool would wait for them for ever.
+  // A fork has the thread that made it and no other: loops handed to a pool's threads would wait for them for ever.
   vtkSMPTools::SetBackend("Sequential");
   try
   {
@@ -111,11 +116,15 @@ SeparateProcess::SeparateProcess(const std::function<std::string()>& work, int m
 {
   int ends[2];
   if (pipe(ends) != 0) return;
+#ifdef __linux__
+  const pid_t parent = getpid();
+#endif
   m_Child = fork();
   if (m_Child == 0)
   {
 #ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGKILL); // a cancelled run takes its child along
+    prctl(PR_SET_PDEATHSIG, SIGKILL);        // a cancelled run takes its child along
+    if (getppid() != parent) _exit(kFailed); // cancelled before that
 #endif
     close(ends[0]);
     setLimits(mostSeconds);
@@ -137,6 +146,7 @@ std::optional<std::string> SeparateProcess::answer()
 {
   if (m_Child < 0) return {};
   std::optional<std::string> answer = receiveAnswer(m_Answers);
+  close(std::exchange(m_Answers, -1));
   if (endOf(std::exchange(m_Child, -1)) != 0) return {};
   return answer;
 }

@@ -10,14 +10,15 @@
 namespace surgicalmesher
 {
 
-/// Work in a process of its own, which sees this one's memory as it is when that begins; what it changes there, and what
-/// it prints, is lost. Its loops run on one thread. Where processes can't be forked (Windows) it waits for answer(), and
-/// runs in this one, unprotected: it must own what it refers to.
+/// Work in a process of its own, which sees this one's memory as it is when that begins; what it changes there, and
+/// what it prints, is lost. VTK's loops run on one thread in it. On Linux it ends with the thread that begins it.
+/// Where processes can't be forked (Windows), answer() runs the work in this one, unprotected: what it refers to must
+/// live until then.
 class SeparateProcess
 {
 public:
-  /// Begins. Work that takes more than `mostSeconds` of processor time, or ten times as long by the clock, is ended (0: no
-  /// limit).
+  /// Begins. Work that takes more than `mostSeconds` of processor time, or ten times as long by the clock, is ended (0:
+  /// no limit).
   explicit SeparateProcess(const std::function<std::string()>& work, int mostSeconds = 0);
   /// Ends the process, if nobody has waited for its answer.
   ~SeparateProcess();

@@ -108,8 +108,8 @@ public:
   Vec3 alongFeatures(const Vec3& step);
   /// Whether features, samplesStay() and vertexDistance allow the vertex of the sheet at p.
   bool allowsSheetAt(const Vec3& p);
-  /// After that: hands the samples of the sheet to the faces as they are with the vertex there, and puts them in the order
-  /// of these.
+  /// After that: hands the samples of the sheet to the faces as they are with the vertex there, and puts them in the
+  /// order of these.
   void handOn();
   /// Hands the samples of the sheet to the nearest of its faces as they are with the vertex at p, however far.
   void handToNearest(const Vec3& p);

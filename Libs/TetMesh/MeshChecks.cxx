@@ -367,6 +367,7 @@ void requireSound(const TetMesh& mesh, const std::string& stage)
     requireNone(defects.unusedPoints, stage, "points of no tetrahedron");
     requireNone(defects.duplicatePoints, stage, "points on top of another");
   };
+  // Of both that fail, the first is told: the other may be in want of what it requires.
   runInParallel({ checkTetrahedra, [&] { requireSound(interfaceOf(mesh), stage); } });
 }
 

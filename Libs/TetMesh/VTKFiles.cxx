@@ -228,7 +228,8 @@ vtkSmartPointer<vtkPointSet> fromXML(const std::string& text, const std::string&
 VTKFile fileOf(std::optional<std::string> answer, const std::string& file, int mostSeconds)
 {
   if (!answer || answer->size() < 2)
-    refuse(file, "damaged: its reader crashed or did not end within " + std::to_string(mostSeconds) + " s");
+    refuse(file, "damaged: its reader crashed or did not end within " + std::to_string(mostSeconds) +
+                   " s of processor time, or ten times as long by the clock");
   if (answer->back() == Refused) throw InputError(answer->substr(0, answer->size() - 1));
   const bool isGrid = answer->back() == Grid, ras = answer->end()[-2] == 'r';
   answer->resize(answer->size() - 2);

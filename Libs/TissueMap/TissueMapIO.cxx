@@ -154,7 +154,7 @@ void requireHarmlessHeader(const std::string& file)
     mostSeconds);
   if (!answer)
     throw InputError(file + ": the image header is damaged: its reader crashed or did not end within " +
-                     std::to_string(mostSeconds) + " s");
+                     std::to_string(mostSeconds) + " s of processor time, or ten times as long by the clock");
   if (!answer->empty()) throw InputError(*answer);
 }
 

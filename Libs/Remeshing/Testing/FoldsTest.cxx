@@ -129,6 +129,15 @@ TEST(FoldOpening, MovesNothingForLittle)
     }
 }
 
+/// The lists that faces have of them.
+std::vector<std::int32_t> listsOfSamples(const TetComplex& complex)
+{
+  std::vector<std::int32_t> result;
+  for (const auto& heads : complex.sampleHeads) result.insert(result.end(), heads.begin(), heads.end());
+  for (const auto& sample : complex.samples) result.push_back(sample.next);
+  return result;
+}
+
 TEST(GuardedOperations, FoldNothingWhereFoldsAreKept)
 {
   for (const bool keepsFolds : { false, true })
@@ -137,7 +146,9 @@ TEST(GuardedOperations, FoldNothingWhereFoldsAreKept)
     const std::int32_t v = vertexNear(complex, { 2.5, 2.5, 2.5 }); // of the seam, where normals turn by 82 degrees
     const Vec3 deeper = complex.points[v] - Vec3{ 0, 0, 0.3 }, shallower = complex.points[v] + Vec3{ 0, 0, 0.1 };
     GuardedOperations operations(complex, unitScale, wide(keepsFolds));
+    const std::vector<std::int32_t> lists = listsOfSamples(complex);
     EXPECT_EQ(operations.move(v, deeper, 1e-8), !keepsFolds);
+    EXPECT_TRUE(!keepsFolds || listsOfSamples(complex) == lists) << "what is refused hands no sample on";
     EXPECT_TRUE(operations.move(v, shallower, 1e-8));
   }
 }
