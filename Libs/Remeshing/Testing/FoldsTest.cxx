@@ -4,6 +4,7 @@
 #include "ComplexInvariants.h"
 #include "FoldOpening.h"
 #include "Groove.h"
+#include "Triangle.h"
 
 #include <gtest/gtest.h>
 
@@ -129,13 +130,19 @@ TEST(FoldOpening, MovesNothingForLittle)
     }
 }
 
-/// The lists that faces have of them.
-std::vector<std::int32_t> listsOfSamples(const TetComplex& complex)
+/// Whether every distance of a sample that is known is that to the face which has it.
+bool distancesAreTrue(const TetComplex& complex)
 {
-  std::vector<std::int32_t> result;
-  for (const auto& heads : complex.sampleHeads) result.insert(result.end(), heads.begin(), heads.end());
-  for (const auto& sample : complex.samples) result.push_back(sample.next);
-  return result;
+  for (std::size_t t = 0; t < complex.tets.size(); ++t)
+    for (int i = 0; i < 4; ++i)
+      for (std::int32_t e = complex.sampleHeads[t][i]; e >= 0; e = complex.samples[e].next)
+      {
+        const auto corner = [&](int k) { return complex.points[complex.tets[t][(i + k) & 3]]; };
+        const ListedSample& sample = complex.samples[e];
+        const double now = squaredDistanceToTriangle(sample.position, corner(1), corner(2), corner(3));
+        if (sample.distance2 >= 0 && std::abs(sample.distance2 - now) > 1e-9) return false;
+      }
+  return true;
 }
 
 TEST(GuardedOperations, FoldNothingWhereFoldsAreKept)
@@ -146,9 +153,8 @@ TEST(GuardedOperations, FoldNothingWhereFoldsAreKept)
     const std::int32_t v = vertexNear(complex, { 2.5, 2.5, 2.5 }); // of the seam, where normals turn by 82 degrees
     const Vec3 deeper = complex.points[v] - Vec3{ 0, 0, 0.3 }, shallower = complex.points[v] + Vec3{ 0, 0, 0.1 };
     GuardedOperations operations(complex, unitScale, wide(keepsFolds));
-    const std::vector<std::int32_t> lists = listsOfSamples(complex);
     EXPECT_EQ(operations.move(v, deeper, 1e-8), !keepsFolds);
-    EXPECT_TRUE(!keepsFolds || listsOfSamples(complex) == lists) << "what is refused hands no sample on";
+    EXPECT_TRUE(distancesAreTrue(complex)) << "what is refused hands no sample on";
     EXPECT_TRUE(operations.move(v, shallower, 1e-8));
   }
 }
