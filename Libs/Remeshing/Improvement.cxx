@@ -47,23 +47,54 @@ public:
   void run()
   {
     m_Touched.assign(m_Complex.points.size(), 1);
+    m_IsStuck.assign(m_Complex.points.size(), 0);
     for (int pass = 0; pass < m_Options.passes; ++pass)
     {
-      std::vector<std::pair<double, std::int32_t>> bad;
-      const std::vector<double> qualities = qualitiesOfTouched();
-      for (std::int32_t t = 0; t < std::int32_t(qualities.size()); ++t)
-        if (qualities[t] < m_Target) bad.push_back({ qualities[t], t });
+      const std::vector<std::int32_t> bad = worstFirst();
       if (bad.empty()) break;
-      std::sort(bad.begin(), bad.end());
-      bad.resize(std::min(bad.size(), shareOf(m_Options.worstShare)));
       m_Touched.assign(m_Complex.points.size(), 0);
       m_TogetherLeft = m_Options.together > 0 ? shareOf(m_Options.togetherShare) : 0;
-      for (const auto& [q, t] : bad)
-        if (m_Complex.alive(t) && m_Operations.quality(t) < m_Target) improve(t);
+      m_IsCrowded = double(bad.size()) > crowd * double(m_Complex.tets.size());
+      if (!improveAll(bad)) break;
     }
   }
 
 private:
+  /// Share of a block's tetrahedra: where more are bad, most of them have no room within the bounds of the stage, and
+  /// wait for the wider ones of the next. What brings them nearer by little is then left undone.
+  static constexpr double crowd = 0.07;
+
+  /// What is below the target and has changed.
+  std::vector<std::int32_t> worstFirst() const
+  {
+    std::vector<std::pair<double, std::int32_t>> bad;
+    const std::vector<double> qualities = qualitiesOfTouched();
+    for (std::int32_t t = 0; t < std::int32_t(qualities.size()); ++t)
+      if (qualities[t] < m_Target) bad.push_back({ qualities[t], t });
+    std::sort(bad.begin(), bad.end());
+    std::vector<std::int32_t> result;
+    for (std::size_t n = 0; n < std::min(bad.size(), shareOf(m_Options.worstShare)); ++n)
+      result.push_back(bad[n].second);
+    return result;
+  }
+
+  /// Whether once more is worth it.
+  bool improveAll(const std::vector<std::int32_t>& bad)
+  {
+    constexpr double worthwhile = 0.3; // share that came right
+    std::size_t tried = 0, mended = 0;
+    for (const std::int32_t t : bad)
+    {
+      if (isMended(t)) continue;
+      ++tried;
+      improve(t);
+      mended += isMended(t);
+    }
+    return !m_IsCrowded || double(mended) >= worthwhile * double(tried);
+  }
+
+  bool isMended(std::int32_t t) const { return !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target; }
+
   std::size_t shareOf(double share) const
   {
     return std::max<std::size_t>(100, std::size_t(share * double(m_Complex.tets.size())));
@@ -89,20 +120,36 @@ private:
     return m_Touched[x[0]] || m_Touched[x[1]] || m_Touched[x[2]] || m_Touched[x[3]];
   }
 
+  void touch(std::int32_t v)
+  {
+    m_Touched[v] = 1;
+    m_IsStuck[v] = 0;
+  }
+
   void touchStar(std::int32_t v)
   {
-    m_Touched.resize(m_Complex.points.size(), 1);
+    growByPoints();
     for (std::int32_t t : m_Operations.star(v))
-      for (std::int32_t x : m_Complex.tets[t]) m_Touched[x] = 1;
+      for (std::int32_t x : m_Complex.tets[t]) touch(x);
+  }
+
+  /// For points that splits have added.
+  void growByPoints()
+  {
+    m_Touched.resize(m_Complex.points.size(), 1);
+    m_IsStuck.resize(m_Complex.points.size(), 0);
   }
 
   void improve(std::int32_t t)
   {
-    for (int round = 0; round < 4; ++round)
+    double quality = m_Operations.quality(t);
+    for (int left = 3; left >= 0; --left)
     {
       const bool done = removeAnEdge(t) || moveAVertex(t) || collapseAnEdge(t) || (m_Options.split && splitAnEdge(t)) ||
                         moveTogether(t) || splitAndMoveTogether(t);
-      if (!done || !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target) return;
+      if (!done || isMended(t)) return;
+      const double before = std::exchange(quality, m_Operations.quality(t));
+      if (m_IsCrowded && quality + left * (quality - before) < m_Target) return;
     }
   }
 
@@ -122,9 +169,10 @@ private:
                        {
                          if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
                          if (!m_Operations.removeEdge(a, b, t)) return false;
-                         m_Touched.resize(m_Complex.points.size(), 1);
-                         m_Touched[a] = m_Touched[b] = 1;
-                         for (const std::int32_t v : m_Operations.ringVertices()) m_Touched[v] = 1;
+                         growByPoints();
+                         touch(a);
+                         touch(b);
+                         for (const std::int32_t v : m_Operations.ringVertices()) touch(v);
                          return true;
                        });
   }
@@ -145,7 +193,8 @@ private:
   bool optimise(std::int32_t v)
   {
     constexpr double first = 0.12, least = 0.004; // shares of L; with 0.01 angles of traced curves stay worse
-    if (m_Complex.locked[v]) return false;
+    growByPoints();
+    if (m_Complex.locked[v] || (m_IsCrowded && m_IsStuck[v])) return false;
     double best = m_Operations.qualityAt(v);
     const double start = best;
     const double size = m_Complex.lengths[v];
@@ -168,7 +217,8 @@ private:
       }
       else step *= 0.8;
     }
-    if (!(best > start * (1 + 1e-3))) return false;
+    m_IsStuck[v] = !(best > start * (1 + 1e-3));
+    if (m_IsStuck[v]) return false;
     touchStar(v);
     return true;
   }
@@ -334,6 +384,8 @@ private:
   Directions m_Directions;
   GroupDescent m_Group;
   std::vector<std::uint8_t> m_Touched; ///< per vertex
+  std::vector<std::uint8_t> m_IsStuck; ///< per vertex: no better place was found, and nothing near has changed since
+  bool m_IsCrowded = false;            ///< see crowd
   std::size_t m_TogetherLeft = 0;      ///< in this pass
   Chance m_NearTogether, m_FarTogether, m_SplitTogether;
   std::vector<std::int32_t> m_Ring, m_RingVertices;
