@@ -160,7 +160,7 @@ Sweep repairWhole(const MeshTargets& targets, const MeshSizes& sizes, const Repa
 
 } // namespace
 
-const MeshTargets usualTargets{ .firstAngle = 25,
+const MeshTargets usualTargets{ .firstAngle = 22,
                                 .aimedAngle = 28.8,
                                 .keptAngle = usualAngle,
                                 .holdsVertices = true,
@@ -222,38 +222,48 @@ Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly)
 
 // --- surface stage: improvement -------------------------------------------------------------------------------------
 
+namespace
+{
+
+/// Number n of the sweeps that coarsen and improve in turn: they aim ever higher, as repairs will, which may go farther
+/// from the samples for it.
+Stage coarsened(const MeshTargets& targets, const MeshSizes& sizes, int n, double rmsLimit)
+{
+  const double rise = (targets.aimedAngle - targets.firstAngle) / targets.coarseningSweeps;
+  return { bounds(targets, rmsLimit),
+           { coarsenAll(sizes), SwapEdges{}, Polish{}, improve(targets.firstAngle + n * rise, 8, 1) } };
+}
+
+} // namespace
+
 Sweep firstImprovement(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  return improvement(
-    { bounds(targets, 0.4), { coarsenAll(sizes), SwapEdges{}, Polish{}, improve(targets.firstAngle, 8, 1) } });
+  return improvement(coarsened(targets, sizes, 0, 0.4));
 }
 
 std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  const double between = 0.5 * (targets.firstAngle + targets.aimedAngle);
   std::vector<Sweep> sweeps;
   for (int n = 1; n < targets.coarseningSweeps; ++n)
   {
-    const double angle = n == 1 ? between : targets.aimedAngle;
-    sweeps.push_back(
-      improvement({ bounds(targets, 0.35), { coarsenAll(sizes), SwapEdges{}, Polish{}, improve(angle, 8, 1) } }));
+    sweeps.push_back(improvement(coarsened(targets, sizes, n, 0.35)));
     sweeps.back().stages.push_back(evenLengths(targets, sizes, 20)); // sizes still change
     sweeps.back().stages.push_back(relabelled(targets));
   }
   return sweeps;
 }
 
-std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
+/// Vertices move together only in the last, and nothing works on the whole mesh: fits and motion come after it, and the
+/// second repairs mend what is then left.
+std::vector<Sweep> repairSweeps(const MeshTargets& t)
 {
   const double aim = t.aimedAngle, kept = t.keptAngle;
   return {
-    improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(aim, t.trials, 2) } }),
-    improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, 2) } }),
-    repairBlocks(t, { .angle = aim, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0 }),
-    repairBlocks(t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 20, .isFirst = true }),
+    improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(aim, t.trials, 1) } }),
+    improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, 1) } }),
+    repairBlocks(t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0, .isFirst = true }),
     repairBlocks(
-      t, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20, .isFirst = true }),
-    repairWhole(t, sizes, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20 })
+      t, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20, .isFirst = true })
   };
 }
 
@@ -324,7 +334,7 @@ Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
                                    .robust = robust,
                                    .foldsFrom = 2 * sizes.voxel } };
   const Stage even = keepingFolds(targets, evenLengths(targets, sizes, targets.keptAngle));
-  std::vector<Stage> stages{ keepingFolds(targets, { bounds(targets, 1), { back, back } }) };
+  std::vector<Stage> stages{ keepingFolds(targets, { bounds(targets, 1), { back } }) };
   if (targets.holdsVertices) stages.push_back({ bounds(targets, 1), { together } });
   stages.push_back(even);
   if (targets.opensFolds) stages.insert(stages.end(), { openFolds(targets, sizes, targets.keptAngle), even });
@@ -341,7 +351,7 @@ Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets)
 std::size_t surfaceSweepCount(const MeshSizes& sizes)
 {
   const MeshTargets& t = usualTargets;
-  return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t, sizes).size() + 1 +
+  return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t).size() + 1 +
          motionSweeps(t, sizes, Continuity::C2).size() + proximitySweeps(t, sizes).size() +
          secondRepairSweeps(t, sizes).size() + 1 + offsetRounds;
 }
@@ -444,11 +454,12 @@ std::vector<VolumeRow> repairRows(double t)
 }
 
 /// What solvers feel: stiff pairs, and heights after them. Last, as only then the angles are what they are to be. Across
-/// blocks, since the worst counts, wherever it is.
+/// blocks, since the worst counts, wherever it is. Not as far from the samples as repairs go: a height that needs more
+/// leaves a dent or a bump in a smooth wall.
 VolumeRow lastRow(double smallestLength)
 {
   constexpr double share = 0.4; // the lattice has 0.82; more costs angles in lattices of one length
-  return { .tolerance = 4, .whole = true, .softens = true, .height = share * smallestLength };
+  return { .tolerance = 1.5, .whole = true, .softens = true, .height = share * smallestLength };
 }
 
 } // namespace

@@ -55,9 +55,8 @@ Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly);
 Sweep firstImprovement(const MeshTargets& targets, const MeshSizes& sizes);
 /// Those after it that still coarsen; the angle aimed at rises. Tissues' volumes are balanced before each.
 std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// Without coarsening; what is still bad may go farther from its samples or be split, in the end across the blocks'
-/// borders.
-std::vector<Sweep> repairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
+/// Without coarsening; what is still bad may go ever farther from its samples, and be split in the end.
+std::vector<Sweep> repairSweeps(const MeshTargets& targets);
 /// Vertices go back to their samples as far as angles allow, at volumes that are balanced before.
 Sweep fittingSweep(const MeshTargets& targets, const MeshSizes& sizes);
 /// The motion of the simplex mesh, which makes the surface smooth between the voxels where elements are of their size,
@@ -66,7 +65,7 @@ Sweep fittingSweep(const MeshTargets& targets, const MeshSizes& sizes);
 std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity);
 /// Where samples are beyond their tolerances, which proximity has set: more triangles, and angles as good as they were.
 std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// What resisted before may have got room.
+/// What resisted before may have got room; in the end across the blocks' borders.
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// Single vertices go back to their samples, and lengths and folds are worked on once more, at volumes that are balanced
 /// before.

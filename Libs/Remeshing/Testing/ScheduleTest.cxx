@@ -25,15 +25,38 @@ std::vector<std::size_t> passesOf(const std::vector<Sweep>& sweeps)
 TEST(Schedule, DoesForNoisyMapsWhatItDoesForOthers)
 {
   EXPECT_EQ(passesOf({ firstImprovement(noisyTargets, sizes) }), passesOf({ firstImprovement(usualTargets, sizes) }));
-  EXPECT_EQ(passesOf(repairSweeps(noisyTargets, sizes)), passesOf(repairSweeps(usualTargets, sizes)));
+  EXPECT_EQ(passesOf(repairSweeps(noisyTargets)), passesOf(repairSweeps(usualTargets)));
   EXPECT_EQ(passesOf({ fittingSweep(noisyTargets, sizes) }), passesOf({ fittingSweep(usualTargets, sizes) }));
   EXPECT_EQ(passesOf(secondRepairSweeps(noisyTargets, sizes)), passesOf(secondRepairSweeps(usualTargets, sizes)));
+}
+
+/// Of the improvement in the first stage of a sweep, degrees.
+double aimOf(const Sweep& sweep)
+{
+  double aim = 0;
+  for (const Pass& pass : sweep.stages.front().passes)
+    if (const auto* improve = std::get_if<Improve>(&pass)) aim = improve->options.targetAngle;
+  return aim;
+}
+
+TEST(Schedule, AimsHigherFromSweepToSweepUpToTheRepairs)
+{
+  for (const MeshTargets& targets : { usualTargets, noisyTargets })
+  {
+    std::vector<Sweep> sweeps{ firstImprovement(targets, sizes) };
+    const std::vector<Sweep> more = improvementSweeps(targets, sizes);
+    sweeps.insert(sweeps.end(), more.begin(), more.end());
+    sweeps.push_back(repairSweeps(targets).front());
+    EXPECT_EQ(aimOf(sweeps.front()), targets.firstAngle);
+    EXPECT_EQ(aimOf(sweeps.back()), targets.aimedAngle);
+    for (std::size_t n = 1; n < sweeps.size(); ++n) EXPECT_GT(aimOf(sweeps[n]), aimOf(sweeps[n - 1])) << n;
+  }
 }
 
 TEST(Schedule, CountsTrianglesInEveryRepair)
 {
   for (const MeshTargets& targets : { usualTargets, noisyTargets })
-    for (const Sweep& sweep : repairSweeps(targets, sizes)) EXPECT_GT(sweep.stages.back().bounds.triangleWeight, 1);
+    for (const Sweep& sweep : repairSweeps(targets)) EXPECT_GT(sweep.stages.back().bounds.triangleWeight, 1);
 }
 
 TEST(Schedule, TakesTheWholeMeshApartOnceForAllThatFollowsOneAnother)
