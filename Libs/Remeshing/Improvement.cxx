@@ -54,17 +54,15 @@ public:
       if (bad.empty()) break;
       m_Touched.assign(m_Complex.points.size(), 0);
       m_TogetherLeft = m_Options.together > 0 ? shareOf(m_Options.togetherShare) : 0;
-      m_IsCrowded = double(bad.size()) > crowd * double(m_Complex.tets.size());
+      if (pass == 0) m_IsCrowded = m_Options.leavesCrowds && double(bad.size()) > crowd * double(m_Complex.tets.size());
       if (!improveAll(bad)) break;
     }
   }
 
 private:
-  /// Share of a block's tetrahedra: where more are bad, most of them have no room within the bounds of the stage, and
-  /// wait for the wider ones of the next. What brings them nearer by little is then left undone.
-  static constexpr double crowd = 0.07;
+  static constexpr double crowd = 0.07; ///< share of a block's tetrahedra, those counted that collapses have removed
 
-  /// What is below the target and has changed.
+  /// What is below the target and has changed, within worstShare.
   std::vector<std::int32_t> worstFirst() const
   {
     std::vector<std::pair<double, std::int32_t>> bad;
@@ -93,6 +91,7 @@ private:
     return !m_IsCrowded || double(mended) >= worthwhile * double(tried);
   }
 
+  /// Or gone: what has come in its place is asked about in the next pass.
   bool isMended(std::int32_t t) const { return !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target; }
 
   std::size_t shareOf(double share) const
@@ -128,16 +127,10 @@ private:
 
   void touchStar(std::int32_t v)
   {
-    growByPoints();
+    m_Touched.resize(m_Complex.points.size(), 1); // v may be what a split has added
+    m_IsStuck.resize(m_Complex.points.size(), 0);
     for (std::int32_t t : m_Operations.star(v))
       for (std::int32_t x : m_Complex.tets[t]) touch(x);
-  }
-
-  /// For points that splits have added.
-  void growByPoints()
-  {
-    m_Touched.resize(m_Complex.points.size(), 1);
-    m_IsStuck.resize(m_Complex.points.size(), 0);
   }
 
   void improve(std::int32_t t)
@@ -169,7 +162,6 @@ private:
                        {
                          if (m_Complex.locked[a] && m_Complex.locked[b]) return false;
                          if (!m_Operations.removeEdge(a, b, t)) return false;
-                         growByPoints();
                          touch(a);
                          touch(b);
                          for (const std::int32_t v : m_Operations.ringVertices()) touch(v);
@@ -193,7 +185,6 @@ private:
   bool optimise(std::int32_t v)
   {
     constexpr double first = 0.12, least = 0.004; // shares of L; with 0.01 angles of traced curves stay worse
-    growByPoints();
     if (m_Complex.locked[v] || (m_IsCrowded && m_IsStuck[v])) return false;
     double best = m_Operations.qualityAt(v);
     const double start = best;
@@ -384,9 +375,10 @@ private:
   Directions m_Directions;
   GroupDescent m_Group;
   std::vector<std::uint8_t> m_Touched; ///< per vertex
-  std::vector<std::uint8_t> m_IsStuck; ///< per vertex: no better place was found, and nothing near has changed since
-  bool m_IsCrowded = false;            ///< see crowd
-  std::size_t m_TogetherLeft = 0;      ///< in this pass
+  std::vector<std::uint8_t>
+    m_IsStuck;                    ///< per vertex: no better place was found, and nothing near has changed much since
+  bool m_IsCrowded = false;       ///< see leavesCrowds
+  std::size_t m_TogetherLeft = 0; ///< in this pass
   Chance m_NearTogether, m_FarTogether, m_SplitTogether;
   std::vector<std::int32_t> m_Ring, m_RingVertices;
 };

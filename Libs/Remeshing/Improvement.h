@@ -24,10 +24,14 @@ struct ImprovementOptions
   double togetherShare =
     0.001;        ///< of the tetrahedra, the worst, for which that is tried in one pass; of a hundred at least
   int passes = 3; ///< later passes work only where something has changed
+  /// Where many are bad, most of them have no room within the bounds of the stage: what brings them nearer by little is
+  /// left undone. For stages that others with wider bounds follow.
+  bool leavesCrowds = false;
 };
 
 /// Worst first: edge removal, vertex optimisation, collapse, split, and moves of several vertices together, as they are
-/// or with a new one among them, of the tetrahedra below the target, until nothing helps.
+/// or with a new one among them, of the tetrahedra below the target, until nothing helps or the
+/// passes are over.
 void improveBlock(GuardedOperations& operations, const ImprovementOptions& options = {});
 
 } // namespace surgicalmesher

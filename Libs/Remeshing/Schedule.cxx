@@ -51,10 +51,12 @@ Stage keepingFolds(const MeshTargets& targets, Stage stage)
   return stage;
 }
 
-/// Without splits and moves together.
+/// Without splits and moves together; others come after it that go farther.
 Improve improve(double angle, int trials, int passes)
 {
-  return { { .targetAngle = angle, .split = false, .splitEdge = 0, .trials = trials, .passes = passes } };
+  return {
+    { .targetAngle = angle, .split = false, .splitEdge = 0, .trials = trials, .passes = passes, .leavesCrowds = true }
+  };
 }
 
 // --- stages of several sweeps
@@ -121,12 +123,12 @@ Sweep improvement(Stage stage) { return { "improvement", { std::move(stage) } };
 /// How far a repair goes.
 struct Repair
 {
-  double angle;         ///< aimed at
-  double tolerance;     ///< factor
-  double splitEdge;     ///< 0: no splits
-  double ease;          ///< see ImprovementOptions
-  int together;         ///< see ImprovementOptions
-  bool isFirst = false; ///< fits come after it: vertices may leave their samples' planes
+  double angle;            ///< aimed at
+  double tolerance;        ///< factor
+  double splitEdge;        ///< 0: no splits
+  double ease;             ///< see ImprovementOptions
+  int together;            ///< see ImprovementOptions
+  bool fitsFollow = false; ///< vertices may leave their samples' planes, and crowds are left
 };
 
 ImprovementOptions optionsOf(const Repair& repair)
@@ -137,13 +139,14 @@ ImprovementOptions optionsOf(const Repair& repair)
            .ease = repair.ease,
            .trials = 20,
            .together = repair.together,
-           .passes = 3 };
+           .passes = 3,
+           .leavesCrowds = repair.fitsFollow };
 }
 
 Sweep repairBlocks(const MeshTargets& targets, const Repair& repair)
 {
   EnvelopeBounds within = bounds(targets, 1, repair.tolerance);
-  if (repair.isFirst) within.planeDistance = 0;
+  if (repair.fitsFollow) within.planeDistance = 0;
   return improvement({ within, { Improve{ optionsOf(repair) } } });
 }
 
@@ -261,9 +264,11 @@ std::vector<Sweep> repairSweeps(const MeshTargets& t)
   return {
     improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(aim, t.trials, 1) } }),
     improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, 1) } }),
-    repairBlocks(t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0, .isFirst = true }),
+    repairBlocks(t,
+                 { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0, .fitsFollow = true }),
     repairBlocks(
-      t, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20, .isFirst = true })
+      t,
+      { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20, .fitsFollow = true })
   };
 }
 

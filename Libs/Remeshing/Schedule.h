@@ -15,12 +15,12 @@ namespace surgicalmesher
 /// What a mesh is improved to.
 struct MeshTargets
 {
-  double firstAngle;    ///< degrees, dihedral: aimed at before aimedAngle is, as sizes suffer less that way
-  double aimedAngle;    ///< degrees, dihedral: aimed at in the end
-  double keptAngle;     ///< degrees, dihedral: not to be lost again
-  bool holdsVertices;   ///< to their samples and these samples' planes: see EnvelopeBounds
-  bool opensFolds;      ///< not where the surface follows the voxels' steps, which are at right angles
-  int trials;           ///< see ImprovementOptions, once sizes no longer change
+  double firstAngle;  ///< degrees, dihedral: aimed at first, step by step up to aimedAngle: sizes suffer less that way
+  double aimedAngle;  ///< degrees, dihedral: aimed at in the end
+  double keptAngle;   ///< degrees, dihedral: not to be lost again
+  bool holdsVertices; ///< to their samples and these samples' planes: see EnvelopeBounds
+  bool opensFolds;    ///< not where the surface follows the voxels' steps, which are at right angles
+  int trials;         ///< see ImprovementOptions, once sizes no longer change
   int coarseningSweeps; ///< sweeps of improvement that still coarsen
 };
 
@@ -84,8 +84,8 @@ struct TetrahedralSweep
 };
 
 /// For tetrahedra that nobody has improved yet, such as constrained Delaunay's. `targetAngle` in degrees, dihedral;
-/// `smallestLength`: the least L in tissues, mm, of which the last sweep makes every height a fair share,
-/// after it has softened pairs of vertices.
+/// `smallestLength`: the least L in tissues, mm, of which the last sweep makes every height a fair share, as
+/// far as the surface has room, after it has softened pairs of vertices.
 std::vector<TetrahedralSweep> sweepsForRawMesh(double targetAngle, double smallestLength);
 /// For a mesh whose surface the surface stage improved to `targetAngle`, whatever fills it: the surface is held, but
 /// where an angle cannot be mended otherwise, and slides within its tolerance where pairs of vertices are softened.

@@ -554,6 +554,29 @@ double evenEdges(const TetComplex& c, GuardedOperations& operations)
   return sum;
 }
 
+TEST(Improvement, LeavingCrowdsKeepsEveryPromiseAndTriesLess)
+{
+  const auto movesAndWorst = [](bool leavesCrowds)
+  {
+    std::pair<std::size_t, double> sums{ 0, 0 };
+    expectPromisesKept(1, true,
+                       [&](GuardedOperations& operations)
+                       {
+                         ImprovementOptions options;
+                         options.splitEdge = 0.8;
+                         options.together = 20;
+                         options.leavesCrowds = leavesCrowds;
+                         improveBlock(operations, options);
+                         sums.first += operations.counts().moves;
+                         sums.second += worstQuality(operations, operations.complex());
+                       });
+    return sums;
+  };
+  const auto left = movesAndWorst(true);
+  EXPECT_LT(left.first, movesAndWorst(false).first);
+  EXPECT_EQ(movesAndWorst(true), left);
+}
+
 TEST(EdgeLengths, KeepEveryPromiseAndBecomeMoreEven)
 {
   double before = 0, after = 0;
