@@ -168,6 +168,7 @@ const MeshTargets usualTargets{ .firstAngle = 22,
                                 .keptAngle = usualAngle,
                                 .holdsVertices = true,
                                 .opensFolds = true,
+                                .repairsThoroughly = false,
                                 .trials = 10,
                                 .coarseningSweeps = 3 };
 
@@ -176,6 +177,7 @@ const MeshTargets noisyTargets{ .firstAngle = 22,
                                 .keptAngle = modestAngle,
                                 .holdsVertices = false,
                                 .opensFolds = true,
+                                .repairsThoroughly = true,
                                 .trials = 12,
                                 .coarseningSweeps = 1 };
 
@@ -256,20 +258,24 @@ std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes
   return sweeps;
 }
 
-/// Vertices move together only in the last, and nothing works on the whole mesh: fits and motion come after it, and the
-/// second repairs mend what is then left.
-std::vector<Sweep> repairSweeps(const MeshTargets& t)
+/// Where features have room, vertices move together only in the last, and nothing works on the whole mesh: fits and motion
+/// come after it, and the second repairs mend what is then left.
+std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
 {
   const double aim = t.aimedAngle, kept = t.keptAngle;
-  return {
-    improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(aim, t.trials, 1) } }),
-    improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, 1) } }),
-    repairBlocks(t,
-                 { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0, .fitsFollow = true }),
-    repairBlocks(
-      t,
-      { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20, .fitsFollow = true })
+  const int passes = t.repairsThoroughly ? 2 : 1, together = t.repairsThoroughly ? 20 : 0;
+  const Repair last{
+    .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20, .fitsFollow = true
   };
+  std::vector<Sweep> sweeps{ improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(aim, t.trials, passes) } }),
+                             improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, passes) } }) };
+  if (t.repairsThoroughly)
+    sweeps.push_back(repairBlocks(t, { .angle = aim, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0 }));
+  sweeps.push_back(repairBlocks(
+    t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = together, .fitsFollow = true }));
+  sweeps.push_back(repairBlocks(t, last));
+  if (t.repairsThoroughly) sweeps.push_back(repairWhole(t, sizes, last));
+  return sweeps;
 }
 
 Sweep fittingSweep(const MeshTargets& targets, const MeshSizes& sizes)
@@ -339,7 +345,8 @@ Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
                                    .robust = robust,
                                    .foldsFrom = 2 * sizes.voxel } };
   const Stage even = keepingFolds(targets, evenLengths(targets, sizes, targets.keptAngle));
-  std::vector<Stage> stages{ keepingFolds(targets, { bounds(targets, 1), { back } }) };
+  const std::vector<Pass> alone(targets.repairsThoroughly ? 2 : 1, back);
+  std::vector<Stage> stages{ keepingFolds(targets, { bounds(targets, 1), alone }) };
   if (targets.holdsVertices) stages.push_back({ bounds(targets, 1), { together } });
   stages.push_back(even);
   if (targets.opensFolds) stages.insert(stages.end(), { openFolds(targets, sizes, targets.keptAngle), even });
@@ -356,8 +363,8 @@ Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets)
 std::size_t surfaceSweepCount(const MeshSizes& sizes)
 {
   const MeshTargets& t = usualTargets;
-  return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(t).size() + 1 +
-         motionSweeps(t, sizes, Continuity::C2).size() + proximitySweeps(t, sizes).size() +
+  return sizeLevels(sizes).size() + 1 + improvementSweeps(t, sizes).size() + repairSweeps(noisyTargets, sizes).size() +
+         1 + motionSweeps(t, sizes, Continuity::C2).size() + proximitySweeps(t, sizes).size() +
          secondRepairSweeps(t, sizes).size() + 1 + offsetRounds;
 }
 

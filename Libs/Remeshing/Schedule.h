@@ -20,8 +20,9 @@ struct MeshTargets
   double keptAngle;   ///< degrees, dihedral: not to be lost again
   bool holdsVertices; ///< to their samples and these samples' planes: see EnvelopeBounds
   bool opensFolds;    ///< not where the surface follows the voxels' steps, which are at right angles
-  int trials;         ///< see ImprovementOptions, once sizes no longer change
-  int coarseningSweeps; ///< sweeps of improvement that still coarsen
+  bool repairsThoroughly; ///< before motion and fits: where features have no room, angles come right in no other way
+  int trials;             ///< see ImprovementOptions, once sizes no longer change
+  int coarseningSweeps;   ///< sweeps of improvement that still coarsen
 };
 
 extern const MeshTargets usualTargets;
@@ -56,7 +57,7 @@ Sweep firstImprovement(const MeshTargets& targets, const MeshSizes& sizes);
 /// Those after it that still coarsen; the angle aimed at rises. Tissues' volumes are balanced before each.
 std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// Without coarsening; what is still bad may go ever farther from its samples, and be split in the end.
-std::vector<Sweep> repairSweeps(const MeshTargets& targets);
+std::vector<Sweep> repairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
 /// Vertices go back to their samples as far as angles allow, at volumes that are balanced before.
 Sweep fittingSweep(const MeshTargets& targets, const MeshSizes& sizes);
 /// The motion of the simplex mesh, which makes the surface smooth between the voxels where elements are of their size,

@@ -196,7 +196,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   targets.opensFolds = options.smoothing > 0;
   remesher.run(firstImprovement(targets, sizes));
   remesher.balanceAndRun(improvementSweeps(targets, sizes));
-  remesher.run(repairSweeps(targets));
+  remesher.run(repairSweeps(targets, sizes));
   remesher.balanceAndRun({ fittingSweep(targets, sizes) });
   if (options.smoothing > 0) remesher.run(motionSweeps(targets, sizes, options.continuity));
   const bool keepsProximity = options.proximity.isAsked();
