@@ -150,6 +150,12 @@ Sweep repairBlocks(const MeshTargets& targets, const Repair& repair)
   return improvement({ within, { Improve{ optionsOf(repair) } } });
 }
 
+/// What no other can mend.
+Repair widestRepair(const MeshTargets& targets)
+{
+  return { .angle = targets.keptAngle, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20 };
+}
+
 Sweep repairWhole(const MeshTargets& targets, const MeshSizes& sizes, const Repair& repair)
 {
   ImprovementOptions options = optionsOf(repair);
@@ -264,17 +270,16 @@ std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
 {
   const double aim = t.aimedAngle, kept = t.keptAngle;
   const int passes = t.repairsThoroughly ? 2 : 1, together = t.repairsThoroughly ? 20 : 0;
-  const Repair last{
-    .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20, .fitsFollow = true
-  };
+  Repair inBlocks = widestRepair(t);
+  inBlocks.fitsFollow = true;
   std::vector<Sweep> sweeps{ improvement({ bounds(t, 0.5), { SwapEdges{}, Polish{}, improve(aim, t.trials, passes) } }),
                              improvement({ bounds(t, 0.8, 1.3), { improve(aim, 16, passes) } }) };
   if (t.repairsThoroughly)
     sweeps.push_back(repairBlocks(t, { .angle = aim, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = 0 }));
   sweeps.push_back(repairBlocks(
     t, { .angle = kept, .tolerance = 1.6, .splitEdge = 0, .ease = 0.02, .together = together, .fitsFollow = true }));
-  sweeps.push_back(repairBlocks(t, last));
-  if (t.repairsThoroughly) sweeps.push_back(repairWhole(t, sizes, last));
+  sweeps.push_back(repairBlocks(t, inBlocks));
+  if (t.repairsThoroughly) sweeps.push_back(repairWhole(t, sizes, widestRepair(t)));
   return sweeps;
 }
 
@@ -325,9 +330,7 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& siz
   Sweep inBlocks =
     repairBlocks(t, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.4, .ease = 0.1, .together = 20 });
   for (Stage& stage : inBlocks.stages) stage = keepingFolds(t, stage); // the last ones may do what they have to
-  return { inBlocks,
-           repairWhole(t, sizes,
-                       { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20 }) };
+  return { inBlocks, repairWhole(t, sizes, widestRepair(t)) };
 }
 
 /// Single vertices that repairs have left off the boundary are bumps in flat walls; nearer ones are where motion has

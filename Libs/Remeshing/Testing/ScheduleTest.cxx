@@ -22,7 +22,7 @@ std::vector<std::size_t> passesOf(const std::vector<Sweep>& sweeps)
   return kinds;
 }
 
-TEST(Schedule, DoesForNoisyMapsWhatItDoesForOthers)
+TEST(Schedule, DoesForNoisyMapsWhatItDoesForOthersButRepairs)
 {
   EXPECT_EQ(passesOf({ firstImprovement(noisyTargets, sizes) }), passesOf({ firstImprovement(usualTargets, sizes) }));
   EXPECT_EQ(passesOf({ fittingSweep(noisyTargets, sizes) }), passesOf({ fittingSweep(usualTargets, sizes) }));
