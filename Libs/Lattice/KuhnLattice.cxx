@@ -2,6 +2,7 @@
 #include "KuhnLattice.h"
 
 #include "Errors.h"
+#include "Parallel.h"
 
 #include <vtkSMPTools.h>
 
@@ -49,16 +50,20 @@ public:
     return m_Before[a >> 6] + bitCount(word(a >> 6) & ((std::uint64_t(1) << (a & 63)) - 1));
   }
   std::int32_t numbered() const { return m_Before.back(); }
+  /// Calls f(id, point) for all of them, on several threads.
   template <class F>
   void forEach(F&& f) const
   {
-    std::int32_t n = 0;
-    for (std::size_t w = 0; w < m_Words.size(); ++w)
-      for (std::uint64_t bits = word(w); bits; bits &= bits - 1)
-      {
-        const std::size_t a = w * 64 + bitCount((bits & -bits) - 1);
-        f(n++, Index{ int(a % m_Size[0]), int(a / m_Size[0] % m_Size[1]), int(a / m_Size[0] / m_Size[1]) });
-      }
+    parallelFor(m_Words.size(),
+                [&](std::size_t w)
+                {
+                  std::int32_t n = m_Before[w];
+                  for (std::uint64_t bits = word(w); bits; bits &= bits - 1)
+                  {
+                    const std::size_t a = w * 64 + bitCount((bits & -bits) - 1);
+                    f(n++, Index{ int(a % m_Size[0]), int(a / m_Size[0] % m_Size[1]), int(a / m_Size[0] / m_Size[1]) });
+                  }
+                });
   }
 
 private:
@@ -146,57 +151,61 @@ public:
     BackgroundMesh& out = lattice.background;
     out.mesh.points.resize(m_Active.numbered());
     out.lengths.resize(m_Active.numbered());
-    m_Active.forEach([&](std::int32_t id, const Index& p) { out.mesh.points[id] = position(p); });
-    vtkSMPTools::For(0, m_Active.numbered(),
-                     [&](vtkIdType begin, vtkIdType end)
-                     {
-                       for (vtkIdType v = begin; v < end; ++v)
-                         out.lengths[v] = float(m_Scale(m_Map.grid.gridToWorld(out.mesh.points[v])));
-                     });
+    m_Active.forEach(
+      [&](std::int32_t id, const Index& p)
+      {
+        out.mesh.points[id] = position(p);
+        out.lengths[id] = float(m_Scale(m_Map.grid.gridToWorld(out.mesh.points[id])));
+      });
     const Index r = m_Layout.roots;
-    const int n = r[0] * r[1] * r[2];
-    std::vector<KuhnLattice> parts(n);
-    vtkSMPTools::For(0, n, 1,
-                     [&](vtkIdType begin, vtkIdType end)
-                     {
-                       for (vtkIdType i = begin; i < end; ++i) generateRoot(root(i), parts[i]);
-                     });
-    reserveFor(parts, lattice);
-    for (KuhnLattice& part : parts)
-    {
-      const std::int32_t shift = std::int32_t(out.mesh.tetrahedra.size());
-      for (auto& e : part.background.samples) e.tetrahedron += shift;
-      for (auto& f : part.interfaceFaces) f.first += shift;
-      append(out.samples, part.background.samples);
-      append(out.mesh.tetrahedra, part.background.mesh.tetrahedra);
-      append(out.mesh.labels, part.background.mesh.labels);
-      append(lattice.interfaceFaces, part.interfaceFaces);
-      part = {};
-    }
+    std::vector<KuhnLattice> parts(std::size_t(r[0]) * r[1] * r[2]);
+    parallelForEach(parts.size(), [&](std::size_t i) { generateRoot(root(vtkIdType(i)), parts[i]); });
+    join(parts, lattice);
     report(progress, 1, "lattice");
     return lattice;
   }
 
 private:
-  static void reserveFor(const std::vector<KuhnLattice>& parts, KuhnLattice& whole)
+  struct Start ///< of a part in the whole
   {
-    std::size_t samples = 0, tetrahedra = 0, faces = 0;
-    for (const KuhnLattice& part : parts)
+    std::size_t tetrahedron = 0, sample = 0, face = 0;
+  };
+
+  /// One after the other; they are empty afterwards.
+  static void join(std::vector<KuhnLattice>& parts, KuhnLattice& whole)
+  {
+    std::vector<Start> starts(parts.size() + 1);
+    for (std::size_t n = 0; n < parts.size(); ++n)
     {
-      samples += part.background.samples.size();
-      tetrahedra += part.background.mesh.tetrahedra.size();
-      faces += part.interfaceFaces.size();
+      const BackgroundMesh& part = parts[n].background;
+      const Start& s = starts[n];
+      starts[n + 1] = { s.tetrahedron + part.mesh.tetrahedra.size(), s.sample + part.samples.size(),
+                        s.face + parts[n].interfaceFaces.size() };
     }
-    whole.background.samples.reserve(samples);
-    whole.background.mesh.tetrahedra.reserve(tetrahedra);
-    whole.background.mesh.labels.reserve(tetrahedra);
-    whole.interfaceFaces.reserve(faces);
+    BackgroundMesh& out = whole.background;
+    out.mesh.tetrahedra.resize(starts.back().tetrahedron);
+    out.mesh.labels.resize(starts.back().tetrahedron);
+    out.samples.resize(starts.back().sample);
+    whole.interfaceFaces.resize(starts.back().face);
+    parallelForEach(parts.size(),
+                    [&](std::size_t n)
+                    {
+                      BackgroundMesh& part = parts[n].background;
+                      const std::int32_t shift = std::int32_t(starts[n].tetrahedron);
+                      for (auto& e : part.samples) e.tetrahedron += shift;
+                      for (auto& f : parts[n].interfaceFaces) f.first += shift;
+                      copyTo(out.samples, starts[n].sample, part.samples);
+                      copyTo(out.mesh.tetrahedra, starts[n].tetrahedron, part.mesh.tetrahedra);
+                      copyTo(out.mesh.labels, starts[n].tetrahedron, part.mesh.labels);
+                      copyTo(whole.interfaceFaces, starts[n].face, parts[n].interfaceFaces);
+                      parts[n] = {};
+                    });
   }
 
   template <class T>
-  static void append(std::vector<T>& to, const std::vector<T>& from)
+  static void copyTo(std::vector<T>& whole, std::size_t at, const std::vector<T>& part)
   {
-    to.insert(to.end(), from.begin(), from.end());
+    std::copy(part.begin(), part.end(), whole.begin() + std::ptrdiff_t(at));
   }
 
   static Index gridSize(const Layout& l)

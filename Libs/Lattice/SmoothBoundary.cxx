@@ -652,16 +652,16 @@ using SamplesAtVertices = Grouped<std::int32_t>; ///< numbers of points
 SamplesAtVertices samplesAtVertices(const BackgroundMesh& background,
                                     const std::vector<std::pair<std::int64_t, std::int32_t>>& order)
 {
-  const auto forEachCorner = [&](auto&& visit)
+  const auto forEachCorner = [&](std::size_t first, std::size_t last, auto&& visit)
   {
-    for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t i = first; i < last; ++i)
     {
       const BackgroundMesh::Sample& sample = background.samples[order[i].second];
       for (int k = 1; k <= 3; ++k)
         visit(std::size_t(background.mesh.tetrahedra[sample.tetrahedron][(sample.face + k) & 3]), std::int32_t(i));
     }
   };
-  return SamplesAtVertices(background.mesh.points.size(), forEachCorner);
+  return SamplesAtVertices(background.mesh.points.size(), order.size(), forEachCorner);
 }
 
 /// Of the samples that the triangles at vertex number `v` hold, the less the farther off.
@@ -711,22 +711,22 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
 {
   const Index size = map.grid.size;
   const std::size_t n = samples.size();
-  std::vector<Point> points(n), next(n);
   order.resize(n);
   parallelFor(n,
               [&](std::size_t i)
               {
-                next[i] = pointOf(samples[i].position, map);
-                const auto [x, y, z] = next[i].lower;
-                order[i] = { (((z + 1) * std::int64_t(size[1] + 1) + y + 1) * (size[0] + 1) + x + 1) * 3 + next[i].axis,
+                const Point point = pointOf(samples[i].position, map);
+                const auto [x, y, z] = point.lower;
+                order[i] = { (((z + 1) * std::int64_t(size[1] + 1) + y + 1) * (size[0] + 1) + x + 1) * 3 + point.axis,
                              std::int32_t(i) };
               });
   vtkSMPTools::Sort(order.begin(), order.end());
   const IndicatorTie tie(map, sigma);
+  std::vector<Point> points(n);
   parallelFor(n,
               [&](std::size_t i)
               {
-                points[i] = next[order[i].second];
+                points[i] = pointOf(samples[order[i].second].position, map);
                 if (!lengths.empty()) points[i].scale = scaleAt(lengths[order[i].second]);
                 tie.place(points[i]);
                 keepLabels(points[i]);

@@ -19,11 +19,6 @@ namespace surgicalmesher
 namespace
 {
 
-struct Range
-{
-  std::size_t begin, end; ///< into the permutation of tetrahedra
-};
-
 using Centroid = std::array<float, 3>;
 
 /// A frame that is turned differently in each round, so that what the cuts of one round lock is free in the next: what
@@ -139,14 +134,14 @@ public:
                 });
     divide(centroids, most);
     sortSamples();
-    m_Results.resize(m_Blocks.size());
+    m_Results.resize(m_Blocks.groups());
   }
 
   /// The blocks, those first that most of the interface lies in: it takes most of the time, and what comes last leaves
   /// threads idle.
   std::vector<std::size_t> longestFirst() const
   {
-    std::vector<std::size_t> order(m_Blocks.size()), size(m_Blocks.size());
+    std::vector<std::size_t> order(m_Blocks.groups()), size(m_Blocks.groups());
     parallelForEach(size.size(), [&](std::size_t b) { size[b] = interfaceOf(b); });
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return size[a] > size[b]; });
@@ -222,9 +217,12 @@ private:
     if (m_Background.neighbours.empty()) return m_Samples.size(b);
     const std::vector<Label>& labels = m_Background.mesh.labels;
     std::size_t faces = 0;
-    for (std::size_t i = m_Blocks[b].begin; i < m_Blocks[b].end; i += stride)
-      for (const std::int32_t n : m_Background.neighbours[m_Order[i]])
-        if (n >= 0 && labels[n] != labels[m_Order[i]]) ++faces;
+    for (std::size_t i = 0; i < m_Blocks.size(b); i += stride)
+    {
+      const std::int32_t t = m_Blocks.begin(b)[i];
+      for (const std::int32_t n : m_Background.neighbours[t])
+        if (n >= 0 && labels[n] != labels[t]) ++faces;
+    }
     return faces;
   }
 
@@ -244,29 +242,28 @@ private:
     const Cuts cuts(std::move(sample), stride, most);
     m_BlockOf.resize(centroids.size());
     parallelFor(centroids.size(), [&](vtkIdType t) { m_BlockOf[t] = cuts.blockOf(centroids[t]); });
-    std::vector<std::size_t> start(cuts.blockCount() + 1, 0);
-    for (const std::int32_t b : m_BlockOf) ++start[b + 1];
-    std::partial_sum(start.begin(), start.end(), start.begin());
-    for (std::int32_t b = 0; b < cuts.blockCount(); ++b) m_Blocks.push_back({ start[b], start[b + 1] });
-    m_Order.resize(centroids.size());
-    m_LocalTet.resize(centroids.size());
-    for (std::size_t t = 0; t < centroids.size(); ++t)
+    const auto forEachOf = [&](std::size_t first, std::size_t last, auto&& visit)
     {
-      const std::size_t at = start[m_BlockOf[t]]++;
-      m_Order[at] = std::int32_t(t);
-      m_LocalTet[t] = std::int32_t(at - m_Blocks[m_BlockOf[t]].begin);
-    }
+      for (std::size_t t = first; t < last; ++t) visit(std::size_t(m_BlockOf[t]), std::int32_t(t));
+    };
+    m_Blocks = Grouped<std::int32_t>(std::size_t(cuts.blockCount()), centroids.size(), forEachOf);
+    m_LocalTet.resize(centroids.size());
+    parallelForEach(m_Blocks.groups(),
+                    [&](std::size_t b)
+                    {
+                      for (std::size_t n = 0; n < m_Blocks.size(b); ++n)
+                        m_LocalTet[m_Blocks.begin(b)[n]] = std::int32_t(n);
+                    });
   }
 
   void sortSamples()
   {
     const std::vector<BackgroundMesh::Sample>& samples = m_Background.samples;
-    m_Samples = Grouped<std::int32_t>(m_Blocks.size(),
-                                      [&](auto&& visit)
-                                      {
-                                        for (std::size_t e = 0; e < samples.size(); ++e)
-                                          visit(std::size_t(m_BlockOf[samples[e].tetrahedron]), std::int32_t(e));
-                                      });
+    const auto forEachOf = [&](std::size_t first, std::size_t last, auto&& visit)
+    {
+      for (std::size_t e = first; e < last; ++e) visit(std::size_t(m_BlockOf[samples[e].tetrahedron]), std::int32_t(e));
+    };
+    m_Samples = Grouped<std::int32_t>(m_Blocks.groups(), samples.size(), forEachOf);
     m_Known = std::int32_t(m_Background.mesh.points.size());
   }
 
@@ -276,15 +273,16 @@ private:
     // All -1 between blocks; one per thread, because it is as long as the whole mesh has points.
     static thread_local std::vector<std::int32_t> local;
     if (local.size() < std::size_t(m_Known)) local.resize(m_Known, -1);
-    const Range range = m_Blocks[b];
+    const std::size_t size = m_Blocks.size(b);
+    const bool knowsNeighbours = !m_Background.neighbours.empty();
     std::vector<TetComplex::Tet> tets, neighbours;
     std::vector<Label> labels;
-    tets.reserve(range.end - range.begin);
-    labels.reserve(range.end - range.begin);
-    if (!m_Background.neighbours.empty()) neighbours.reserve(range.end - range.begin);
-    for (std::size_t i = range.begin; i < range.end; ++i)
+    tets.reserve(size);
+    labels.reserve(size);
+    if (knowsNeighbours) neighbours.reserve(size);
+    for (const std::int32_t* of = m_Blocks.begin(b); of != m_Blocks.end(b); ++of)
     {
-      auto t = mesh.tetrahedra[m_Order[i]];
+      auto t = mesh.tetrahedra[*of];
       for (auto& v : t)
       {
         if (local[v] < 0)
@@ -295,9 +293,9 @@ private:
         v = local[v];
       }
       tets.push_back(t);
-      labels.push_back(mesh.labels[m_Order[i]]);
-      if (m_Background.neighbours.empty()) continue;
-      auto across = m_Background.neighbours[m_Order[i]];
+      labels.push_back(mesh.labels[*of]);
+      if (!knowsNeighbours) continue;
+      auto across = m_Background.neighbours[*of];
       for (auto& n : across) n = n >= 0 && m_BlockOf[n] == std::int32_t(b) ? m_LocalTet[n] : -1;
       neighbours.push_back(across);
     }
@@ -368,9 +366,9 @@ private:
 
   BackgroundMesh& m_Background;
   std::int32_t m_Known = 0;
-  std::vector<std::int32_t> m_BlockOf, m_Order, m_LocalTet;
-  std::vector<Range> m_Blocks;
-  Grouped<std::int32_t> m_Samples; ///< by block
+  std::vector<std::int32_t> m_BlockOf, m_LocalTet; ///< of each tetrahedron: its block, and its number there
+  Grouped<std::int32_t> m_Blocks;                  ///< tetrahedra
+  Grouped<std::int32_t> m_Samples;                 ///< by block
   std::vector<BlockResult> m_Results;
 };
 

@@ -2,6 +2,8 @@
 #pragma once
 /// Points that cells use, renumbered without gaps.
 
+#include "Parallel.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -14,10 +16,9 @@ namespace surgicalmesher
 template <class Value>
 std::vector<Value> valuesAt(const std::vector<Value>& values, const std::vector<std::int32_t>& ids)
 {
-  std::vector<Value> result;
-  if (values.empty()) return result;
-  result.reserve(ids.size());
-  for (const std::int32_t id : ids) result.push_back(values[id]);
+  if (values.empty()) return {};
+  std::vector<Value> result(ids.size());
+  parallelForIfIdle(ids.size(), [&](std::size_t n) { result[n] = values[ids[n]]; });
   return result;
 }
 
