@@ -40,12 +40,12 @@ def draw_panel(axes, records, quantity, unit, title):
     axes.set(xscale="log", yscale="log", xlabel="voxel faces between tissues")
     axes.set_title(title, fontsize=13)
     axes.grid(which="major", color="#e3e5e8")
-    axes.legend(fontsize=8.5, frameon=False)
+    axes.legend(fontsize=8.5, frameon=False, loc="upper center", bbox_to_anchor=(0.5, -0.13), ncol=2)
     axes.spines[["top", "right"]].set_visible(False)
 
 
 def draw(records):
-    figure, (time, memory) = plt.subplots(1, 2, figsize=(13, 5.6), dpi=100)
+    figure, (time, memory) = plt.subplots(1, 2, figsize=(13, 6.4), dpi=100)
     draw_panel(time, records, "processorSeconds", 1, "processor time (s), one thread")
     draw_panel(memory, records, "peakMemory", 2 ** 20, "peak memory (MB), one thread")
     figure.tight_layout()
