@@ -4,8 +4,6 @@
 #include "Errors.h"
 #include "Parallel.h"
 
-#include <vtkSMPTools.h>
-
 #include <algorithm>
 #include <atomic>
 #include <bitset>
@@ -129,15 +127,12 @@ public:
   {
     const Index r = m_Layout.roots;
     const int side = m_Layout.rootUnits();
-    vtkSMPTools::For(0, vtkIdType(r[0]) * r[1] * r[2], 1,
-                     [&](vtkIdType begin, vtkIdType end)
-                     {
-                       for (vtkIdType i = begin; i < end; ++i)
-                       {
-                         const Index c = root(i);
-                         activateCube({ c[0] * side, c[1] * side, c[2] * side }, side);
-                       }
-                     });
+    parallelForEach(std::size_t(r[0]) * r[1] * r[2],
+                    [&](std::size_t i)
+                    {
+                      const Index c = root(i);
+                      activateCube({ c[0] * side, c[1] * side, c[2] * side }, side);
+                    });
     for (int k = 0; k <= r[2]; ++k)
       for (int j = 0; j <= r[1]; ++j)
         for (int i = 0; i <= r[0]; ++i) m_Active.set({ i * side, j * side, k * side });
@@ -159,53 +154,49 @@ public:
       });
     const Index r = m_Layout.roots;
     std::vector<KuhnLattice> parts(std::size_t(r[0]) * r[1] * r[2]);
-    parallelForEach(parts.size(), [&](std::size_t i) { generateRoot(root(vtkIdType(i)), parts[i]); });
+    parallelForEach(parts.size(), [&](std::size_t i) { generateRoot(root(i), parts[i]); });
     join(parts, lattice);
     report(progress, 1, "lattice");
     return lattice;
   }
 
 private:
-  struct Start ///< of a part in the whole
-  {
-    std::size_t tetrahedron = 0, sample = 0, face = 0;
-  };
-
-  /// One after the other; they are empty afterwards.
+  /// Puts the parts one behind the other, in their order, and empties them, array by array: memory is short here.
   static void join(std::vector<KuhnLattice>& parts, KuhnLattice& whole)
   {
-    std::vector<Start> starts(parts.size() + 1);
-    for (std::size_t n = 0; n < parts.size(); ++n)
-    {
-      const BackgroundMesh& part = parts[n].background;
-      const Start& s = starts[n];
-      starts[n + 1] = { s.tetrahedron + part.mesh.tetrahedra.size(), s.sample + part.samples.size(),
-                        s.face + parts[n].interfaceFaces.size() };
-    }
-    BackgroundMesh& out = whole.background;
-    out.mesh.tetrahedra.resize(starts.back().tetrahedron);
-    out.mesh.labels.resize(starts.back().tetrahedron);
-    out.samples.resize(starts.back().sample);
-    whole.interfaceFaces.resize(starts.back().face);
+    std::vector<std::int32_t> shifts{ 0 };
+    for (const KuhnLattice& part : parts)
+      shifts.push_back(shifts.back() + std::int32_t(part.background.mesh.tetrahedra.size()));
     parallelForEach(parts.size(),
                     [&](std::size_t n)
                     {
-                      BackgroundMesh& part = parts[n].background;
-                      const std::int32_t shift = std::int32_t(starts[n].tetrahedron);
-                      for (auto& e : part.samples) e.tetrahedron += shift;
-                      for (auto& f : parts[n].interfaceFaces) f.first += shift;
-                      copyTo(out.samples, starts[n].sample, part.samples);
-                      copyTo(out.mesh.tetrahedra, starts[n].tetrahedron, part.mesh.tetrahedra);
-                      copyTo(out.mesh.labels, starts[n].tetrahedron, part.mesh.labels);
-                      copyTo(whole.interfaceFaces, starts[n].face, parts[n].interfaceFaces);
-                      parts[n] = {};
+                      for (auto& sample : parts[n].background.samples) sample.tetrahedron += shifts[n];
+                      for (auto& face : parts[n].interfaceFaces) face.first += shifts[n];
                     });
+    join(
+      parts, whole, [](KuhnLattice & of) -> auto& { return of.background.mesh.tetrahedra; });
+    join(
+      parts, whole, [](KuhnLattice & of) -> auto& { return of.background.mesh.labels; });
+    join(
+      parts, whole, [](KuhnLattice & of) -> auto& { return of.background.samples; });
+    join(
+      parts, whole, [](KuhnLattice & of) -> auto& { return of.interfaceFaces; });
   }
 
-  template <class T>
-  static void copyTo(std::vector<T>& whole, std::size_t at, const std::vector<T>& part)
+  template <class Array>
+  static void join(std::vector<KuhnLattice>& parts, KuhnLattice& whole, Array&& arrayOf)
   {
-    std::copy(part.begin(), part.end(), whole.begin() + std::ptrdiff_t(at));
+    std::vector<std::size_t> starts{ 0 };
+    for (KuhnLattice& part : parts) starts.push_back(starts.back() + arrayOf(part).size());
+    auto& joined = arrayOf(whole);
+    joined.resize(starts.back());
+    parallelForEach(parts.size(),
+                    [&](std::size_t n)
+                    {
+                      auto& part = arrayOf(parts[n]);
+                      std::copy(part.begin(), part.end(), joined.begin() + std::ptrdiff_t(starts[n]));
+                      part = {};
+                    });
   }
 
   static Index gridSize(const Layout& l)
@@ -217,7 +208,7 @@ private:
     return size;
   }
 
-  Index root(vtkIdType i) const
+  Index root(std::size_t i) const
   {
     const Index& r = m_Layout.roots;
     return { int(i % r[0]), int(i / r[0] % r[1]), int(i / r[0] / r[1]) };
@@ -346,11 +337,7 @@ private:
       }
     };
     for (int kind = 1; kind <= 3; ++kind) // odd multiples of half: 1 edge midpoint, 2 face centre, 3 cube centre
-      vtkSMPTools::For(0, n[2] / half + 1,
-                       [&](vtkIdType begin, vtkIdType end)
-                       {
-                         for (vtkIdType k = begin; k < end; ++k) closeLayer(int(k) * half, kind);
-                       });
+      parallelFor(std::size_t(n[2] / half + 1), [&](std::size_t k) { closeLayer(int(k) * half, kind); });
   }
 
   void restOn(const Index& p, int half, int kind)

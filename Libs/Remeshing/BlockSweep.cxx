@@ -280,9 +280,9 @@ private:
     tets.reserve(size);
     labels.reserve(size);
     if (knowsNeighbours) neighbours.reserve(size);
-    for (const std::int32_t* of = m_Blocks.begin(b); of != m_Blocks.end(b); ++of)
+    for (const std::int32_t* id = m_Blocks.begin(b); id != m_Blocks.end(b); ++id)
     {
-      auto t = mesh.tetrahedra[*of];
+      auto t = mesh.tetrahedra[*id];
       for (auto& v : t)
       {
         if (local[v] < 0)
@@ -293,9 +293,9 @@ private:
         v = local[v];
       }
       tets.push_back(t);
-      labels.push_back(mesh.labels[*of]);
+      labels.push_back(mesh.labels[*id]);
       if (!knowsNeighbours) continue;
-      auto across = m_Background.neighbours[*of];
+      auto across = m_Background.neighbours[*id];
       for (auto& n : across) n = n >= 0 && m_BlockOf[n] == std::int32_t(b) ? m_LocalTet[n] : -1;
       neighbours.push_back(across);
     }
@@ -367,8 +367,8 @@ private:
   BackgroundMesh& m_Background;
   std::int32_t m_Known = 0;
   std::vector<std::int32_t> m_BlockOf, m_LocalTet; ///< of each tetrahedron: its block, and its number there
-  Grouped<std::int32_t> m_Blocks;                  ///< tetrahedra
-  Grouped<std::int32_t> m_Samples;                 ///< by block
+  Grouped<std::int32_t> m_Blocks;                  ///< tetrahedra, by block
+  Grouped<std::int32_t> m_Samples;                 ///< samples, by block
   std::vector<BlockResult> m_Results;
 };
 

@@ -7,15 +7,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace surgicalmesher
 {
 
-/// Values at `ids`, in their order; nothing if there are none.
+/// Values at `ids`, in their order, found on several threads; empty if `values` is.
 template <class Value>
 std::vector<Value> valuesAt(const std::vector<Value>& values, const std::vector<std::int32_t>& ids)
 {
+  static_assert(!std::is_same_v<Value, bool>, "neighbouring bits cannot be written at once");
   if (values.empty()) return {};
   std::vector<Value> result(ids.size());
   parallelForIfIdle(ids.size(), [&](std::size_t n) { result[n] = values[ids[n]]; });
