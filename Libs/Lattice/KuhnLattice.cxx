@@ -337,7 +337,7 @@ private:
       }
     };
     for (int kind = 1; kind <= 3; ++kind) // odd multiples of half: 1 edge midpoint, 2 face centre, 3 cube centre
-      parallelFor(std::size_t(n[2] / half + 1), [&](std::size_t k) { closeLayer(int(k) * half, kind); });
+      parallelFor(std::size_t(n[2]) / half + 1, [&](std::size_t k) { closeLayer(int(k) * half, kind); });
   }
 
   void restOn(const Index& p, int half, int kind)
