@@ -23,7 +23,7 @@ namespace
 {
 
 /// Processor seconds per face that the complex begins with, per tetrahedron and per voxel: Docs/Benchmarks.md, within a
-/// factor of 2.5.
+/// factor of 3.
 constexpr double secondsPerFace = 45e-6, secondsPerTetrahedron = 60e-6, secondsPerVoxel = 0.5e-6;
 
 struct Figures

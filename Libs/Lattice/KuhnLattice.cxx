@@ -173,30 +173,34 @@ private:
                       for (auto& sample : parts[n].background.samples) sample.tetrahedron += shifts[n];
                       for (auto& face : parts[n].interfaceFaces) face.first += shifts[n];
                     });
-    join(
-      parts, whole, [](KuhnLattice & of) -> auto& { return of.background.mesh.tetrahedra; });
-    join(
-      parts, whole, [](KuhnLattice & of) -> auto& { return of.background.mesh.labels; });
-    join(
-      parts, whole, [](KuhnLattice & of) -> auto& { return of.background.samples; });
-    join(
-      parts, whole, [](KuhnLattice & of) -> auto& { return of.interfaceFaces; });
+    join(parts, whole, tetrahedraOf);
+    join(parts, whole, labelsOf);
+    join(parts, whole, samplesOf);
+    join(parts, whole, interfaceFacesOf);
   }
 
-  template <class Array>
-  static void join(std::vector<KuhnLattice>& parts, KuhnLattice& whole, Array&& arrayOf)
+  template <class Value>
+  static void join(std::vector<KuhnLattice>& parts, KuhnLattice& whole, std::vector<Value>& (*arrayOf)(KuhnLattice&))
   {
     std::vector<std::size_t> starts{ 0 };
     for (KuhnLattice& part : parts) starts.push_back(starts.back() + arrayOf(part).size());
-    auto& joined = arrayOf(whole);
+    std::vector<Value>& joined = arrayOf(whole);
     joined.resize(starts.back());
     parallelForEach(parts.size(),
                     [&](std::size_t n)
                     {
-                      auto& part = arrayOf(parts[n]);
+                      std::vector<Value>& part = arrayOf(parts[n]);
                       std::copy(part.begin(), part.end(), joined.begin() + std::ptrdiff_t(starts[n]));
                       part = {};
                     });
+  }
+
+  static std::vector<std::array<std::int32_t, 4>>& tetrahedraOf(KuhnLattice& l) { return l.background.mesh.tetrahedra; }
+  static std::vector<Label>& labelsOf(KuhnLattice& l) { return l.background.mesh.labels; }
+  static std::vector<BackgroundMesh::Sample>& samplesOf(KuhnLattice& l) { return l.background.samples; }
+  static std::vector<std::pair<std::int32_t, std::int32_t>>& interfaceFacesOf(KuhnLattice& l)
+  {
+    return l.interfaceFaces;
   }
 
   static Index gridSize(const Layout& l)

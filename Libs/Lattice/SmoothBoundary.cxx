@@ -726,8 +726,7 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
   parallelFor(n,
               [&](std::size_t i)
               {
-                points[i] =
-                  pointOf(samples[order[i].second].position, map); // again, rather than all of them held twice
+                points[i] = pointOf(samples[order[i].second].position, map); // once more: all would take as much again
                 if (!lengths.empty()) points[i].scale = scaleAt(lengths[order[i].second]);
                 tie.place(points[i]);
                 keepLabels(points[i]);
