@@ -123,7 +123,8 @@ std::vector<double> numbersOf(vtkFieldData* data, const char* name, vtkIdType it
                               const std::string& file)
 {
   vtkDataArray* array = arrayOf(data, name, items, 1, file);
-  std::vector<double> numbers(array ? items : 0);
+  if (!array) return {};
+  std::vector<double> numbers(items);
   for (std::size_t i = 0; i < numbers.size(); ++i)
   {
     numbers[i] = array->GetComponent(i, 0);
@@ -140,7 +141,8 @@ std::vector<std::int32_t> integersOf(vtkFieldData* data, const char* name, vtkId
                                      const std::string& file, int lowest = 0)
 {
   vtkDataArray* array = arrayOf(data, name, items, 1, file);
-  std::vector<std::int32_t> integers(array ? items : 0);
+  if (!array) return {};
+  std::vector<std::int32_t> integers(items);
   for (std::size_t i = 0; i < integers.size(); ++i)
   {
     integers[i] = integerAt(array, i, 0, lowest, highest, file);
