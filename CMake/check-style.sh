@@ -24,5 +24,6 @@ fi
 shallow=(--extra-arg=-Xclang --extra-arg=-analyzer-config --extra-arg=-Xclang --extra-arg=mode=shallow)
 # Debian 12's ITK headers accept GCC only, and the host's are not here.
 sources | grep -E '^(Libs|Program|[A-Za-z]+/(Core|CLI))/.*\.cxx$' | grep -vE '/Testing/|^Libs/SlicerSupport/' \
-  | xargs grep -LE 'itk|ItkImage' | xargs -P "$(nproc)" -n 4 nice clang-tidy --quiet -p "$build" "${shallow[@]}" 2>/dev/null
+  | xargs grep -LE 'itk|ItkImage' \
+  | xargs -P "$(nproc)" -n 4 nice clang-tidy --quiet -p "$build" "${shallow[@]}" 2>/dev/null
 echo "check-style.sh: formatting, licence lines and clang-tidy are in order"

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import unittest
+import unittest.mock
 
 import nibabel
 import numpy as np
@@ -257,19 +258,17 @@ class ConfigurationTest(unittest.TestCase):
 
 
 class RefusalTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        os.environ["PATH"] = os.pathsep.join([BIN, os.environ["PATH"]])
-
     def setUp(self):
         clear_folder()
 
     def test_snakemake_says_it_in_one_line_and_makes_nothing(self):
-        for config in ({"folder": "out"}, {"patients": {"p0": {"map": "p0.nrrd", "targetPoint": "1,2"}}}):
+        point = {"map": "p0.nrrd", "targetPoint": "1,2"}
+        for config, word in (({"folder": "out"}, "no patients"),
+                             ({"folder": "out", "patients": {"p0": point}}, "three numbers")):
             write_config(config)
             process = run()
             self.assertNotEqual(process.returncode, 0)
-            self.assertRegex(process.stdout, r"\Aconfiguration: .*\n\Z")
+            self.assertRegex(process.stdout, rf"\Aconfiguration: .*{word}.*\n\Z")
             self.assertFalse(os.path.exists("out"))
 
     def assert_refused(self, config, *words):
@@ -278,7 +277,8 @@ class RefusalTest(unittest.TestCase):
 
     def assert_one_line(self, *words):
         """As the Snakefile reads it, without Snakemake, which takes a second to start."""
-        with self.assertRaises(ConfigurationError) as refusal:
+        programs = {"PATH": os.pathsep.join([BIN, os.environ["PATH"]])}
+        with unittest.mock.patch.dict(os.environ, programs), self.assertRaises(ConfigurationError) as refusal:
             Cohort(read_configuration(["cohort.yaml"], {}, {}))
         for word in words:
             self.assertIn(word, str(refusal.exception))
