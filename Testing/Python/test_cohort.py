@@ -262,13 +262,13 @@ class RefusalTest(unittest.TestCase):
         clear_folder()
 
     def test_snakemake_says_it_in_one_line_and_makes_nothing(self):
-        point = {"map": "p0.nrrd", "targetPoint": "1,2"}
-        for config, word in (({"folder": "out"}, "no patients"),
-                             ({"folder": "out", "patients": {"p0": point}}, "three numbers")):
+        patient = {"map": "p0.nrrd", "targetPoint": "1,2"}
+        for config, words in (({"folder": "out"}, "no patients"),
+                              ({"folder": "out", "patients": {"p0": patient}}, "three numbers")):
             write_config(config)
             process = run()
             self.assertNotEqual(process.returncode, 0)
-            self.assertRegex(process.stdout, rf"\Aconfiguration: .*{word}.*\n\Z")
+            self.assertRegex(process.stdout, rf"\Aconfiguration: .*{words}.*\n\Z")
             self.assertFalse(os.path.exists("out"))
 
     def assert_refused(self, config, *words):
