@@ -2,11 +2,10 @@
 #include "StiffPairs.h"
 
 #include "LinearTetrahedron.h"
+#include "PairMatrix.h"
 #include "Parallel.h"
 #include "TetQuality.h"
 #include "VertexSteps.h"
-
-#include <vtkMath.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,14 +40,12 @@ LinearTetrahedron shapeOf(const TetComplex& complex, std::int32_t t, std::int32_
   return linearTetrahedron(corners);
 }
 
-using Matrix = std::array<std::array<double, 6>, 6>;
-
 /// Of two vertices, divided by its diagonal: from their blocks there and what is between them.
-Matrix scaledMatrix(const Block& a, const Block& b, const Block& between)
+PairMatrix scaledMatrix(const Block& a, const Block& b, const Block& between)
 {
   std::array<double, 6> factors;
   for (int i = 0; i < 6; ++i) factors[i] = 1 / std::sqrt(i < 3 ? a[4 * i] : b[4 * (i - 3)]);
-  Matrix m;
+  PairMatrix m;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k)
     {
@@ -57,31 +54,6 @@ Matrix scaledMatrix(const Block& a, const Block& b, const Block& between)
       m[i][k + 3] = m[k + 3][i] = factors[i] * factors[k + 3] * between[3 * i + k];
     }
   return m;
-}
-
-/// Whether all eigenvalues are: then bound I - m has a Cholesky factor.
-bool areBelow(double bound, const Matrix& m)
-{
-  Matrix factor;
-  for (int i = 0; i < 6; ++i)
-    for (int k = 0; k <= i; ++k)
-    {
-      double rest = (i == k ? bound : 0) - m[i][k];
-      for (int j = 0; j < k; ++j) rest -= factor[i][j] * factor[k][j];
-      if (i == k && !(rest > 0)) return false;
-      factor[i][k] = i == k ? std::sqrt(rest) : rest / factor[k][k];
-    }
-  return true;
-}
-
-double largestEigenvalue(Matrix m)
-{
-  Matrix vectors;
-  std::array<double, 6> values;
-  std::array<double*, 6> rows, columns;
-  for (int i = 0; i < 6; ++i) rows[i] = m[i].data(), columns[i] = vectors[i].data();
-  vtkMath::JacobiN(rows.data(), 6, values.data(), columns.data());
-  return values[0];
 }
 
 /// Not where tetrahedra are turned over.
@@ -172,7 +144,7 @@ private:
   }
 
   /// Of the pair with that vertex; none where its tetrahedra are turned over.
-  std::optional<Matrix> matrixOf(const Side& side, const Block& own) const
+  std::optional<PairMatrix> matrixOf(const Side& side, const Block& own) const
   {
     Block others{}, between{};
     for (const auto& [n, corner] : side.corners)
@@ -201,8 +173,9 @@ private:
     }
     for (const Neighbour& n : neighbours)
     {
-      const Matrix matrix = scaledMatrix(m_Diagonal[v], m_Diagonal[n.vertex], n.between);
-      if (!areBelow(m_Options.eigenvalue, matrix)) pairs.push_back({ largestEigenvalue(matrix), v, n.vertex });
+      const PairMatrix matrix = scaledMatrix(m_Diagonal[v], m_Diagonal[n.vertex], n.between);
+      if (!areEigenvaluesBelow(m_Options.eigenvalue, matrix))
+        pairs.push_back({ largestEigenvalue(matrix), v, n.vertex });
     }
   }
 
@@ -238,10 +211,10 @@ private:
     if (!isPositive(own)) return outOfTheQuestion;
     for (Side& side : m_Sides)
     {
-      const std::optional<Matrix> matrix = matrixOf(side, own);
+      const std::optional<PairMatrix> matrix = matrixOf(side, own);
       if (!matrix) return outOfTheQuestion;
-      if (areBelow(least, *matrix)) continue;
-      const bool isRefused = !areBelow(most, *matrix);
+      if (areEigenvaluesBelow(least, *matrix)) continue;
+      const bool isRefused = !areEigenvaluesBelow(most, *matrix);
       const double largest = isRefused ? most : largestEigenvalue(*matrix);
       least = std::max(least, largest);
       if (least == largest) std::swap(side, m_Sides[0]); // likely the stiffest at the next place, too
