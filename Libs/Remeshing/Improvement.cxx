@@ -54,14 +54,12 @@ public:
       if (bad.empty()) break;
       m_Touched.assign(m_Complex.points.size(), 0);
       m_TogetherLeft = m_Options.together > 0 ? shareOf(m_Options.togetherShare) : 0;
-      if (pass == 0) m_IsCrowded = m_Options.leavesCrowds && double(bad.size()) > crowd * double(m_Complex.tets.size());
+      if (pass == 0) m_IsCrowded = double(bad.size()) > m_Options.crowd * double(m_Complex.tets.size());
       if (!improveAll(bad)) break;
     }
   }
 
 private:
-  static constexpr double crowd = 0.07; ///< share of a block's tetrahedra, those counted that collapses have removed
-
   /// What is below the target and has changed, within worstShare.
   std::vector<std::int32_t> worstFirst() const
   {
@@ -377,7 +375,7 @@ private:
   std::vector<std::uint8_t> m_Touched; ///< per vertex
   std::vector<std::uint8_t>
     m_IsStuck;                    ///< per vertex: no better place was found, and nothing near has changed much since
-  bool m_IsCrowded = false;       ///< see leavesCrowds
+  bool m_IsCrowded = false;       ///< see ImprovementOptions::crowd
   std::size_t m_TogetherLeft = 0; ///< in this pass
   Chance m_NearTogether, m_FarTogether, m_SplitTogether;
   std::vector<std::int32_t> m_Ring, m_RingVertices;

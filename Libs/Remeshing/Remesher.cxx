@@ -26,6 +26,7 @@ struct RunPass
   void operator()(const MoveInterface& pass) const { moveInterfaceOfBlock(operations, pass.options); }
   void operator()(const MeetProximity& pass) const { meetProximityOfBlock(operations, pass.options); }
   void operator()(const OffsetTissues& pass) const { offsetTissuesOfBlock(operations, pass.options); }
+  void operator()(const RestoreVolumes& pass) const { restoreVolumesOfBlock(operations, pass.options); }
   void operator()(const RelabelInterface& pass) const { relabelBlock(operations, pass.keptAngle, pass.mostLeft); }
   void operator()(const RemoveSpikes& pass) const { cutSpikesOfBlock(operations, pass.options); }
   void operator()(const RemoveEars& pass) const { removeEarsOfBlock(operations, pass.few); }

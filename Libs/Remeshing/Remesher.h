@@ -36,9 +36,6 @@ public:
   /// this, and the mesh is as it was before the sweep.
   void run(const Sweep& sweep);
 
-  /// Leaves sweeps out; those after them are divided into blocks as if they had been run.
-  void skip(std::size_t sweeps = 1) { m_Round += sweeps; }
-
   const BackgroundMesh& background() const { return m_Background; }
   BackgroundMesh& background() { return m_Background; } ///< to move samples; tetrahedra and neighbours stay as they are
 

@@ -33,6 +33,8 @@ constexpr double clearlyNearer = 0.9; // share of the distances that relabelling
 constexpr double farNearer = 0.7;     // the same where it may cost the shape of a triangle
 
 constexpr std::size_t earTetrahedra = 4;
+constexpr double crowd = 0.07;      // see ImprovementOptions
+constexpr double fewCrowd = 0.005;  // what the surface stage has left to the repairs of the whole mesh
 constexpr double levelRatio = 1.48; // of a size to the one before it
 
 EnvelopeBounds bounds(const MeshTargets& targets, double rmsLimit, double toleranceFactor = 1)
@@ -55,7 +57,7 @@ Stage keepingFolds(const MeshTargets& targets, Stage stage)
 Improve improve(double angle, int trials, int passes)
 {
   return {
-    { .targetAngle = angle, .split = false, .splitEdge = 0, .trials = trials, .passes = passes, .leavesCrowds = true }
+    { .targetAngle = angle, .split = false, .splitEdge = 0, .trials = trials, .passes = passes, .crowd = crowd }
   };
 }
 
@@ -140,7 +142,7 @@ ImprovementOptions optionsOf(const Repair& repair)
            .trials = 20,
            .together = repair.together,
            .passes = 3,
-           .leavesCrowds = repair.fitsFollow };
+           .crowd = repair.fitsFollow ? crowd : 1 };
 }
 
 Sweep repairBlocks(const MeshTargets& targets, const Repair& repair)
@@ -427,7 +429,8 @@ TetrahedralSweep sweepOf(const VolumeRow& row)
                                       // Where many are bad, moving together costs more than all the rest.
                                       .together = row.splitEdge > 0 ? 20 : 0,
                                       .patience = 20, // nothing comes after it that would mend what is left
-                                      .passes = row.passes } });
+                                      .passes = row.passes,
+                                      .crowd = row.whole && row.splitEdge == 0 ? fewCrowd : 1 } });
   Sweep sweep{ "improvement", { stage }, row.whole };
   if (row.height > 0) sweep.stages = raisedHeights(stage.bounds, row.height);
   if (row.softens) sweep.stages.insert(sweep.stages.begin(), { { .rmsLimit = 1 }, { SoftenPairs{} } });
@@ -530,13 +533,11 @@ std::vector<TetrahedralSweep> sweepsForImprovedMesh(double t, double smallestLen
   return repairsOfImprovedMesh(t, smallestLength, true);
 }
 
-Sweep restoringSweep(double targetAngle, TissueOffsets offsets)
+Stage restoringStage(double targetAngle, VolumeBalance wanted)
 {
   constexpr double tolerance = 4; // where the repairs have gone
-  return { "volumes",
-           { { { .rmsLimit = 1, .toleranceFactor = tolerance },
-               { OffsetTissues{ { std::move(offsets), targetAngle } } } } },
-           true };
+  return { { .rmsLimit = 1, .toleranceFactor = tolerance },
+           { RestoreVolumes{ { .wanted = std::move(wanted), .goodAngle = targetAngle } } } };
 }
 
 /// Only what tracing has cut is short: collapses leave the rest of the lattice alone, and so do swaps.

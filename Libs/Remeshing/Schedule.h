@@ -92,10 +92,8 @@ std::vector<TetrahedralSweep> sweepsForRawMesh(double targetAngle, double smalle
 /// where an angle cannot be mended otherwise, and slides within its tolerance where pairs of vertices are softened.
 std::vector<TetrahedralSweep> sweepsForImprovedMesh(double targetAngle, double smallestLength);
 
-constexpr double leastLack = 0.0005;     ///< share of its volume from which on a tissue is given it back
-constexpr std::size_t restoreRounds = 3; ///< where repairs have cost 1.4 % on jhu189, one leaves 0.35
-/// Gives back the volumes that repairs of the surface have cost.
-Sweep restoringSweep(double targetAngle, TissueOffsets offsets);
+/// Gives back the volumes that repairs of the surface have cost. For a sweep over the whole mesh.
+Stage restoringStage(double targetAngle, VolumeBalance wanted);
 
 /// For tetrahedra that curves have just been traced through, their chains as short as the tetrahedra they cut.
 std::vector<TetrahedralSweep> sweepsForCurves(double targetAngle, double smallestLength);

@@ -17,6 +17,7 @@
 #include "StiffPairs.h"
 #include "TissueOffsets.h"
 #include "VertexReturn.h"
+#include "VolumeRestoring.h"
 
 #include <string>
 #include <variant>
@@ -78,6 +79,10 @@ struct OffsetTissues ///< offsetTissuesOfBlock
 {
   TissueOffsetOptions options;
 };
+struct RestoreVolumes ///< restoreVolumesOfBlock
+{
+  VolumeRestoringOptions options;
+};
 struct RelabelInterface ///< relabelBlock
 {
   double keptAngle; ///< degrees
@@ -92,9 +97,9 @@ struct RemoveEars ///< removeEarsOfBlock
   std::size_t few; ///< tetrahedra
 };
 
-using Pass =
-  std::variant<Coarsen, Relax, Polish, Improve, SwapEdges, RaiseHeights, SoftenPairs, EvenOut, OpenFolds,
-               ReturnVertices, MoveInterface, MeetProximity, OffsetTissues, RelabelInterface, RemoveSpikes, RemoveEars>;
+using Pass = std::variant<Coarsen, Relax, Polish, Improve, SwapEdges, RaiseHeights, SoftenPairs, EvenOut, OpenFolds,
+                          ReturnVertices, MoveInterface, MeetProximity, OffsetTissues, RestoreVolumes, RelabelInterface,
+                          RemoveSpikes, RemoveEars>;
 
 struct Stage
 {

@@ -41,26 +41,19 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
   for (const Vec3& p : mesh.points) background.lengths.push_back(float(length(p)));
   addInterfaceSamples(background, options.surfaceTolerance);
   const double smallest = smallestLength(background);
-  const std::vector<TetrahedralSweep> sweeps = options.isImproved ? sweepsForImprovedMesh(options.targetAngle, smallest)
-                                                                  : sweepsForRawMesh(options.targetAngle, smallest);
+  const std::map<Label, double> volumes = tissueVolumes(mesh);
+  std::vector<TetrahedralSweep> sweeps = options.isImproved ? sweepsForImprovedMesh(options.targetAngle, smallest)
+                                                            : sweepsForRawMesh(options.targetAngle, smallest);
+  if (options.isImproved)
+    sweeps.back().sweep.stages.push_back(restoringStage(options.targetAngle, { volumes, 0.1 * smallest }));
   RemesherOptions remeshing;
   remeshing.featureAngle = options.featureAngle;
-  const std::size_t rounds = options.isImproved ? restoreRounds : 0;
-  Remesher remesher(std::move(background), length, remeshing, progress, sweeps.size() + rounds);
-  const std::map<Label, double> volumes = tissueVolumes(mesh);
+  Remesher remesher(std::move(background), length, remeshing, progress, sweeps.size());
   VolumeBalance balance(volumes, options.surfaceTolerance * smallest);
   for (const auto& [sweep, balanced] : sweeps)
   {
     if (balanced) balance.apply(remesher.background(), balancingGain);
     remesher.run(sweep);
-  }
-  const VolumeBalance wanted(volumes, 0.1 * smallest);
-  for (std::size_t round = 0; round < rounds; ++round)
-  {
-    TissueOffsets offsets = wanted.offsets(remesher.background(), leastLack);
-    const bool any = std::any_of(offsets.begin(), offsets.end(), [](const auto& offset) { return offset.second != 0; });
-    if (any) remesher.run(restoringSweep(options.targetAngle, std::move(offsets)));
-    else remesher.skip();
   }
   mesh = std::move(remesher.background().mesh);
 }

@@ -10,42 +10,48 @@ namespace surgicalmesher
 namespace
 {
 
-/// Corner number k of tetrahedron t, counted from i.
-const Vec3& corner(const TetMesh& mesh, std::int32_t t, int i, int k)
-{
-  return mesh.points[mesh.tetrahedra[t][(i + k) & 3]];
-}
-
-/// Normal of the face opposite corner i, of twice the face's area; its side depends on i.
-Vec3 normal(const TetMesh& mesh, std::int32_t t, int i)
-{
-  const Vec3 &a = corner(mesh, t, i, 1), &b = corner(mesh, t, i, 2), &c = corner(mesh, t, i, 3);
-  return cross(b - a, c - a);
-}
+/// Of the triangle of twice that size; its side depends on the order of the corners.
+Vec3 normal(const Vec3& a, const Vec3& b, const Vec3& c) { return cross(b - a, c - a); }
 
 } // namespace
 
-VolumeBalance::Lack VolumeBalance::lackOf(const BackgroundMesh& background) const
+VolumeBalance::Tetrahedra VolumeBalance::tetrahedraOf(const BackgroundMesh& background)
 {
   const TetMesh& mesh = background.mesh;
+  return { mesh.points, mesh.tetrahedra, background.neighbours, mesh.labels };
+}
+
+VolumeBalance::Lack VolumeBalance::lackOf(const Tetrahedra& tetrahedra) const
+{
+  const auto& [points, corners, neighbours, labels] = tetrahedra;
   Lack lack{ std::vector<double>(labelCount), {} };
   for (const auto& [label, volume] : m_Volumes) lack.volumes[label] = volume;
-  for (std::int32_t t = 0; t < std::int32_t(mesh.tetrahedra.size()); ++t)
+  for (std::size_t t = 0; t < corners.size(); ++t)
   {
-    const Label label = mesh.labels[t];
-    lack.volumes[label] -=
-      orient(corner(mesh, t, 0, 0), corner(mesh, t, 0, 1), corner(mesh, t, 0, 2), corner(mesh, t, 0, 3)) / 6;
+    if (corners[t][0] < 0) continue;
+    const auto& x = corners[t];
+    const auto at = [&](int k) -> const Vec3& { return points[x[k & 3]]; };
+    lack.volumes[labels[t]] -= orient(at(0), at(1), at(2), at(3)) / 6;
     for (int i = 0; i < 4; ++i)
-      if (const std::int32_t n = background.neighbours[t][i]; n >= 0 && mesh.labels[n] < label)
-        lack.areas[{ mesh.labels[n], label }] += 0.5 * norm(normal(mesh, t, i));
+      if (const std::int32_t n = neighbours[t][i]; n >= 0 && labels[n] < labels[t])
+        lack.areas[{ labels[n], labels[t] }] += 0.5 * norm(normal(at(i + 1), at(i + 2), at(i + 3)));
   }
   return lack;
 }
 
 TissueOffsets VolumeBalance::offsets(const BackgroundMesh& background, double leastShare) const
 {
+  return offsetsFor(lackOf(tetrahedraOf(background)), leastShare);
+}
+
+TissueOffsets VolumeBalance::offsets(const TetComplex& complex, double leastShare) const
+{
+  return offsetsFor(lackOf({ complex.points, complex.tets, complex.neighbours, complex.labels }), leastShare);
+}
+
+TissueOffsets VolumeBalance::offsetsFor(const Lack& lack, double leastShare) const
+{
   constexpr double gain = 1.3; // some vertices may not go where they should
-  const Lack lack = lackOf(background);
   std::map<Label, double> lacking;
   for (const auto& [label, volume] : m_Volumes)
     if (std::abs(lack.volumes[label]) >= leastShare * volume) lacking[label] = gain * lack.volumes[label];
@@ -62,7 +68,7 @@ TissueOffsets VolumeBalance::offsets(const BackgroundMesh& background, double le
 void VolumeBalance::apply(BackgroundMesh& background, double gain)
 {
   const TetMesh& mesh = background.mesh;
-  const Lack lack = lackOf(background);
+  const Lack lack = lackOf(tetrahedraOf(background));
   std::vector<double> area(labelCount);
   for (const auto& [pair, size] : lack.areas) area[pair.first] += size, area[pair.second] += size;
   std::vector<double> steps(labelCount);
@@ -72,8 +78,9 @@ void VolumeBalance::apply(BackgroundMesh& background, double gain)
   {
     const std::int32_t t = sample.tetrahedron;
     const int face = sample.face;
-    Vec3 outward = normal(mesh, t, face);
-    if (dot(outward, corner(mesh, t, face, 0) - corner(mesh, t, face, 1)) > 0) outward = -1.0 * outward;
+    const auto at = [&](int k) -> const Vec3& { return mesh.points[mesh.tetrahedra[t][(face + k) & 3]]; };
+    Vec3 outward = normal(at(1), at(2), at(3));
+    if (dot(outward, at(0) - at(1)) > 0) outward = -1.0 * outward;
     const Label inside = mesh.labels[t], beyond = mesh.labels[background.neighbours[t][face]];
     sample.position += (steps[inside] - steps[beyond]) / norm(outward) * outward;
   }

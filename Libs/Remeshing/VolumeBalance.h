@@ -3,6 +3,7 @@
 /// Keeps the volume of every tissue: smoothing and least squares cut corners, which takes from whatever is convex.
 
 #include "BackgroundMesh.h"
+#include "TetComplex.h"
 #include "VolumeOffsets.h"
 
 #include <map>
@@ -26,14 +27,25 @@ public:
   /// more than is missing, as not all vertices can follow. Of tissues that are off by less than
   /// `leastShare` of their volume, only the boundaries to the others move. The mesh must know its neighbours.
   TissueOffsets offsets(const BackgroundMesh& background, double leastShare = 0) const;
+  TissueOffsets offsets(const TetComplex& complex, double leastShare = 0) const;
 
 private:
+  /// Of a mesh or a complex.
+  struct Tetrahedra
+  {
+    const std::vector<Vec3>& points;
+    const std::vector<std::array<std::int32_t, 4>>& corners; ///< the first one is -1: no tetrahedron
+    const AcrossFaces& neighbours;
+    const std::vector<Label>& labels;
+  };
   struct Lack
   {
     std::vector<double> volumes;                     ///< mm^3, by label
     std::map<std::pair<Label, Label>, double> areas; ///< mm^2, by the labels on both sides, each pair once
   };
-  Lack lackOf(const BackgroundMesh& background) const;
+  static Tetrahedra tetrahedraOf(const BackgroundMesh& background);
+  Lack lackOf(const Tetrahedra& tetrahedra) const;
+  TissueOffsets offsetsFor(const Lack& lack, double leastShare) const;
   double stepOf(Label label, double wanted);
 
   double m_Most;

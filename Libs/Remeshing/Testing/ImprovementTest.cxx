@@ -556,7 +556,7 @@ double evenEdges(const TetComplex& c, GuardedOperations& operations)
 
 TEST(Improvement, LeavingCrowdsKeepsEveryPromiseAndTriesLess)
 {
-  const auto movesAndWorst = [](bool leavesCrowds)
+  const auto movesAndWorst = [](double crowd)
   {
     std::pair<std::size_t, double> sums{ 0, 0 };
     expectPromisesKept(1, true,
@@ -565,16 +565,16 @@ TEST(Improvement, LeavingCrowdsKeepsEveryPromiseAndTriesLess)
                          ImprovementOptions options;
                          options.splitEdge = 0.8;
                          options.together = 20;
-                         options.leavesCrowds = leavesCrowds;
+                         options.crowd = crowd;
                          improveBlock(operations, options);
                          sums.first += operations.counts().moves;
                          sums.second += worstQuality(operations, operations.complex());
                        });
     return sums;
   };
-  const auto left = movesAndWorst(true);
-  EXPECT_LT(left.first, movesAndWorst(false).first);
-  EXPECT_EQ(movesAndWorst(true), left);
+  const auto left = movesAndWorst(0.07);
+  EXPECT_LT(left.first, movesAndWorst(1).first);
+  EXPECT_EQ(movesAndWorst(0.07), left);
 }
 
 TEST(EdgeLengths, KeepEveryPromiseAndBecomeMoreEven)

@@ -45,6 +45,46 @@ TEST(VolumeBalance, OffsetsBringEveryTissueToItsVolume)
   for (const auto& [label, volume] : wanted) EXPECT_NEAR(volumes.at(label) / volume, 1, 0.002) << "label " << label;
 }
 
+TEST(VolumeBalance, RestoringInOneBlockBringsEveryTissueToItsVolume)
+{
+  std::map<Label, double> wanted = volumesOf(slabs().mesh);
+  wanted.erase(0);
+  wanted[1] *= 1.02, wanted[2] *= 0.97;
+  Remesher remesher(slabs(), unit);
+  const RestoreVolumes restore{ { VolumeBalance(wanted, 0.5), 0, 5 } };
+  remesher.run({ "volumes", { { EnvelopeBounds(), { restore } } }, true });
+  const std::map<Label, double> volumes = volumesOf(remesher.background().mesh);
+  for (const auto& [label, volume] : wanted) EXPECT_NEAR(volumes.at(label) / volume, 1, 0.002) << "label " << label;
+}
+
+TEST(VolumeBalance, NothingMovesWhereEveryTissueLacksLittle)
+{
+  const BackgroundMesh before = slabs();
+  std::map<Label, double> wanted = volumesOf(before.mesh);
+  wanted.erase(0);
+  for (auto& [label, volume] : wanted) volume *= 1.0004;
+  Remesher remesher(before, unit);
+  const RestoreVolumes restore{ { VolumeBalance(wanted, 0.5), 0.0005 } };
+  remesher.run({ "volumes", { { EnvelopeBounds(), { restore } } }, true });
+  EXPECT_EQ(remesher.counts().moves, 0u);
+}
+
+TEST(VolumeBalance, AComplexAsksForTheOffsetsOfItsMesh)
+{
+  const BackgroundMesh background = slabs();
+  const TetMesh& mesh = background.mesh;
+  std::map<Label, double> wanted = volumesOf(mesh);
+  wanted.erase(0);
+  wanted[1] *= 1.03;
+  const VolumeBalance balance(wanted, 0.5);
+  TetComplex complex(mesh.points, background.lengths, mesh.tetrahedra, mesh.labels);
+  EXPECT_EQ(balance.offsets(complex), balance.offsets(background));
+  complex.tets.push_back({ -1, 0, 0, 0 }); // a dead one
+  complex.neighbours.push_back({ -1, -1, -1, -1 });
+  complex.labels.push_back(1);
+  EXPECT_EQ(balance.offsets(complex), balance.offsets(background));
+}
+
 TEST(VolumeBalance, OffsetsAreBounded)
 {
   const BackgroundMesh background = slabs();
