@@ -125,12 +125,16 @@ std::vector<std::int32_t> faceRegions(const FaceAdjacency& neighbours,
 
 std::vector<InterfaceFace> interfaceFaces(const TetMesh& mesh)
 {
-  const FaceAdjacency neighbours = faceAdjacency(mesh);
+  return interfaceFaces(mesh, faceAdjacency(mesh).across);
+}
+
+std::vector<InterfaceFace> interfaceFaces(const TetMesh& mesh, const AcrossFaces& across)
+{
   std::vector<InterfaceFace> faces;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
     for (int f = 0; f < 4; ++f)
     {
-      const std::int32_t beyond = neighbours.across[t][f];
+      const std::int32_t beyond = across[t][f];
       const Label front = beyond < 0 ? Label(0) : mesh.labels[beyond];
       if (mesh.labels[t] > front) faces.push_back({ std::int32_t(t), f, front });
     }
@@ -139,8 +143,13 @@ std::vector<InterfaceFace> interfaceFaces(const TetMesh& mesh)
 
 SurfaceComplex interfaceOf(const TetMesh& mesh, std::vector<std::int32_t>* pointIds)
 {
+  return interfaceOf(mesh, faceAdjacency(mesh).across, pointIds);
+}
+
+SurfaceComplex interfaceOf(const TetMesh& mesh, const AcrossFaces& across, std::vector<std::int32_t>* pointIds)
+{
   SurfaceComplex surface;
-  for (const auto& [t, f, front] : interfaceFaces(mesh))
+  for (const auto& [t, f, front] : interfaceFaces(mesh, across))
   {
     std::array<std::int32_t, 3> triangle;
     for (int c = 0; c < 3; ++c) triangle[c] = mesh.tetrahedra[t][kFaceCorners[f][c]];

@@ -46,12 +46,15 @@ struct InterfaceFace
   Label front;
 };
 
-/// In the order of the tetrahedra.
+/// In the order of the tetrahedra. `across`: where it is known.
 std::vector<InterfaceFace> interfaceFaces(const TetMesh& mesh);
+std::vector<InterfaceFace> interfaceFaces(const TetMesh& mesh, const AcrossFaces& across);
 
 /// The triangles of interfaceFaces(), in their order, wound so that the higher label is behind. `pointIds`, if given,
 /// receives for each point of the surface its id in the mesh, ascending.
 SurfaceComplex interfaceOf(const TetMesh& mesh, std::vector<std::int32_t>* pointIds = nullptr);
+SurfaceComplex interfaceOf(const TetMesh& mesh, const AcrossFaces& across,
+                           std::vector<std::int32_t>* pointIds = nullptr);
 
 /// The tetrahedra of `mesh` with a label other than 0, and the points they use, both in the same order. `pointIds`, if
 /// given, receives for each point of the result its id in `mesh`.

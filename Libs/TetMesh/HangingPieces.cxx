@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "HangingPieces.h"
 
-#include "FaceAdjacency.h"
-
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -16,8 +14,8 @@ namespace
 class DepthFirst
 {
 public:
-  explicit DepthFirst(const TetMesh& mesh)
-    : m_Mesh(mesh), m_Across(faceAdjacency(mesh).across), m_Nodes(mesh.tetrahedra.size())
+  DepthFirst(const TetMesh& mesh, const AcrossFaces& across)
+    : m_Mesh(mesh), m_Across(across), m_Nodes(mesh.tetrahedra.size())
   {
   }
 
@@ -151,10 +149,15 @@ HangingPiece describe(const TetMesh& mesh, Piece begin, Piece end)
 
 std::vector<HangingPiece> hangingPieces(const TetMesh& mesh, double largestShare)
 {
+  return hangingPieces(mesh, faceAdjacency(mesh).across, largestShare);
+}
+
+std::vector<HangingPiece> hangingPieces(const TetMesh& mesh, const AcrossFaces& across, double largestShare)
+{
   std::map<Label, std::size_t> count;
   for (const Label label : mesh.labels) ++count[label];
   const std::vector<std::int32_t> uses = usesOf(mesh);
-  DepthFirst search(mesh);
+  DepthFirst search(mesh, across);
   std::vector<HangingPiece> pieces;
   for (std::size_t first = 0; first < mesh.tetrahedra.size(); ++first)
   {

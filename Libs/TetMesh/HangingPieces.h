@@ -2,7 +2,7 @@
 #pragma once
 /// Small pieces of tissues that hang on the rest by one face: soft modes of a solver.
 
-#include "TetMesh.h"
+#include "FaceAdjacency.h"
 
 namespace surgicalmesher
 {
@@ -21,5 +21,7 @@ struct HangingPiece
 /// most `largestShare` of the tissue's tetrahedra, or a single one; pieces within others are not counted apart. Label 0
 /// is left out. Free ones come first, then the largest. In linear time, but for that order.
 std::vector<HangingPiece> hangingPieces(const TetMesh& mesh, double largestShare = 0.02);
+/// Where it is known what is across faces.
+std::vector<HangingPiece> hangingPieces(const TetMesh& mesh, const AcrossFaces& across, double largestShare = 0.02);
 
 } // namespace surgicalmesher

@@ -296,7 +296,10 @@ std::map<Label, TissueSurface> checkSurface(const SurfaceComplex& surface)
   return result;
 }
 
-MeshDefects checkMesh(const TetMesh& mesh)
+namespace
+{
+
+MeshDefects checkMesh(const TetMesh& mesh, const FaceAdjacency& neighbours)
 {
   MeshDefects result;
   std::vector<bool> used(mesh.points.size(), false);
@@ -307,7 +310,7 @@ MeshDefects checkMesh(const TetMesh& mesh)
     const double volume = orient(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
     if (!(volume > 0)) result.invertedOrFlat.add(centreOf(mesh, t), static_cast<std::int32_t>(t));
   }
-  for (const std::int32_t t : faceAdjacency(mesh).overused) result.overusedFaces.add(centreOf(mesh, t), t);
+  for (const std::int32_t t : neighbours.overused) result.overusedFaces.add(centreOf(mesh, t), t);
   std::set<std::tuple<double, double, double>> places;
   for (std::size_t i = 0; i < used.size(); ++i)
   {
@@ -317,6 +320,10 @@ MeshDefects checkMesh(const TetMesh& mesh)
   }
   return result;
 }
+
+} // namespace
+
+MeshDefects checkMesh(const TetMesh& mesh) { return checkMesh(mesh, faceAdjacency(mesh)); }
 
 std::map<Label, Betti> meshTopology(const TetMesh& mesh)
 {
@@ -359,16 +366,17 @@ void requireSound(const SurfaceComplex& surface, const std::string& stage)
 
 void requireSound(const TetMesh& mesh, const std::string& stage)
 {
+  const FaceAdjacency neighbours = faceAdjacency(mesh);
   const auto checkTetrahedra = [&]
   {
-    const MeshDefects defects = checkMesh(mesh);
+    const MeshDefects defects = checkMesh(mesh, neighbours);
     requireNone(defects.invertedOrFlat, stage, "inverted or flat tetrahedra");
     requireNone(defects.overusedFaces, stage, "tetrahedra with a face that more than two share");
     requireNone(defects.unusedPoints, stage, "points of no tetrahedron");
     requireNone(defects.duplicatePoints, stage, "points on top of another");
   };
   // Of both that fail, the first is told: the other may be in want of what it requires.
-  runInParallel({ checkTetrahedra, [&] { requireSound(interfaceOf(mesh), stage); } });
+  runInParallel({ checkTetrahedra, [&] { requireSound(interfaceOf(mesh, neighbours.across), stage); } });
 }
 
 } // namespace surgicalmesher

@@ -269,7 +269,8 @@ std::vector<Vec3> boundaryNormals(const BackgroundMesh& background)
     if (squaredNorm(normal) > 0) sums[sample.tetrahedron][sample.face] += normal / norm(normal);
   }
   std::vector<Vec3> result;
-  for (const InterfaceFace& face : interfaceFaces(mesh)) result.push_back(sums[face.tetrahedron][face.face]);
+  for (const InterfaceFace& face : interfaceFaces(mesh, background.neighbours))
+    result.push_back(sums[face.tetrahedron][face.face]);
   return result;
 }
 

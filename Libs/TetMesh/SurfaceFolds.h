@@ -58,7 +58,8 @@ using IsThin = std::function<bool(Label tissue, const Vec3& place)>;
 SurfaceFolds surfaceFolds(const SurfaceComplex& surface, const std::vector<Vec3>& boundaryNormals,
                           const IsThin& isThin);
 
-/// For each triangle of interfaceOf(background.mesh) the mean of its samples' normals; 0 where there is none.
+/// For each triangle of interfaceOf(background.mesh) the mean of its samples' normals; 0 where there is none. The mesh
+/// must know its neighbours.
 std::vector<Vec3> boundaryNormals(const BackgroundMesh& background);
 
 } // namespace surgicalmesher

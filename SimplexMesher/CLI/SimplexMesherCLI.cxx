@@ -182,10 +182,11 @@ ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField&
 }
 
 /// What is written of a surface in the grid frame of `map`, which lies at `world`.
-SurfaceFile surfaceFile(const TetMesh& ambient, const TissueMap& map, const Grid& world, const ScaleField& scale)
+SurfaceFile surfaceFile(const BackgroundMesh& background, const TissueMap& map, const Grid& world,
+                        const ScaleField& scale)
 {
   SurfaceFile content;
-  content.surface = interfaceOf(ambient);
+  content.surface = interfaceOf(background.mesh, background.neighbours);
   content.boundaryDistance = boundaryDistances(content.surface, map);
   for (Vec3& p : content.surface.points)
   {
@@ -295,8 +296,9 @@ void assessShape(CommandLine& line, const BackgroundMesh& background, const Tiss
   if (line.outputFile("report").empty()) return;
   const auto isThin = [&](Label tissue, const Vec3& place)
   { return isThinAt(map, results.thickness.thinVoxels, tissue, place); };
-  results.folds = surfaceFolds(interfaceOf(background.mesh), boundaryNormals(background), isThin);
-  results.ears = hangingPieces(background.mesh);
+  const SurfaceComplex surface = interfaceOf(background.mesh, background.neighbours);
+  results.folds = surfaceFolds(surface, boundaryNormals(background), isThin);
+  results.ears = hangingPieces(background.mesh, background.neighbours);
 }
 
 void returnFigures(CommandLine& line, const SurfaceReport& results)
@@ -348,7 +350,7 @@ void run(CommandLine& line)
   MeshedMap mesh = meshTissues(map, inFrameOf(world, scale), options, subProgress(progress, 0.06, 0.9));
 
   report(progress, 0.9, "checks and files");
-  const SurfaceFile content = surfaceFile(mesh.background.mesh, map, world, scale);
+  const SurfaceFile content = surfaceFile(mesh.background, map, world, scale);
   runInParallel({ [&]
                   {
                     requireSound(mesh.background.mesh, "surface");
@@ -358,7 +360,8 @@ void run(CommandLine& line)
                   {
                     writeSurfaces(line, content);
                     writeAmbient(line, mesh, world, map.table, scale);
-                  } });
+                  },
+                  [&] { assessShape(line, mesh.background, map, results); } });
   results.points = content.surface.points.size();
   results.triangles = content.surface.triangles.size();
   results.evolution = mesh.evolution;
@@ -367,8 +370,6 @@ void run(CommandLine& line)
   results.smoothed = mesh.smoothed;
   report(progress, 0.95, "distances");
   assessDistances(line, content.surface, map, world, results);
-  assessShape(line, mesh.background, map, results);
-
   writeReports(line, results);
   returnFigures(line, results);
   report(progress, 1, "done");

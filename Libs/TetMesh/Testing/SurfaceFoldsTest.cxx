@@ -177,6 +177,7 @@ TEST(SurfaceFolds, TakesTheNormalsOfSamplesByTheirFaces)
 {
   BackgroundMesh background;
   background.mesh = tetrahedraOf(paintedMap({ 2, 2, 2 }, [](int, int, int) { return 1; }));
+  background.neighbours = faceAdjacency(background.mesh).across;
   const std::vector<InterfaceFace> faces = interfaceFaces(background.mesh);
   ASSERT_EQ(faces.size(), interfaceOf(background.mesh).triangles.size());
   for (const std::array<float, 3>& normal : { std::array<float, 3>{ 2, 0, 0 }, { 0, 0.5f, 0 } })
