@@ -17,7 +17,7 @@ target_compile_options(SurgicalMesherFlags INTERFACE
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Wall -Wextra>
   # Fused multiply-add would make the mesh depend on the processor.
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-ffp-contract=off>
-  # Nobody reads errno after a square root, or enables traps, which keep loops from vector registers.
+  # Nobody reads errno after a square root. Nobody enables traps, either, and they keep loops from vector registers.
   $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-fno-math-errno;-fno-trapping-math>
   $<$<AND:$<BOOL:${SurgicalMesher_WARNINGS_AS_ERRORS}>,$<CXX_COMPILER_ID:GNU,Clang,AppleClang>>:-Werror>)
 

@@ -24,9 +24,8 @@ struct ImprovementOptions
   double togetherShare =
     0.001;        ///< of the tetrahedra, the worst, for which that is tried in one pass; of a hundred at least
   int passes = 3; ///< later passes work only where something has changed
-  /// Share of a block's tetrahedra, those counted that collapses have removed. Where more are bad, most of them have no
-  /// room within the bounds of the stage: what brings them nearer by little is left undone. For stages that others with
-  /// wider bounds follow.
+  /// Share of a block's tetrahedra, removed ones included. Where more are bad, most of them have no room within the bounds
+  /// of the stage: what brings them nearer by little is left undone. For stages that others with wider bounds follow.
   double crowd = 1;
 };
 

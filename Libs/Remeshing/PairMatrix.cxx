@@ -24,8 +24,8 @@ bool areClearlyBelow(double bound, const PairMatrix& m)
   return most > 0 && 5.0 / 3 * squares < (1 - margin) * most * most;
 }
 
-/// Whether bound I - m has a Cholesky factor.
-bool hasFactor(double bound, const PairMatrix& m)
+/// Whether bound I - m has one: then it is positive.
+bool hasCholeskyFactor(double bound, const PairMatrix& m)
 {
   PairMatrix factor;
   for (int i = 0; i < size; ++i)
@@ -42,7 +42,7 @@ bool hasFactor(double bound, const PairMatrix& m)
 struct Tridiagonal
 {
   std::array<double, size> diagonal;
-  std::array<double, size - 1> squares; ///< of what is beside it
+  std::array<double, size - 1> offDiagonalSquares;
 };
 
 /// Householder's reflection of what is after row and column k, by which only the first of that column is left; that one's
@@ -72,7 +72,7 @@ double reflect(PairMatrix& m, int k)
 Tridiagonal tridiagonalOf(PairMatrix m)
 {
   Tridiagonal result;
-  for (int k = 0; k + 1 < size; ++k) result.squares[k] = reflect(m, k);
+  for (int k = 0; k + 1 < size; ++k) result.offDiagonalSquares[k] = reflect(m, k);
   for (int i = 0; i < size; ++i) result.diagonal[i] = m[i][i];
   return result;
 }
@@ -83,8 +83,8 @@ double upperBound(const Tridiagonal& t)
   double most = 0;
   for (int i = 0; i < size; ++i)
   {
-    const double before = i > 0 ? std::sqrt(t.squares[i - 1]) : 0;
-    const double after = i + 1 < size ? std::sqrt(t.squares[i]) : 0;
+    const double before = i > 0 ? std::sqrt(t.offDiagonalSquares[i - 1]) : 0;
+    const double after = i + 1 < size ? std::sqrt(t.offDiagonalSquares[i]) : 0;
     most = std::max(most, t.diagonal[i] + before + after);
   }
   return most;
@@ -96,7 +96,7 @@ double newtonStep(const Tridiagonal& t, double x)
   double p = x - t.diagonal[0], slope = 1, lastP = 1, lastSlope = 0;
   for (int i = 1; i < size; ++i)
   {
-    const double factor = x - t.diagonal[i], square = t.squares[i - 1];
+    const double factor = x - t.diagonal[i], square = t.offDiagonalSquares[i - 1];
     const double nextSlope = p + factor * slope - square * lastSlope, next = factor * p - square * lastP;
     lastP = p, lastSlope = slope;
     p = next, slope = nextSlope;
@@ -108,18 +108,18 @@ double newtonStep(const Tridiagonal& t, double x)
 
 bool areEigenvaluesBelow(double bound, const PairMatrix& matrix)
 {
-  return areClearlyBelow(bound, matrix) || hasFactor(bound, matrix);
+  return areClearlyBelow(bound, matrix) || hasCholeskyFactor(bound, matrix);
 }
 
 double largestEigenvalue(const PairMatrix& matrix)
 {
-  constexpr int enough = 60; // where the largest two are equal, each step halves what is left
+  constexpr int enough = 60; // where the largest two are equal, each step only halves what is left
   const Tridiagonal t = tridiagonalOf(matrix);
   double x = upperBound(t); // from above all roots Newton's method only falls
   for (int n = 0; n < enough; ++n)
   {
     const double step = newtonStep(t, x);
-    if (!(step > 1e-15 * x)) break;
+    if (!(step > 1e-15 * x && step < x)) break; // rounding has the last word, on the slope as well
     x -= step;
   }
   return x;

@@ -7,13 +7,13 @@
 namespace surgicalmesher
 {
 
-/// Symmetric and positive, with ones on the diagonal: three rows for each vertex.
+/// Symmetric and positive semidefinite, with ones on the diagonal: three rows for each vertex.
 using PairMatrix = std::array<std::array<double, 6>, 6>;
 
 /// Whether all eigenvalues are.
 bool areEigenvaluesBelow(double bound, const PairMatrix& matrix);
 
-/// To about 1e-14, or 1e-7 where the two largest are equal.
+/// To about 1e-14, or 1e-5 where several of the largest are equal.
 double largestEigenvalue(const PairMatrix& matrix);
 
 } // namespace surgicalmesher

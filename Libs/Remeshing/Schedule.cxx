@@ -33,9 +33,9 @@ constexpr double clearlyNearer = 0.9; // share of the distances that relabelling
 constexpr double farNearer = 0.7;     // the same where it may cost the shape of a triangle
 
 constexpr std::size_t earTetrahedra = 4;
-constexpr double crowd = 0.07;      // see ImprovementOptions
-constexpr double fewCrowd = 0.005;  // what the surface stage has left to the repairs of the whole mesh
-constexpr double levelRatio = 1.48; // of a size to the one before it
+constexpr double crowd = 0.07;       // see ImprovementOptions
+constexpr double wholeCrowd = 0.005; // the same of repairs of the whole mesh, which have one thread
+constexpr double levelRatio = 1.48;  // of a size to the one before it
 
 EnvelopeBounds bounds(const MeshTargets& targets, double rmsLimit, double toleranceFactor = 1)
 {
@@ -392,6 +392,7 @@ struct VolumeRow
   int trials = 0;       ///< see ImprovementOptions
   int passes = 2;       ///< likewise
   double splitEdge = 0; ///< 0: no splits
+  double crowd = 1;     ///< see ImprovementOptions
   bool whole = false;
   bool softens = false;  ///< pairs of vertices, first, within the tolerance as it is
   double height = 0;     ///< mm, see HeightOptions, and nothing else is done then but softening; 0: not raised
@@ -428,9 +429,9 @@ TetrahedralSweep sweepOf(const VolumeRow& row)
                                       .trials = row.trials,
                                       // Where many are bad, moving together costs more than all the rest.
                                       .together = row.splitEdge > 0 ? 20 : 0,
-                                      .patience = 20, // nothing comes after it that would mend what is left
+                                      .patience = 20, // nothing comes after splits that would mend what is left
                                       .passes = row.passes,
-                                      .crowd = row.whole && row.splitEdge == 0 ? fewCrowd : 1 } });
+                                      .crowd = row.crowd } });
   Sweep sweep{ "improvement", { stage }, row.whole };
   if (row.height > 0) sweep.stages = raisedHeights(stage.bounds, row.height);
   if (row.softens) sweep.stages.insert(sweep.stages.begin(), { { .rmsLimit = 1 }, { SoftenPairs{} } });
@@ -462,8 +463,8 @@ std::vector<VolumeRow> repairRows(double t)
 {
   // clang-format off
   return {
-    { .tolerance = 2, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
-    { .tolerance = 3, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
+    { .tolerance = 2, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .crowd = wholeCrowd, .whole = true },
+    { .tolerance = 3, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .crowd = wholeCrowd, .whole = true },
     { .tolerance = 4, .angle = t, .trials = 20, .passes = 3, .whole = true },
     { .tolerance = 4, .angle = t, .trials = 20, .passes = 3, .splitEdge = 0.6, .whole = true },
     { .tolerance = 4, .angle = t, .trials = 30, .passes = 4, .splitEdge = 0.4, .whole = true },
@@ -516,8 +517,10 @@ std::vector<TetrahedralSweep> repairsOfImprovedMesh(double t, double smallestLen
   rows.insert(rows.begin(), {
     { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 12 },
     { .held = true, .polishes = 2, .swaps = swaps, .polishing = polishing, .angle = t, .trials = 16 },
-    { .rmsLimit = 0.8, .tolerance = 0.5, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
-    { .rmsLimit = 0.8, .tolerance = 1.5, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3, .whole = true },
+    { .rmsLimit = 0.8, .tolerance = 0.5, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3,
+      .crowd = wholeCrowd, .whole = true },
+    { .rmsLimit = 0.8, .tolerance = 1.5, .keepsFolds = true, .angle = t, .trials = 20, .passes = 3,
+      .crowd = wholeCrowd, .whole = true },
   });
   // clang-format on
   const VolumeRow last{ .tolerance = 4, .angle = t, .trials = 40, .passes = 6, .splitEdge = 0.2, .whole = true };

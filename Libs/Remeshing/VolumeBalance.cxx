@@ -10,7 +10,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Of the triangle of twice that size; its side depends on the order of the corners.
+/// Its length is twice the triangle's area, its side depends on the order of the corners.
 Vec3 normal(const Vec3& a, const Vec3& b, const Vec3& c) { return cross(b - a, c - a); }
 
 } // namespace
@@ -23,17 +23,17 @@ VolumeBalance::Tetrahedra VolumeBalance::tetrahedraOf(const BackgroundMesh& back
 
 VolumeBalance::Lack VolumeBalance::lackOf(const Tetrahedra& tetrahedra) const
 {
-  const auto& [points, corners, neighbours, labels] = tetrahedra;
+  const std::vector<Label>& labels = tetrahedra.labels;
   Lack lack{ std::vector<double>(labelCount), {} };
   for (const auto& [label, volume] : m_Volumes) lack.volumes[label] = volume;
-  for (std::size_t t = 0; t < corners.size(); ++t)
+  for (std::size_t t = 0; t < tetrahedra.corners.size(); ++t)
   {
-    if (corners[t][0] < 0) continue;
-    const auto& x = corners[t];
-    const auto at = [&](int k) -> const Vec3& { return points[x[k & 3]]; };
+    const auto& x = tetrahedra.corners[t];
+    if (x[0] < 0) continue;
+    const auto at = [&](int k) -> const Vec3& { return tetrahedra.points[x[k & 3]]; };
     lack.volumes[labels[t]] -= orient(at(0), at(1), at(2), at(3)) / 6;
     for (int i = 0; i < 4; ++i)
-      if (const std::int32_t n = neighbours[t][i]; n >= 0 && labels[n] < labels[t])
+      if (const std::int32_t n = tetrahedra.neighbours[t][i]; n >= 0 && labels[n] < labels[t])
         lack.areas[{ labels[n], labels[t] }] += 0.5 * norm(normal(at(i + 1), at(i + 2), at(i + 3)));
   }
   return lack;

@@ -82,7 +82,7 @@ private:
   }
 
   const TetMesh& m_Mesh;
-  AcrossFaces m_Across;
+  const AcrossFaces& m_Across;
   std::vector<Node> m_Nodes;
 };
 

@@ -182,11 +182,10 @@ ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField&
 }
 
 /// What is written of a surface in the grid frame of `map`, which lies at `world`.
-SurfaceFile surfaceFile(const BackgroundMesh& background, const TissueMap& map, const Grid& world,
-                        const ScaleField& scale)
+SurfaceFile surfaceFile(const TetMesh& ambient, const TissueMap& map, const Grid& world, const ScaleField& scale)
 {
   SurfaceFile content;
-  content.surface = interfaceOf(background.mesh, background.neighbours);
+  content.surface = interfaceOf(ambient);
   content.boundaryDistance = boundaryDistances(content.surface, map);
   for (Vec3& p : content.surface.points)
   {
@@ -291,9 +290,8 @@ bool isThinAt(const TissueMap& map, const std::vector<ThinVoxel>& thinVoxels, La
 }
 
 /// Only for the report; `map` in its own frame.
-void assessShape(CommandLine& line, const BackgroundMesh& background, const TissueMap& map, SurfaceReport& results)
+void assessShape(const BackgroundMesh& background, const TissueMap& map, SurfaceReport& results)
 {
-  if (line.outputFile("report").empty()) return;
   const auto isThin = [&](Label tissue, const Vec3& place)
   { return isThinAt(map, results.thickness.thinVoxels, tissue, place); };
   const SurfaceComplex surface = interfaceOf(background.mesh, background.neighbours);
@@ -350,7 +348,8 @@ void run(CommandLine& line)
   MeshedMap mesh = meshTissues(map, inFrameOf(world, scale), options, subProgress(progress, 0.06, 0.9));
 
   report(progress, 0.9, "checks and files");
-  const SurfaceFile content = surfaceFile(mesh.background, map, world, scale);
+  const SurfaceFile content = surfaceFile(mesh.background.mesh, map, world, scale);
+  const bool isReported = !line.outputFile("report").empty(); // the names of others are asked for beside it
   runInParallel({ [&]
                   {
                     requireSound(mesh.background.mesh, "surface");
@@ -361,7 +360,10 @@ void run(CommandLine& line)
                     writeSurfaces(line, content);
                     writeAmbient(line, mesh, world, map.table, scale);
                   },
-                  [&] { assessShape(line, mesh.background, map, results); } });
+                  [&]
+                  {
+                    if (isReported) assessShape(mesh.background, map, results);
+                  } });
   results.points = content.surface.points.size();
   results.triangles = content.surface.triangles.size();
   results.evolution = mesh.evolution;

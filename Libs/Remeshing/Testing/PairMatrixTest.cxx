@@ -72,6 +72,10 @@ TEST(PairMatrix, MayHaveEqualEigenvaluesAndZeros)
   EXPECT_NEAR(largestEigenvalue(twice), 1.5, 1e-6);
   EXPECT_TRUE(areEigenvaluesBelow(1.5 + 1e-9, twice));
   EXPECT_FALSE(areEigenvaluesBelow(1.5 - 1e-9, twice));
+  PairMatrix circulant = identity(); // 1.2 four times and 0.6 twice
+  for (int i = 0; i < 6; ++i)
+    for (const int step : { 2, 4 }) circulant[i][(i + step) % 6] = -0.2;
+  EXPECT_NEAR(largestEigenvalue(circulant), 1.2, 1e-5);
   PairMatrix last = identity();
   last[4][5] = last[5][4] = -0.25;
   EXPECT_NEAR(largestEigenvalue(last), 1.25, 1e-14);

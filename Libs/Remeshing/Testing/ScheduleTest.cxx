@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace surgicalmesher
 {
@@ -73,6 +75,27 @@ TEST(Schedule, TakesTheWholeMeshApartOnceForAllThatFollowsOneAnother)
     EXPECT_TRUE(sweeps.back().sweep.whole);
     for (std::size_t n = 1; n < sweeps.size(); ++n)
       EXPECT_FALSE(sweeps[n - 1].sweep.whole && sweeps[n].sweep.whole) << n;
+  }
+}
+
+TEST(Schedule, LeavesCrowdsOnlyToStagesWithWiderBounds)
+{
+  for (const auto& sweeps : { sweepsForRawMesh(28.5, 1), sweepsForImprovedMesh(28.5, 1), sweepsForCurves(28.5, 1) })
+  {
+    std::vector<std::pair<double, double>> improvements; // tolerance, crowd
+    for (const TetrahedralSweep& each : sweeps)
+      for (const Stage& stage : each.sweep.stages)
+        for (const Pass& pass : stage.passes)
+          if (const auto* improve = std::get_if<Improve>(&pass); improve && each.sweep.whole)
+            improvements.emplace_back(stage.bounds.toleranceFactor, improve->options.crowd);
+    const auto leaves = [](const auto& improvement) { return improvement.second < 1; };
+    EXPECT_TRUE(std::any_of(improvements.begin(), improvements.end(), leaves));
+    for (std::size_t n = 0; n < improvements.size(); ++n)
+      if (leaves(improvements[n]))
+      {
+        ASSERT_LT(n + 1, improvements.size());
+        EXPECT_GT(improvements[n + 1].first, improvements[n].first) << n;
+      }
   }
 }
 
