@@ -79,7 +79,8 @@ TEST(VolumeBalance, AComplexAsksForTheOffsetsOfItsMesh)
   const VolumeBalance balance(wanted, 0.5);
   TetComplex complex(mesh.points, background.lengths, mesh.tetrahedra, mesh.labels);
   EXPECT_EQ(balance.offsets(complex), balance.offsets(background));
-  complex.tets.push_back({ -1, 0, 0, 0 }); // a dead one
+  const auto& last = mesh.tetrahedra.back();
+  complex.tets.push_back({ -1, last[1], last[2], last[3] }); // a dead one
   complex.neighbours.push_back({ -1, -1, -1, -1 });
   complex.labels.push_back(1);
   EXPECT_EQ(balance.offsets(complex), balance.offsets(background));
