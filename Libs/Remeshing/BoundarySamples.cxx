@@ -8,6 +8,16 @@
 namespace surgicalmesher
 {
 
+SheetFace sheetFace(const TetComplex& complex, std::int32_t t, int face)
+{
+  const auto& v = complex.tets[t];
+  return { t,
+           face,
+           labelPair(complex.labels[t], complex.labels[complex.neighbours[t][face]]),
+           { v[(face + 1) & 3], v[(face + 2) & 3], v[(face + 3) & 3] },
+           complex.holder(t, face) };
+}
+
 void Sheet::clear()
 {
   faces.clear();
@@ -16,12 +26,7 @@ void Sheet::clear()
 
 void Sheet::addFace(const TetComplex& complex, std::int32_t t, int face)
 {
-  const auto& v = complex.tets[t];
-  faces.push_back({ t,
-                    face,
-                    labelPair(complex.labels[t], complex.labels[complex.neighbours[t][face]]),
-                    { v[(face + 1) & 3], v[(face + 2) & 3], v[(face + 3) & 3] },
-                    complex.holder(t, face) });
+  faces.push_back(sheetFace(complex, t, face));
   prefetch(&complex.sampleHeads[faces.back().holder.first]);
 }
 

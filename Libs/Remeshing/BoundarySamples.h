@@ -24,6 +24,9 @@ struct SheetFace
   std::pair<std::int32_t, int> holder; ///< see TetComplex
 };
 
+/// The face opposite vertex `face` of t, which must separate two labels.
+SheetFace sheetFace(const TetComplex& complex, std::int32_t t, int face);
+
 struct SheetSample : BoundarySample
 {
   std::int32_t id;      ///< in TetComplex::samples
@@ -39,7 +42,7 @@ struct Sheet
   std::vector<SheetSample> samples; ///< in the order of their faces
 
   void clear();
-  /// Adds the face opposite vertex `face` of t, which must separate two labels.
+  /// See sheetFace().
   void addFace(const TetComplex& complex, std::int32_t t, int face);
   /// Adds the samples of face number k, once those of the faces before it are there.
   void addSamples(const TetComplex& complex, std::size_t k);

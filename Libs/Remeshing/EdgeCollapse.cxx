@@ -80,41 +80,47 @@ bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v)
   return false;
 }
 
+namespace
+{
+
+template <std::size_t n>
+bool contains(const std::array<std::int32_t, n>& vertices, std::int32_t v)
+{
+  return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
+}
+
+} // namespace
+
 /// Tells the envelope the interface faces at u and v, and what becomes of them; false where a block ends.
 bool GuardedOperations::gatherCollapsingFaces(std::int32_t u, std::int32_t v, const Vec3& p)
 {
   const auto& c = m_Complex;
   m_Envelope.clear();
   // Each face as it will be in a tetrahedron that stays: `stays`, opposite its vertex number `opposite`.
-  const auto addMoved = [&](std::int32_t t, int face, Label x, Label y, std::int32_t stays, int opposite, bool changing)
+  const auto addMoved =
+    [&](std::array<std::int32_t, 3> ids, LabelPair labels, std::int32_t stays, int opposite, bool changing)
   {
-    std::array<std::int32_t, 3> ids{ c.tets[t][(face + 1) & 3], c.tets[t][(face + 2) & 3], c.tets[t][(face + 3) & 3] };
     Vec3 corners[3];
     for (int k = 0; k < 3; ++k)
     {
       if (ids[k] == u) ids[k] = v;
       corners[k] = ids[k] == v ? p : c.points[ids[k]];
     }
-    m_Envelope.addNewFace(corners[0], corners[1], corners[2], ids, x, y, stays, opposite, changing);
+    m_Envelope.addNewFace(corners[0], corners[1], corners[2], ids, labels, stays, opposite, changing);
   };
-  const auto facesAt = [&](std::int32_t end, std::int32_t other, const std::vector<std::int32_t>& star, bool changing)
+  const auto addFacesAt = [&](Star& end, std::int32_t other, bool changing)
   {
-    for (std::int32_t t : star)
+    for (const auto& [face, beside] : facesAt(end))
     {
-      if (c.contains(t, other)) continue;
-      for (int i = 0; i < 4; ++i)
-      {
-        const std::int32_t n = c.neighbours[t][i];
-        if (c.tets[t][i] == end || !c.isInterfaceOfLesser(t, i)) continue;
-        if (c.contains(n, other)) continue; // dealt with from the ring
-        if (changing) m_Envelope.addOldFace(t, i);
-        addMoved(t, i, c.labels[t], c.labels[n], t, i, changing);
-      }
+      if (contains(face.vertices, other) || contains(beside, other)) continue; // dealt with from the ring
+      if (changing) m_Envelope.addOldFace(face);
+      addMoved(face.vertices, face.labels, face.tet, face.face, changing);
     }
   };
-  facesAt(u, v, star(u), true);
+  star(u); // is m_Star then
+  addFacesAt(m_Star, v, true);
   // Faces at v that stay as they are keep their samples, and may take others.
-  facesAt(v, u, starOfTarget(v), !(p == c.points[v]));
+  addFacesAt(target(v), u, !(p == c.points[v]));
   for (std::int32_t t : m_Ring)
   {
     const int iu = c.indexOf(t, u), iv = c.indexOf(t, v);
@@ -125,7 +131,8 @@ bool GuardedOperations::gatherCollapsingFaces(std::int32_t u, std::int32_t v, co
     if (c.labels[nu] == c.labels[nv]) continue;
     int opposite = 0;
     while (c.neighbours[nu][opposite] != t) ++opposite;
-    addMoved(t, iu, c.labels[nu], c.labels[nv], nu, opposite, true);
+    addMoved({ c.tets[t][(iu + 1) & 3], c.tets[t][(iu + 2) & 3], c.tets[t][(iu + 3) & 3] },
+             labelPair(c.labels[nu], c.labels[nv]), nu, opposite, true);
   }
   return true;
 }

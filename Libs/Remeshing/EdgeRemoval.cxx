@@ -211,8 +211,8 @@ bool GuardedOperations::mayFlipSheet(std::int32_t a, std::int32_t b, double mini
       if (c.neighbours[m_Ring[i]][k] == m_Ring[(i + n - 1) % n]) m_Envelope.addOldFace(m_Ring[i], k);
   const std::int32_t p = m_RingVertices[0], q = m_RingVertices[m_RingEnd];
   for (std::int32_t end : { a, b })
-    m_Envelope.addNewFace(c.points[end], c.points[p], c.points[q], { end, p, q }, c.labels[m_Ring[0]],
-                          c.labels[m_Ring[m_RingEnd]]);
+    m_Envelope.addNewFace(c.points[end], c.points[p], c.points[q], { end, p, q },
+                          labelPair(c.labels[m_Ring[0]], c.labels[m_Ring[m_RingEnd]]));
   return m_Envelope.trianglesReach(minimumQuality) && m_Envelope.featuresStay() && m_Envelope.samplesStay();
 }
 

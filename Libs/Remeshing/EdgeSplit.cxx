@@ -25,7 +25,7 @@ std::optional<std::int32_t> GuardedOperations::split(std::int32_t a, std::int32_
     for (int k = 0; k < 4; ++k)
       if (c.neighbours[t][k] == before) m_Envelope.addOldFace(t, k);
     for (std::int32_t end : { a, b })
-      m_Envelope.addNewFace(c.points[end], p, c.points[x], { end, m, x }, c.labels[t], c.labels[before]);
+      m_Envelope.addNewFace(c.points[end], p, c.points[x], { end, m, x }, labelPair(c.labels[t], c.labels[before]));
   }
   if (m_Envelope.hasNewFaces() && m_Envelope.isHeld()) return {};
   if (!m_Envelope.trianglesReach(minimumQuality) || !m_Envelope.featuresStay() || !m_Envelope.samplesStay()) return {};

@@ -77,15 +77,15 @@ void Envelope::addOldFace(std::int32_t t, int face)
     m_Old.addFace(m_Complex, t, face);
 }
 
-void Envelope::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x,
-                          Label y, std::int32_t tet, int face, bool changes)
+void Envelope::addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids,
+                          LabelPair labels, std::int32_t tet, int face, bool changes)
 {
   const Vec3 n = cross(b - a, c - a);
   const double area2 = squaredNorm(n); // positive, as the tetrahedra on both sides are
   const Vec3 slopes[3]{ cross(n, c - b) / area2, cross(n, a - c) / area2, cross(n, b - a) / area2 };
   Face& f = m_NewFaces.emplace_back(); // in place: a copy waits for what has just been written
   f.corners = { a, b, c };
-  f.labels = labelPair(x, y);
+  f.labels = labels;
   f.vertices = ids;
   f.normal = n / std::sqrt(area2);
   for (int k = 0; k < 3; ++k)
@@ -392,7 +392,7 @@ void Envelope::addMovedFaces(const Vec3& p)
   for (const SheetFace& f : m_Sheet.faces)
   {
     const auto at = [&](int k) { return f.vertices[k] == m_SheetVertex ? p : m_Complex.points[f.vertices[k]]; };
-    addNewFace(at(0), at(1), at(2), f.vertices, Label(f.labels), Label(f.labels >> 16), f.tet, f.face);
+    addNewFace(at(0), at(1), at(2), f.vertices, f.labels, f.tet, f.face);
   }
 }
 

@@ -70,9 +70,11 @@ public:
   void clear();
   /// Takes note of the interface face (t, face), once.
   void addOldFace(std::int32_t t, int face);
-  /// A face abc between labels x and y. `tet`, `face`: a tetrahedron that will have it; -1: attach() looks for one.
+  /// The same for one that is known not to have been noted.
+  void addOldFace(const SheetFace& face) { m_Old.faces.push_back(face); }
+  /// A face abc between two labels. `tet`, `face`: a tetrahedron that will have it; -1: attach() looks for one.
   /// `changes` false: it stays as it is, and may take other samples.
-  void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, Label x, Label y,
+  void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, LabelPair labels,
                   std::int32_t tet = -1, int face = 0, bool changes = true);
   bool hasNewFaces() const { return !m_NewFaces.empty(); }
 

@@ -8,6 +8,7 @@
 #include "TetQuality.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace surgicalmesher
 {
@@ -66,7 +67,7 @@ const std::vector<std::int32_t>& GuardedOperations::starOf(std::int32_t v, Star&
     if (&star == &m_Star && recall(v)) return star.tets;
     m_Complex.star(v, star.tets);
     star.vertex = v;
-    star.isMeasured = false;
+    star.isMeasured = star.hasFaces = false;
     star.ends.clear();
   }
   return star.tets;
@@ -101,6 +102,22 @@ const std::vector<std::int32_t>& GuardedOperations::endsAt(Star& star)
         star.ends.push_back(x);
       }
   return star.ends;
+}
+
+const std::vector<GuardedOperations::FaceAtEnd>& GuardedOperations::facesAt(Star& star)
+{
+  if (std::exchange(star.hasFaces, true)) return star.faces;
+  const auto& c = m_Complex;
+  star.faces.clear();
+  for (const std::int32_t t : star.tets)
+    for (int i = 0; i < 4; ++i)
+    {
+      if (c.tets[t][i] == star.vertex || !c.isInterfaceOfLesser(t, i)) continue;
+      const SheetFace face = sheetFace(c, t, i);
+      const auto& [x, y, z] = face.vertices;
+      star.faces.push_back({ face, { c.tets[t][i], c.fourthVertex(c.neighbours[t][i], x, y, z) } });
+    }
+  return star.faces;
 }
 
 StarQuality& GuardedOperations::measured(std::int32_t v, Star& star)

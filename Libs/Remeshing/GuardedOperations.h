@@ -186,6 +186,11 @@ public:
   void uncountRelabels() { m_Counts.relabels -= 2; }
 
 private:
+  struct FaceAtEnd
+  {
+    SheetFace face;
+    std::array<std::int32_t, 2> beside; ///< the vertices of its two tetrahedra that it has not
+  };
   struct Star
   {
     std::int32_t vertex = -1; ///< -1: nobody's
@@ -193,6 +198,8 @@ private:
     bool isMeasured = false;
     StarQuality quality;
     std::vector<std::int32_t> ends; ///< of the edges at the vertex; empty until somebody has asked
+    bool hasFaces = false;
+    std::vector<FaceAtEnd> faces; ///< of the interface at the vertex
   };
 
   const std::vector<std::int32_t>& starOf(std::int32_t v, Star& star);
@@ -200,6 +207,7 @@ private:
   bool recall(std::int32_t v);
   Star& target(std::int32_t v);
   const std::vector<std::int32_t>& endsAt(Star& star);
+  const std::vector<FaceAtEnd>& facesAt(Star& star);
   void changed();
   double lenient(std::int32_t t, double q) const { return lenient(m_Complex.labels[t], q); }
   static double lenient(Label label, double q) { return label == 0 ? q * backgroundLeniency : q; }

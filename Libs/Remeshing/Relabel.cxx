@@ -21,7 +21,7 @@ bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuali
     const std::array<std::int32_t, 3> ids{ x[(i + 1) & 3], x[(i + 2) & 3], x[(i + 3) & 3] };
     if (beyond != own) m_Envelope.addOldFace(t, i);
     if (beyond != label)
-      m_Envelope.addNewFace(c.points[ids[0]], c.points[ids[1]], c.points[ids[2]], ids, beyond, label);
+      m_Envelope.addNewFace(c.points[ids[0]], c.points[ids[1]], c.points[ids[2]], ids, labelPair(beyond, label));
   }
   if (!m_Envelope.trianglesReach(minimumQuality) || !m_Envelope.featuresStay() || !m_Envelope.samplesStay())
     return false;
