@@ -400,14 +400,16 @@ struct VolumeRow
 };
 
 /// Within the tolerance as it is first: what is raised so leaves no dent. Beyond it not quite as high: what lacks little
-/// is not worth one.
+/// is not worth one. What then lacks much, a few in a mesh, would set a solver's step alone: it may go farther, tips too.
 std::vector<Stage> raisedHeights(const EnvelopeBounds& beyond, double height)
 {
-  constexpr double dentingShare = 0.95;
-  EnvelopeBounds within = beyond;
+  constexpr double dentingShare = 0.95, leastShare = 0.8, farTolerance = 2.8;
+  EnvelopeBounds within = beyond, farther = beyond;
   within.toleranceFactor = 1;
+  farther.toleranceFactor = farTolerance;
   return { { within, { RaiseHeights{ { .height = height } } } },
-           { beyond, { RaiseHeights{ { .height = dentingShare * height } } } } };
+           { beyond, { RaiseHeights{ { .height = dentingShare * height } } } },
+           { farther, { RaiseHeights{ { .height = leastShare * height, .movesTips = true } } } } };
 }
 
 TetrahedralSweep sweepOf(const VolumeRow& row)
