@@ -42,7 +42,7 @@ struct Sheet
   std::vector<SheetSample> samples; ///< in the order of their faces
 
   void clear();
-  /// See sheetFace().
+  /// Adds sheetFace() of these.
   void addFace(const TetComplex& complex, std::int32_t t, int face);
   /// Adds the samples of face number k, once those of the faces before it are there.
   void addSamples(const TetComplex& complex, std::size_t k);

@@ -135,7 +135,7 @@ private:
       if (share == 0.5) fits = m_Options.fit && quadricAt(u).trace() > 0;
       for (const Near& n : m_Near)
       {
-        if (share < 1 && isRefusedFrom(n.vertex, u)) continue;
+        if (share < 1 && hasRefused(n.vertex, u)) continue;
         if (!m_Operations.mayCollapse(u, n.vertex, share < 1)) continue;
         const Vec3 to = m_Complex.points[n.vertex];
         Vec3 p = share == 1 ? to : from + share * (to - from);
@@ -153,11 +153,14 @@ private:
     if (m_Options.thorough) m_Visits[u].refused = m_Visit;
   }
 
-  /// Whether v refused all its neighbours when it was visited, and nothing at it or at u has changed since: the places for
-  /// the two are the same seen from either end, but for v's own, where u alone would move.
-  bool isRefusedFrom(std::int32_t v, std::int32_t u) const
+  /// Whether v, when it was visited, refused all near it, u among them, and nothing at either has changed since. The
+  /// places for the two are then the same, seen from u, and as good as certain to be refused: what differs is the target
+  /// length that new edges are held to and the length that a gap may have grown from. Not so v's own place, where
+  /// fewer tetrahedra change seen from u.
+  bool hasRefused(std::int32_t v, std::int32_t u) const
   {
-    return m_Visits[v].refused > std::max(m_Visits[v].changed, m_Visits[u].changed);
+    return m_Visits[v].refused > std::max(m_Visits[v].changed, m_Visits[u].changed) &&
+           m_Operations.mayCollapse(v, u, true); // along curves one may ask where the other may not
   }
 
   /// What the samples at v says of its position: m x = g. Kept until a collapse changes a face at v.
@@ -239,7 +242,7 @@ private:
   /// Numbers of visits.
   struct OfVertex
   {
-    std::uint32_t refused = 0; ///< its own, if all its neighbours were; only where all places are tried
+    std::uint32_t refused = 0; ///< its own, if all near it were refused; only where all places are tried
     std::uint32_t changed = 0; ///< the one that changed tetrahedra at it last
   };
   std::vector<OfVertex> m_Visits;

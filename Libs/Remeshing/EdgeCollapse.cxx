@@ -108,19 +108,18 @@ bool GuardedOperations::gatherCollapsingFaces(std::int32_t u, std::int32_t v, co
     }
     m_Envelope.addNewFace(corners[0], corners[1], corners[2], ids, labels, stays, opposite, changing);
   };
-  const auto addFacesAt = [&](Star& end, std::int32_t other, bool changing)
+  const auto addFacesAt = [&](const std::vector<FaceAtEnd>& faces, std::int32_t other, bool changing)
   {
-    for (const auto& [face, beside] : facesAt(end))
+    for (const auto& [face, beside] : faces)
     {
       if (contains(face.vertices, other) || contains(beside, other)) continue; // dealt with from the ring
       if (changing) m_Envelope.addOldFace(face);
       addMoved(face.vertices, face.labels, face.tet, face.face, changing);
     }
   };
-  star(u); // is m_Star then
-  addFacesAt(m_Star, v, true);
+  addFacesAt(facesAt(u, m_Star), v, true);
   // Faces at v that stay as they are keep their samples, and may take others.
-  addFacesAt(target(v), u, !(p == c.points[v]));
+  addFacesAt(facesAt(v, target(v)), u, !(p == c.points[v]));
   for (std::int32_t t : m_Ring)
   {
     const int iu = c.indexOf(t, u), iv = c.indexOf(t, v);

@@ -104,15 +104,16 @@ const std::vector<std::int32_t>& GuardedOperations::endsAt(Star& star)
   return star.ends;
 }
 
-const std::vector<GuardedOperations::FaceAtEnd>& GuardedOperations::facesAt(Star& star)
+const std::vector<GuardedOperations::FaceAtEnd>& GuardedOperations::facesAt(std::int32_t v, Star& star)
 {
+  starOf(v, star);
   if (std::exchange(star.hasFaces, true)) return star.faces;
   const auto& c = m_Complex;
   star.faces.clear();
   for (const std::int32_t t : star.tets)
     for (int i = 0; i < 4; ++i)
     {
-      if (c.tets[t][i] == star.vertex || !c.isInterfaceOfLesser(t, i)) continue;
+      if (c.tets[t][i] == v || !c.isInterfaceOfLesser(t, i)) continue;
       const SheetFace face = sheetFace(c, t, i);
       const auto& [x, y, z] = face.vertices;
       star.faces.push_back({ face, { c.tets[t][i], c.fourthVertex(c.neighbours[t][i], x, y, z) } });

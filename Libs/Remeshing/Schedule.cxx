@@ -400,7 +400,8 @@ struct VolumeRow
 };
 
 /// Within the tolerance as it is first: what is raised so leaves no dent. Beyond it not quite as high: what lacks little
-/// is not worth one. What then lacks much, a few in a mesh, would set a solver's step alone: it may go farther, tips too.
+/// is not worth one. What then lacks much, a few in a mesh, would set a solver's step alone: it may go farther, tips too (2.8 keeps a ball
+/// with an L of 1.5 voxels within 0.35 voxel of its sphere, 3 does not).
 std::vector<Stage> raisedHeights(const EnvelopeBounds& beyond, double height)
 {
   constexpr double dentingShare = 0.95, leastShare = 0.8, farTolerance = 2.8;

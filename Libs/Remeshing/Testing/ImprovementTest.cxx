@@ -695,7 +695,7 @@ TEST(Coarsening, KeepsEveryPromiseAndTheAngleAsked)
                      });
 }
 
-/// A place refused from one end of its edge is not asked for from the other, until something there has changed.
+/// What one end of an edge has refused is left out from the other, but no longer than until something there changes.
 TEST(Coarsening, LeavesNextToNothingForAnotherRun)
 {
   constexpr double length = 2;
