@@ -47,7 +47,7 @@ public:
   BlockCoarsening(GuardedOperations& operations, double level, const CoarseningOptions& options)
     : m_Operations(operations), m_Complex(operations.complex()), m_Level(level), m_Options(options),
       m_Low(sine2OfDegrees(options.minimumAngle)), m_Good(sine2OfDegrees(options.goodAngle)),
-      m_Queued(m_Complex.points.size(), 0), m_Tries(m_Complex.points.size(), 0), m_Visits(m_Complex.points.size())
+      m_Queued(m_Complex.points.size(), 0), m_Tries(m_Complex.points.size(), 0)
   {
   }
 
@@ -123,7 +123,6 @@ private:
   {
     if (!m_Operations.mayCoarsen(u)) return;
     ++m_Tries[u];
-    ++m_Visit;
     shortNeighbours(u);
     if (m_Complex.onInterface[u]) keepOnlyAlongInterface();
     const Vec3 from = m_Complex.points[u];
@@ -135,7 +134,6 @@ private:
       if (share == 0.5) fits = m_Options.fit && quadricAt(u).trace() > 0;
       for (const Near& n : m_Near)
       {
-        if (share < 1 && hasRefused(n.vertex, u)) continue;
         if (!m_Operations.mayCollapse(u, n.vertex, share < 1)) continue;
         const Vec3 to = m_Complex.points[n.vertex];
         Vec3 p = share == 1 ? to : from + share * (to - from);
@@ -150,17 +148,6 @@ private:
                      [](const Candidate& a, const Candidate& b) { return a.quality > b.quality; });
     for (const Candidate& c : m_Candidates)
       if (collapse(u, c)) return;
-    if (m_Options.thorough) m_Visits[u].refused = m_Visit;
-  }
-
-  /// Whether v, when it was visited, refused all near it, u among them, and nothing at either has changed since. The
-  /// places for the two are then the same, seen from u, and as good as certain to be refused: what differs is the target
-  /// length that new edges are held to and the length that a gap may have grown from. Not so v's own place, where
-  /// fewer tetrahedra change seen from u.
-  bool hasRefused(std::int32_t v, std::int32_t u) const
-  {
-    return m_Visits[v].refused > std::max(m_Visits[v].changed, m_Visits[u].changed) &&
-           m_Operations.mayCollapse(v, u, true); // along curves one may ask where the other may not
   }
 
   /// What the samples at v says of its position: m x = g. Kept until a collapse changes a face at v.
@@ -225,8 +212,6 @@ private:
   /// The same for v and all of its neighbours.
   void wakeAll(std::int32_t v)
   {
-    m_Visits[v].changed = m_Visit;
-    for (const auto& n : m_Operations.neighbours(v)) m_Visits[n.vertex].changed = m_Visit;
     shortNeighbours(v);
     if (m_Near.empty()) return;
     push(v, m_Near[0].ratio);
@@ -239,14 +224,6 @@ private:
   const CoarseningOptions& m_Options;
   const double m_Low, m_Good;
   std::vector<std::uint8_t> m_Queued, m_Tries;
-  /// Numbers of visits.
-  struct OfVertex
-  {
-    std::uint32_t refused = 0; ///< its own, if all near it were refused; only where all places are tried
-    std::uint32_t changed = 0; ///< the one that changed tetrahedra at it last
-  };
-  std::vector<OfVertex> m_Visits;
-  std::uint32_t m_Visit = 0;
   LengthQueue m_Queue;
   std::vector<Near> m_Near;
   std::vector<GuardedOperations::Neighbour> m_Around;

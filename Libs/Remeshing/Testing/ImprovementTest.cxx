@@ -695,26 +695,6 @@ TEST(Coarsening, KeepsEveryPromiseAndTheAngleAsked)
                      });
 }
 
-/// What one end of an edge has refused is left out from the other, but no longer than until something there changes.
-TEST(Coarsening, LeavesNextToNothingForAnotherRun)
-{
-  constexpr double length = 2;
-  long first = 0, second = 0;
-  for (unsigned seed = 1; seed <= 6; ++seed)
-  {
-    std::mt19937 random(seed);
-    TetComplex complex = complexOf(tetrahedraOf(randomWellComposedMap(random, { 12, 12, 12 }, 3)), length, 0.15f);
-    for (long* collapses : { &first, &second })
-    {
-      GuardedOperations operations(complex, [](const Vec3&) { return float(length); });
-      coarsenBlock(operations, length, {});
-      *collapses += operations.counts().collapses;
-    }
-  }
-  EXPECT_GT(first, 0);
-  EXPECT_LE(1000 * second, first);
-}
-
 TEST(MeshImprovement, KeepsTissuesAndHullAndRaisesTheWorstAngle)
 {
   for (unsigned seed = 1; seed <= 4; ++seed)
