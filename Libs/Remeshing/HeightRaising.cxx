@@ -139,7 +139,7 @@ private:
     bool any = false;
     for (const std::int32_t v : x)
     {
-      if (!m_Complex.locked[v] && (m_Options.movesTips || !isTip(v)) && climb(v)) any = true;
+      if (!m_Complex.locked[v] && !isTip(v) && climb(v)) any = true;
       if (any && heightOf(t) >= limitOf(t)) return true;
     }
     return any;

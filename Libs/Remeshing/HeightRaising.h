@@ -16,13 +16,11 @@ struct HeightOptions
   int trials = 40;         ///< positions tried for each vertex
   double worstShare = 0.005; ///< of the tetrahedra, the lowest, that are worked on in one pass; a hundred at least
   int passes = 16;
-  /// Vertices of the interface with three triangles move as others do; they may become dents, or spikes.
-  bool movesTips = false;
 };
 
 /// Lowest first: merges one end of a short edge into the other, removes an edge, or moves vertices, where that raises the
-/// least height of all tetrahedra of tissues that change. Vertices of the interface move as far as the envelope allows;
-/// those with three triangles stay unless `movesTips`.
+/// least height of all tetrahedra of tissues that change. Vertices of the interface move as far as the envelope allows,
+/// but those with three triangles stay.
 void raiseHeightsOfBlock(GuardedOperations& operations, const HeightOptions& options);
 
 } // namespace surgicalmesher

@@ -400,17 +400,14 @@ struct VolumeRow
 };
 
 /// Within the tolerance as it is first: what is raised so leaves no dent. Beyond it not quite as high: what lacks little
-/// is not worth one. What then lacks much, a few in a mesh, would set a solver's step alone: it may go farther, tips too;
-/// any farther, balls with an L of 1.5 voxels have vertices more than 0.35 voxel off.
+/// is not worth one.
 std::vector<Stage> raisedHeights(const EnvelopeBounds& beyond, double height)
 {
-  constexpr double dentingShare = 0.95, leastShare = 0.65, farTolerance = 2;
-  EnvelopeBounds within = beyond, farther = beyond;
+  constexpr double dentingShare = 0.95;
+  EnvelopeBounds within = beyond;
   within.toleranceFactor = 1;
-  farther.toleranceFactor = farTolerance;
   return { { within, { RaiseHeights{ { .height = height } } } },
-           { beyond, { RaiseHeights{ { .height = dentingShare * height } } } },
-           { farther, { RaiseHeights{ { .height = leastShare * height, .movesTips = true } } } } };
+           { beyond, { RaiseHeights{ { .height = dentingShare * height } } } } };
 }
 
 TetrahedralSweep sweepOf(const VolumeRow& row)
