@@ -50,13 +50,10 @@ void Sheet::addSamples(const TetComplex& complex, std::size_t k)
   }
 }
 
-void gatherSheet(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star, Sheet& sheet)
+void gatherSheet(const TetComplex& complex, const std::vector<TetComplex::Face>& faces, Sheet& sheet)
 {
   sheet.clear();
-  if (!complex.onInterface[v]) return;
-  for (std::int32_t t : star)
-    for (int i = 0; i < 4; ++i)
-      if (complex.tets[t][i] != v && complex.isInterfaceOfLesser(t, i)) sheet.addFace(complex, t, i);
+  for (const auto& [t, i] : faces) sheet.addFace(complex, t, i);
   for (std::size_t k = 0; k < sheet.faces.size(); ++k) sheet.prefetchSamples(complex, k);
   for (std::size_t k = 0; k < sheet.faces.size(); ++k) sheet.addSamples(complex, k);
 }

@@ -21,7 +21,7 @@ struct SheetFace
   int face; ///< opposite this vertex of tet
   LabelPair labels;
   std::array<std::int32_t, 3> vertices;
-  std::pair<std::int32_t, int> holder; ///< see TetComplex
+  TetComplex::Face holder; ///< see TetComplex
 };
 
 /// The face opposite vertex `face` of t, which must separate two labels.
@@ -50,8 +50,8 @@ struct Sheet
   void prefetchSamples(const TetComplex& complex, std::size_t k) const;
 };
 
-/// Collects the interface faces at v, each once, whose tetrahedra are `star`.
-void gatherSheet(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star, Sheet& sheet);
+/// Collects these interface faces.
+void gatherSheet(const TetComplex& complex, const std::vector<TetComplex::Face>& faces, Sheet& sheet);
 
 /// The sample of the sheet that is nearest to p, and its squared distance, mm^2; null if there is none.
 std::pair<const SheetSample*, double> nearestSample(const Sheet& sheet, const Vec3& p);

@@ -156,7 +156,7 @@ private:
     m_Quadrics.resize(m_Complex.points.size());
     auto& [isKnown, quadric] = m_Quadrics[v];
     if (isKnown) return quadric;
-    gatherSheet(m_Complex, v, m_Operations.starOfTarget(v), m_Sheet);
+    gatherSheet(m_Complex, m_Operations.interfaceFacesOfTarget(v), m_Sheet);
     quadric = quadricOf(m_Complex, v, m_Sheet, 0, m_Operations.rigidity());
     quadric.g += quadric.times(m_Complex.points[v]);
     isKnown = true;

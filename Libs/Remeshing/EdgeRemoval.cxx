@@ -308,7 +308,7 @@ bool GuardedOperations::ringHasWhole()
 bool GuardedOperations::staysBroad(std::int32_t a, std::int32_t b)
 {
   constexpr std::size_t broad = 4;
-  const auto trianglesAt = [&](std::int32_t v) { return m_Envelope.sheet(v, star(v)).faces.size(); };
+  const auto trianglesAt = [&](std::int32_t v) { return interfaceFaces(v).size(); };
   return trianglesAt(a) > broad && trianglesAt(b) > broad;
 }
 

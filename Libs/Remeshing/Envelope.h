@@ -99,10 +99,10 @@ public:
   /// Hands them to the new faces, those without a tetrahedron found among `around`; after the complex has changed.
   void attach(const std::vector<std::int32_t>& around = {});
 
-  // --- moves of one vertex; `star`: the tetrahedra at it
+  // --- moves of one vertex
   bool holdsSheetOf(std::int32_t v) const { return m_SheetVertex == v; }
-  /// The interface faces at v and their samples; kept while only v moves.
-  const Sheet& sheet(std::int32_t v, const std::vector<std::int32_t>& star);
+  /// The interface faces at v, `faces`, and their samples; kept while only v moves.
+  const Sheet& sheet(std::int32_t v, const std::vector<TetComplex::Face>& faces);
   const Sheet& sheet() const { return m_Sheet; }
   void forgetSheet() { m_SheetVertex = -1; }
   bool watchesFeatures() const { return m_Sides.areWatched(); }
@@ -162,7 +162,7 @@ private:
   bool spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) const;
   void addMovedFaces(const Vec3& p);
   void detach(const Sheet& sheet);
-  void attach(const std::vector<SheetSample>& samples, const std::vector<std::pair<std::int32_t, int>>& holders);
+  void attach(const std::vector<SheetSample>& samples, const std::vector<TetComplex::Face>& holders);
 
   TetComplex& m_Complex;
   const bool m_Held;
@@ -174,8 +174,8 @@ private:
   FeatureSides m_Sides; ///< of the faces asked about last
   Sheet m_Old;          ///< the faces that an operation takes away
   std::vector<Face> m_NewFaces;
-  std::vector<std::pair<std::int32_t, int>> m_Holders; ///< of the new faces
-  std::int32_t m_SheetVertex = -1;                     ///< whose m_Sheet is; -1: nobody's
+  std::vector<TetComplex::Face> m_Holders; ///< of the new faces
+  std::int32_t m_SheetVertex = -1;         ///< whose m_Sheet is; -1: nobody's
   Sheet m_Sheet;
   std::size_t m_LastRefusing = 0; ///< of its samples, or of those of another one before
 };

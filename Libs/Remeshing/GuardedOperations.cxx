@@ -67,7 +67,7 @@ const std::vector<std::int32_t>& GuardedOperations::starOf(std::int32_t v, Star&
     if (&star == &m_Star && recall(v)) return star.tets;
     m_Complex.star(v, star.tets);
     star.vertex = v;
-    star.isMeasured = star.hasFaces = false;
+    star.isMeasured = star.hasFaces = star.hasFacesAtEnd = false;
     star.ends.clear();
   }
   return star.tets;
@@ -104,28 +104,34 @@ const std::vector<std::int32_t>& GuardedOperations::endsAt(Star& star)
   return star.ends;
 }
 
-const std::vector<GuardedOperations::FaceAtEnd>& GuardedOperations::facesAt(std::int32_t v, Star& star)
+const std::vector<TetComplex::Face>& GuardedOperations::interfaceFacesOf(std::int32_t v, Star& star)
 {
   starOf(v, star);
-  if (std::exchange(star.hasFaces, true)) return star.faces;
-  const auto& c = m_Complex;
-  star.faces.clear();
-  for (const std::int32_t t : star.tets)
-    for (int i = 0; i < 4; ++i)
-    {
-      if (c.tets[t][i] == v || !c.isInterfaceOfLesser(t, i)) continue;
-      const SheetFace face = sheetFace(c, t, i);
-      const auto& [x, y, z] = face.vertices;
-      star.faces.push_back({ face, { c.tets[t][i], c.fourthVertex(c.neighbours[t][i], x, y, z) } });
-    }
+  if (!std::exchange(star.hasFaces, true)) m_Complex.interfaceFaces(v, star.tets, star.faces);
   return star.faces;
+}
+
+const std::vector<GuardedOperations::FaceAtEnd>& GuardedOperations::facesAt(std::int32_t v, Star& star)
+{
+  interfaceFacesOf(v, star);
+  if (std::exchange(star.hasFacesAtEnd, true)) return star.facesAtEnd;
+  const auto& c = m_Complex;
+  star.facesAtEnd.clear();
+  for (const auto& [t, i] : star.faces)
+  {
+    const SheetFace face = sheetFace(c, t, i);
+    const auto& [x, y, z] = face.vertices;
+    star.facesAtEnd.push_back({ face, { c.tets[t][i], c.fourthVertex(c.neighbours[t][i], x, y, z) } });
+  }
+  return star.facesAtEnd;
 }
 
 StarQuality& GuardedOperations::measured(std::int32_t v, Star& star)
 {
   starOf(v, star);
-  if (!star.isMeasured) star.quality.gather(m_Complex, v, star.tets, m_TriangleWeight);
-  star.isMeasured = true;
+  if (std::exchange(star.isMeasured, true)) return star.quality;
+  if (m_TriangleWeight > 0) star.quality.gather(m_Complex, v, star.tets, interfaceFacesOf(v, star), m_TriangleWeight);
+  else star.quality.gather(m_Complex, v, star.tets);
   return star.quality;
 }
 

@@ -26,7 +26,7 @@ double lesser(double a, double b) { return a < b ? a : b; }
 } // namespace
 
 void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star,
-                         double triangleWeight)
+                         const std::vector<TetComplex::Face>& triangles, double triangleWeight)
 {
   // With v first, an even permutation of the tetrahedron.
   static constexpr int others[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 3, 0, 1 }, { 2, 1, 0 } };
@@ -50,13 +50,12 @@ void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::v
     }
     group.weight[lane] = complex.labels[t] == 0 ? backgroundLeniency : 1;
   }
-  m_Triangles.clear();
-  m_TriangleCount = 0;
   m_TriangleWeight = triangleWeight;
-  if (triangleWeight > 0 && complex.onInterface[v]) gatherTriangles(complex, v, star);
+  gatherTriangles(complex, v, triangles);
 }
 
-void StarQuality::gatherTriangles(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star)
+void StarQuality::gatherTriangles(const TetComplex& complex, std::int32_t v,
+                                  const std::vector<TetComplex::Face>& triangles)
 {
   const auto put = [&](std::size_t lane, const std::array<std::int32_t, 2>& ids)
   {
@@ -67,20 +66,17 @@ void StarQuality::gatherTriangles(const TetComplex& complex, std::int32_t v, con
       m_Triangles.back().ids[k][lane] = ids[k];
     }
   };
-  for (std::int32_t t : star)
+  m_Triangles.clear();
+  m_TriangleCount = 0;
+  for (const auto& [t, i] : triangles)
   {
-    if (!complex.mayHaveInterface(t)) continue;
     const auto& x = complex.tets[t];
-    for (int i = 0; i < 4; ++i)
-    {
-      if (x[i] == v || !complex.isInterfaceOfLesser(t, i)) continue;
-      std::array<std::int32_t, 2> others;
-      for (int k = 0, found = 0; k < 4; ++k)
-        if (k != i && x[k] != v) others[found++] = x[k];
-      const std::size_t lane = m_TriangleCount++ % lanes;
-      if (lane == 0) m_Triangles.emplace_back();
-      for (std::size_t l = lane; l < lanes; ++l) put(l, others);
-    }
+    std::array<std::int32_t, 2> others;
+    for (int k = 0, found = 0; k < 4; ++k)
+      if (k != i && x[k] != v) others[found++] = x[k];
+    const std::size_t lane = m_TriangleCount++ % lanes;
+    if (lane == 0) m_Triangles.emplace_back();
+    for (std::size_t l = lane; l < lanes; ++l) put(l, others);
   }
 }
 

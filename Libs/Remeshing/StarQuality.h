@@ -16,10 +16,10 @@ constexpr double backgroundLeniency = 20; ///< worst angles of 32 degrees inside
 class StarQuality
 {
 public:
-  /// `star`: the tetrahedra at v. Stays true until another vertex than v moves, or the star changes. Triangles between
-  /// labels count with `triangleWeight`; 0: not at all.
+  /// `star`: the tetrahedra at v. Stays true until another vertex than v moves, or the star changes. `triangles`: those
+  /// between labels that count as well, with `triangleWeight`.
   void gather(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star,
-              double triangleWeight = 0);
+              const std::vector<TetComplex::Face>& triangles = {}, double triangleWeight = 0);
 
   /// The worst quality (see GuardedOperations) with the vertex at p, or some value below `atLeast` if it is less than
   /// that. What contains the vertex `without` does not count.
@@ -51,7 +51,7 @@ private:
   };
   static void measure(const Group& group, const Vec3& p, double* quality);
   void measure(const Triangles& group, const Vec3& p, double* quality) const;
-  void gatherTriangles(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star);
+  void gatherTriangles(const TetComplex& complex, std::int32_t v, const std::vector<TetComplex::Face>& triangles);
   template <class Groups, class Measure>
   static double worstOf(const Groups& groups, double without, double atLeast, double worst, Measure&& measure);
   template <class Groups, class Measure>

@@ -92,6 +92,15 @@ void TetComplex::star(std::int32_t v, std::vector<std::int32_t>& out, Marks& mar
   out.resize(n);
 }
 
+void TetComplex::interfaceFaces(std::int32_t v, const std::vector<std::int32_t>& star, std::vector<Face>& faces) const
+{
+  faces.clear();
+  if (!onInterface[v]) return;
+  for (const std::int32_t t : star)
+    for (int i = 0; i < 4; ++i)
+      if (tets[t][i] != v && isInterfaceOfLesser(t, i)) faces.emplace_back(t, i);
+}
+
 bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::vector<std::int32_t>& tetrahedra,
                       std::vector<std::int32_t>& vertices) const
 {
@@ -112,7 +121,7 @@ bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::ve
   return true;
 }
 
-std::pair<std::int32_t, int> TetComplex::holder(std::int32_t t, int i) const
+TetComplex::Face TetComplex::holder(std::int32_t t, int i) const
 {
   const std::int32_t n = neighbours[t][i];
   if (n < 0 || labels[t] > labels[n]) return { t, i };

@@ -49,8 +49,10 @@ inline Sheet sheetOf(TetComplex& complex, std::int32_t v)
 {
   std::vector<std::int32_t> star;
   complex.star(v, star);
+  std::vector<TetComplex::Face> faces;
+  complex.interfaceFaces(v, star, faces);
   Sheet sheet;
-  gatherSheet(complex, v, star, sheet);
+  gatherSheet(complex, faces, sheet);
   return sheet;
 }
 

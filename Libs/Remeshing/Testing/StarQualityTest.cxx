@@ -157,8 +157,10 @@ TEST(StarQuality, AddsTheGradientsOfTrianglesAsWell)
   {
     if (!complex.onInterface[v]) continue;
     complex.star(v, star);
+    std::vector<TetComplex::Face> triangles;
+    complex.interfaceFaces(v, star, triangles);
     StarQuality quality;
-    quality.gather(complex, v, star, 0.3); // light, so that they are the worst
+    quality.gather(complex, v, star, triangles, 0.3); // light, so that they are the worst
     withTriangles += quality.size() > star.size();
     expectSumsOfGradients(quality, complex.points[v], random);
   }

@@ -179,6 +179,33 @@ TEST(TetComplex, CornersAndInterfaceFacesAreThoseFoundByLookingAtAll)
   }
 }
 
+TEST(TetComplex, InterfaceFacesAtAVertexAreFoundOnceEach)
+{
+  std::mt19937 random(5);
+  const TetComplex c = complexOf(randomLattice(random));
+  TetComplex::Marks marks{ std::vector<std::uint32_t>(c.tets.size(), 0) };
+  std::vector<std::int32_t> star;
+  std::vector<TetComplex::Face> faces;
+  std::size_t found = 0;
+  for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
+  {
+    c.star(v, star, marks);
+    c.interfaceFaces(v, star, faces);
+    std::size_t sides = 0; // each face has two
+    for (const std::int32_t t : star)
+      for (int i = 0; i < 4; ++i) sides += c.isInterface(t, i) && c.tets[t][i] != v;
+    EXPECT_EQ(2 * faces.size(), sides) << "at vertex " << v;
+    for (const auto& [t, i] : faces)
+    {
+      EXPECT_TRUE(c.isInterface(t, i));
+      EXPECT_TRUE(c.contains(t, v) && c.tets[t][i] != v);
+      EXPECT_LT(t, c.neighbours[t][i]);
+    }
+    found += faces.size();
+  }
+  EXPECT_GT(found, 100u);
+}
+
 TEST(TetComplex, HolderIsTheSideOfTheLargerLabel)
 {
   std::mt19937 random(3);
