@@ -144,6 +144,24 @@ void warnOfOddities(CommandLine& line, const TissueMap& map, const Focus& focus,
   }
 }
 
+/// To two significant digits, and no more than that.
+std::string roundedDown(double length)
+{
+  const double unit = std::pow(10.0, std::floor(std::log10(length)) - 1);
+  return text::rounded(std::floor(length / unit) * unit, 2);
+}
+
+void warnOfLargeVoxels(CommandLine& line, const ScaleField& scale, const TissueMap& map, const Focus& focus,
+                       const SurgicalScaleOptions& options)
+{
+  const auto spot = coarsestSpot(scale, map, focus.targets, focus.paths, options);
+  if (!spot) return;
+  line.warning("the scale volume asks for edges of " + text::rounded(spot->found, 3) + " mm at " + place(spot->place) +
+               " LPS in place of " + text::rounded(spot->wanted, 3) + " mm, as its voxels of " +
+               text::rounded(options.spacing, 3) + " mm are too large; expected --spacing " +
+               roundedDown(sufficientSpacing(options)) + " or less");
+}
+
 void writeParameters(JsonWriter& json, const SurgicalScaleOptions& options, const CommandLine& line)
 {
   json.Key("parameters");
@@ -288,6 +306,7 @@ void run(CommandLine& line)
   const ScaleField scale =
     computeSurgicalScale(map, focus.targets, focus.paths, options, subProgress(progress, 0.2, 0.6));
   const auto extremes = std::minmax_element(scale.lengths.begin(), scale.lengths.end());
+  warnOfLargeVoxels(line, scale, map, focus, options);
   results.shortest = *extremes.first;
   results.longest = *extremes.second;
   report(progress, 0.6, "writing the scale");

@@ -224,4 +224,59 @@ ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& t
   return scale;
 }
 
+namespace
+{
+
+constexpr double mostOverWanted = 1.5; // of a CoarseSpot
+
+/// How far from a target the length is within that.
+double reach(const LengthRange& range, const Falloff& falloff, RisingQuantity rising)
+{
+  const double power = rising == RisingQuantity::Area ? 2 : 1;
+  const double low = std::pow(range.minimum, power), high = std::pow(range.maximum, power);
+  const double share = (std::pow(mostOverWanted, power) - 1) * low / (high - low); // of the rise
+  return share < 1 ? falloff.childRadius - falloff.decayLength * std::log1p(-share) : HUGE_VAL;
+}
+
+} // namespace
+
+std::optional<CoarseSpot> coarsestSpot(const ScaleField& scale, const TissueMap& map, const std::vector<Vec3>& targets,
+                                       const std::vector<Path>& paths, const SurgicalScaleOptions& options)
+{
+  std::optional<CoarseSpot> worst;
+  const auto look = [&](const Vec3& place)
+  {
+    const Vec3 x = map.grid.worldToGrid(place);
+    std::array<int, 3> voxel;
+    for (int axis = 0; axis < 3; ++axis) voxel[axis] = int(std::floor(x[axis] / map.grid.spacing[axis] + 0.5));
+    if (!map.grid.contains(voxel[0], voxel[1], voxel[2])) return;
+    const Label label = labelAt(map, voxel);
+    if (label == 0 && !options.tissues.empty()) return; // the tissues around have their say there
+    const double wanted = LengthFunction(options, place, targets, paths).inTissue(label);
+    const double found = scale(place);
+    if (found <= mostOverWanted * wanted || (worst && found * worst->wanted <= worst->found * wanted)) return;
+    worst = { place, wanted, found };
+  };
+  if (options.combination != Combination::Paths)
+    for (const Vec3& target : targets) look(target);
+  if (options.combination != Combination::Targets)
+    for (const Path& path : paths)
+      for (const Vec3& point : path) look(point);
+  return worst;
+}
+
+/// The eight voxels around a point are within the diagonal of one.
+double sufficientSpacing(const SurgicalScaleOptions& options)
+{
+  double least = HUGE_VAL;
+  const auto look = [&](const LengthRange& range)
+  {
+    for (const Falloff& falloff : { options.targetFalloff, options.pathFalloff })
+      least = std::min(least, reach(range, falloff, options.rising));
+  };
+  look(options.range);
+  for (const auto& tissue : options.tissues) look(tissue.second.range);
+  return least / std::sqrt(3);
+}
+
 } // namespace surgicalmesher

@@ -18,6 +18,7 @@
 #include "TissueMap.h"
 
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace surgicalmesher
@@ -95,5 +96,22 @@ Grid scaleGrid(const Grid& map, double spacing);
 /// Throws as checkScaleOptions does.
 ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
                                 const SurgicalScaleOptions& options, const Progress& progress = {});
+
+/// Where a scale volume asks for edges of more than half again the length that the options do, its voxels being too
+/// large for what lies around a target or a path.
+struct CoarseSpot
+{
+  Vec3 place;        ///< world
+  double wanted = 0; ///< mm
+  double found = 0;  ///< mm
+};
+
+/// The worst of them, by the ratio of the two lengths, among the targets and the points of paths that count and lie in the
+/// map.
+std::optional<CoarseSpot> coarsestSpot(const ScaleField& scale, const TissueMap& map, const std::vector<Vec3>& targets,
+                                       const std::vector<Path>& paths, const SurgicalScaleOptions& options);
+
+/// A spacing, mm, that leaves no such spot, whatever lies where; infinite if every one is good.
+double sufficientSpacing(const SurgicalScaleOptions& options);
 
 } // namespace surgicalmesher

@@ -128,6 +128,18 @@ TEST_F(SurgicalPathScaleCLI, SaysThatATargetLiesOutside)
   EXPECT_NE(readBytes(folder.file("r.json")).find("target (500, 0, 40) mm LPS lies outside"), std::string::npos);
 }
 
+TEST_F(SurgicalPathScaleCLI, SaysThatItsVoxelsAreTooLarge)
+{
+  const std::string fine = "--targetPoint 10,0,40 --minimumEdgeLength 0.1 --childRadius 0.5 --report r.json ";
+  const Outcome result = run(fine + "map.nrrd scale.nrrd");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("in place of 0.1 mm, as its voxels of 2 mm are too large; expected --spacing 0.38 or less"),
+            std::string::npos)
+    << result.err;
+  EXPECT_NE(readBytes(folder.file("r.json")).find("voxels of 2 mm are too large"), std::string::npos);
+  EXPECT_EQ(run(fine + "--spacing 0.38 map.nrrd scale.nrrd").err, "");
+}
+
 // B1: the new label was one that the table had a name for, which then hid that it is null displacement.
 TEST_F(SurgicalPathScaleCLI, Trial_B01_NullDisplacementIsWhatItIsWhateverTheTableNames)
 {

@@ -320,6 +320,60 @@ TEST(SurgicalScale, NeedsWhatItIsToFollow)
   EXPECT_THROW(computeSurgicalScale(map, { { 0, 0, 0 } }, {}, options), UsageError);
 }
 
+TEST(SurgicalScale, KnowsWhereItsVoxelsAreTooLarge)
+{
+  std::mt19937 random(3);
+  const auto between = [&](double low, double high)
+  { return std::uniform_real_distribution<double>(low, high)(random); };
+  const TissueMap map = boxMap({ 40, 40, 40 }, { 1, 1, 1 });
+  const auto place = [&] { return map.grid.gridToWorld({ between(0, 39), between(0, 39), between(0, 39) }); };
+  std::size_t spots = 0;
+  for (int trial = 0; trial < 60; ++trial)
+  {
+    SurgicalScaleOptions options;
+    options.range.minimum = between(0.1, 2);
+    options.range.maximum = options.range.minimum * between(1, 20);
+    options.targetFalloff = { trial % 3 ? between(0, 6) : 0, between(1, 20) };
+    options.pathFalloff = { between(0, 6), between(1, 20) };
+    options.rising = trial % 2 ? RisingQuantity::Area : RisingQuantity::Length;
+    const std::vector<Vec3> targets{ place(), place() };
+    const std::vector<Path> paths{ { place(), place(), place() } };
+    const auto spotWith = [&](double spacing)
+    {
+      options.spacing = spacing;
+      return coarsestSpot(computeSurgicalScale(map, targets, paths, options), map, targets, paths, options);
+    };
+    const double sufficient = sufficientSpacing(options);
+    const double spacing = std::clamp(sufficient, 0.4, 50.0); // no volume of millions of voxels
+    EXPECT_FALSE(spacing <= sufficient && spotWith(spacing)) << "trial " << trial;
+    const auto spot = spotWith(30);
+    if (!spot) continue;
+    ++spots;
+    EXPECT_LT(sufficient, 30) << "trial " << trial;
+    EXPECT_NEAR(spot->wanted, options.range.minimum, 1e-9);
+    EXPECT_GT(spot->found, 1.5 * spot->wanted);
+  }
+  EXPECT_GT(spots, 20u);
+}
+
+TEST(SurgicalScale, LooksForLargeVoxelsOnlyWhereLengthsWereAskedFor)
+{
+  const TissueMap map = boxMap({ 10, 10, 10 }, { 1, 1, 1 });
+  const Vec3 inside = map.grid.gridToWorld({ 4, 4, 4 }), outside = map.grid.gridToWorld({ 20, 4, 4 });
+  SurgicalScaleOptions options;
+  options.targetFalloff = options.pathFalloff = { 0, 1 };
+  const auto isCoarse = [&](const std::vector<Vec3>& targets, const std::vector<Path>& paths)
+  { return bool(coarsestSpot(computeSurgicalScale(map, targets, paths, options), map, targets, paths, options)); };
+  EXPECT_TRUE(isCoarse({ inside }, {}));
+  EXPECT_FALSE(isCoarse({ outside }, {}));
+  EXPECT_TRUE(isCoarse({ outside }, { { inside, outside } }));
+  options.combination = Combination::Targets;
+  EXPECT_FALSE(isCoarse({ outside }, { { inside, outside } }));
+  options.range.maximum = options.range.minimum;
+  EXPECT_FALSE(isCoarse({ inside }, {}));
+  EXPECT_TRUE(std::isinf(sufficientSpacing(options)));
+}
+
 TEST(Gradation, IsTheLargestLipschitzMinorant)
 {
   for (const double slope : { 0.05, 0.3, 1.0, 4.0 })
