@@ -146,7 +146,7 @@ private:
   }
 
   /// With three triangles, between whose samples it could go far: that would be a dent, or a spike.
-  bool isTip(std::int32_t v) { return m_Complex.onInterface[v] && m_Operations.sheet(v).faces.size() == 3; }
+  bool isTip(std::int32_t v) { return m_Operations.interfaceFaces(v).size() == 3; }
 
   /// The way up for the lowest tetrahedra at v: the sum of the unit gradients of all that are nearly as low.
   Vec3 uphill(std::int32_t v, double least)
@@ -156,13 +156,15 @@ private:
     Vec3 sum;
     for (const std::int32_t t : m_Operations.star(v))
     {
-      if (m_Complex.labels[t] == 0 || heightWith(t, v, p) > 1.1 * least) continue;
+      if (m_Complex.labels[t] == 0) continue;
+      const double height = heightWith(t, v, p);
+      if (height > 1.1 * least) continue;
       Vec3 gradient;
       for (int axis = 0; axis < 3; ++axis)
       {
         Vec3 q = p;
         q[axis] += h;
-        gradient[axis] = heightWith(t, v, q) - heightWith(t, v, p);
+        gradient[axis] = heightWith(t, v, q) - height;
       }
       if (const double n = norm(gradient); n > 0) sum += gradient / n;
     }
