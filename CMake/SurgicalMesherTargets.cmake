@@ -27,10 +27,14 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL Clang AND NOT Slicer_DIR)
     $<BUILD_INTERFACE:-include${PROJECT_SOURCE_DIR}/CMake/ItkWithClang.h>)
 endif()
 
-# Every executable ends at the first error that the address or undefined behaviour sanitizer finds.
-option(SurgicalMesher_SANITIZE "Build with the address and undefined behaviour sanitizers" OFF)
-if(SurgicalMesher_SANITIZE)
+# ON: every executable ends at the first error that the address or undefined behaviour sanitizer finds.
+set(SurgicalMesher_SANITIZE OFF CACHE STRING "ON: address and undefined behaviour sanitizers; thread: data races")
+if(SurgicalMesher_SANITIZE STREQUAL "thread")
+  set(sanitize -fsanitize=thread)
+elseif(SurgicalMesher_SANITIZE)
   set(sanitize -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+endif()
+if(sanitize)
   target_compile_options(SurgicalMesherFlags INTERFACE ${sanitize})
   target_link_options(SurgicalMesherFlags INTERFACE ${sanitize})
 endif()
