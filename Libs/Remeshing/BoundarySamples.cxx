@@ -50,7 +50,7 @@ void Sheet::addSamples(const TetComplex& complex, std::size_t k)
   }
 }
 
-void gatherSheet(const TetComplex& complex, const std::vector<TetComplex::Face>& faces, Sheet& sheet)
+void gatherSheet(const TetComplex& complex, const std::vector<TetComplex::FaceOfTet>& faces, Sheet& sheet)
 {
   sheet.clear();
   for (const auto& [t, i] : faces) sheet.addFace(complex, t, i);

@@ -21,7 +21,7 @@ struct SheetFace
   int face; ///< opposite this vertex of tet
   LabelPair labels;
   std::array<std::int32_t, 3> vertices;
-  TetComplex::Face holder; ///< see TetComplex
+  TetComplex::FaceOfTet holder; ///< see TetComplex
 };
 
 /// The face opposite vertex `face` of t, which must separate two labels.
@@ -51,7 +51,7 @@ struct Sheet
 };
 
 /// Collects these interface faces.
-void gatherSheet(const TetComplex& complex, const std::vector<TetComplex::Face>& faces, Sheet& sheet);
+void gatherSheet(const TetComplex& complex, const std::vector<TetComplex::FaceOfTet>& faces, Sheet& sheet);
 
 /// The sample of the sheet that is nearest to p, and its squared distance, mm^2; null if there is none.
 std::pair<const SheetSample*, double> nearestSample(const Sheet& sheet, const Vec3& p);

@@ -331,7 +331,7 @@ void Envelope::detach(const Sheet& sheet)
 }
 
 /// Backwards, so that lists keep their order when nothing else changes.
-void Envelope::attach(const std::vector<SheetSample>& samples, const std::vector<TetComplex::Face>& holders)
+void Envelope::attach(const std::vector<SheetSample>& samples, const std::vector<TetComplex::FaceOfTet>& holders)
 {
   for (auto sample = samples.rbegin(); sample != samples.rend(); ++sample)
   {
@@ -371,9 +371,9 @@ void Envelope::attach(const std::vector<std::int32_t>& around)
 
 // --- moves of one vertex --------------------------------------------------------------------------------------------
 
-const Sheet& Envelope::sheet(std::int32_t v, const std::vector<TetComplex::Face>& faces)
+const Sheet& Envelope::gatherSheetOf(std::int32_t v, const std::vector<TetComplex::FaceOfTet>& faces)
 {
-  if (m_SheetVertex != v) gatherSheet(m_Complex, faces, m_Sheet);
+  gatherSheet(m_Complex, faces, m_Sheet);
   m_SheetVertex = v;
   return m_Sheet;
 }

@@ -102,7 +102,7 @@ public:
   // --- moves of one vertex
   bool holdsSheetOf(std::int32_t v) const { return m_SheetVertex == v; }
   /// The interface faces at v, `faces`, and their samples; kept while only v moves.
-  const Sheet& sheet(std::int32_t v, const std::vector<TetComplex::Face>& faces);
+  const Sheet& gatherSheetOf(std::int32_t v, const std::vector<TetComplex::FaceOfTet>& faces);
   const Sheet& sheet() const { return m_Sheet; }
   void forgetSheet() { m_SheetVertex = -1; }
   bool watchesFeatures() const { return m_Sides.areWatched(); }
@@ -162,7 +162,7 @@ private:
   bool spansGap(const Sheet& sheet, std::int32_t v, const Vec3& from) const;
   void addMovedFaces(const Vec3& p);
   void detach(const Sheet& sheet);
-  void attach(const std::vector<SheetSample>& samples, const std::vector<TetComplex::Face>& holders);
+  void attach(const std::vector<SheetSample>& samples, const std::vector<TetComplex::FaceOfTet>& holders);
 
   TetComplex& m_Complex;
   const bool m_Held;
@@ -174,8 +174,8 @@ private:
   FeatureSides m_Sides; ///< of the faces asked about last
   Sheet m_Old;          ///< the faces that an operation takes away
   std::vector<Face> m_NewFaces;
-  std::vector<TetComplex::Face> m_Holders; ///< of the new faces
-  std::int32_t m_SheetVertex = -1;         ///< whose m_Sheet is; -1: nobody's
+  std::vector<TetComplex::FaceOfTet> m_Holders; ///< of the new faces
+  std::int32_t m_SheetVertex = -1;              ///< whose m_Sheet is; -1: nobody's
   Sheet m_Sheet;
   std::size_t m_LastRefusing = 0; ///< of its samples, or of those of another one before
 };

@@ -104,7 +104,7 @@ const std::vector<std::int32_t>& GuardedOperations::endsAt(Star& star)
   return star.ends;
 }
 
-const std::vector<TetComplex::Face>& GuardedOperations::interfaceFacesOf(std::int32_t v, Star& star)
+const std::vector<TetComplex::FaceOfTet>& GuardedOperations::interfaceFacesOf(std::int32_t v, Star& star)
 {
   starOf(v, star);
   if (!std::exchange(star.hasFaces, true)) m_Complex.interfaceFaces(v, star.tets, star.faces);

@@ -61,9 +61,9 @@ public:
     return v == m_Star.vertex ? m_Star.tets : target(v).tets;
   }
 
-  /// Of the interface at v; kept likewise.
-  const std::vector<TetComplex::Face>& interfaceFaces(std::int32_t v) { return interfaceFacesOf(v, m_Star); }
-  const std::vector<TetComplex::Face>& interfaceFacesOfTarget(std::int32_t v)
+  /// The interface's faces at v; kept likewise.
+  const std::vector<TetComplex::FaceOfTet>& interfaceFaces(std::int32_t v) { return interfaceFacesOf(v, m_Star); }
+  const std::vector<TetComplex::FaceOfTet>& interfaceFacesOfTarget(std::int32_t v)
   {
     return interfaceFacesOf(v, v == m_Star.vertex ? m_Star : target(v));
   }
@@ -79,7 +79,7 @@ public:
   /// The interface faces at v and their samples; kept likewise, and while only v moves.
   const Sheet& sheet(std::int32_t v)
   {
-    return m_Envelope.holdsSheetOf(v) ? m_Envelope.sheet() : m_Envelope.sheet(v, interfaceFaces(v));
+    return m_Envelope.holdsSheetOf(v) ? m_Envelope.sheet() : m_Envelope.gatherSheetOf(v, interfaceFaces(v));
   }
 
   bool watchesFeatures() const { return m_Envelope.watchesFeatures(); }
@@ -206,12 +206,12 @@ private:
     StarQuality quality;
     std::vector<std::int32_t> ends; ///< of the edges at the vertex; empty until somebody has asked
     bool hasFaces = false, hasFacesAtEnd = false;
-    std::vector<TetComplex::Face> faces; ///< of the interface at the vertex
-    std::vector<FaceAtEnd> facesAtEnd;   ///< the same
+    std::vector<TetComplex::FaceOfTet> faces; ///< of the interface at the vertex
+    std::vector<FaceAtEnd> facesAtEnd;        ///< the same, with what is beside them
   };
 
   const std::vector<std::int32_t>& starOf(std::int32_t v, Star& star);
-  const std::vector<TetComplex::Face>& interfaceFacesOf(std::int32_t v, Star& star);
+  const std::vector<TetComplex::FaceOfTet>& interfaceFacesOf(std::int32_t v, Star& star);
   StarQuality& measured(std::int32_t v, Star& star);
   bool recall(std::int32_t v);
   Star& target(std::int32_t v);

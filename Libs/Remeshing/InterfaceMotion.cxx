@@ -21,8 +21,8 @@ namespace
 struct InterfaceTriangles
 {
   SurfaceComplex surface;
-  std::vector<std::int32_t> ids;         ///< of its points in the complex, ascending
-  std::vector<TetComplex::Face> holders; ///< of each triangle
+  std::vector<std::int32_t> ids;              ///< of its points in the complex, ascending
+  std::vector<TetComplex::FaceOfTet> holders; ///< of each triangle
 
   InterfaceTriangles(const TetComplex& complex, double longest)
   {
@@ -254,7 +254,7 @@ private:
   const std::vector<Vec3> m_Start;
   const std::map<Label, double> m_Volumes;
   MovingDual m_Dual;
-  std::vector<TetComplex::Face> m_Holders;          ///< of the samples of each of its triangles
+  std::vector<TetComplex::FaceOfTet> m_Holders;     ///< of the samples of each of its triangles
   std::vector<std::array<std::int32_t, 2>> m_Along; ///< of each of its points, see findCurves
 };
 

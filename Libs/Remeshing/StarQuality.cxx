@@ -26,7 +26,7 @@ double lesser(double a, double b) { return a < b ? a : b; }
 } // namespace
 
 void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star,
-                         const std::vector<TetComplex::Face>& triangles, double triangleWeight)
+                         const std::vector<TetComplex::FaceOfTet>& triangles, double triangleWeight)
 {
   // With v first, an even permutation of the tetrahedron.
   static constexpr int others[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 3, 0, 1 }, { 2, 1, 0 } };
@@ -50,12 +50,14 @@ void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::v
     }
     group.weight[lane] = complex.labels[t] == 0 ? backgroundLeniency : 1;
   }
+  m_Triangles.clear();
+  m_TriangleCount = 0;
   m_TriangleWeight = triangleWeight;
-  gatherTriangles(complex, v, triangles);
+  if (triangleWeight > 0) gatherTriangles(complex, v, triangles);
 }
 
 void StarQuality::gatherTriangles(const TetComplex& complex, std::int32_t v,
-                                  const std::vector<TetComplex::Face>& triangles)
+                                  const std::vector<TetComplex::FaceOfTet>& triangles)
 {
   const auto put = [&](std::size_t lane, const std::array<std::int32_t, 2>& ids)
   {
@@ -66,8 +68,6 @@ void StarQuality::gatherTriangles(const TetComplex& complex, std::int32_t v,
       m_Triangles.back().ids[k][lane] = ids[k];
     }
   };
-  m_Triangles.clear();
-  m_TriangleCount = 0;
   for (const auto& [t, i] : triangles)
   {
     const auto& x = complex.tets[t];

@@ -17,9 +17,9 @@ class StarQuality
 {
 public:
   /// `star`: the tetrahedra at v. Stays true until another vertex than v moves, or the star changes. `triangles`: those
-  /// between labels that count as well, with `triangleWeight`.
+  /// between labels, which count with `triangleWeight`; 0: not at all.
   void gather(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star,
-              const std::vector<TetComplex::Face>& triangles = {}, double triangleWeight = 0);
+              const std::vector<TetComplex::FaceOfTet>& triangles = {}, double triangleWeight = 0);
 
   /// The worst quality (see GuardedOperations) with the vertex at p, or some value below `atLeast` if it is less than
   /// that. What contains the vertex `without` does not count.
@@ -51,7 +51,7 @@ private:
   };
   static void measure(const Group& group, const Vec3& p, double* quality);
   void measure(const Triangles& group, const Vec3& p, double* quality) const;
-  void gatherTriangles(const TetComplex& complex, std::int32_t v, const std::vector<TetComplex::Face>& triangles);
+  void gatherTriangles(const TetComplex& complex, std::int32_t v, const std::vector<TetComplex::FaceOfTet>& triangles);
   template <class Groups, class Measure>
   static double worstOf(const Groups& groups, double without, double atLeast, double worst, Measure&& measure);
   template <class Groups, class Measure>

@@ -92,7 +92,8 @@ void TetComplex::star(std::int32_t v, std::vector<std::int32_t>& out, Marks& mar
   out.resize(n);
 }
 
-void TetComplex::interfaceFaces(std::int32_t v, const std::vector<std::int32_t>& star, std::vector<Face>& faces) const
+void TetComplex::interfaceFaces(std::int32_t v, const std::vector<std::int32_t>& star,
+                                std::vector<FaceOfTet>& faces) const
 {
   faces.clear();
   if (!onInterface[v]) return;
@@ -121,7 +122,7 @@ bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::ve
   return true;
 }
 
-TetComplex::Face TetComplex::holder(std::int32_t t, int i) const
+TetComplex::FaceOfTet TetComplex::holder(std::int32_t t, int i) const
 {
   const std::int32_t n = neighbours[t][i];
   if (n < 0 || labels[t] > labels[n]) return { t, i };

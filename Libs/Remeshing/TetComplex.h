@@ -97,9 +97,9 @@ public:
   void star(std::int32_t v, std::vector<std::int32_t>& tetrahedra) { star(v, tetrahedra, m_Marks); }
   /// The same in the same order, for searches on several threads, each with marks of its own, as many as tetrahedra.
   void star(std::int32_t v, std::vector<std::int32_t>& tetrahedra, Marks& marks) const;
-  using Face = std::pair<std::int32_t, int>; ///< of a tetrahedron, opposite its vertex of that number
+  using FaceOfTet = std::pair<std::int32_t, int>; ///< opposite the tetrahedron's vertex of that number
   /// The interface faces at v, each once, whose tetrahedra are `star`.
-  void interfaceFaces(std::int32_t v, const std::vector<std::int32_t>& star, std::vector<Face>& faces) const;
+  void interfaceFaces(std::int32_t v, const std::vector<std::int32_t>& star, std::vector<FaceOfTet>& faces) const;
   /// Tetrahedra around edge ab in cyclic order, and the vertices between them (ring[i] in tetrahedra i-1 and i).
   /// False if the edge lies on the border of the block. `seed` is one tetrahedron at the edge.
   bool ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::vector<std::int32_t>& tetrahedra,
@@ -133,8 +133,8 @@ public:
   {
     return sampleNormals.empty() ? std::array<float, 3>{ 0, 0, 0 } : sampleNormals[sample];
   }
-  /// That holds the samples of the interface face (t, i).
-  Face holder(std::int32_t t, int i) const;
+  /// The interface face (t, i), from that of its two sides which holds the samples.
+  FaceOfTet holder(std::int32_t t, int i) const;
 
   // --- changes of the complex; no guard here
   /// Replaces u by v in star(u); the ring of uv dies. Samples of the faces at u must have been taken before.

@@ -144,22 +144,20 @@ void warnOfOddities(CommandLine& line, const TissueMap& map, const Focus& focus,
   }
 }
 
-/// To two significant digits, and no more than that.
+/// To two significant digits, and never more than `length`.
 std::string roundedDown(double length)
 {
   const double unit = std::pow(10.0, std::floor(std::log10(length)) - 1);
   return text::rounded(std::floor(length / unit) * unit, 2);
 }
 
-void warnOfLargeVoxels(CommandLine& line, const ScaleField& scale, const TissueMap& map, const Focus& focus,
-                       const SurgicalScaleOptions& options)
+void warnOfLargeVoxels(CommandLine& line, const Focus& focus, const SurgicalScaleOptions& options)
 {
-  const auto spot = coarsestSpot(scale, map, focus.targets, focus.paths, options);
-  if (!spot) return;
-  line.warning("the scale volume asks for edges of " + text::rounded(spot->found, 3) + " mm at " + place(spot->place) +
-               " LPS in place of " + text::rounded(spot->wanted, 3) + " mm, as its voxels of " +
-               text::rounded(options.spacing, 3) + " mm are too large; expected --spacing " +
-               roundedDown(sufficientSpacing(options)) + " or less");
+  const double sufficient = sufficientSpacing(options, focus.targets, focus.paths);
+  if (options.spacing <= sufficient) return;
+  line.warning("the scale volume's voxels of " + text::rounded(options.spacing, 3) +
+               " mm are too large for lengths that rise so soon, and edges may be too long at targets and paths; " +
+               "expected --spacing " + roundedDown(sufficient) + " or less, or a larger child radius or decay length");
 }
 
 void writeParameters(JsonWriter& json, const SurgicalScaleOptions& options, const CommandLine& line)
@@ -302,11 +300,11 @@ void run(CommandLine& line)
 
   Results results;
   warnOfOddities(line, map, focus, options);
+  warnOfLargeVoxels(line, focus, options);
   results.tissueCount = presentLabels(map).size();
   const ScaleField scale =
     computeSurgicalScale(map, focus.targets, focus.paths, options, subProgress(progress, 0.2, 0.6));
   const auto extremes = std::minmax_element(scale.lengths.begin(), scale.lengths.end());
-  warnOfLargeVoxels(line, scale, map, focus, options);
   results.shortest = *extremes.first;
   results.longest = *extremes.second;
   report(progress, 0.6, "writing the scale");

@@ -227,56 +227,31 @@ ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& t
 namespace
 {
 
-constexpr double mostOverWanted = 1.5; // of a CoarseSpot
-
-/// How far from a target the length is within that.
+/// How far from a target the length is at most half again the minimum.
 double reach(const LengthRange& range, const Falloff& falloff, RisingQuantity rising)
 {
   const double power = rising == RisingQuantity::Area ? 2 : 1;
   const double low = std::pow(range.minimum, power), high = std::pow(range.maximum, power);
-  const double share = (std::pow(mostOverWanted, power) - 1) * low / (high - low); // of the rise
+  const double share = (std::pow(1.5, power) - 1) * low / (high - low); // of the rise
   return share < 1 ? falloff.childRadius - falloff.decayLength * std::log1p(-share) : HUGE_VAL;
 }
 
 } // namespace
 
-std::optional<CoarseSpot> coarsestSpot(const ScaleField& scale, const TissueMap& map, const std::vector<Vec3>& targets,
-                                       const std::vector<Path>& paths, const SurgicalScaleOptions& options)
+double sufficientSpacing(const SurgicalScaleOptions& options, const std::vector<Vec3>& targets,
+                         const std::vector<Path>& paths)
 {
-  std::optional<CoarseSpot> worst;
-  const auto look = [&](const Vec3& place)
-  {
-    const Vec3 x = map.grid.worldToGrid(place);
-    std::array<int, 3> voxel;
-    for (int axis = 0; axis < 3; ++axis) voxel[axis] = int(std::floor(x[axis] / map.grid.spacing[axis] + 0.5));
-    if (!map.grid.contains(voxel[0], voxel[1], voxel[2])) return;
-    const Label label = labelAt(map, voxel);
-    if (label == 0 && !options.tissues.empty()) return; // the tissues around have their say there
-    const double wanted = LengthFunction(options, place, targets, paths).inTissue(label);
-    const double found = scale(place);
-    if (found <= mostOverWanted * wanted || (worst && found * worst->wanted <= worst->found * wanted)) return;
-    worst = { place, wanted, found };
-  };
-  if (options.combination != Combination::Paths)
-    for (const Vec3& target : targets) look(target);
-  if (options.combination != Combination::Targets)
-    for (const Path& path : paths)
-      for (const Vec3& point : path) look(point);
-  return worst;
-}
-
-/// The eight voxels around a point are within the diagonal of one.
-double sufficientSpacing(const SurgicalScaleOptions& options)
-{
+  std::vector<Falloff> falloffs;
+  if (options.combination != Combination::Paths && !targets.empty()) falloffs.push_back(options.targetFalloff);
+  if (options.combination != Combination::Targets && !paths.empty()) falloffs.push_back(options.pathFalloff);
   double least = HUGE_VAL;
-  const auto look = [&](const LengthRange& range)
+  for (const Falloff& falloff : falloffs)
   {
-    for (const Falloff& falloff : { options.targetFalloff, options.pathFalloff })
-      least = std::min(least, reach(range, falloff, options.rising));
-  };
-  look(options.range);
-  for (const auto& tissue : options.tissues) look(tissue.second.range);
-  return least / std::sqrt(3);
+    least = std::min(least, reach(options.range, falloff, options.rising));
+    for (const auto& tissue : options.tissues)
+      least = std::min(least, reach(tissue.second.range, falloff, options.rising));
+  }
+  return least / std::sqrt(3); // the diagonal of a voxel: all eight around a place are within it
 }
 
 } // namespace surgicalmesher

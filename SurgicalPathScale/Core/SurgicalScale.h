@@ -18,7 +18,6 @@
 #include "TissueMap.h"
 
 #include <map>
-#include <optional>
 #include <vector>
 
 namespace surgicalmesher
@@ -97,21 +96,9 @@ Grid scaleGrid(const Grid& map, double spacing);
 ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
                                 const SurgicalScaleOptions& options, const Progress& progress = {});
 
-/// Where a scale volume asks for edges of more than half again the length that the options do, its voxels being too
-/// large for what lies around a target or a path.
-struct CoarseSpot
-{
-  Vec3 place;        ///< world
-  double wanted = 0; ///< mm
-  double found = 0;  ///< mm
-};
-
-/// The worst of them, by the ratio of the two lengths, among the targets and the points of paths that count and lie in the
-/// map.
-std::optional<CoarseSpot> coarsestSpot(const ScaleField& scale, const TissueMap& map, const std::vector<Vec3>& targets,
-                                       const std::vector<Path>& paths, const SurgicalScaleOptions& options);
-
-/// A spacing, mm, that leaves no such spot, whatever lies where; infinite if every one is good.
-double sufficientSpacing(const SurgicalScaleOptions& options);
+/// The largest spacing, mm, at which the volume asks for no more than half again of what is wanted at any target or point
+/// of a path, wherever it lies between the voxels; infinite if lengths differ by less than that.
+double sufficientSpacing(const SurgicalScaleOptions& options, const std::vector<Vec3>& targets,
+                         const std::vector<Path>& paths);
 
 } // namespace surgicalmesher

@@ -49,7 +49,7 @@ inline Sheet sheetOf(TetComplex& complex, std::int32_t v)
 {
   std::vector<std::int32_t> star;
   complex.star(v, star);
-  std::vector<TetComplex::Face> faces;
+  std::vector<TetComplex::FaceOfTet> faces;
   complex.interfaceFaces(v, star, faces);
   Sheet sheet;
   gatherSheet(complex, faces, sheet);

@@ -157,7 +157,7 @@ TEST(StarQuality, AddsTheGradientsOfTrianglesAsWell)
   {
     if (!complex.onInterface[v]) continue;
     complex.star(v, star);
-    std::vector<TetComplex::Face> triangles;
+    std::vector<TetComplex::FaceOfTet> triangles;
     complex.interfaceFaces(v, star, triangles);
     StarQuality quality;
     quality.gather(complex, v, star, triangles, 0.3); // light, so that they are the worst

@@ -185,7 +185,7 @@ TEST(TetComplex, InterfaceFacesAtAVertexAreFoundOnceEach)
   const TetComplex c = complexOf(randomLattice(random));
   TetComplex::Marks marks{ std::vector<std::uint32_t>(c.tets.size(), 0) };
   std::vector<std::int32_t> star;
-  std::vector<TetComplex::Face> faces;
+  std::vector<TetComplex::FaceOfTet> faces;
   std::size_t found = 0;
   for (std::int32_t v = 0; v < std::int32_t(c.points.size()); ++v)
   {
