@@ -117,9 +117,9 @@ bool GuardedOperations::gatherCollapsingFaces(std::int32_t u, std::int32_t v, co
       addMoved(face.vertices, face.labels, face.tet, face.face, changing);
     }
   };
-  addFacesAt(facesAt(u, m_Star), v, true);
+  addFacesAt(facesAtEnd(u, m_Star), v, true);
   // Faces at v that stay as they are keep their samples, and may take others.
-  addFacesAt(facesAt(v, target(v)), u, !(p == c.points[v]));
+  addFacesAt(facesAtEnd(v, target(v)), u, !(p == c.points[v]));
   for (std::int32_t t : m_Ring)
   {
     const int iu = c.indexOf(t, u), iv = c.indexOf(t, v);

@@ -111,7 +111,7 @@ const std::vector<TetComplex::FaceOfTet>& GuardedOperations::interfaceFacesOf(st
   return star.faces;
 }
 
-const std::vector<GuardedOperations::FaceAtEnd>& GuardedOperations::facesAt(std::int32_t v, Star& star)
+const std::vector<GuardedOperations::FaceAtEnd>& GuardedOperations::facesAtEnd(std::int32_t v, Star& star)
 {
   interfaceFacesOf(v, star);
   if (std::exchange(star.hasFacesAtEnd, true)) return star.facesAtEnd;

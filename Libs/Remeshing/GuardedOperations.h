@@ -216,7 +216,7 @@ private:
   bool recall(std::int32_t v);
   Star& target(std::int32_t v);
   const std::vector<std::int32_t>& endsAt(Star& star);
-  const std::vector<FaceAtEnd>& facesAt(std::int32_t v, Star& star);
+  const std::vector<FaceAtEnd>& facesAtEnd(std::int32_t v, Star& star);
   void changed();
   double lenient(std::int32_t t, double q) const { return lenient(m_Complex.labels[t], q); }
   static double lenient(Label label, double q) { return label == 0 ? q * backgroundLeniency : q; }
