@@ -207,15 +207,29 @@ std::vector<double> sizeLevels(const MeshSizes& sizes)
   return levels;
 }
 
-bool isCoarse(double level, const MeshSizes& sizes) { return level > 5 * sizes.voxel; }
+namespace
+{
+
+/// In which levels are measured: the voxel, and half again of it at most where the longest L is many. What fine levels
+/// then do without, those after it make up for; longer still, the surface on thin tissues would suffer.
+double grainOf(const MeshSizes& sizes)
+{
+  constexpr double ofLongest = 1.0 / 12, most = 1.5;
+  return std::clamp(ofLongest * sizes.longest, sizes.voxel, most * sizes.voxel);
+}
+
+} // namespace
+
+bool isCoarse(double level, const MeshSizes& sizes) { return level > 5 * grainOf(sizes); }
 
 /// The first levels hold most of the tetrahedra, in a lattice that is still regular: fitting, thoroughness and repair
 /// pay later, and relaxation there costs regular sizes in the end. Stiffness would take away what later levels need.
 Sweep coarsenTo(double level, const MeshSizes& sizes)
 {
-  const bool isFirst = level < 2 * sizes.voxel, isFine = level <= 3 * sizes.voxel;
+  const double grain = grainOf(sizes);
+  const bool isFirst = level < 2 * grain, isFine = level <= 3 * grain;
   Stage stage{ { .rmsLimit = 0.45, .vertexDistance = vertexDistance }, {} };
-  stage.passes.push_back(Coarsen{ level, { .minimumAngle = 5, .fit = !isFirst, .thorough = level > 7 * sizes.voxel } });
+  stage.passes.push_back(Coarsen{ level, { .minimumAngle = 5, .fit = !isFirst, .thorough = level > 7 * grain } });
   if (isCoarse(level, sizes))
   {
     stage.passes.push_back(Relax{});
