@@ -5,10 +5,13 @@
 #include "FaceAdjacency.h"
 #include "InteriorRefill.h"
 #include "MeshChecks.h"
+#include "MeshQuality.h"
 #include "SurfaceTetrahedralization.h"
+#include "TetQuality.h"
 #include "TetrahedraImprovement.h"
 
 #include <algorithm>
+#include <set>
 
 namespace surgicalmesher
 {
@@ -34,6 +37,59 @@ void improveInFrame(TetMesh& mesh, const TargetLengths& lengths, const Tetrahedr
   improveTetrahedra(
     mesh, [&](const Vec3& p) { return double(float(lengths.inFrame(p))); }, options, progress);
   for (Vec3& p : mesh.points) p = frame ? frame->gridToWorld(p) : p;
+}
+
+/// The labels of tetrahedra with a dihedral angle below `degrees` or above 180 minus it, and of all around their vertices.
+std::set<Label> labelsAroundBad(const TetMesh& mesh, double degrees)
+{
+  const double least = sine2OfDegrees(degrees);
+  std::vector<char> isBad(mesh.points.size(), 0); // is a vertex of one
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+  {
+    const auto& [a, b, c, d] = mesh.tetrahedra[t];
+    if (mesh.labels[t] == 0 || worstSine2(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) >= least)
+      continue;
+    for (const std::int32_t id : mesh.tetrahedra[t]) isBad[id] = 1;
+  }
+  std::set<Label> labels;
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    for (const std::int32_t id : mesh.tetrahedra[t])
+      if (isBad[id]) labels.insert(mesh.labels[t]);
+  return labels;
+}
+
+/// The background tetrahedra with the lattice inside `tissues`, improved.
+TetMesh withImprovedLattice(const TetrahedralizerInput& input, const std::set<Label>& tissues,
+                            const TargetLengths& lengths, const TetrahedralizerOptions& options,
+                            const Progress& progress)
+{
+  TetMesh mesh = withLatticeInside(input.background->mesh, tissues, lengths.inWorld, input.name, options.placement);
+  improveInFrame(mesh, lengths, improvementOptions(input, options), progress);
+  return mesh;
+}
+
+/// Where the lattice leaves angles that no repair mends, the tissues there are filled as they were before.
+TetMesh fromBackground(const TetrahedralizerInput& input, const TargetLengths& lengths,
+                       const TetrahedralizerOptions& options, const Progress& progress)
+{
+  constexpr double lacking = 0.95, usually = 0.95; // of the angle aimed at; of the progress
+  const double least = lacking * improvementOptions(input, options).targetAngle;
+  const std::set<Label> roomy = tissuesWithRoom(input.background->mesh, lengths.inWorld);
+  TetMesh mesh = withImprovedLattice(input, roomy, lengths, options, subProgress(progress, 0, usually));
+  std::set<Label> left = roomy;
+  for (const Label label : labelsAroundBad(mesh, least)) left.erase(label);
+  if (left == roomy) return mesh;
+  TetMesh other = withImprovedLattice(input, left, lengths, options, subProgress(progress, usually, 1));
+  return countBelow(other, least) < countBelow(mesh, least) ? other : mesh;
+}
+
+/// The lattice inside the surface, improved.
+TetMesh fromSurface(const TetrahedralizerInput& input, const TargetLengths& lengths,
+                    const TetrahedralizerOptions& options, const Progress& progress)
+{
+  TetMesh mesh = fillWithTetrahedra(input.surface, lengths.inWorld, input.name, options.placement);
+  improveInFrame(mesh, lengths, improvementOptions(input, options), progress);
+  return mesh;
 }
 
 /// `mesh`, divided into child and parent, with the classes of all its tetrahedra.
@@ -77,10 +133,9 @@ FiniteElementMesh tetrahedralizeTissues(TetrahedralizerInput input, const Target
   const SizingFunction& length = lengths.inWorld;
   const TetrahedraImprovementOptions improvement = improvementOptions(input, options);
   report(progress, 0, "tetrahedra");
-  TetMesh mesh = input.background ? withLatticeInside(input.background->mesh, length, input.name, options.placement)
-                                  : fillWithTetrahedra(input.surface, length, input.name, options.placement);
+  const auto filled = input.background ? fromBackground : fromSurface;
+  TetMesh mesh = filled(input, lengths, options, subProgress(progress, 0.25, 0.8));
   input.background.reset(); // its memory is needed
-  improveInFrame(mesh, lengths, improvement, subProgress(progress, 0.25, 0.8));
   report(progress, 0.8, "curves");
   std::vector<CurveChain> curves = insertedCurves(mesh, length, options.curves, improvement);
   report(progress, 0.85, "sub-meshes");

@@ -4,11 +4,13 @@
 #include "Tetrahedralizer.h"
 #include "Errors.h"
 #include "FaceAdjacency.h"
+#include "InteriorRefill.h"
 #include "MapPreparation.h"
 #include "MeshChecks.h"
 #include "ScaleMaps.h"
 #include "Shapes.h"
 #include "SurfacePreparation.h"
+#include "TetrahedraImprovement.h"
 #include "TissueMapIO.h"
 #include "TissueMesher.h"
 #include "VoxelMesh.h"
@@ -71,6 +73,24 @@ TEST(TetrahedralizeTissues, KeepsTissuesAndDescribesEveryTetrahedronFromBothStar
       ASSERT_EQ(content.constitutive[t] == 2, content.mesh.labels[t] == 1) << "held still, whatever its sub-mesh";
     }
   }
+}
+
+/// Voxels cut into tetrahedra of 45 degrees, which the lattice does not have beside walls of steps.
+TEST(TetrahedralizeTissues, FillsATissueAsItWasWhereTheLatticeLeavesWorseAngles)
+{
+  const TetMesh before = tetrahedraOf(paintedMap(
+    { 9, 9, 9 }, [](int i, int j, int k) { return std::abs(i - 4) + std::abs(j - 4) + std::abs(k - 4) < 6 ? 1 : 0; }));
+  const auto length = [](const Vec3&) { return 1.2; };
+  TetrahedraImprovementOptions aim;
+  aim.targetAngle = 44;
+  aim.isImproved = true;
+  TetMesh lattice = withLatticeInside(before, tissuesWithRoom(before, length), length, "octahedron");
+  improveTetrahedra(lattice, length, aim);
+  TetrahedralizerInput input = inputOf(before, true);
+  input.background->targetAngle = aim.targetAngle;
+  const TetMesh mesh = tetrahedralizeTissues(input, lengthsOf(length), {}).content.mesh;
+  EXPECT_LT(worstAngle(lattice), 0.9 * aim.targetAngle);
+  EXPECT_GT(worstAngle(mesh), 0.95 * aim.targetAngle);
 }
 
 TEST(TetrahedralizeTissues, GivesACopyElsewhereTheSameMeshInTheFrameOfItsScale)

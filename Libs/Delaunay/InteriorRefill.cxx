@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 
 namespace surgicalmesher
 {
@@ -30,36 +29,6 @@ double latticeTetrahedra(double volume, double length)
   return 12 * volume / (cube * cube * cube);
 }
 
-std::set<Label> tissuesWithRoom(const TetMesh& mesh, const SizingFunction& edgeLength)
-{
-  std::vector<std::int32_t> onInterface;
-  interfaceOf(mesh, &onInterface);
-  std::vector<char> isInner(mesh.points.size(), 1);
-  for (const std::int32_t id : onInterface) isInner[id] = 0;
-  struct Count
-  {
-    std::size_t all = 0, inner = 0;
-    double inLattice = 0;
-  };
-  std::map<Label, Count> counts;
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-  {
-    const auto& corners = mesh.tetrahedra[t];
-    if (mesh.labels[t] == 0) continue;
-    Count& count = counts[mesh.labels[t]];
-    ++count.all;
-    const auto at = [&](int corner) { return mesh.points[corners[corner]]; };
-    const Vec3 middle = 0.25 * (at(0) + at(1) + at(2) + at(3));
-    count.inLattice += latticeTetrahedra(orient(at(0), at(1), at(2), at(3)) / 6, edgeLength(middle));
-    count.inner += std::all_of(corners.begin(), corners.end(), [&](std::int32_t id) { return isInner[id] != 0; });
-  }
-  std::set<Label> result;
-  for (const auto& [label, count] : counts)
-    if (double(count.inner) >= kInnerShare * double(count.all) && count.inLattice >= kLeastDensity * double(count.all))
-      result.insert(label);
-  return result;
-}
-
 std::optional<TetMesh> filled(const SurfaceComplex& surface, const SizingFunction& edgeLength, const std::string& name,
                               VertexPlacement placement)
 {
@@ -75,13 +44,42 @@ std::optional<TetMesh> filled(const SurfaceComplex& surface, const SizingFunctio
 
 } // namespace
 
-TetMesh withLatticeInside(const TetMesh& ambient, const SizingFunction& edgeLength, const std::string& name,
-                          VertexPlacement placement)
+std::set<Label> tissuesWithRoom(const TetMesh& ambient, const SizingFunction& edgeLength)
 {
-  const std::set<Label> roomy = tissuesWithRoom(ambient, edgeLength);
-  if (roomy.empty()) return ambient;
+  std::vector<std::int32_t> onInterface;
+  interfaceOf(ambient, &onInterface);
+  std::vector<char> isInner(ambient.points.size(), 1);
+  for (const std::int32_t id : onInterface) isInner[id] = 0;
+  struct Count
+  {
+    std::size_t all = 0, inner = 0;
+    double inLattice = 0;
+  };
+  std::map<Label, Count> counts;
+  for (std::size_t t = 0; t < ambient.tetrahedra.size(); ++t)
+  {
+    const auto& corners = ambient.tetrahedra[t];
+    if (ambient.labels[t] == 0) continue;
+    Count& count = counts[ambient.labels[t]];
+    ++count.all;
+    const auto at = [&](int corner) { return ambient.points[corners[corner]]; };
+    const Vec3 middle = 0.25 * (at(0) + at(1) + at(2) + at(3));
+    count.inLattice += latticeTetrahedra(orient(at(0), at(1), at(2), at(3)) / 6, edgeLength(middle));
+    count.inner += std::all_of(corners.begin(), corners.end(), [&](std::int32_t id) { return isInner[id] != 0; });
+  }
+  std::set<Label> result;
+  for (const auto& [label, count] : counts)
+    if (double(count.inner) >= kInnerShare * double(count.all) && count.inLattice >= kLeastDensity * double(count.all))
+      result.insert(label);
+  return result;
+}
+
+TetMesh withLatticeInside(const TetMesh& ambient, const std::set<Label>& tissues, const SizingFunction& edgeLength,
+                          const std::string& name, VertexPlacement placement)
+{
+  if (tissues.empty()) return ambient;
   TetMesh masked = ambient;
-  for (Label& label : masked.labels) label = roomy.count(label) > 0 ? label : Label(0);
+  for (Label& label : masked.labels) label = tissues.count(label) > 0 ? label : Label(0);
   std::vector<std::int32_t> ambientId; // of the surface's points, then of the new ones
   const SurfaceComplex surface = interfaceOf(masked, &ambientId);
   const std::optional<TetMesh> inside = filled(surface, edgeLength, name, placement);

@@ -11,6 +11,7 @@
 #include <vtkSMPTools.h>
 
 #include <algorithm>
+#include <set>
 
 namespace surgicalmesher
 {
@@ -61,12 +62,17 @@ std::size_t countOf(const TetMesh& mesh, Label label)
 
 double somewhatMoreThanAVoxel(const Vec3&) { return 1.3; }
 
+TetMesh laidAnew(const TetMesh& before)
+{
+  return withLatticeInside(before, tissuesWithRoom(before, somewhatMoreThanAVoxel), somewhatMoreThanAVoxel, "shape");
+}
+
 } // namespace
 
 TEST(LatticeInside, KeepsEveryTriangleBetweenLabelsAndEveryTissue)
 {
   const TetMesh before = deepAndThin();
-  const TetMesh after = withLatticeInside(before, somewhatMoreThanAVoxel, "shape");
+  const TetMesh after = laidAnew(before);
   requireSound(after, "refill");
   EXPECT_EQ(placedInterface(after), placedInterface(before));
   EXPECT_EQ(meshTopology(after), meshTopology(before));
@@ -75,22 +81,28 @@ TEST(LatticeInside, KeepsEveryTriangleBetweenLabelsAndEveryTissue)
 TEST(LatticeInside, LaysAnewOnlyWhatHasRoom)
 {
   const TetMesh before = deepAndThin();
-  const TetMesh after = withLatticeInside(before, somewhatMoreThanAVoxel, "shape");
+  const TetMesh after = laidAnew(before);
   EXPECT_LT(countOf(after, 1), countOf(before, 1)) << "L is longer than a voxel";
   EXPECT_EQ(countOf(after, 2), countOf(before, 2)) << "one layer has none";
   EXPECT_EQ(countOf(after, 0), countOf(before, 0)) << "the space outside is no tissue";
-  const TetMesh coarse = withLatticeInside(
-    before, [](const Vec3&) { return 2.5; }, "shape");
-  EXPECT_EQ(coarse.tetrahedra, before.tetrahedra) << "edges of a voxel ask for more than L does";
+  EXPECT_EQ(withLatticeInside(before, {}, somewhatMoreThanAVoxel, "shape").tetrahedra, before.tetrahedra);
+}
+
+TEST(LatticeInside, HasRoomWhereATissueIsDeepAndItsEdgesAreAsLongAsAskedFor)
+{
+  const TetMesh mesh = deepAndThin();
+  EXPECT_EQ(tissuesWithRoom(mesh, somewhatMoreThanAVoxel), std::set<Label>{ 1 });
+  EXPECT_TRUE(tissuesWithRoom(mesh, [](const Vec3&) { return 2.5; }).empty())
+    << "edges of a voxel ask for more than L does";
 }
 
 TEST(LatticeInside, DoesNotDependOnThreads)
 {
   const TetMesh before = deepAndThin();
   vtkSMPTools::Initialize(1);
-  const TetMesh one = withLatticeInside(before, somewhatMoreThanAVoxel, "shape");
+  const TetMesh one = laidAnew(before);
   vtkSMPTools::Initialize(3);
-  const TetMesh three = withLatticeInside(before, somewhatMoreThanAVoxel, "shape");
+  const TetMesh three = laidAnew(before);
   vtkSMPTools::Initialize(0);
   EXPECT_EQ(one.tetrahedra, three.tetrahedra);
   ASSERT_EQ(one.points.size(), three.points.size());
