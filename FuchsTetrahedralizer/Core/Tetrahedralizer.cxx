@@ -5,7 +5,6 @@
 #include "FaceAdjacency.h"
 #include "InteriorRefill.h"
 #include "MeshChecks.h"
-#include "MeshQuality.h"
 #include "SurfaceTetrahedralization.h"
 #include "TetQuality.h"
 #include "TetrahedraImprovement.h"
@@ -39,22 +38,32 @@ void improveInFrame(TetMesh& mesh, const TargetLengths& lengths, const Tetrahedr
   for (Vec3& p : mesh.points) p = frame ? frame->gridToWorld(p) : p;
 }
 
-/// The labels of tetrahedra with a dihedral angle below `degrees` or above 180 minus it, and of all around their vertices.
-std::set<Label> labelsAroundBad(const TetMesh& mesh, double degrees)
+double worstSine2(const TetMesh& mesh, std::size_t t)
 {
-  const double least = sine2OfDegrees(degrees);
-  std::vector<char> isBad(mesh.points.size(), 0); // is a vertex of one
+  const auto& [a, b, c, d] = mesh.tetrahedra[t];
+  return surgicalmesher::worstSine2(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
+}
+
+/// Of the tissues' tetrahedra.
+double worstSine2(const TetMesh& mesh)
+{
+  double worst = 1;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-  {
-    const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    if (mesh.labels[t] == 0 || worstSine2(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) >= least)
-      continue;
-    for (const std::int32_t id : mesh.tetrahedra[t]) isBad[id] = 1;
-  }
+    if (mesh.labels[t] != 0) worst = std::min(worst, worstSine2(mesh, t));
+  return worst;
+}
+
+/// The labels of the tissues' tetrahedra worse than `least`, and of all around their vertices.
+std::set<Label> labelsAroundBad(const TetMesh& mesh, double least)
+{
+  std::vector<char> touchesBad(mesh.points.size(), 0);
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
+    if (mesh.labels[t] != 0 && worstSine2(mesh, t) < least)
+      for (const std::int32_t id : mesh.tetrahedra[t]) touchesBad[id] = 1;
   std::set<Label> labels;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
     for (const std::int32_t id : mesh.tetrahedra[t])
-      if (isBad[id]) labels.insert(mesh.labels[t]);
+      if (touchesBad[id]) labels.insert(mesh.labels[t]);
   return labels;
 }
 
@@ -68,19 +77,21 @@ TetMesh withImprovedLattice(const TetrahedralizerInput& input, const std::set<La
   return mesh;
 }
 
-/// Where the lattice leaves angles that no repair mends, the tissues there are filled as they were before.
+/// The lattice can leave angles that no repair mends where the background tetrahedra had none: tissues keep these there.
 TetMesh fromBackground(const TetrahedralizerInput& input, const TargetLengths& lengths,
                        const TetrahedralizerOptions& options, const Progress& progress)
 {
-  constexpr double lacking = 0.95, usually = 0.95; // of the angle aimed at; of the progress
-  const double least = lacking * improvementOptions(input, options).targetAngle;
+  constexpr double leastShare = 0.95; // of the angle aimed at: another run is not worth a degree
+  constexpr double firstRun = 0.95;   // of the progress: there is hardly ever another
+  const double least = sine2OfDegrees(leastShare * improvementOptions(input, options).targetAngle);
   const std::set<Label> roomy = tissuesWithRoom(input.background->mesh, lengths.inWorld);
-  TetMesh mesh = withImprovedLattice(input, roomy, lengths, options, subProgress(progress, 0, usually));
-  std::set<Label> left = roomy;
-  for (const Label label : labelsAroundBad(mesh, least)) left.erase(label);
-  if (left == roomy) return mesh;
-  TetMesh other = withImprovedLattice(input, left, lengths, options, subProgress(progress, usually, 1));
-  return countBelow(other, least) < countBelow(mesh, least) ? other : mesh;
+  TetMesh mesh = withImprovedLattice(input, roomy, lengths, options, subProgress(progress, 0, firstRun));
+  std::set<Label> stillLaid = roomy;
+  for (const Label label : labelsAroundBad(mesh, least)) stillLaid.erase(label);
+  if (stillLaid == roomy) return mesh;
+  TetMesh other = withImprovedLattice(input, stillLaid, lengths, options, subProgress(progress, firstRun, 1));
+  if (worstSine2(other) > worstSine2(mesh)) return other;
+  return mesh;
 }
 
 /// The lattice inside the surface, improved.
@@ -133,8 +144,8 @@ FiniteElementMesh tetrahedralizeTissues(TetrahedralizerInput input, const Target
   const SizingFunction& length = lengths.inWorld;
   const TetrahedraImprovementOptions improvement = improvementOptions(input, options);
   report(progress, 0, "tetrahedra");
-  const auto filled = input.background ? fromBackground : fromSurface;
-  TetMesh mesh = filled(input, lengths, options, subProgress(progress, 0.25, 0.8));
+  const auto fill = input.background ? fromBackground : fromSurface;
+  TetMesh mesh = fill(input, lengths, options, subProgress(progress, 0.25, 0.8));
   input.background.reset(); // its memory is needed
   report(progress, 0.8, "curves");
   std::vector<CurveChain> curves = insertedCurves(mesh, length, options.curves, improvement);

@@ -12,8 +12,8 @@
 namespace surgicalmesher
 {
 
-/// Those with a fair share of tetrahedra that touch the tissue's boundary with no vertex: they are then deeper than about
-/// one of their edges, and these are about as long as L, `edgeLength`, asks for. Not the space outside.
+/// Tissues that are deeper than about one of their edges, as a fair share of their tetrahedra touches no boundary, with
+/// edges about as long as L, `edgeLength`, asks for. Not the space outside.
 std::set<Label> tissuesWithRoom(const TetMesh& ambient, const SizingFunction& edgeLength);
 
 /// `ambient` with the inside of each of `tissues` laid anew: the lattice points of `edgeLength` (see latticePoints),

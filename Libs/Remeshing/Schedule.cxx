@@ -210,12 +210,12 @@ std::vector<double> sizeLevels(const MeshSizes& sizes)
 namespace
 {
 
-/// In which levels are measured: the voxel, and half again of it at most where the longest L is many. What fine levels
-/// then do without, those after it make up for; longer still, the surface on thin tissues would suffer.
+/// What the levels' sizes are judged by. Where L is many voxels, levels do one level later what they do elsewhere: those
+/// after it make up for it. Another level later, the surface on thin tissues would suffer.
 double grainOf(const MeshSizes& sizes)
 {
-  constexpr double ofLongest = 1.0 / 12, most = 1.5;
-  return std::clamp(ofLongest * sizes.longest, sizes.voxel, most * sizes.voxel);
+  constexpr double many = 12;
+  return sizes.longest > many * sizes.voxel ? levelRatio * sizes.voxel : sizes.voxel;
 }
 
 } // namespace

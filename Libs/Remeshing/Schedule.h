@@ -46,7 +46,8 @@ struct MeshSizes
 /// Sizes that edges are collapsed to one after the other, the last one `longest`: a single pass to the final lengths
 /// would leave a ragged mesh.
 std::vector<double> sizeLevels(const MeshSizes& sizes);
-/// Features may be unresolved before this level: edges are then several voxels long, more where L is many of them.
+/// Features may be unresolved before this level: edges are then several voxels long, half again as many where L is more
+/// than twelve.
 bool isCoarse(double level, const MeshSizes& sizes);
 Sweep coarsenTo(double level, const MeshSizes& sizes);
 /// The last level. `thoroughly` false for unresolved features: they hold most of the vertices where they are, and to

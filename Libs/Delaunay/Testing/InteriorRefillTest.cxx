@@ -86,6 +86,9 @@ TEST(LatticeInside, LaysAnewOnlyWhatHasRoom)
   EXPECT_EQ(countOf(after, 2), countOf(before, 2)) << "one layer has none";
   EXPECT_EQ(countOf(after, 0), countOf(before, 0)) << "the space outside is no tissue";
   EXPECT_EQ(withLatticeInside(before, {}, somewhatMoreThanAVoxel, "shape").tetrahedra, before.tetrahedra);
+  const TetMesh thin = withLatticeInside(before, { 2 }, somewhatMoreThanAVoxel, "shape");
+  EXPECT_NE(thin.tetrahedra, before.tetrahedra);
+  EXPECT_EQ(countOf(thin, 1), countOf(before, 1)) << "nobody has asked for it";
 }
 
 TEST(LatticeInside, HasRoomWhereATissueIsDeepAndItsEdgesAreAsLongAsAskedFor)

@@ -31,6 +31,11 @@ TEST(Schedule, DoesForNoisyMapsWhatItDoesForOthersButRepairs)
   EXPECT_EQ(passesOf(secondRepairSweeps(noisyTargets, sizes)), passesOf(secondRepairSweeps(usualTargets, sizes)));
 }
 
+const CoarseningOptions& coarseningOf(const Sweep& sweep)
+{
+  return std::get<Coarsen>(sweep.stages.front().passes.front()).options;
+}
+
 /// Of the improvement in the first stage of a sweep, degrees.
 double aimOf(const Sweep& sweep)
 {
@@ -38,6 +43,23 @@ double aimOf(const Sweep& sweep)
   for (const Pass& pass : sweep.stages.front().passes)
     if (const auto* improve = std::get_if<Improve>(&pass)) aim = improve->options.targetAngle;
   return aim;
+}
+
+TEST(Schedule, DoesOneLevelLaterWhatLevelsDoWhereLIsManyVoxels)
+{
+  const MeshSizes longer{ 1, 30, sizes.maximumDistance };
+  const std::vector<double> levels = sizeLevels(longer);
+  ASSERT_GT(levels.size(), 6U);
+  for (std::size_t n = 1; n < 6; ++n)
+  {
+    const Sweep usual = coarsenTo(levels[n - 1], sizes), later = coarsenTo(levels[n], longer);
+    EXPECT_EQ(passesOf({ later }), passesOf({ usual })) << n;
+    EXPECT_EQ(coarseningOf(later).fit, coarseningOf(usual).fit) << n;
+    EXPECT_EQ(coarseningOf(later).thorough, coarseningOf(usual).thorough) << n;
+    EXPECT_EQ(isCoarse(levels[n], longer), isCoarse(levels[n - 1], sizes)) << n;
+  }
+  EXPECT_FALSE(isCoarse(levels[0], longer));
+  EXPECT_TRUE(isCoarse(levels[4], longer)) << "as far as that alone";
 }
 
 TEST(Schedule, RepairsNoisyMapsMoreThoroughly)
