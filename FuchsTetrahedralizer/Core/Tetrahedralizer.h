@@ -55,9 +55,9 @@ struct FiniteElementMesh
 };
 
 /// Fills the surface: with the lattice and constrained Delaunay, or with the background tetrahedra and the lattice
-/// inside the tissues that have room for it, unless that leaves bad angles there; then improves all of them towards the target lengths. Every tissue keeps
-/// its topology. Deterministic, whatever the number of threads. Throws SurfaceRefused (see tetrahedralize), InputError
-/// where a curve leaves the tissues, EngineError.
+/// inside the tissues that have room for it, unless that leaves bad angles there; then improves all of them towards the
+/// target lengths. Every tissue keeps its topology. Deterministic, whatever the number of threads. Throws SurfaceRefused
+/// (see tetrahedralize), InputError where a curve leaves the tissues, EngineError.
 FiniteElementMesh tetrahedralizeTissues(TetrahedralizerInput input, const TargetLengths& lengths,
                                         const TetrahedralizerOptions& options, const Progress& progress = {});
 

@@ -210,8 +210,8 @@ std::vector<double> sizeLevels(const MeshSizes& sizes)
 namespace
 {
 
-/// What the levels' sizes are judged by. Where L is many voxels, levels do one level later what they do elsewhere: those
-/// after it make up for it. Another level later, the surface on thin tissues would suffer.
+/// What the levels' sizes are judged by. Where L is many voxels, levels do one level later what they do elsewhere, as
+/// most of it is collapsed next. Another two levels later, the surface on thin tissues would suffer.
 double grainOf(const MeshSizes& sizes)
 {
   constexpr double many = 12;
