@@ -5,6 +5,7 @@
 #include "FaceAdjacency.h"
 #include "InteriorRefill.h"
 #include "MeshChecks.h"
+#include "MeshQuality.h"
 #include "SurfaceTetrahedralization.h"
 #include "TetQuality.h"
 #include "TetrahedraImprovement.h"
@@ -38,14 +39,8 @@ void improveInFrame(TetMesh& mesh, const TargetLengths& lengths, const Tetrahedr
   for (Vec3& p : mesh.points) p = frame ? frame->gridToWorld(p) : p;
 }
 
-double worstSine2(const TetMesh& mesh, std::size_t t)
-{
-  const auto& [a, b, c, d] = mesh.tetrahedra[t];
-  return surgicalmesher::worstSine2(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
-}
-
 /// Of the tissues' tetrahedra.
-double worstSine2(const TetMesh& mesh)
+double worstOf(const TetMesh& mesh)
 {
   double worst = 1;
   for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
@@ -90,7 +85,7 @@ TetMesh fromBackground(const TetrahedralizerInput& input, const TargetLengths& l
   for (const Label label : labelsAroundBad(mesh, least)) stillLaid.erase(label);
   if (stillLaid == roomy) return mesh;
   TetMesh other = withImprovedLattice(input, stillLaid, lengths, options, subProgress(progress, firstRun, 1));
-  if (worstSine2(other) > worstSine2(mesh)) return other;
+  if (worstOf(other) > worstOf(mesh)) return other;
   return mesh;
 }
 

@@ -387,16 +387,17 @@ std::map<Label, double> tissueVolumes(const TetMesh& mesh)
   return volumes;
 }
 
+double worstSine2(const TetMesh& mesh, std::size_t t)
+{
+  const auto& [a, b, c, d] = mesh.tetrahedra[t];
+  return worstSine2(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]);
+}
+
 std::size_t countBelow(const TetMesh& mesh, double degrees)
 {
   const double least = sine2OfDegrees(degrees);
   std::size_t below = 0;
-  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t)
-  {
-    if (mesh.labels[t] == 0) continue;
-    const auto& [a, b, c, d] = mesh.tetrahedra[t];
-    below += worstSine2(mesh.points[a], mesh.points[b], mesh.points[c], mesh.points[d]) < least;
-  }
+  for (std::size_t t = 0; t < mesh.tetrahedra.size(); ++t) below += mesh.labels[t] != 0 && worstSine2(mesh, t) < least;
   return below;
 }
 

@@ -73,6 +73,9 @@ struct MeshQuality
   Histogram boundaryValence; ///< tetrahedra of one tissue per point on its boundary: points count once for each tissue
 };
 
+/// Of tetrahedron `t`, see TetQuality.h.
+double worstSine2(const TetMesh& mesh, std::size_t t);
+
 /// How many tetrahedra of tissues (label not 0) have a dihedral angle below `degrees` or above 180 minus it.
 std::size_t countBelow(const TetMesh& mesh, double degrees);
 
