@@ -35,6 +35,13 @@ void writeBetti(JsonWriter& json, const Betti& betti)
   writeMember(json, "cavities", betti.cavities);
 }
 
+/// Voxels of the file.
+std::size_t inFile(std::size_t voxels, const SurfaceReport& report)
+{
+  const std::size_t times = std::size_t(report.repeats.times);
+  return voxels * times * times * times;
+}
+
 std::vector<Label> labelsWhere(const TissueSettings& settings, const std::function<bool(const TissueSetting&)>& holds)
 {
   std::vector<Label> labels;
@@ -62,7 +69,7 @@ void writeSelection(JsonWriter& json, const SurfaceReport& report)
                [&](const auto& left)
                {
                  writeTissue(json, left.first, given);
-                 writeMember(json, "voxels", left.second);
+                 writeMember(json, "voxels", inFile(left.second, report));
                });
   writeObjects(json, "shells", labelsWhere(report.settings, [](const auto& s) { return s.role == TissueRole::Shell; }),
                [&](Label label)
@@ -80,17 +87,18 @@ void writePreparation(JsonWriter& json, const SurfaceReport& report)
   const PreparationReport& preparation = report.preparation.preparation;
   json.Key("preparation");
   json.StartObject();
+  writeMember(json, "voxelRepeats", report.repeats.times);
   writeMember(json, "criticalBlocksBefore", preparation.criticalBlocksBefore);
-  writeMember(json, "contactVoxelsChanged", preparation.contactVoxelsChanged);
+  writeMember(json, "contactVoxelsChanged", inFile(preparation.contactVoxelsChanged, report));
   writeObjects(json, "changes", preparation.changes,
                [&](const auto& entry)
                {
                  const TissueChanges& changes = entry.second;
                  writeTissue(json, entry.first, report.tissues);
                  writeMember(json, "islandsRemoved", changes.islandsRemoved);
-                 writeMember(json, "islandVoxels", changes.islandVoxels);
-                 writeMember(json, "voxelsLost", changes.voxelsLost);
-                 writeMember(json, "voxelsGained", changes.voxelsGained);
+                 writeMember(json, "islandVoxels", inFile(changes.islandVoxels, report));
+                 writeMember(json, "voxelsLost", inFile(changes.voxelsLost, report));
+                 writeMember(json, "voxelsGained", inFile(changes.voxelsGained, report));
                });
   json.EndObject();
 }
@@ -122,14 +130,14 @@ std::size_t voxelsLost(const std::vector<MapChange>& changes)
   return voxels;
 }
 
-void writePieces(JsonWriter& json, const PieceRange& pieces, const TissueTable& table)
+void writePieces(JsonWriter& json, const PieceRange& pieces, const SurfaceReport& report)
 {
   std::size_t sum = 0;
   for (auto piece = pieces.begin; piece != pieces.end; ++piece) sum += piece->voxels;
-  writeTissue(json, pieces.begin->label, table);
+  writeTissue(json, pieces.begin->label, report.tissues);
   writeMember(json, "kind", std::string(nameOf(pieces.begin->kind)));
   writeMember(json, "count", std::size_t(pieces.end - pieces.begin));
-  writeMember(json, "voxels", sum);
+  writeMember(json, "voxels", inFile(sum, report));
 }
 
 void writeSimplification(JsonWriter& json, const SurfaceReport& report)
@@ -138,13 +146,13 @@ void writeSimplification(JsonWriter& json, const SurfaceReport& report)
   json.Key("simplification");
   json.StartObject();
   writeMember(json, "featureScale", report.featureScale);
-  writeMember(json, "voxelsChanged", voxelsLost(changes));
+  writeMember(json, "voxelsChanged", inFile(voxelsLost(changes), report));
   writeObjects(json, "keptWhole", report.preparation.keptWhole,
                [&](Label label) { writeTissue(json, label, report.tissues); });
   writeObjects(json, "changes", byTissueAndKind(changes),
                [&](const PieceRange& pieces)
                {
-                 writePieces(json, pieces, report.tissues);
+                 writePieces(json, pieces, report);
                  json.Key("places");
                  json.StartArray();
                  for (auto piece = pieces.begin; piece != pieces.end; ++piece) writePlace(json, piece->place);
@@ -154,11 +162,11 @@ void writeSimplification(JsonWriter& json, const SurfaceReport& report)
 }
 
 /// Pieces of one kind that labels have lost.
-void writeRoughness(JsonWriter& json, const char* key, const std::vector<MapChange>& changes,
+void writeRoughness(JsonWriter& json, const char* key, const SurfaceReport& report,
                     const std::function<bool(const MapChange&)>& holds)
 {
   std::size_t pieces = 0, voxels = 0;
-  for (const MapChange& change : changes)
+  for (const MapChange& change : report.smoothed)
   {
     if (change.kind >= ChangeKind::Cavity || !holds(change)) continue;
     ++pieces;
@@ -167,7 +175,7 @@ void writeRoughness(JsonWriter& json, const char* key, const std::vector<MapChan
   json.Key(key);
   json.StartObject();
   writeMember(json, "count", pieces);
-  writeMember(json, "voxels", voxels);
+  writeMember(json, "voxels", inFile(voxels, report));
   json.EndObject();
 }
 
@@ -177,23 +185,23 @@ void writeSmoothing(JsonWriter& json, const SurfaceReport& report)
   json.Key("smoothing");
   json.StartObject();
   writeMember(json, "voxels", report.smoothing);
-  writeMember(json, "voxelsChanged", voxelsLost(report.smoothed));
-  writeRoughness(json, "cracks", report.smoothed, [](const auto& lost) { return lost.label == 0 && lost.voxels > 1; });
-  writeRoughness(json, "ears", report.smoothed, [](const auto& lost) { return lost.label != 0 && lost.voxels > 1; });
-  writeRoughness(json, "singleSteps", report.smoothed, [](const auto& lost) { return lost.voxels == 1; });
+  writeMember(json, "voxelsChanged", inFile(voxelsLost(report.smoothed), report));
+  writeRoughness(json, "cracks", report, [](const auto& lost) { return lost.label == 0 && lost.voxels > 1; });
+  writeRoughness(json, "ears", report, [](const auto& lost) { return lost.label != 0 && lost.voxels > 1; });
+  writeRoughness(json, "singleSteps", report, [](const auto& lost) { return lost.voxels == 1; });
   writeObjects(json, "changes", byTissueAndKind(report.smoothed),
-               [&](const PieceRange& pieces) { writePieces(json, pieces, report.tissues); });
+               [&](const PieceRange& pieces) { writePieces(json, pieces, report); });
   json.EndObject();
 }
 
-void writeStructures(JsonWriter& json, const std::vector<Structure>& structures)
+void writeStructures(JsonWriter& json, const SurfaceReport& report)
 {
-  writeObjects(json, "structures", structures,
+  writeObjects(json, "structures", report.structures,
                [&](const Structure& structure)
                {
                  writeMember(json, "label", structure.label);
                  writeMember(json, "name", structure.name);
-                 writeMember(json, "voxels", structure.voxels);
+                 writeMember(json, "voxels", inFile(structure.voxels, report));
                  json.Key("centre");
                  writePlace(json, structure.centre);
                  writeMember(json, "tunnels", structure.topology.tunnels);
@@ -403,7 +411,7 @@ std::string reportJson(const SurfaceReport& report)
                    writeMember(json, "label", tissue.first);
                    writeBetti(json, tissue.second);
                  });
-    writeStructures(json, report.structures);
+    writeStructures(json, report);
     writeThickness(json, report);
     writeFidelity(json, report);
     writeFolds(json, report);

@@ -4,6 +4,7 @@
 
 #include "HangingPieces.h"
 #include "LocalThickness.h"
+#include "RepeatedVoxels.h"
 #include "ScaledPreparation.h"
 #include "Structures.h"
 #include "SurfaceFolds.h"
@@ -20,6 +21,8 @@ namespace surgicalmesher
 
 struct SurfaceReport
 {
+  Grid fileGrid;             ///< of the label map as it was read
+  VoxelRepeats repeats;      ///< in it; numbers of voxels below are without them, in the JSON those of the file
   TissueTable tissues;       ///< of the map that was meshed
   TissueSettings settings;   ///< as followed: groups joined, shells with their lengths
   TissueSelection selection; ///< groups, and what was left out

@@ -79,11 +79,24 @@ void fillSurroundings(const CommandLine& line, TissueMap& map)
                      ", expected a label that no voxel has");
 }
 
+/// Takes voxels that repeat coarser ones back to these.
+void takeRepeatsOut(CommandLine& line, TissueMap& map, SurfaceReport& results)
+{
+  results.fileGrid = map.grid;
+  results.repeats = findRepeats(map);
+  if (results.repeats.times == 1) return;
+  map = withoutRepeats(map, results.repeats);
+  const std::string times = std::to_string(results.repeats.times);
+  line.message(line.text("labelMap") + ": every voxel is there " + times + " x " + times + " x " + times +
+               " times; meshed are voxels of " + text::rounded(map.grid.smallestSpacing()) + " mm");
+}
+
 /// The map and what is asked of its tissues; groups are joined, and tissues left out are gone.
 TissueMap readMap(CommandLine& line, SurfaceReport& results)
 {
   TissueMap map = readTissueMap(line.text("labelMap"));
   fillSurroundings(line, map);
+  takeRepeatsOut(line, map, results);
   std::vector<std::string> warnings;
   completeTissueTable(map, line.text("names"), &warnings);
   const std::string intensities = likenessToIntensities(map);
@@ -141,6 +154,13 @@ void warnOfProximity(CommandLine& line, const MeshedMap& mesh)
   line.warning(text.str());
 }
 
+/// With the voxels of the file.
+void writePreparedMap(const TissueMap& map, const SurfaceReport& results, const std::string& file)
+{
+  if (results.repeats.times == 1) writeTissueMap(map, file);
+  else writeTissueMap(withRepeats(map, results.repeats, results.fileGrid), file);
+}
+
 /// Makes the map what the surface is to be faithful to.
 void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const FeatureOptions& features,
              const Progress& progress, SurfaceReport& results)
@@ -153,7 +173,7 @@ void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const F
   runInParallel({ [&] { results.structures = structuresOf(map); },
                   [&]
                   {
-                    if (!file.empty()) writeTissueMap(map, file);
+                    if (!file.empty()) writePreparedMap(map, results, file);
                   } });
   for (const Structure& structure : results.structures) results.topology[structure.label] += structure.topology;
 }

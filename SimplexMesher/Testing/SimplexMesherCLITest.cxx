@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
 #include "MeshIO.h"
+#include "RepeatedVoxels.h"
 #include "TissueMapIO.h"
 #include "VoxelMesh.h"
 
@@ -223,6 +224,47 @@ TEST_F(SimplexMesherCLI, KeepsNamesAndColours)
   }
   expectDone("--edgeLength 2 --preparedLabelMap q.nrrd p.nrrd t.vtp"); // what it wrote, it takes
   EXPECT_EQ(readTissueMap(folder.file("q.nrrd")).table.at(7).name, "pituitary gland");
+}
+
+TEST_F(SimplexMesherCLI, MeshesRepeatedVoxelsOnce)
+{
+  const TissueMap coarse = paintedMap({ 18, 18, 18 },
+                                      [](int i, int j, int k)
+                                      {
+                                        if (k == 8 && (i == 1 || i == 2)) return j == i + 6 ? 5 : 0; // by an edge alone
+                                        const int x = i - 10, y = j - 8, z = k - 8;
+                                        return x * x + y * y + z * z < 50 ? 1 : 0;
+                                      });
+  const VoxelRepeats repeats{ 2, { 1, 1, 1 } };
+  Grid grid = coarse.grid;
+  grid.size = { 37, 38, 38 };
+  grid.spacing = 0.5 * coarse.grid.spacing;
+  grid.origin = coarse.grid.origin - Vec3{ 0.75, 0.75, 0.75 };
+  const TissueMap fine = withRepeats(coarse, repeats, grid);
+  write("coarse.nrrd", coarse);
+  write("fine.nrrd", fine);
+  expectDone("--edgeLength 3 --preparedLabelMap p.nrrd --ambient a.vtu --report r.json coarse.nrrd s.vtp");
+  const Outcome result =
+    run("--edgeLength 3 --preparedLabelMap q.nrrd --ambient b.vtu --report t.json fine.nrrd t.vtp");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.out.find("every voxel is there 2 x 2 x 2 times; meshed are voxels of 1 mm"), std::string::npos);
+  EXPECT_EQ(readBytes(folder.file("t.vtp")), readBytes(folder.file("s.vtp")));
+  EXPECT_EQ(readBytes(folder.file("b.vtu")), readBytes(folder.file("a.vtu")));
+
+  const TissueMap prepared = readTissueMap(folder.file("q.nrrd"));
+  EXPECT_EQ(prepared.grid.size, grid.size);
+  EXPECT_EQ(prepared.labels, withRepeats(readTissueMap(folder.file("p.nrrd")), repeats, grid).labels);
+  const rapidjson::Document once = parsed("r.json"), often = parsed("t.json");
+  EXPECT_EQ(once["preparation"]["voxelRepeats"].GetInt(), 1);
+  EXPECT_EQ(often["preparation"]["voxelRepeats"].GetInt(), 2);
+  const auto changed = [](const rapidjson::Document& report)
+  { return report["preparation"]["contactVoxelsChanged"].GetInt(); };
+  EXPECT_GT(changed(once), 0);
+  int differing = 0; // those of the file
+  for (std::size_t v = 0; v < fine.labels.size(); ++v) differing += prepared.labels[v] != fine.labels[v];
+  EXPECT_EQ(changed(often), differing);
+  for (rapidjson::SizeType n = 0; n < once["structures"].Size(); ++n)
+    EXPECT_EQ(often["structures"][n]["voxels"].GetInt(), 8 * once["structures"][n]["voxels"].GetInt());
 }
 
 TEST_F(SimplexMesherCLI, JoinsLeavesOutAndHollowsTissues)

@@ -9,6 +9,7 @@
 #include "MeshSizeEstimate.h"
 #include "NullDisplacement.h"
 #include "Place.h"
+#include "RepeatedVoxels.h"
 #include "SurgicalPathScaleCLIXML.h"
 #include "SurgicalScale.h"
 #include "TextFile.h"
@@ -20,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 using namespace surgicalmesher;
 
@@ -284,6 +286,16 @@ std::set<Label> nameTissues(CommandLine& line, TissueMap& map)
   return labels;
 }
 
+/// Of the map as it will be meshed.
+void estimateMesh(TissueMap map, const ScaleField& scale, Results& results)
+{
+  const VoxelRepeats repeats = findRepeats(map);
+  if (repeats.times > 1) map = withoutRepeats(map, repeats);
+  results.estimate = estimateMeshSize(map, scale);
+  results.startingFaces = startingFaces(map, scale);
+  results.surfaceMemory = estimateSurfaceMemory(map, scale, results.startingFaces);
+}
+
 void run(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
@@ -312,15 +324,14 @@ void run(CommandLine& line)
   report(progress, 0.7, "null displacement");
   markFarTissue(line, map, focus, named, results);
   report(progress, 0.8, "estimating the size of the mesh");
-  results.estimate = estimateMeshSize(map, scale);
-  results.startingFaces = startingFaces(map, scale);
-  results.surfaceMemory = estimateSurfaceMemory(map, scale, results.startingFaces);
+  const Grid grid = map.grid;
+  estimateMesh(std::move(map), scale, results);
 
   line.message("edge lengths: " + text::rounded(results.shortest, 4) + " to " + text::rounded(results.longest, 4) +
                " mm");
   returnEstimate(line, results.estimate);
   const std::string reportFile = line.outputFile("report");
-  if (!reportFile.empty()) writeReport(reportFile, line, focus, options, results, map.grid, scale.grid);
+  if (!reportFile.empty()) writeReport(reportFile, line, focus, options, results, grid, scale.grid);
   report(progress, 1, "done");
 }
 

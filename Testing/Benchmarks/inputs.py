@@ -4,6 +4,7 @@ import sys
 
 import nibabel
 import numpy as np
+from scipy import ndimage
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Python"))
 from maps import LPS_FROM_RAS, cut_out  # noqa: E402
@@ -26,6 +27,37 @@ def atlas(spacing):
     labels, affine = cut_out(np.s_[0:157, 0:189, 0:136])
     affine[:3, 3] -= [0, 0, -10]
     return resampled(labels, affine, spacing)
+
+
+def halves(values, axis):
+    """Linear interpolation at the centres of voxels half as long, along an axis; none beyond the ends."""
+    beyond = [(1, 1) if a == axis else (0, 0) for a in range(3)]
+    padded = np.moveaxis(np.pad(values, beyond), axis, 0)
+    fine = np.empty((2 * values.shape[axis],) + padded.shape[1:], values.dtype)
+    fine[0::2] = 0.75 * padded[1:-1] + 0.25 * padded[:-2]
+    fine[1::2] = 0.75 * padded[1:-1] + 0.25 * padded[2:]
+    return np.moveaxis(fine, 0, axis)
+
+
+def smoothed_atlas(spacing):
+    """The atlas on voxels half as long, each with the label whose indicator, after a Gaussian of 0.7 old voxel, is
+    largest there: walls with steps of one new voxel, as a finer segmentation would have."""
+    labels, affine = atlas(2 * spacing)
+    fine, fine_affine = resampled(labels, affine, spacing)
+    largest = np.zeros(fine.shape, np.float32)
+    reach = 3
+    for label, box in enumerate(ndimage.find_objects(labels.astype(np.int32) + 1)):
+        if box is None:
+            continue
+        box = tuple(slice(max(0, s.start - reach), s.stop + reach) for s in box)
+        values = ndimage.gaussian_filter((labels[box] == label).astype(np.float32), 0.7, mode="nearest", truncate=3)
+        for axis in range(3):
+            values = halves(values, axis)
+        there = tuple(slice(2 * s.start, 2 * s.start + n) for s, n in zip(box, values.shape))
+        wins = values > largest[there]
+        largest[there][wins] = values[wins]
+        fine[there][wins] = label
+    return fine, fine_affine
 
 
 def nested_shapes(spacing):
@@ -61,6 +93,7 @@ class Case:
 
 CASES = [Case("shapes", nested_shapes, spacing) for spacing in (4, 2, 1, 0.5)]
 CASES += [Case("jhu189", atlas, spacing) for spacing in (2, 1, 0.5)]
+CASES += [Case("smoothed jhu189", smoothed_atlas, 0.5)]
 
 
 def interface_faces(labels):

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "RepeatedVoxels.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace surgicalmesher
+{
+
+namespace
+{
+
+/// The steps along one axis between places where neighbouring voxels differ, as far as they are seen.
+class ChangeSteps
+{
+public:
+  explicit ChangeSteps(int size) : m_IsChange(std::size_t(size), false) {}
+
+  /// Voxel number `at` differs from the one before it.
+  void add(int at)
+  {
+    if (m_IsChange[at]) return;
+    m_IsChange[at] = true;
+    ++m_Count;
+    if (m_First < 0) m_First = at;
+    m_Divisor = std::gcd(m_Divisor, at - m_First);
+  }
+
+  int count() const { return m_Count; }
+  int first() const { return m_First; }
+  int divisor() const { return m_Divisor; } ///< greatest, of all steps; 0: of none
+
+private:
+  std::vector<bool> m_IsChange;
+  int m_Count = 0, m_First = -1, m_Divisor = 0;
+};
+
+/// Adds the changes along `axis`; returns at once where a step of one is seen.
+ChangeSteps changesAlong(const TissueMap& map, int axis)
+{
+  const auto& size = map.grid.size;
+  ChangeSteps steps(size[axis]);
+  const std::array<std::size_t, 3> strides{ 1, std::size_t(size[0]), std::size_t(size[0]) * size[1] };
+  const std::size_t stride = strides[axis];
+  const int begin[3] = { axis == 0, axis == 1, axis == 2 };
+  for (int k = begin[2]; k < size[2]; ++k)
+    for (int j = begin[1]; j < size[1]; ++j)
+    {
+      const Label* const row = map.labels.data() + map.grid.index(0, j, k);
+      if (axis > 0)
+      {
+        if (!std::equal(row, row + size[0], row - stride)) steps.add(axis == 1 ? j : k);
+      }
+      else
+        for (int i = 1; i < size[0]; ++i)
+          if (row[i] != row[i - 1]) steps.add(i);
+      if (steps.divisor() == 1) return steps;
+    }
+  return steps;
+}
+
+/// Whether all voxels before `first` or from `last` on, along the axes, are background.
+bool isBackgroundBeyond(const TissueMap& map, const std::array<int, 3>& first, const std::array<int, 3>& last)
+{
+  const auto& size = map.grid.size;
+  const auto isWithin = [&](int at, int axis) { return at >= first[axis] && at < last[axis]; };
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+    {
+      const Label* const row = map.labels.data() + map.grid.index(0, j, k);
+      const auto isBackground = [](Label label) { return label == 0; };
+      const bool isCut = isWithin(j, 1) && isWithin(k, 2);
+      if (!std::all_of(row, row + (isCut ? first[0] : size[0]), isBackground)) return false;
+      if (isCut && !std::all_of(row + last[0], row + size[0], isBackground)) return false;
+    }
+  return true;
+}
+
+std::array<int, 3> wholeBlocks(const std::array<int, 3>& size, const VoxelRepeats& repeats)
+{
+  std::array<int, 3> count;
+  for (int a = 0; a < 3; ++a) count[a] = (size[a] - repeats.first[a]) / repeats.times;
+  return count;
+}
+
+} // namespace
+
+VoxelRepeats findRepeats(const TissueMap& map)
+{
+  constexpr int leastChanges = 12; // along each axis: one map in 2^33 has all of them at even places by chance
+  VoxelRepeats repeats;
+  repeats.times = 0;
+  for (const int axis : { 2, 1, 0 }) // whole rows are compared first
+  {
+    const ChangeSteps steps = changesAlong(map, axis);
+    repeats.times = std::gcd(repeats.times, steps.divisor());
+    if (steps.count() < leastChanges || repeats.times < 2) return {};
+    repeats.first[axis] = steps.first();
+  }
+  std::array<int, 3> end;
+  for (int a = 0; a < 3; ++a)
+  {
+    repeats.first[a] %= repeats.times;
+    end[a] = repeats.first[a] + wholeBlocks(map.grid.size, repeats)[a] * repeats.times;
+  }
+  return isBackgroundBeyond(map, repeats.first, end) ? repeats : VoxelRepeats();
+}
+
+TissueMap withoutRepeats(const TissueMap& map, const VoxelRepeats& repeats)
+{
+  const int n = repeats.times;
+  const auto& first = repeats.first;
+  TissueMap result;
+  result.table = map.table;
+  result.grid = map.grid;
+  result.grid.size = wholeBlocks(map.grid.size, repeats);
+  result.grid.spacing = double(n) * map.grid.spacing;
+  const double half = 0.5 * (n - 1);
+  const Vec3 voxel = map.grid.spacing;
+  result.grid.origin =
+    map.grid.gridToWorld({ (first[0] + half) * voxel.x, (first[1] + half) * voxel.y, (first[2] + half) * voxel.z });
+  const auto& size = result.grid.size;
+  result.labels.reserve(result.grid.voxelCount());
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+    {
+      const Label* row = map.labels.data() + map.grid.index(first[0], first[1] + j * n, first[2] + k * n);
+      for (int i = 0; i < size[0]; ++i, row += n) result.labels.push_back(*row);
+    }
+  return result;
+}
+
+TissueMap withRepeats(const TissueMap& map, const VoxelRepeats& repeats, const Grid& grid)
+{
+  TissueMap result;
+  result.table = map.table;
+  result.grid = grid;
+  result.labels.assign(grid.voxelCount(), 0);
+  const auto& size = map.grid.size;
+  for (int k = 0; k < size[2] * repeats.times; ++k)
+    for (int j = 0; j < size[1] * repeats.times; ++j)
+    {
+      const Label* from = map.labels.data() + map.grid.index(0, j / repeats.times, k / repeats.times);
+      Label* to = result.labels.data() + grid.index(repeats.first[0], repeats.first[1] + j, repeats.first[2] + k);
+      for (int i = 0; i < size[0]; ++i, to += repeats.times) std::fill_n(to, repeats.times, from[i]);
+    }
+  return result;
+}
+
+} // namespace surgicalmesher
