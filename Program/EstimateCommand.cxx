@@ -73,14 +73,12 @@ Figures readFigures(const std::string& file)
   rapidjson::Document json;
   json.Parse(text::readTextFile(file).c_str());
   const auto& estimate = json["estimate"];
-  double voxels = 1;
-  for (const auto& size : json["map"]["size"].GetArray()) voxels *= size.GetDouble();
   Figures figures;
   figures.triangles = estimate["triangles"].GetDouble();
   figures.tetrahedra = estimate["tetrahedra"].GetDouble();
   figures.bytes = estimate["surfaceMemoryBytes"].GetDouble();
   figures.seconds = secondsPerFace * estimate["startingFaces"].GetDouble() +
-                    secondsPerTetrahedron * figures.tetrahedra + secondsPerVoxel * voxels;
+                    secondsPerTetrahedron * figures.tetrahedra + secondsPerVoxel * estimate["meshedVoxels"].GetDouble();
   return figures;
 }
 

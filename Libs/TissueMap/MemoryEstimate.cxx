@@ -109,6 +109,11 @@ std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scal
                        kBytesPerVoxel * double(map.grid.voxelCount()) + kBytesPerLength * double(scale.lengths.size()));
 }
 
+std::uint64_t estimateReadingMemory(const Grid& grid)
+{
+  return std::uint64_t(kBytes + 2 * sizeof(Label) * double(grid.voxelCount())); // as in the file, and as it is held
+}
+
 void requireMemory(std::uint64_t needed, const std::optional<std::uint64_t>& available, const std::string& mapFile)
 {
   if (!available || needed <= *available) return;

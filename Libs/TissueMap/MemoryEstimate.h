@@ -26,6 +26,11 @@ double startingFaces(const TissueMap& map, const ScaleField& scale, bool hasBloc
 /// The constants err on the safe side: Docs/Benchmarks.md#estimates.
 std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, double startingFaces);
 
+/// What it takes to read a label map, bytes: more than the rest where voxels repeat (RepeatedVoxels.h).
+///
+///     bytes = 25 MB + 4 N
+std::uint64_t estimateReadingMemory(const Grid& grid);
+
 /// Throws InputError, with the map's name and both figures, if less than `needed` bytes are available. Does nothing
 /// where `available` is unknown (see availableMemory()).
 void requireMemory(std::uint64_t needed, const std::optional<std::uint64_t>& available, const std::string& mapFile);

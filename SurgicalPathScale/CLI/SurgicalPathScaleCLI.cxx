@@ -36,6 +36,7 @@ struct Results
   float longest = 0;
   NullDisplacement nullDisplacement;
   MeshSizeEstimate estimate;
+  std::size_t meshedVoxels = 0; ///< without what repeats
   double startingFaces = 0;
   std::uint64_t surfaceMemory = 0; ///< bytes
 };
@@ -223,6 +224,7 @@ void writeResults(JsonWriter& json, const Results& results, const std::vector<st
               {
                 writeMember(json, "triangles", std::int64_t(std::llround(results.estimate.triangles)));
                 writeMember(json, "tetrahedra", std::int64_t(std::llround(results.estimate.tetrahedra)));
+                writeMember(json, "meshedVoxels", results.meshedVoxels);
                 writeMember(json, "startingFaces", std::int64_t(std::llround(results.startingFaces)));
                 writeMember(json, "surfaceMemoryBytes", std::int64_t(results.surfaceMemory));
               });
@@ -289,11 +291,13 @@ std::set<Label> nameTissues(CommandLine& line, TissueMap& map)
 /// Of the map as it will be meshed.
 void estimateMesh(TissueMap map, const ScaleField& scale, Results& results)
 {
+  const std::uint64_t reading = estimateReadingMemory(map.grid);
   const VoxelRepeats repeats = findRepeats(map);
   if (repeats.times > 1) map = withoutRepeats(map, repeats);
+  results.meshedVoxels = map.grid.voxelCount();
   results.estimate = estimateMeshSize(map, scale);
   results.startingFaces = startingFaces(map, scale);
-  results.surfaceMemory = estimateSurfaceMemory(map, scale, results.startingFaces);
+  results.surfaceMemory = std::max(reading, estimateSurfaceMemory(map, scale, results.startingFaces));
 }
 
 void run(CommandLine& line)

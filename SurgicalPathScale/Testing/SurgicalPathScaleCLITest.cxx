@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
+#include "RepeatedVoxels.h"
 #include "TissueMapIO.h"
+#include "VoxelMesh.h"
 
 #include <rapidjson/document.h>
 
@@ -118,6 +120,34 @@ TEST_F(SurgicalPathScaleCLI, ReportsWhatItFound)
   const std::string tetrahedra = "estimatedTetrahedra = " + std::to_string(report["estimate"]["tetrahedra"].GetInt64());
   EXPECT_GT(report["estimate"]["tetrahedra"].GetInt64(), 0);
   EXPECT_NE(readBytes(folder.file("r.txt")).find(tetrahedra), std::string::npos);
+}
+
+TEST_F(SurgicalPathScaleCLI, EstimatesWhatRepeatedVoxelsAreMeshedAs)
+{
+  const TissueMap coarse = paintedMap({ 20, 20, 20 },
+                                      [](int i, int j, int k)
+                                      {
+                                        const int x = i - 9, y = j - 10, z = k - 10;
+                                        return x * x + y * y + z * z < 70 ? 3 : 0;
+                                      });
+  TissueMap fine = coarse;
+  fine.grid.size = { 40, 40, 40 };
+  fine.grid.spacing = 0.5 * coarse.grid.spacing;
+  fine.grid.origin = coarse.grid.origin - 0.25 * coarse.grid.spacing;
+  fine = withRepeats(coarse, { 2, {} }, fine.grid);
+  folder.write("coarse.nrrd", nrrd("uint16", nrrdGeometry(coarse.grid), coarse.labels));
+  folder.write("fine.nrrd", nrrd("uint16", nrrdGeometry(fine.grid), fine.labels));
+  std::vector<rapidjson::Document> reports(2);
+  for (const std::string map : { "coarse.nrrd", "fine.nrrd" })
+  {
+    expectDone("--targetPoint 10,10,10 --report r.json " + map + " scale.nrrd");
+    reports[map == "fine.nrrd"].Parse(readBytes(folder.file("r.json")).c_str());
+  }
+  EXPECT_EQ(reports[1]["map"]["size"][0].GetInt(), 40);
+  const rapidjson::Value &once = reports[0]["estimate"], &often = reports[1]["estimate"];
+  EXPECT_EQ(often["meshedVoxels"].GetInt64(), 20 * 20 * 20);
+  for (const char* figure : { "triangles", "tetrahedra", "meshedVoxels", "startingFaces", "surfaceMemoryBytes" })
+    EXPECT_NEAR(often[figure].GetDouble(), once[figure].GetDouble(), 0.02 * once[figure].GetDouble()) << figure;
 }
 
 TEST_F(SurgicalPathScaleCLI, SaysThatATargetLiesOutside)
