@@ -208,7 +208,6 @@ private:
 /// Share of the voxel faces that stay where L is `length`.
 double shareAt(double length, double perTriangle, const Vec3& spacing)
 {
-  if (perTriangle == 0) return 1;
   const double voxelFace = std::min({ spacing.x * spacing.y, spacing.y * spacing.z, spacing.z * spacing.x });
   const double triangle = 0.25 * std::sqrt(3.0) * length * length;
   return perTriangle * voxelFace / triangle;
@@ -222,7 +221,11 @@ KuhnLattice latticeWithSamplesOf(const TissueMap& map, const TissueMap& blocks, 
 {
   const Vec3& spacing = map.grid.spacing;
   const auto isWanted = [&](const VoxelFace& face)
-  { return isWithin(shareAt(length(face.centre(spacing)), options.perTriangle, spacing), face); };
+  {
+    if (!options.perTriangle) return true;
+    const double at = length(face.centre(spacing));
+    return isWithin(shareAt(at, options.perTriangle(face, at), spacing), face);
+  };
   const auto isSame = [&](const VoxelFace& face)
   {
     return labelAt(map, face.lower) == labelAt(blocks, face.lower) &&

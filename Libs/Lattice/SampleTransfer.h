@@ -5,13 +5,16 @@
 #include "KuhnLattice.h"
 #include "SizingFunction.h"
 
+#include <functional>
+
 namespace surgicalmesher
 {
 
 struct SampleTransferOptions
 {
-  /// Samples are thinned to so many for each triangle of length L; 0: all voxel faces are kept.
-  double perTriangle = 0;
+  /// To how many for a triangle of length L (mm) samples are thinned at a voxel face; all are kept, if there is no such
+  /// function. Called on several threads.
+  std::function<double(const VoxelFace& face, double length)> perTriangle;
 };
 
 /// The lattice of `blocks` with the samples of `map`: the centres of its voxel faces between two labels, each held by the

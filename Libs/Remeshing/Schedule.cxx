@@ -197,6 +197,12 @@ bool hasUnresolvedFeatures(const TetMesh& mesh)
   return bad > many && double(bad) > share * double(mesh.tetrahedra.size());
 }
 
+bool hasFineVoxels(const MeshSizes& sizes)
+{
+  constexpr double many = 12;
+  return sizes.longest > many * sizes.voxel;
+}
+
 // --- surface stage: coarsening --------------------------------------------------------------------------------------
 
 std::vector<double> sizeLevels(const MeshSizes& sizes)
@@ -210,13 +216,9 @@ std::vector<double> sizeLevels(const MeshSizes& sizes)
 namespace
 {
 
-/// What the levels' sizes are judged by. Where L is many voxels, levels do one level later what they do elsewhere, as
+/// What the levels' sizes are judged by. Where voxels are fine, levels do one level later what they do elsewhere, as
 /// most of it is collapsed next. Another two levels later, the surface on thin tissues would suffer.
-double grainOf(const MeshSizes& sizes)
-{
-  constexpr double many = 12;
-  return sizes.longest > many * sizes.voxel ? levelRatio * sizes.voxel : sizes.voxel;
-}
+double grainOf(const MeshSizes& sizes) { return hasFineVoxels(sizes) ? levelRatio * sizes.voxel : sizes.voxel; }
 
 } // namespace
 

@@ -42,6 +42,9 @@ struct MeshSizes
   double maximumDistance; ///< of spikes that are cut; infinity: no bound
 };
 
+/// Whether voxels are small against the longest L: a single one matters less.
+bool hasFineVoxels(const MeshSizes& sizes);
+
 // --- surface stage, in this order
 /// Sizes that edges are collapsed to one after the other, the last one `longest`: a single pass to the final lengths
 /// would leave a ragged mesh.

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace surgicalmesher
 {
@@ -41,15 +42,38 @@ SmoothedLabels withoutRoughness(const TissueMap& map, const ScaleField& scale, c
                       { .sigma = wider * options.smoothing, .protectedLabels = options.features.protectedLabels });
 }
 
+MeshSizes sizesOf(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options)
+{
+  return { map.grid.smallestSpacing(), *std::max_element(scale.lengths.begin(), scale.lengths.end()),
+           mostOfSpikes(options) };
+}
+
+/// How many samples of `map` a triangle of length L gets. Fewer cost accuracy, but where voxels are fine and the tissues
+/// beside the face are not much thinner than L.
+SampleTransferOptions samplingOf(const TissueMap& map, const std::map<Label, double>& thickness, bool hasFineVoxels)
+{
+  constexpr double usual = 16, few = 10, thin = 0.5; // the last a share of L
+  if (!hasFineVoxels) return { [=](const VoxelFace&, double) { return usual; } };
+  std::vector<double> thicknessOf(labelCount, std::numeric_limits<double>::infinity()); // every face looks up two
+  for (const auto& [label, mm] : thickness) thicknessOf[label] = mm;
+  return { [=, &map](const VoxelFace& face, double length)
+           {
+             const double least =
+               std::min(thicknessOf[labelAt(map, face.lower)], thicknessOf[labelAt(map, face.upper())]);
+             return least < thin * length ? usual : few;
+           } };
+}
+
 /// The lattice of `map`: of its voxels where these are not much smaller than L, of blocks of them elsewhere. Samples stay
 /// those of the map, so many a triangle.
-KuhnLattice latticeOf(const TissueMap& map, const ScaleField& scale, const SizingFunction& length,
-                      const TissueMesherOptions& options, const Progress& progress)
+KuhnLattice latticeOf(const TissueMap& map, const ScaleField& scale, const std::map<Label, double>& thickness,
+                      const SizingFunction& length, const TissueMesherOptions& options, const Progress& progress)
 {
-  constexpr double blockSize = 0.34, samplesPerTriangle = 16; // a larger one costs smoothness, fewer cost accuracy
+  constexpr double blockSize = 0.34; // a larger one costs smoothness
   if (!leavesVoxels(options)) return kuhnLattice(map, scale, {}, progress);
   const TissueMap blocks = withUniformBlocks(map, scale, { blockSize, options.features.protectedLabels });
-  return latticeWithSamplesOf(map, blocks, scale, length, { samplesPerTriangle }, progress);
+  const SampleTransferOptions sampling = samplingOf(map, thickness, hasFineVoxels(sizesOf(map, scale, options)));
+  return latticeWithSamplesOf(map, blocks, scale, length, sampling, progress);
 }
 
 struct StartingMesh
@@ -63,7 +87,7 @@ StartingMesh startingMesh(const TissueMap& map, const ScaleField& scale, const s
                           const SizingFunction& length, const TissueMesherOptions& options, const Progress& progress)
 {
   const auto [shortest, longest] = std::minmax_element(scale.lengths.begin(), scale.lengths.end());
-  KuhnLattice lattice = latticeOf(map, scale, length, options, progress);
+  KuhnLattice lattice = latticeOf(map, scale, thickness, length, options, progress);
   setTolerances(
     lattice.background, map, thickness, length,
     { options.maximumDistance, options.features, options.proximity, *shortest, *longest, options.smoothing > 0 });
@@ -185,8 +209,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   const std::map<Label, double> thickness = meanThickness(smoothed.map);
   const ScaleField scale = followFlatTissues(wanted, smoothed.map, thickness);
   const SizingFunction length = [&](const Vec3& p) { return double(float(scale(grid.gridToWorld(p)))); };
-  const MeshSizes sizes{ grid.smallestSpacing(), *std::max_element(scale.lengths.begin(), scale.lengths.end()),
-                         mostOfSpikes(options) };
+  const MeshSizes sizes = sizesOf(prepared, scale, options);
   StartingMesh start = startingMesh(smoothed.map, scale, thickness, length, options, subProgress(progress, 0, 0.06));
   smoothed.map = {}; // memory: it is as large as `prepared`
   TissueRemesher remesher(std::move(start), prepared, length, options, subProgress(progress, 0.1, 1),

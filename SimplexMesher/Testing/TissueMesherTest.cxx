@@ -444,4 +444,25 @@ TEST(SurfaceMesher, RoughnessGoesOnlyWhereTheSurfaceMaySmoothAndDrift)
   EXPECT_TRUE(meshTissues(map, uniformScale(4), options).smoothed.empty());
 }
 
+TEST(SurfaceMesher, TakesFewerSamplesWhereVoxelsAreFineAndTissuesThick)
+{
+  const auto samplesPerTriangle = [](const std::array<int, 3>& box, double length)
+  {
+    const auto [a, b, c] = box;
+    const TissueMap map = paintedMap({ a + 4, b + 4, c + 4 },
+                                     [&box](int i, int j, int k)
+                                     {
+                                       const std::array<int, 3> at{ i, j, k };
+                                       for (int axis = 0; axis < 3; ++axis)
+                                         if (at[axis] < 2 || at[axis] >= box[axis] + 2) return 0;
+                                       return 1;
+                                     });
+    const double faces = 2.0 * (a * b + b * c + c * a), triangle = 0.25 * std::sqrt(3.0) * length * length;
+    return double(meshed(map, uniformScale(length)).background.samples.size()) / faces * triangle;
+  };
+  EXPECT_NEAR(samplesPerTriangle({ 40, 40, 40 }, 12), 16, 1);
+  EXPECT_NEAR(samplesPerTriangle({ 40, 40, 40 }, 13), 10, 1);
+  EXPECT_NEAR(samplesPerTriangle({ 40, 40, 4 }, 13), 16, 1) << "a thin one";
+}
+
 } // namespace surgicalmesher

@@ -23,9 +23,9 @@ double length(const Vec3&) { return edgeLength; }
 KuhnLattice latticeOf(const TissueMap& map) { return kuhnLattice(map, uniformScale(edgeLength), {}); }
 
 /// Of `blocks`, with the samples of `map`.
-KuhnLattice latticeOf(const TissueMap& map, const TissueMap& blocks, double perTriangle = 0)
+KuhnLattice latticeOf(const TissueMap& map, const TissueMap& blocks, const SampleTransferOptions& options = {})
 {
-  return latticeWithSamplesOf(map, blocks, uniformScale(edgeLength), length, { perTriangle });
+  return latticeWithSamplesOf(map, blocks, uniformScale(edgeLength), length, options);
 }
 
 /// A wall across x: label 1 below it, 2 above.
@@ -103,16 +103,27 @@ TEST(SampleTransfer, leavesOutWhatTheBlocksHaveNoFaceFor)
 
 TEST(SampleTransfer, thinsEvenly)
 {
-  const TissueMap map = paintedMap({ 40, 60, 60 }, [](int i, int, int) { return i < 20 ? 1 : 2; });
-  constexpr double perTriangle = 3;
-  const double share = perTriangle / (0.25 * std::sqrt(3.0) * edgeLength * edgeLength);
-  const KuhnLattice lattice = latticeOf(map, map, perTriangle);
+  // A wall at i = 20, one at i = 30 with fewer samples.
+  const TissueMap map = paintedMap({ 40, 60, 60 }, [](int i, int, int) { return i < 20 ? 1 : i < 30 ? 2 : 3; });
+  const auto perTriangle = [](const VoxelFace& face, double at)
+  {
+    EXPECT_EQ(at, edgeLength);
+    return face.lower[0] < 25 ? 3. : 1.5;
+  };
+  const double share = 3 / (0.25 * std::sqrt(3.0) * edgeLength * edgeLength);
+  const KuhnLattice lattice = latticeOf(map, map, { perTriangle });
   constexpr std::size_t side = 10;
-  std::array<int, 36> counts{}; // on squares of the wall
+  std::array<int, 36> near{}, far{}; // on squares of the walls
   const auto row = [](double x) { return std::size_t(x) / side; };
   for (const Sample& sample : lattice.background.samples)
-    if (sample.position.x == 19.5) ++counts[row(sample.position.y) + 6 * row(sample.position.z)];
-  for (const int count : counts) EXPECT_NEAR(count, share * double(side * side), 0.15 * share * double(side * side));
+  {
+    const std::size_t square = row(sample.position.y) + 6 * row(sample.position.z);
+    if (sample.position.x == 19.5) ++near[square];
+    if (sample.position.x == 29.5) ++far[square];
+  }
+  const double wanted = share * double(side * side);
+  for (const int count : near) EXPECT_NEAR(count, wanted, 0.15 * wanted);
+  for (const int count : far) EXPECT_NEAR(count, 0.5 * wanted, 0.15 * wanted);
 }
 
 } // namespace

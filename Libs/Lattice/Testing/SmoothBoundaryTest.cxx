@@ -122,8 +122,9 @@ TEST(SmoothBoundary, takesFacesBetweenBlocksToTheBoundary)
 {
   constexpr double radius = 14, length = 8;
   const TissueMap map = ball(radius);
-  KuhnLattice lattice = latticeWithSamplesOf(map, ballOfBlocks(radius), uniformScale(length),
-                                             [&](const Vec3&) { return length; }, { .perTriangle = 16 });
+  KuhnLattice lattice =
+    latticeWithSamplesOf(map, ballOfBlocks(radius), uniformScale(length), [&](const Vec3&) { return length; },
+                         { [](const VoxelFace&, double) { return 16; } });
   const auto distance = [&]
   {
     std::vector<Vec3> places;
