@@ -111,7 +111,8 @@ std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scal
 
 std::uint64_t estimateReadingMemory(const Grid& grid)
 {
-  return std::uint64_t(kBytes + 2 * sizeof(Label) * double(grid.voxelCount())); // as in the file, and as it is held
+  constexpr std::size_t inFile = 4, held = sizeof(Label);
+  return std::uint64_t(kBytes) + (inFile + held) * grid.voxelCount();
 }
 
 void requireMemory(std::uint64_t needed, const std::optional<std::uint64_t>& available, const std::string& mapFile)

@@ -26,9 +26,10 @@ double startingFaces(const TissueMap& map, const ScaleField& scale, bool hasBloc
 /// The constants err on the safe side: Docs/Benchmarks.md#estimates.
 std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, double startingFaces);
 
-/// What it takes to read a label map, bytes: more than the rest where voxels repeat (RepeatedVoxels.h).
+/// What it takes to read a label map, in whose file labels have four bytes at most: more than meshing does where voxels
+/// repeat often enough (RepeatedVoxels.h).
 ///
-///     bytes = 25 MB + 4 N
+///     bytes = 25 MB + 6 N
 std::uint64_t estimateReadingMemory(const Grid& grid);
 
 /// Throws InputError, with the map's name and both figures, if less than `needed` bytes are available. Does nothing

@@ -35,25 +35,19 @@ private:
   int m_Count = 0, m_First = -1, m_Divisor = 0;
 };
 
-/// Adds the changes along `axis`; returns at once where a step of one is seen.
+/// The changes along `axis`, or some of them, if there is a step of one.
 ChangeSteps changesAlong(const TissueMap& map, int axis)
 {
   const auto& size = map.grid.size;
+  const std::size_t before = axis == 1 ? std::size_t(size[0]) : std::size_t(size[0]) * size[1];
   ChangeSteps steps(size[axis]);
-  const std::array<std::size_t, 3> strides{ 1, std::size_t(size[0]), std::size_t(size[0]) * size[1] };
-  const std::size_t stride = strides[axis];
-  const int begin[3] = { axis == 0, axis == 1, axis == 2 };
-  for (int k = begin[2]; k < size[2]; ++k)
-    for (int j = begin[1]; j < size[1]; ++j)
+  for (int k = axis == 2; k < size[2]; ++k)
+    for (int j = axis == 1; j < size[1]; ++j)
     {
       const Label* const row = map.labels.data() + map.grid.index(0, j, k);
-      if (axis > 0)
-      {
-        if (!std::equal(row, row + size[0], row - stride)) steps.add(axis == 1 ? j : k);
-      }
-      else
-        for (int i = 1; i < size[0]; ++i)
-          if (row[i] != row[i - 1]) steps.add(i);
+      for (int i = 1; axis == 0 && i < size[0]; ++i)
+        if (row[i] != row[i - 1]) steps.add(i);
+      if (axis > 0 && !std::equal(row, row + size[0], row - before)) steps.add(axis == 1 ? j : k);
       if (steps.divisor() == 1) return steps;
     }
   return steps;
@@ -85,23 +79,26 @@ std::array<int, 3> wholeBlocks(const std::array<int, 3>& size, const VoxelRepeat
 
 } // namespace
 
-VoxelRepeats findRepeats(const TissueMap& map)
+VoxelRepeats findRepeats(const TissueMap& map, double shortestLength)
 {
-  constexpr int leastChanges = 12; // along each axis: one map in 2^33 has all of them at even places by chance
+  constexpr int leastChanges = 12; // along each axis; were places chance, one map in 2^33 would have even ones alone
+  constexpr double perVoxel = 4;   // of the shortest edges of a lattice
   VoxelRepeats repeats;
-  repeats.times = 0;
+  int times = 0;
   for (const int axis : { 2, 1, 0 }) // whole rows are compared first
   {
     const ChangeSteps steps = changesAlong(map, axis);
-    repeats.times = std::gcd(repeats.times, steps.divisor());
-    if (steps.count() < leastChanges || repeats.times < 2) return {};
+    times = std::gcd(times, steps.divisor());
+    if (steps.count() < leastChanges || times < 2) return {};
     repeats.first[axis] = steps.first();
   }
+  if (shortestLength < times * map.grid.smallestSpacing() / perVoxel) return {};
+  repeats.times = times;
   std::array<int, 3> end;
   for (int a = 0; a < 3; ++a)
   {
-    repeats.first[a] %= repeats.times;
-    end[a] = repeats.first[a] + wholeBlocks(map.grid.size, repeats)[a] * repeats.times;
+    repeats.first[a] %= times;
+    end[a] = repeats.first[a] + wholeBlocks(map.grid.size, repeats)[a] * times;
   }
   return isBackgroundBeyond(map, repeats.first, end) ? repeats : VoxelRepeats();
 }

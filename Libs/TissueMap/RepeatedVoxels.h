@@ -13,16 +13,20 @@ struct VoxelRepeats
 {
   int times = 1;                       ///< along each axis; 1: the map's voxels are its own
   std::array<int, 3> first{ 0, 0, 0 }; ///< the voxel where the first whole block of times^3 equal ones begins
+
+  std::size_t voxels() const { return std::size_t(times) * times * times; } ///< of a block
 };
 
-/// The largest number of times. Blocks that the map's border cuts hold background, else its voxels are its own. So they
-/// are where too few places along an axis have changes to rule out chance, as in a box.
-VoxelRepeats findRepeats(const TissueMap& map);
+/// The largest number of times. A map's voxels are its own where its border cuts a block that is not background, where
+/// fewer than twelve places along an axis have changes, which may be chance, as in a box, and where `shortestLength` (mm)
+/// is less than a quarter of a block's side: the coarser voxels' lattice would give no edges as short.
+VoxelRepeats findRepeats(const TissueMap& map, double shortestLength);
 
-/// A voxel for each whole block, as large.
+/// A voxel for each whole block, of its size and place. The table stays.
 TissueMap withoutRepeats(const TissueMap& map, const VoxelRepeats& repeats);
 
-/// The map on `grid`, of which withoutRepeats() was taken, each voxel a block again. Table and all else are the map's.
+/// The map on `grid`, of which withoutRepeats() was taken, each voxel a block again; blocks that the border cuts are
+/// background. The table stays.
 TissueMap withRepeats(const TissueMap& map, const VoxelRepeats& repeats, const Grid& grid);
 
 } // namespace surgicalmesher

@@ -35,13 +35,6 @@ void writeBetti(JsonWriter& json, const Betti& betti)
   writeMember(json, "cavities", betti.cavities);
 }
 
-/// Voxels of the file.
-std::size_t inFile(std::size_t voxels, const SurfaceReport& report)
-{
-  const std::size_t times = std::size_t(report.repeats.times);
-  return voxels * times * times * times;
-}
-
 std::vector<Label> labelsWhere(const TissueSettings& settings, const std::function<bool(const TissueSetting&)>& holds)
 {
   std::vector<Label> labels;
@@ -69,7 +62,7 @@ void writeSelection(JsonWriter& json, const SurfaceReport& report)
                [&](const auto& left)
                {
                  writeTissue(json, left.first, given);
-                 writeMember(json, "voxels", inFile(left.second, report));
+                 writeMember(json, "voxels", left.second);
                });
   writeObjects(json, "shells", labelsWhere(report.settings, [](const auto& s) { return s.role == TissueRole::Shell; }),
                [&](Label label)
@@ -89,16 +82,16 @@ void writePreparation(JsonWriter& json, const SurfaceReport& report)
   json.StartObject();
   writeMember(json, "voxelRepeats", report.repeats.times);
   writeMember(json, "criticalBlocksBefore", preparation.criticalBlocksBefore);
-  writeMember(json, "contactVoxelsChanged", inFile(preparation.contactVoxelsChanged, report));
+  writeMember(json, "contactVoxelsChanged", voxelsOfFile(preparation.contactVoxelsChanged, report));
   writeObjects(json, "changes", preparation.changes,
                [&](const auto& entry)
                {
                  const TissueChanges& changes = entry.second;
                  writeTissue(json, entry.first, report.tissues);
                  writeMember(json, "islandsRemoved", changes.islandsRemoved);
-                 writeMember(json, "islandVoxels", inFile(changes.islandVoxels, report));
-                 writeMember(json, "voxelsLost", inFile(changes.voxelsLost, report));
-                 writeMember(json, "voxelsGained", inFile(changes.voxelsGained, report));
+                 writeMember(json, "islandVoxels", voxelsOfFile(changes.islandVoxels, report));
+                 writeMember(json, "voxelsLost", voxelsOfFile(changes.voxelsLost, report));
+                 writeMember(json, "voxelsGained", voxelsOfFile(changes.voxelsGained, report));
                });
   json.EndObject();
 }
@@ -137,7 +130,7 @@ void writePieces(JsonWriter& json, const PieceRange& pieces, const SurfaceReport
   writeTissue(json, pieces.begin->label, report.tissues);
   writeMember(json, "kind", std::string(nameOf(pieces.begin->kind)));
   writeMember(json, "count", std::size_t(pieces.end - pieces.begin));
-  writeMember(json, "voxels", inFile(sum, report));
+  writeMember(json, "voxels", voxelsOfFile(sum, report));
 }
 
 void writeSimplification(JsonWriter& json, const SurfaceReport& report)
@@ -146,7 +139,7 @@ void writeSimplification(JsonWriter& json, const SurfaceReport& report)
   json.Key("simplification");
   json.StartObject();
   writeMember(json, "featureScale", report.featureScale);
-  writeMember(json, "voxelsChanged", inFile(voxelsLost(changes), report));
+  writeMember(json, "voxelsChanged", voxelsOfFile(voxelsLost(changes), report));
   writeObjects(json, "keptWhole", report.preparation.keptWhole,
                [&](Label label) { writeTissue(json, label, report.tissues); });
   writeObjects(json, "changes", byTissueAndKind(changes),
@@ -175,7 +168,7 @@ void writeRoughness(JsonWriter& json, const char* key, const SurfaceReport& repo
   json.Key(key);
   json.StartObject();
   writeMember(json, "count", pieces);
-  writeMember(json, "voxels", inFile(voxels, report));
+  writeMember(json, "voxels", voxelsOfFile(voxels, report));
   json.EndObject();
 }
 
@@ -185,7 +178,7 @@ void writeSmoothing(JsonWriter& json, const SurfaceReport& report)
   json.Key("smoothing");
   json.StartObject();
   writeMember(json, "voxels", report.smoothing);
-  writeMember(json, "voxelsChanged", inFile(voxelsLost(report.smoothed), report));
+  writeMember(json, "voxelsChanged", voxelsOfFile(voxelsLost(report.smoothed), report));
   writeRoughness(json, "cracks", report, [](const auto& lost) { return lost.label == 0 && lost.voxels > 1; });
   writeRoughness(json, "ears", report, [](const auto& lost) { return lost.label != 0 && lost.voxels > 1; });
   writeRoughness(json, "singleSteps", report, [](const auto& lost) { return lost.voxels == 1; });
@@ -201,7 +194,7 @@ void writeStructures(JsonWriter& json, const SurfaceReport& report)
                {
                  writeMember(json, "label", structure.label);
                  writeMember(json, "name", structure.name);
-                 writeMember(json, "voxels", inFile(structure.voxels, report));
+                 writeMember(json, "voxels", voxelsOfFile(structure.voxels, report));
                  json.Key("centre");
                  writePlace(json, structure.centre);
                  writeMember(json, "tunnels", structure.topology.tunnels);
@@ -393,6 +386,8 @@ void writeEars(JsonWriter& json, const SurfaceReport& report)
 }
 
 } // namespace
+
+std::size_t voxelsOfFile(std::size_t voxels, const SurfaceReport& report) { return voxels * report.repeats.voxels(); }
 
 std::string reportJson(const SurfaceReport& report)
 {

@@ -22,7 +22,7 @@ namespace surgicalmesher
 struct SurfaceReport
 {
   Grid fileGrid;             ///< of the label map as it was read
-  VoxelRepeats repeats;      ///< in it; numbers of voxels below are without them, in the JSON those of the file
+  VoxelRepeats repeats;      ///< in it; what is meshed is without them
   TissueTable tissues;       ///< of the map that was meshed
   TissueSettings settings;   ///< as followed: groups joined, shells with their lengths
   TissueSelection selection; ///< groups, and what was left out
@@ -36,7 +36,7 @@ struct SurfaceReport
   std::vector<EvolutionStep> evolution;
   double smoothing = 0;                     ///< voxels
   std::vector<MapChange> smoothed;          ///< between the prepared map and the one whose boundary was meshed
-  Grid world;                               ///< the frame of the files; places below are in the map's own
+  Grid world;                               ///< the frame of the map that was meshed; places below are in its own
   double maximumDistance = 0;               ///< mm, as asked for; 0: nothing was
   std::map<Label, TissueFidelity> fidelity; ///< to the prepared map; empty: not assessed
   SurfaceFolds folds;                       ///< of the surface, assessed with its fidelity
@@ -44,6 +44,10 @@ struct SurfaceReport
   std::vector<std::string> warnings;
 };
 
+/// Of the file, that so many voxels of the map that was meshed stand for.
+std::size_t voxelsOfFile(std::size_t voxels, const SurfaceReport& report);
+
+/// Numbers of voxels are those of the file.
 std::string reportJson(const SurfaceReport& report);
 
 /// One row per step: step, stage, tetrahedra, meanDistance, maximumDistance (mm), and the operations since the step

@@ -79,24 +79,11 @@ void fillSurroundings(const CommandLine& line, TissueMap& map)
                      ", expected a label that no voxel has");
 }
 
-/// Takes voxels that repeat coarser ones back to these.
-void takeRepeatsOut(CommandLine& line, TissueMap& map, SurfaceReport& results)
-{
-  results.fileGrid = map.grid;
-  results.repeats = findRepeats(map);
-  if (results.repeats.times == 1) return;
-  map = withoutRepeats(map, results.repeats);
-  const std::string times = std::to_string(results.repeats.times);
-  line.message(line.text("labelMap") + ": every voxel is there " + times + " x " + times + " x " + times +
-               " times; meshed are voxels of " + text::rounded(map.grid.smallestSpacing()) + " mm");
-}
-
 /// The map and what is asked of its tissues; groups are joined, and tissues left out are gone.
 TissueMap readMap(CommandLine& line, SurfaceReport& results)
 {
   TissueMap map = readTissueMap(line.text("labelMap"));
   fillSurroundings(line, map);
-  takeRepeatsOut(line, map, results);
   std::vector<std::string> warnings;
   completeTissueTable(map, line.text("names"), &warnings);
   const std::string intensities = likenessToIntensities(map);
@@ -108,6 +95,26 @@ TissueMap readMap(CommandLine& line, SurfaceReport& results)
   results.selection = selectTissues(map, results.settings);
   for (const std::string& warning : warningsOfGroups(results.selection)) line.warning(warning);
   return map;
+}
+
+std::string spacingText(const Grid& grid)
+{
+  const Vec3& mm = grid.spacing;
+  const std::string x = text::rounded(mm.x), y = text::rounded(mm.y), z = text::rounded(mm.z);
+  return (x == y && y == z ? x : x + " x " + y + " x " + z) + " mm";
+}
+
+/// Takes voxels that repeat coarser ones back to these. The surroundings, where they are a tissue, are filled by now: they
+/// reach to the border, whose blocks must be whole then.
+void takeRepeatsOut(CommandLine& line, const ScaleField& asked, TissueMap& map, SurfaceReport& results)
+{
+  results.fileGrid = map.grid;
+  results.repeats = findRepeats(map, *std::min_element(asked.lengths.begin(), asked.lengths.end()));
+  if (results.repeats.times == 1) return;
+  map = withoutRepeats(map, results.repeats);
+  const std::string times = std::to_string(results.repeats.times);
+  line.message(line.text("labelMap") + ": every voxel is there " + times + " x " + times + " x " + times +
+               " times; meshed are voxels of " + spacingText(map.grid));
 }
 
 PreparationOptions readPreparation(const CommandLine& line, const TissueSettings& settings)
@@ -154,13 +161,6 @@ void warnOfProximity(CommandLine& line, const MeshedMap& mesh)
   line.warning(text.str());
 }
 
-/// With the voxels of the file.
-void writePreparedMap(const TissueMap& map, const SurfaceReport& results, const std::string& file)
-{
-  if (results.repeats.times == 1) writeTissueMap(map, file);
-  else writeTissueMap(withRepeats(map, results.repeats, results.fileGrid), file);
-}
-
 /// Makes the map what the surface is to be faithful to.
 void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const FeatureOptions& features,
              const Progress& progress, SurfaceReport& results)
@@ -173,7 +173,7 @@ void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const F
   runInParallel({ [&] { results.structures = structuresOf(map); },
                   [&]
                   {
-                    if (!file.empty()) writePreparedMap(map, results, file);
+                    if (!file.empty()) writeTissueMap(withRepeats(map, results.repeats, results.fileGrid), file);
                   } });
   for (const Structure& structure : results.structures) results.topology[structure.label] += structure.topology;
 }
@@ -335,7 +335,8 @@ void writeReports(CommandLine& line, SurfaceReport& results)
   if (!evolution.empty()) writeBytes(evolutionCsv(results.evolution), evolution);
   std::ostringstream summary;
   summary << results.triangles << " triangles between " << results.topology.size() << " tissues, "
-          << results.preparation.preparation.contactVoxelsChanged << " voxels changed to resolve contacts";
+          << voxelsOfFile(results.preparation.preparation.contactVoxelsChanged, results)
+          << " voxels changed to resolve contacts";
   line.message(summary.str());
 }
 
@@ -348,6 +349,7 @@ void run(CommandLine& line)
   SurfaceReport results;
   TissueMap map = readMap(line, results);
   const ScaleField asked = readScaleOption(line.text("scale"), line.number("edgeLength"), map.grid);
+  takeRepeatsOut(line, asked, map, results);
   completeShells(results.settings, map, asked);
   TissueMesherOptions options;
   options.maximumDistance = line.number("maximumDistance");

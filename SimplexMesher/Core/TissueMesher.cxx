@@ -49,11 +49,11 @@ MeshSizes sizesOf(const TissueMap& map, const ScaleField& scale, const TissueMes
 }
 
 /// How many samples of `map` a triangle of length L gets. Fewer cost accuracy, but where voxels are fine and the tissues
-/// beside the face are not much thinner than L.
-SampleTransferOptions samplingOf(const TissueMap& map, const std::map<Label, double>& thickness, bool hasFineVoxels)
+/// beside the face are not much thinner than L in their mean.
+SampleTransferOptions samplingOf(const TissueMap& map, const std::map<Label, double>& thickness, bool isFine)
 {
   constexpr double usual = 16, few = 10, thin = 0.5; // the last a share of L
-  if (!hasFineVoxels) return { [=](const VoxelFace&, double) { return usual; } };
+  if (!isFine) return { [=](const VoxelFace&, double) { return usual; } };
   std::vector<double> thicknessOf(labelCount, std::numeric_limits<double>::infinity()); // every face looks up two
   for (const auto& [label, mm] : thickness) thicknessOf[label] = mm;
   return { [=, &map](const VoxelFace& face, double length)

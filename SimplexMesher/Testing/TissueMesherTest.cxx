@@ -446,23 +446,24 @@ TEST(SurfaceMesher, RoughnessGoesOnlyWhereTheSurfaceMaySmoothAndDrift)
 
 TEST(SurfaceMesher, TakesFewerSamplesWhereVoxelsAreFineAndTissuesThick)
 {
-  const auto samplesPerTriangle = [](const std::array<int, 3>& box, double length)
+  // A cube of 40 voxels, whose lowest layers are a tissue of their own: samples times triangles of length L.
+  const auto samples = [](int layers, double length)
   {
-    const auto [a, b, c] = box;
-    const TissueMap map = paintedMap({ a + 4, b + 4, c + 4 },
-                                     [&box](int i, int j, int k)
+    const TissueMap map = paintedMap({ 44, 44, 44 },
+                                     [=](int i, int j, int k)
                                      {
-                                       const std::array<int, 3> at{ i, j, k };
-                                       for (int axis = 0; axis < 3; ++axis)
-                                         if (at[axis] < 2 || at[axis] >= box[axis] + 2) return 0;
-                                       return 1;
+                                       if (std::min({ i, j, k }) < 2 || std::max({ i, j, k }) >= 42) return 0;
+                                       return k < 2 + layers ? 2 : 1;
                                      });
-    const double faces = 2.0 * (a * b + b * c + c * a), triangle = 0.25 * std::sqrt(3.0) * length * length;
-    return double(meshed(map, uniformScale(length)).background.samples.size()) / faces * triangle;
+    const double triangle = 0.25 * std::sqrt(3.0) * length * length;
+    return double(meshed(map, uniformScale(length)).background.samples.size()) * triangle;
   };
-  EXPECT_NEAR(samplesPerTriangle({ 40, 40, 40 }, 12), 16, 1);
-  EXPECT_NEAR(samplesPerTriangle({ 40, 40, 40 }, 13), 10, 1);
-  EXPECT_NEAR(samplesPerTriangle({ 40, 40, 4 }, 13), 16, 1) << "a thin one";
+  const auto expectAbout = [](double number, double wanted) { EXPECT_NEAR(number, wanted, 0.05 * wanted); };
+  constexpr double side = 1600;
+  expectAbout(samples(0, 12), 16 * 6 * side);
+  expectAbout(samples(0, 13), 10 * 6 * side);
+  expectAbout(samples(20, 13), 10 * 7 * side);
+  expectAbout(samples(4, 13), 16 * (2 + 4 * 0.1) * side + 10 * (1 + 4 * 0.9) * side); // thin on one side of its faces
 }
 
 } // namespace surgicalmesher

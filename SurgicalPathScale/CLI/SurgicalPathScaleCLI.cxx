@@ -21,7 +21,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <utility>
 
 using namespace surgicalmesher;
 
@@ -246,8 +245,9 @@ void writeReport(const std::string& file, const CommandLine& line, const Focus& 
   writeBytes(jsonText(writeMembers, { 6 }), file);
 }
 
+/// The map that is written has its voxels `repeats` times on `grid`.
 void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, const std::set<Label>& named,
-                   Results& results)
+                   const VoxelRepeats& repeats, const Grid& grid, Results& results)
 {
   const std::string file = line.outputFile("outputLabelMap");
   const bool isAskedFor = line.number("nullDisplacementRadius") > 0 || line.number("nullDisplacementPathDistance") > 0;
@@ -255,6 +255,7 @@ void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, const 
   if (file.empty()) return;
   results.nullDisplacement =
     markNullDisplacement(map, focus.targets, focus.paths, readNullDisplacement(line, map, named));
+  results.nullDisplacement.voxelCount *= repeats.voxels();
   completeTissueTable(map, "");
   const bool isNothing = results.nullDisplacement.voxelCount == 0;
   if (isNothing) line.warning("no voxel is far enough to become null displacement");
@@ -263,7 +264,7 @@ void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, const 
                  "displacement, so that its tetrahedra will not be held still; expected .nrrd");
   line.message("null displacement: " + std::to_string(results.nullDisplacement.voxelCount) + " voxels, label " +
                std::to_string(results.nullDisplacement.label));
-  writeTissueMap(map, file);
+  writeTissueMap(withRepeats(map, repeats, grid), file);
 }
 
 void returnEstimate(CommandLine& line, const MeshSizeEstimate& estimate)
@@ -286,18 +287,6 @@ std::set<Label> nameTissues(CommandLine& line, TissueMap& map)
   std::set<Label> labels;
   for (const auto& entry : all) labels.insert(entry.first);
   return labels;
-}
-
-/// Of the map as it will be meshed.
-void estimateMesh(TissueMap map, const ScaleField& scale, Results& results)
-{
-  const std::uint64_t reading = estimateReadingMemory(map.grid);
-  const VoxelRepeats repeats = findRepeats(map);
-  if (repeats.times > 1) map = withoutRepeats(map, repeats);
-  results.meshedVoxels = map.grid.voxelCount();
-  results.estimate = estimateMeshSize(map, scale);
-  results.startingFaces = startingFaces(map, scale);
-  results.surfaceMemory = std::max(reading, estimateSurfaceMemory(map, scale, results.startingFaces));
 }
 
 void run(CommandLine& line)
@@ -325,11 +314,17 @@ void run(CommandLine& line)
   results.longest = *extremes.second;
   report(progress, 0.6, "writing the scale");
   writeScale(scale, line.outputFile("scale"));
+  const Grid grid = map.grid; // of the file
+  const VoxelRepeats repeats = findRepeats(map, results.shortest);
+  if (repeats.times > 1) map = withoutRepeats(map, repeats); // as it will be meshed
   report(progress, 0.7, "null displacement");
-  markFarTissue(line, map, focus, named, results);
+  markFarTissue(line, map, focus, named, repeats, grid, results);
   report(progress, 0.8, "estimating the size of the mesh");
-  const Grid grid = map.grid;
-  estimateMesh(std::move(map), scale, results);
+  results.meshedVoxels = map.grid.voxelCount();
+  results.estimate = estimateMeshSize(map, scale);
+  results.startingFaces = startingFaces(map, scale);
+  results.surfaceMemory =
+    std::max(estimateReadingMemory(grid), estimateSurfaceMemory(map, scale, results.startingFaces));
 
   line.message("edge lengths: " + text::rounded(results.shortest, 4) + " to " + text::rounded(results.longest, 4) +
                " mm");

@@ -49,6 +49,25 @@ class InputsTest(unittest.TestCase):
         self.assertEqual(inputs.interface_faces(block), 6 * 9)
         self.assertEqual(inputs.interface_faces(block[1:4, 1:4, 1:4]), 6 * 9)
 
+    def test_halves_interpolate_linearly_along_an_axis(self):
+        ramp = np.multiply.outer([2.0, 3.0], np.arange(5.0))[np.newaxis]
+        fine = inputs.halves(ramp, 2)
+        self.assertEqual(fine.shape, (1, 2, 10))
+        np.testing.assert_allclose(fine[0, :, 1:-1], np.multiply.outer([2, 3], np.arange(1, 9) / 2 - 0.25))
+
+    def test_smoothed_tissues_have_finer_steps_in_their_places(self):
+        labels, affine = cut_out(np.s_[60:90, 90:120, 40:70])
+        fine, fine_affine = inputs.smoothed(labels, affine)
+        steps, same_affine = inputs.resampled(labels, affine, 0.5)
+        np.testing.assert_array_equal(fine_affine, same_affine)
+        changed = float(np.mean(fine != steps))
+        self.assertGreater(changed, 0.005)
+        self.assertLess(changed, 0.05)
+        self.assertLess(inputs.interface_faces(fine), inputs.interface_faces(steps))
+        for label in np.unique(labels):
+            if np.count_nonzero(labels == label) > 1000:
+                self.assertAlmostEqual(np.count_nonzero(fine == label) / np.count_nonzero(steps == label), 1, delta=0.05)
+
     def test_nested_shapes_are_the_same_at_every_size(self):
         volumes = [np.bincount(inputs.nested_shapes(spacing)[0].ravel()) * spacing ** 3 for spacing in (2, 1)]
         np.testing.assert_allclose(volumes[0], volumes[1], rtol=0.08)

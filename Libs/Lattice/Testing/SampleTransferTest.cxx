@@ -123,7 +123,7 @@ TEST(SampleTransfer, thinsEvenly)
   }
   const double wanted = share * double(side * side);
   for (const int count : near) EXPECT_NEAR(count, wanted, 0.15 * wanted);
-  for (const int count : far) EXPECT_NEAR(count, 0.5 * wanted, 0.15 * wanted);
+  for (const int count : far) EXPECT_NEAR(count, 0.5 * wanted, 0.15 * 0.5 * wanted);
 }
 
 } // namespace

@@ -37,27 +37,47 @@ TissueMap randomMap(const std::array<int, 3>& size, int border, unsigned seed)
   return map;
 }
 
-/// `map` on voxels a `times`-th as long, with `before` and `after` more of background along each axis.
-TissueMap fineMap(const TissueMap& map, int times, int before, int after)
+constexpr double anyLength = 1e9;
+
+/// `map` on voxels a `times`-th as long, with `before` and `after` more of background along the axes.
+TissueMap fineMap(const TissueMap& map, int times, const std::array<int, 3>& before = {},
+                  const std::array<int, 3>& after = {})
 {
   Grid grid = map.grid;
-  for (int a = 0; a < 3; ++a) grid.size[a] = map.grid.size[a] * times + before + after;
-  return withRepeats(map, { times, { before, before, before } }, grid);
+  for (int a = 0; a < 3; ++a) grid.size[a] = map.grid.size[a] * times + before[a] + after[a];
+  return withRepeats(map, { times, before }, grid);
 }
 
-void expectOwnVoxels(const TissueMap& map) { EXPECT_EQ(findRepeats(map).times, 1); }
+void expectOwnVoxels(const TissueMap& map, double shortestLength = anyLength)
+{
+  EXPECT_EQ(findRepeats(map, shortestLength).times, 1);
+}
+
+/// `map` with `count` slices less at one end of an axis.
+TissueMap cut(const TissueMap& map, int axis, bool atBegin, int count)
+{
+  TissueMap result = map;
+  result.grid.size[axis] -= count;
+  result.labels.clear();
+  for (std::size_t v = 0; v < map.labels.size(); ++v)
+  {
+    const int at = map.grid.voxelAt(v)[axis];
+    if (atBegin ? at >= count : at < result.grid.size[axis]) result.labels.push_back(map.labels[v]);
+  }
+  return result;
+}
 
 TEST(RepeatedVoxels, AreFoundAndPutBack)
 {
   for (const int times : { 2, 3, 4 })
-    for (int before = 0; before < times; ++before)
+    for (int n = 0; n < times; ++n)
     {
-      const TissueMap coarse = randomMap({ 19, 17, 16 }, 0, unsigned(10 * times + before));
-      const int after = times - 1 - before;
+      const TissueMap coarse = randomMap({ 19, 17, 16 }, 0, unsigned(10 * times + n));
+      const std::array<int, 3> before{ n, (n + 1) % times, 0 }, after{ 0, times - 1 - n, n };
       const TissueMap fine = fineMap(coarse, times, before, after);
-      const VoxelRepeats repeats = findRepeats(fine);
+      const VoxelRepeats repeats = findRepeats(fine, anyLength);
       ASSERT_EQ(repeats.times, times);
-      EXPECT_EQ(repeats.first, (std::array<int, 3>{ before, before, before }));
+      EXPECT_EQ(repeats.first, before);
       const TissueMap found = withoutRepeats(fine, repeats);
       EXPECT_EQ(found.grid.size, coarse.grid.size);
       EXPECT_EQ(found.labels, coarse.labels);
@@ -68,21 +88,42 @@ TEST(RepeatedVoxels, AreFoundAndPutBack)
 
 TEST(RepeatedVoxels, StayWhereTheyAre)
 {
-  const TissueMap fine = fineMap(randomMap({ 15, 15, 15 }, 0, 1), 3, 2, 0);
-  const VoxelRepeats repeats = findRepeats(fine);
+  const TissueMap fine = fineMap(randomMap({ 15, 15, 15 }, 0, 1), 3, { 2, 1, 0 });
+  const VoxelRepeats repeats = findRepeats(fine, anyLength);
   ASSERT_EQ(repeats.times, 3);
   const TissueMap coarse = withoutRepeats(fine, repeats);
   for (const auto& [i, j, k] : { std::array<int, 3>{ 0, 0, 0 }, { 14, 3, 7 } })
   {
-    const Vec3 middle = fine.grid.gridToWorld(fine.grid.position(2 + 3 * i + 1, 2 + 3 * j + 1, 2 + 3 * k + 1));
+    const Vec3 middle = fine.grid.gridToWorld(fine.grid.position(2 + 3 * i + 1, 1 + 3 * j + 1, 3 * k + 1));
     EXPECT_LT(norm(coarse.grid.gridToWorld(coarse.grid.position(i, j, k)) - middle), 1e-12);
   }
 }
 
+TEST(RepeatedVoxels, AreAsManyAsAllAxesHave)
+{
+  const TissueMap coarse = randomMap({ 14, 14, 14 }, 0, 5);
+  TissueMap fine = coarse; // two, four and six times along the axes
+  fine.grid.size = { 28, 56, 84 };
+  fine.labels.clear();
+  for (std::size_t v = 0; v < fine.grid.voxelCount(); ++v)
+  {
+    const auto [i, j, k] = fine.grid.voxelAt(v);
+    fine.labels.push_back(coarse.labels[coarse.grid.index(i / 2, j / 4, k / 6)]);
+  }
+  EXPECT_EQ(findRepeats(fine, anyLength).times, 2);
+}
+
+TEST(RepeatedVoxels, AreNoneWhereTheirLatticeGivesNoEdgesAsShort)
+{
+  const TissueMap map = fineMap(randomMap({ 16, 16, 16 }, 0, 6), 2); // 1 x 1.4 x 1.8 mm twice
+  EXPECT_EQ(findRepeats(map, 0.25).times, 2);
+  expectOwnVoxels(map, 0.24);
+}
+
 TEST(RepeatedVoxels, AreNoneWhereOneVoxelDiffers)
 {
-  TissueMap map = fineMap(randomMap({ 16, 16, 16 }, 1, 2), 2, 0, 0);
-  ASSERT_EQ(findRepeats(map).times, 2);
+  TissueMap map = fineMap(randomMap({ 16, 16, 16 }, 1, 2), 2);
+  ASSERT_EQ(findRepeats(map, anyLength).times, 2);
   map.labels[map.grid.index(17, 9, 12)] ^= 4;
   expectOwnVoxels(map);
 }
@@ -102,13 +143,24 @@ TEST(RepeatedVoxels, AreNoneAlongTwoAxesOnly)
 
 TEST(RepeatedVoxels, AreNoneWhereTheBorderCutsTissue)
 {
-  const TissueMap whole = fineMap(randomMap({ 16, 16, 16 }, 0, 4), 2, 0, 0);
-  TissueMap cut = whole;
-  cut.grid.size[0] = 31;
-  cut.labels.clear();
-  for (std::size_t v = 0; v < whole.labels.size(); ++v)
-    if (v % 32 != 31) cut.labels.push_back(whole.labels[v]);
-  expectOwnVoxels(cut);
+  const TissueMap whole = fineMap(randomMap({ 16, 16, 16 }, 0, 4), 3);
+  ASSERT_EQ(findRepeats(whole, anyLength).times, 3);
+  for (const int axis : { 0, 1, 2 })
+    for (const bool atBegin : { false, true })
+    {
+      expectOwnVoxels(cut(whole, axis, atBegin, 1));
+      expectOwnVoxels(cut(whole, axis, atBegin, 2));
+      EXPECT_EQ(findRepeats(cut(whole, axis, atBegin, 3), anyLength).times, 3);
+    }
+}
+
+TEST(RepeatedVoxels, AreNoneWhereFewPlacesHaveChanges)
+{
+  for (const int places : { 11, 12 })
+  {
+    const TissueMap coarse = randomMap({ 20, 20, places + 1 }, 0, 7); // so many between its slices
+    EXPECT_EQ(findRepeats(fineMap(coarse, 2), anyLength).times, places < 12 ? 1 : 2);
+  }
 }
 
 TEST(RepeatedVoxels, AreNoneInABoxWhoseWallsAreEven)
