@@ -89,10 +89,10 @@ VoxelRepeats findRepeats(const TissueMap& map, double shortestLength)
   {
     const ChangeSteps steps = changesAlong(map, axis);
     times = std::gcd(times, steps.divisor());
-    if (steps.count() < leastChanges || times < 2) return {};
+    if (steps.count() < leastChanges || times == 1) return {};
     repeats.first[axis] = steps.first();
   }
-  if (shortestLength < times * map.grid.smallestSpacing() / perVoxel) return {};
+  if (times < 2 || shortestLength < times * map.grid.smallestSpacing() / perVoxel) return {};
   repeats.times = times;
   std::array<int, 3> end;
   for (int a = 0; a < 3; ++a)
