@@ -70,10 +70,10 @@ bool isBackgroundBeyond(const TissueMap& map, const std::array<int, 3>& first, c
   return true;
 }
 
-std::array<int, 3> wholeBlocks(const std::array<int, 3>& size, const VoxelRepeats& repeats)
+std::array<int, 3> wholeBlocks(const VoxelRepeats& repeats)
 {
   std::array<int, 3> count;
-  for (int a = 0; a < 3; ++a) count[a] = (size[a] - repeats.first[a]) / repeats.times;
+  for (int a = 0; a < 3; ++a) count[a] = (repeats.grid.size[a] - repeats.first[a]) / repeats.times;
   return count;
 }
 
@@ -83,24 +83,25 @@ VoxelRepeats findRepeats(const TissueMap& map, double shortestLength)
 {
   constexpr int leastChanges = 12; // along each axis; were places chance, one map in 2^33 would have even ones alone
   constexpr double perVoxel = 4;   // of the shortest edges of a lattice
-  VoxelRepeats repeats;
+  const VoxelRepeats none{ map.grid };
+  VoxelRepeats repeats = none;
   int times = 0;
   for (const int axis : { 2, 1, 0 }) // whole rows are compared first
   {
     const ChangeSteps steps = changesAlong(map, axis);
     times = std::gcd(times, steps.divisor());
-    if (steps.count() < leastChanges || times == 1) return {};
+    if (steps.count() < leastChanges || times == 1) return none;
     repeats.first[axis] = steps.first();
   }
-  if (times < 2 || shortestLength < times * map.grid.smallestSpacing() / perVoxel) return {};
+  if (times < 2 || shortestLength < times * map.grid.smallestSpacing() / perVoxel) return none;
   repeats.times = times;
   std::array<int, 3> end;
   for (int a = 0; a < 3; ++a)
   {
     repeats.first[a] %= times;
-    end[a] = repeats.first[a] + wholeBlocks(map.grid.size, repeats)[a] * times;
+    end[a] = repeats.first[a] + wholeBlocks(repeats)[a] * times;
   }
-  return isBackgroundBeyond(map, repeats.first, end) ? repeats : VoxelRepeats();
+  return isBackgroundBeyond(map, repeats.first, end) ? repeats : none;
 }
 
 TissueMap withoutRepeats(const TissueMap& map, const VoxelRepeats& repeats)
@@ -110,7 +111,7 @@ TissueMap withoutRepeats(const TissueMap& map, const VoxelRepeats& repeats)
   TissueMap result;
   result.table = map.table;
   result.grid = map.grid;
-  result.grid.size = wholeBlocks(map.grid.size, repeats);
+  result.grid.size = wholeBlocks(repeats);
   result.grid.spacing = double(n) * map.grid.spacing;
   const double half = 0.5 * (n - 1);
   const Vec3 voxel = map.grid.spacing;
@@ -127,8 +128,9 @@ TissueMap withoutRepeats(const TissueMap& map, const VoxelRepeats& repeats)
   return result;
 }
 
-TissueMap withRepeats(const TissueMap& map, const VoxelRepeats& repeats, const Grid& grid)
+TissueMap withRepeats(const TissueMap& map, const VoxelRepeats& repeats)
 {
+  const Grid& grid = repeats.grid;
   TissueMap result;
   result.table = map.table;
   result.grid = grid;

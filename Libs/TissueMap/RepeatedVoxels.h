@@ -11,6 +11,7 @@ namespace surgicalmesher
 
 struct VoxelRepeats
 {
+  Grid grid;                           ///< of the map that has them
   int times = 1;                       ///< along each axis; 1: the map's voxels are its own
   std::array<int, 3> first{ 0, 0, 0 }; ///< the voxel where the first whole block of times^3 equal ones begins
 
@@ -25,8 +26,7 @@ VoxelRepeats findRepeats(const TissueMap& map, double shortestLength);
 /// A voxel for each whole block, of its size and place. The table stays.
 TissueMap withoutRepeats(const TissueMap& map, const VoxelRepeats& repeats);
 
-/// The map on `grid`, of which withoutRepeats() was taken, each voxel a block again; blocks that the border cuts are
-/// background. The table stays.
-TissueMap withRepeats(const TissueMap& map, const VoxelRepeats& repeats, const Grid& grid);
+/// The other way round, each voxel a block again; blocks that the border cuts are background. The table stays.
+TissueMap withRepeats(const TissueMap& map, const VoxelRepeats& repeats);
 
 } // namespace surgicalmesher

@@ -21,8 +21,7 @@ namespace surgicalmesher
 
 struct SurfaceReport
 {
-  Grid fileGrid;             ///< of the label map as it was read
-  VoxelRepeats repeats;      ///< in it; what is meshed is without them
+  VoxelRepeats repeats;      ///< in the label map as it was read; what is meshed is without them
   TissueTable tissues;       ///< of the map that was meshed
   TissueSettings settings;   ///< as followed: groups joined, shells with their lengths
   TissueSelection selection; ///< groups, and what was left out

@@ -108,7 +108,6 @@ std::string spacingText(const Grid& grid)
 /// reach to the border, whose blocks must be whole then.
 void takeRepeatsOut(CommandLine& line, const ScaleField& asked, TissueMap& map, SurfaceReport& results)
 {
-  results.fileGrid = map.grid;
   results.repeats = findRepeats(map, *std::min_element(asked.lengths.begin(), asked.lengths.end()));
   if (results.repeats.times == 1) return;
   map = withoutRepeats(map, results.repeats);
@@ -173,7 +172,7 @@ void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const F
   runInParallel({ [&] { results.structures = structuresOf(map); },
                   [&]
                   {
-                    if (!file.empty()) writeTissueMap(withRepeats(map, results.repeats, results.fileGrid), file);
+                    if (!file.empty()) writeTissueMap(withRepeats(map, results.repeats), file);
                   } });
   for (const Structure& structure : results.structures) results.topology[structure.label] += structure.topology;
 }

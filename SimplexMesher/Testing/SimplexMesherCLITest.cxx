@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
 #include "MeshIO.h"
-#include "RepeatedVoxels.h"
+#include "RepeatedMaps.h"
 #include "TissueMapIO.h"
 #include "VoxelMesh.h"
 
@@ -254,12 +254,8 @@ TEST_F(SimplexMesherCLI, MeshesRepeatedVoxelsOnce)
                                   return r < 16 ? 2 : r < 60 + int(random() % 20) ? 1 : 0; // rough
                                 });
   coarse.grid.spacing = { 1, 1.1, 1.2 };
-  const VoxelRepeats repeats{ 2, { 1, 0, 1 } };
-  Grid grid = coarse.grid;
-  grid.size = { 45, 45, 46 };
-  grid.spacing = 0.5 * coarse.grid.spacing;
-  grid.origin = coarse.grid.origin - Vec3{ 1.5 * grid.spacing.x, 0.5 * grid.spacing.y, 1.5 * grid.spacing.z };
-  const TissueMap fine = withRepeats(coarse, repeats, grid);
+  const VoxelRepeats repeats = repeatsOf(coarse, 2, { 1, 0, 1 }, { 0, 1, 1 });
+  const TissueMap fine = withRepeats(coarse, repeats);
   write("coarse.nrrd", coarse);
   write("fine.nrrd", fine);
   folder.write("tissues.csv", "label,role\n7,leave\n");
@@ -275,8 +271,8 @@ TEST_F(SimplexMesherCLI, MeshesRepeatedVoxelsOnce)
   for (std::size_t n = 0; n < surface.points.size(); ++n) EXPECT_LT(norm(same.points[n] - surface.points[n]), 1e-5);
 
   const TissueMap prepared = readTissueMap(folder.file("q.nrrd"));
-  EXPECT_EQ(prepared.grid.size, grid.size);
-  EXPECT_EQ(prepared.labels, withRepeats(readTissueMap(folder.file("p.nrrd")), repeats, grid).labels);
+  EXPECT_EQ(prepared.grid.size, fine.grid.size);
+  EXPECT_EQ(prepared.labels, withRepeats(readTissueMap(folder.file("p.nrrd")), repeats).labels);
   const rapidjson::Document once = parsed("r.json"), often = parsed("t.json");
   EXPECT_EQ(once["preparation"]["voxelRepeats"].GetInt(), 1);
   EXPECT_EQ(often["preparation"]["voxelRepeats"].GetInt(), 2);
@@ -295,21 +291,21 @@ TEST_F(SimplexMesherCLI, MeshesRepeatedVoxelsOnce)
 
 TEST_F(SimplexMesherCLI, MeshesRepeatedVoxelsAsTheyAreWhereLengthsAskForThem)
 {
-  const TissueMap coarse = paintedMap({ 18, 18, 18 },
-                                      [](int i, int j, int k)
-                                      {
-                                        const int x = i - 8, y = j - 8, z = k - 8;
-                                        return x * x + y * y + z * z < 45 ? 1 : 0;
-                                      });
-  Grid grid = coarse.grid;
-  grid.size = { 36, 36, 36 };
-  const TissueMap fine = withRepeats(coarse, { 2, {} }, grid); // now voxels of 2 mm, twice
-  write("fine.nrrd", fine);
-  writeScaleFile("short.nrrd", fine.grid, 0.45F);
-  const Outcome result = run("--scale short.nrrd --report r.json fine.nrrd s.vtp");
-  EXPECT_EQ(result.status, 0);
-  EXPECT_EQ(result.err, "");
-  EXPECT_EQ(parsed("r.json")["preparation"]["voxelRepeats"].GetInt(), 1);
+  TissueMap coarse = paintedMap({ 18, 18, 18 },
+                                [](int i, int j, int k)
+                                {
+                                  const int x = i - 8, y = j - 8, z = k - 8;
+                                  return x * x + y * y + z * z < 45 ? 1 : 0;
+                                });
+  coarse.grid.spacing = { 2, 2, 2 };
+  write("fine.nrrd", withRepeats(coarse, repeatsOf(coarse, 2)));
+  for (const double length : { 0.45, 4.0 })
+  {
+    const Outcome result = run("--edgeLength " + std::to_string(length) + " --report r.json fine.nrrd s.vtp");
+    EXPECT_EQ(result.status, 0);
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(parsed("r.json")["preparation"]["voxelRepeats"].GetInt(), length < 1 ? 1 : 2);
+  }
 }
 
 TEST_F(SimplexMesherCLI, JoinsLeavesOutAndHollowsTissues)

@@ -245,9 +245,9 @@ void writeReport(const std::string& file, const CommandLine& line, const Focus& 
   writeBytes(jsonText(writeMembers, { 6 }), file);
 }
 
-/// The map that is written has its voxels `repeats` times on `grid`.
+/// The map that is written has its voxels as often as the file.
 void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, const std::set<Label>& named,
-                   const VoxelRepeats& repeats, const Grid& grid, Results& results)
+                   const VoxelRepeats& repeats, Results& results)
 {
   const std::string file = line.outputFile("outputLabelMap");
   const bool isAskedFor = line.number("nullDisplacementRadius") > 0 || line.number("nullDisplacementPathDistance") > 0;
@@ -264,7 +264,7 @@ void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, const 
                  "displacement, so that its tetrahedra will not be held still; expected .nrrd");
   line.message("null displacement: " + std::to_string(results.nullDisplacement.voxelCount) + " voxels, label " +
                std::to_string(results.nullDisplacement.label));
-  writeTissueMap(withRepeats(map, repeats, grid), file);
+  writeTissueMap(withRepeats(map, repeats), file);
 }
 
 void returnEstimate(CommandLine& line, const MeshSizeEstimate& estimate)
@@ -314,23 +314,22 @@ void run(CommandLine& line)
   results.longest = *extremes.second;
   report(progress, 0.6, "writing the scale");
   writeScale(scale, line.outputFile("scale"));
-  const Grid grid = map.grid; // of the file
   const VoxelRepeats repeats = findRepeats(map, results.shortest);
   if (repeats.times > 1) map = withoutRepeats(map, repeats); // as it will be meshed
   report(progress, 0.7, "null displacement");
-  markFarTissue(line, map, focus, named, repeats, grid, results);
+  markFarTissue(line, map, focus, named, repeats, results);
   report(progress, 0.8, "estimating the size of the mesh");
   results.meshedVoxels = map.grid.voxelCount();
   results.estimate = estimateMeshSize(map, scale);
   results.startingFaces = startingFaces(map, scale);
   results.surfaceMemory =
-    std::max(estimateReadingMemory(grid), estimateSurfaceMemory(map, scale, results.startingFaces));
+    std::max(estimateReadingMemory(repeats.grid), estimateSurfaceMemory(map, scale, results.startingFaces));
 
   line.message("edge lengths: " + text::rounded(results.shortest, 4) + " to " + text::rounded(results.longest, 4) +
                " mm");
   returnEstimate(line, results.estimate);
   const std::string reportFile = line.outputFile("report");
-  if (!reportFile.empty()) writeReport(reportFile, line, focus, options, results, grid, scale.grid);
+  if (!reportFile.empty()) writeReport(reportFile, line, focus, options, results, repeats.grid, scale.grid);
   report(progress, 1, "done");
 }
 

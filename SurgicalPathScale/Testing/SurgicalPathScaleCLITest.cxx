@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
-#include "RepeatedVoxels.h"
+#include "RepeatedMaps.h"
 #include "TissueMapIO.h"
 #include "VoxelMesh.h"
 
@@ -130,13 +130,9 @@ TEST_F(SurgicalPathScaleCLI, EstimatesAndMarksWhatRepeatedVoxelsAreMeshedAs)
                                         const int x = i - 9, y = j - 10, z = k - 10;
                                         return x * x + y * y + z * z < 70 ? 3 : 0;
                                       });
-  Grid grid = coarse.grid;
-  grid.size = { 160, 160, 160 };
-  grid.spacing = 0.125 * coarse.grid.spacing;
-  grid.origin = coarse.grid.origin - 0.4375 * coarse.grid.spacing;
-  const VoxelRepeats repeats{ 8, {} };
+  const VoxelRepeats repeats = repeatsOf(coarse, 8);
   folder.write("coarse.nrrd", nrrd("uint16", nrrdGeometry(coarse.grid), coarse.labels));
-  folder.write("fine.nrrd", nrrd("uint16", nrrdGeometry(grid), withRepeats(coarse, repeats, grid).labels));
+  folder.write("fine.nrrd", nrrd("uint16", nrrdGeometry(repeats.grid), withRepeats(coarse, repeats).labels));
   std::vector<rapidjson::Document> reports(2);
   for (const bool isFine : { false, true })
   {
@@ -146,7 +142,7 @@ TEST_F(SurgicalPathScaleCLI, EstimatesAndMarksWhatRepeatedVoxelsAreMeshedAs)
     reports[isFine].Parse(readBytes(folder.file("r.json")).c_str());
   }
   const TissueMap marked = readTissueMap(folder.file("marked-coarse.nrrd"));
-  EXPECT_EQ(readTissueMap(folder.file("marked-fine.nrrd")).labels, withRepeats(marked, repeats, grid).labels);
+  EXPECT_EQ(readTissueMap(folder.file("marked-fine.nrrd")).labels, withRepeats(marked, repeats).labels);
   EXPECT_EQ(reports[1]["nullDisplacement"]["voxels"].GetInt64(),
             512 * reports[0]["nullDisplacement"]["voxels"].GetInt64());
   EXPECT_NEAR(reports[1]["nullDisplacement"]["volume"].GetDouble(),

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "RepeatedVoxels.h"
+#include "RepeatedMaps.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 using namespace surgicalmesher;
+using namespace surgicalmesher::test;
 
 namespace
 {
@@ -43,14 +44,14 @@ constexpr double anyLength = 1e9;
 TissueMap fineMap(const TissueMap& map, int times, const std::array<int, 3>& before = {},
                   const std::array<int, 3>& after = {})
 {
-  Grid grid = map.grid;
-  for (int a = 0; a < 3; ++a) grid.size[a] = map.grid.size[a] * times + before[a] + after[a];
-  return withRepeats(map, { times, before }, grid);
+  return withRepeats(map, repeatsOf(map, times, before, after));
 }
 
 void expectOwnVoxels(const TissueMap& map, double shortestLength = anyLength)
 {
-  EXPECT_EQ(findRepeats(map, shortestLength).times, 1);
+  const VoxelRepeats repeats = findRepeats(map, shortestLength);
+  EXPECT_EQ(repeats.times, 1);
+  EXPECT_EQ(withRepeats(map, repeats).labels, map.labels);
 }
 
 /// `map` with `count` slices less at one end of an axis.
@@ -82,7 +83,7 @@ TEST(RepeatedVoxels, AreFoundAndPutBack)
       EXPECT_EQ(found.grid.size, coarse.grid.size);
       EXPECT_EQ(found.labels, coarse.labels);
       EXPECT_EQ(found.table.at(2).name, "two");
-      EXPECT_EQ(withRepeats(found, repeats, fine.grid).labels, fine.labels);
+      EXPECT_EQ(withRepeats(found, repeats).labels, fine.labels);
     }
 }
 
@@ -115,9 +116,9 @@ TEST(RepeatedVoxels, AreAsManyAsAllAxesHave)
 
 TEST(RepeatedVoxels, AreNoneWhereTheirLatticeGivesNoEdgesAsShort)
 {
-  const TissueMap map = fineMap(randomMap({ 16, 16, 16 }, 0, 6), 2); // 1 x 1.4 x 1.8 mm twice
-  EXPECT_EQ(findRepeats(map, 0.25).times, 2);
-  expectOwnVoxels(map, 0.24);
+  const TissueMap map = fineMap(randomMap({ 16, 16, 16 }, 0, 6), 2); // 0.5 x 0.7 x 0.9 mm twice
+  EXPECT_EQ(findRepeats(map, 0.125).times, 2);
+  expectOwnVoxels(map, 0.12);
 }
 
 TEST(RepeatedVoxels, AreNoneWhereOneVoxelDiffers)
