@@ -23,10 +23,13 @@ struct SolverExports
   Units units = Units::Millimetres;
 };
 
-/// Announces what is written beside the exports. Throws UsageError for sets of nodes without an export; before anything
-/// is read.
-inline void requireUsable(const SolverExports& exports, CommandLine& line)
+/// What the command line asks for. Announces what is written beside the exports. Throws UsageError for sets of nodes
+/// without an export; before anything is read.
+inline SolverExports readExports(CommandLine& line)
 {
+  SolverExports exports{ line.outputNames("export"), line.text("materials"),
+                         nodeChoices(line.texts("nodeSet"), line.texts("nodeMarkups")),
+                         unitsNamed(line.text("units")) };
   for (const std::string& file : exports.files)
   {
     for (const ExportSidecar& sidecar : exportSidecars(file))
@@ -37,6 +40,7 @@ inline void requireUsable(const SolverExports& exports, CommandLine& line)
   }
   if (exports.files.empty() && !exports.nodes.empty())
     throw UsageError("--nodeSet or --nodeMarkups is given, but no --export, expected both");
+  return exports;
 }
 
 /// `points` in mm; `file` is named in messages.

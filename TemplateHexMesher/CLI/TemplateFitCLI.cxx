@@ -243,15 +243,6 @@ void tell(CommandLine& line, const Report& report)
   line.message(text.str());
 }
 
-SolverExports readExports(CommandLine& line)
-{
-  SolverExports exports{ line.outputNames("export"), line.text("materials"),
-                         nodeChoices(line.texts("nodeSet"), line.texts("nodeMarkups")),
-                         unitsNamed(line.text("units")) };
-  requireUsable(exports, line);
-  return exports;
-}
-
 void run(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));

@@ -219,15 +219,6 @@ void warnOfEmptyParts(CommandLine& line, const std::vector<Part>& parts, const C
   }
 }
 
-SolverExports readExports(CommandLine& line)
-{
-  SolverExports exports{ line.outputNames("export"), line.text("materials"),
-                         nodeChoices(line.texts("nodeSet"), line.texts("nodeMarkups")),
-                         unitsNamed(line.text("units")) };
-  requireUsable(exports, line);
-  return exports;
-}
-
 void run(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));

@@ -3,7 +3,7 @@
 Usage: test_description.py EXECUTABLE SOURCE.cxx
 
 For every parameter in the XML that EXECUTABLE prints: a legal value is accepted and comes back, an illegal one is
-refused, --help lists it, and SOURCE.cxx asks for it. SOURCE.cxx asks for nothing else.
+refused, --help lists it, and SOURCE.cxx, or a header beside it that it includes, asks for it. They ask for nothing else.
 """
 import os
 import re
@@ -21,6 +21,17 @@ ACCESSORS = "given|flag|integer|number|text|texts|numbers|points|outputFile|outp
 
 def run(*arguments):
     return subprocess.run([EXECUTABLE, *arguments], capture_output=True, text=True, timeout=60)
+
+
+def source_with_headers():
+    with open(SOURCE) as file:
+        text = file.read()
+    for name in re.findall(r'(?m)^#include "(\w+\.h)"', text):
+        header = os.path.join(os.path.dirname(SOURCE), name)
+        if os.path.exists(header):
+            with open(header) as file:
+                text += file.read()
+    return text
 
 
 class Parameter:
@@ -121,8 +132,7 @@ class Description(unittest.TestCase):
                 self.assertRegex(" ".join(text.split()), r"default %s\b" % re.escape(parameter.default))
 
     def test_source_and_xml_name_the_same_parameters(self):
-        with open(SOURCE) as file:
-            asked = set(re.findall(r"[.>](?:%s)\(\s*\"(\w+)\"" % ACCESSORS, file.read()))
+        asked = set(re.findall(r"[.>](?:%s)\(\s*\"(\w+)\"" % ACCESSORS, source_with_headers()))
         self.assertEqual(asked, {parameter.name for parameter in self.parameters})
 
 
