@@ -106,25 +106,12 @@ VoxelRepeats findRepeats(const TissueMap& map, double shortestLength)
 
 TissueMap withoutRepeats(const TissueMap& map, const VoxelRepeats& repeats)
 {
-  const int n = repeats.times;
+  TissueMap result = everyNth(map, repeats.times, repeats.first, wholeBlocks(repeats));
   const auto& first = repeats.first;
-  TissueMap result;
-  result.table = map.table;
-  result.grid = map.grid;
-  result.grid.size = wholeBlocks(repeats);
-  result.grid.spacing = double(n) * map.grid.spacing;
-  const double half = 0.5 * (n - 1);
+  const double half = 0.5 * (repeats.times - 1); // to the middle of what repeats
   const Vec3 voxel = map.grid.spacing;
   result.grid.origin =
     map.grid.gridToWorld({ (first[0] + half) * voxel.x, (first[1] + half) * voxel.y, (first[2] + half) * voxel.z });
-  const auto& size = result.grid.size;
-  result.labels.reserve(result.grid.voxelCount());
-  for (int k = 0; k < size[2]; ++k)
-    for (int j = 0; j < size[1]; ++j)
-    {
-      const Label* row = map.labels.data() + map.grid.index(first[0], first[1] + j * n, first[2] + k * n);
-      for (int i = 0; i < size[0]; ++i, row += n) result.labels.push_back(*row);
-    }
   return result;
 }
 

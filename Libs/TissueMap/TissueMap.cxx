@@ -27,6 +27,31 @@ bool fillBackground(TissueMap& map, Label label)
   return true;
 }
 
+TissueMap everyNth(const TissueMap& map, int n)
+{
+  std::array<int, 3> size = map.grid.size;
+  for (int& voxels : size) voxels = (voxels + n - 1) / n;
+  return everyNth(map, n, {}, size);
+}
+
+TissueMap everyNth(const TissueMap& map, int n, const std::array<int, 3>& first, const std::array<int, 3>& size)
+{
+  TissueMap result;
+  result.table = map.table;
+  result.grid = map.grid;
+  result.grid.origin = map.grid.gridToWorld(map.grid.position(first[0], first[1], first[2]));
+  result.grid.spacing = double(n) * map.grid.spacing;
+  result.grid.size = size;
+  result.labels.reserve(result.grid.voxelCount());
+  for (int k = 0; k < size[2]; ++k)
+    for (int j = 0; j < size[1]; ++j)
+    {
+      const Label* row = map.labels.data() + map.grid.index(first[0], first[1] + j * n, first[2] + k * n);
+      for (int i = 0; i < size[0]; ++i) result.labels.push_back(row[i * n]);
+    }
+  return result;
+}
+
 std::map<Label, std::size_t> countVoxels(const TissueMap& map)
 {
   constexpr std::size_t most = 16, worthwhile = 1 << 20; // parts, voxels of each

@@ -48,6 +48,12 @@ std::vector<Label> presentLabels(const TissueMap& map);
 /// it. False, and no change, if a voxel has the label already.
 bool fillBackground(TissueMap& map, Label label);
 
+/// Every n-th voxel along each axis, from voxel (0, 0, 0) on, which stays where it is.
+TissueMap everyNth(const TissueMap& map, int n);
+
+/// The same, `size` of them, from voxel `first` on.
+TissueMap everyNth(const TissueMap& map, int n, const std::array<int, 3>& first, const std::array<int, 3>& size);
+
 /// Voxels of each label in the map, background included.
 std::map<Label, std::size_t> countVoxels(const TissueMap& map);
 

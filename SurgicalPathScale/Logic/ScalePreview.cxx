@@ -53,27 +53,9 @@ double coarseSpacing(const Grid& grid, double asked, double voxels)
   return std::max(asked, std::cbrt(volume / voxels));
 }
 
-/// Every n-th voxel in each direction.
 TissueMap thinned(const TissueMap& map, double voxels)
 {
-  const int step = std::max(1, int(std::ceil(std::cbrt(double(map.grid.voxelCount()) / voxels))));
-  TissueMap thin;
-  thin.table = map.table;
-  thin.grid = map.grid;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    thin.grid.size[axis] = (map.grid.size[axis] + step - 1) / step;
-    thin.grid.spacing[axis] *= step;
-  }
-  thin.labels.reserve(thin.grid.voxelCount());
-  for (int k = 0; k < map.grid.size[2]; k += step)
-  {
-    for (int j = 0; j < map.grid.size[1]; j += step)
-    {
-      for (int i = 0; i < map.grid.size[0]; i += step) thin.labels.push_back(map.labels[map.grid.index(i, j, k)]);
-    }
-  }
-  return thin;
+  return everyNth(map, std::max(1, int(std::ceil(std::cbrt(double(map.grid.voxelCount()) / voxels)))));
 }
 
 /// A volume node with its display node, both hidden. It has its voxels before anything in the scene can ask for them.

@@ -275,20 +275,6 @@ TissueMap prepared(TissueMap map, double volume = 0)
   return map;
 }
 
-/// Every n-th voxel along each axis.
-TissueMap thinned(const TissueMap& map, int n)
-{
-  TissueMap thin;
-  thin.grid = map.grid;
-  thin.grid.spacing = double(n) * map.grid.spacing;
-  for (int& size : thin.grid.size) size = (size + n - 1) / n;
-  for (int k = 0; k < thin.grid.size[2]; ++k)
-    for (int j = 0; j < thin.grid.size[1]; ++j)
-      for (int i = 0; i < thin.grid.size[0]; ++i)
-        thin.labels.push_back(map.labels[map.grid.index(n * i, n * j, n * k)]);
-  return thin;
-}
-
 /// A hollow cube with two openings along x and two along y, and a hemispherical gland under its inner ceiling.
 Experiment invaginatedCube()
 {
@@ -312,7 +298,7 @@ Experiment invaginatedCube()
 /// The outside of the brain: all tissues of the JHU atlas as one, dense around the pituitary gland.
 Experiment brain(const std::string& templates)
 {
-  TissueMap map = thinned(readTissueMap(templates + "/jhu189.nii.gz"), 3);
+  TissueMap map = everyNth(readTissueMap(templates + "/jhu189.nii.gz"), 3);
   for (Label& label : map.labels) label = label != 0;
   const Vec3 target = map.grid.worldToGrid({ 0, 0, -10 });
   return { "brain",
