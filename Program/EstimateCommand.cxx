@@ -11,6 +11,7 @@
 
 #include <rapidjson/document.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 
@@ -22,9 +23,11 @@ namespace surgicalmesher
 namespace
 {
 
-/// Processor seconds per face that the complex begins with, per tetrahedron and per voxel: Docs/Benchmarks.md, within a
-/// factor of 3.
-constexpr double secondsPerFace = 45e-6, secondsPerTetrahedron = 60e-6, secondsPerVoxel = 0.5e-6;
+/// Processor seconds per sample of the boundary, per face that the complex begins with, per tetrahedron and per voxel:
+/// Docs/Benchmarks.md#estimates, within a factor of 2.
+constexpr double secondsPerSample = 50e-6, secondsPerStartingFace = 30e-6, secondsPerTetrahedron = 70e-6,
+                 secondsPerVoxel = 0.5e-6;
+constexpr double samplesPerTriangle = 16;
 
 struct Figures
 {
@@ -76,8 +79,9 @@ Figures readFigures(const std::string& file)
   Figures figures;
   figures.triangles = estimate["triangles"].GetDouble();
   figures.tetrahedra = estimate["tetrahedra"].GetDouble();
-  figures.bytes = estimate["surfaceMemoryBytes"].GetDouble();
-  figures.seconds = secondsPerFace * estimate["startingFaces"].GetDouble() +
+  figures.bytes = std::max(estimate["surfaceMemoryBytes"].GetDouble(), estimate["tetrahedralMemoryBytes"].GetDouble());
+  const double samples = std::min(estimate["voxelFaces"].GetDouble(), samplesPerTriangle * figures.triangles);
+  figures.seconds = secondsPerSample * samples + secondsPerStartingFace * estimate["startingFaces"].GetDouble() +
                     secondsPerTetrahedron * figures.tetrahedra + secondsPerVoxel * estimate["meshedVoxels"].GetDouble();
   return figures;
 }

@@ -15,8 +15,14 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double kBytes = 25e6, kBytesPerFace = 640, kBytesPerCube = 370, kBytesPerVoxel = 9.5, kBytesPerLength = 16;
-constexpr double kRelativeSize = 0.8;       ///< of a cube to L
+constexpr double kBytes = 30e6, kBytesPerVoxel = 9.5, kBytesPerLength = 16;
+constexpr double kBytesPerSample = 230, kBytesPerStartingFace = 440,
+                 kBytesPerCube = 370;                                      ///< as the surface stage begins
+constexpr double kBytesAtEnd = 80e6, kBytesPerTetrahedron = 500;           ///< when it is done
+constexpr double kBytesInTissues = 45e6, kBytesPerTissueTetrahedron = 560; ///< of the stage after it
+constexpr double kTetrahedronVolume = 0.12, kTetrahedraPerArea = 6, kMorePerOuterArea = 7; ///< at unit edge
+constexpr double kSamplesPerTriangle = 16, kTriangleArea = 0.433;                          ///< at unit edge
+constexpr double kRelativeSize = 0.8;                                                      ///< of a cube to L
 constexpr int kSmallest = -2, kLargest = 5; ///< powers of two of a cube's side, in voxels
 
 /// What a voxel face counts where blocks of voxels stand for them (UniformBlocks.h).
@@ -36,39 +42,6 @@ double cubesPerVoxel(double length, double voxel)
   return std::pow(8.0, -std::clamp(power, double(kSmallest), double(kLargest)));
 }
 
-/// Cubes in tissue, from a voxel in every few: L varies slowly.
-double countCubes(const TissueMap& map, const ScaleField& scale)
-{
-  constexpr std::size_t mostSamplesPerAxis = 64;
-  const Grid& grid = map.grid;
-  std::array<int, 3> step;
-  for (int axis = 0; axis < 3; ++axis) step[axis] = int((grid.size[axis] - 1) / mostSamplesPerAxis) + 1;
-  const double voxel = grid.smallestSpacing();
-  const double nearCubes = grid.spacing.x * grid.spacing.y * grid.spacing.z / (voxel * voxel * voxel); // per voxel
-  double cubes = 0;
-  for (int k = 0; k < grid.size[2]; k += step[2])
-  {
-    for (int j = 0; j < grid.size[1]; j += step[1])
-    {
-      for (int i = 0; i < grid.size[0]; i += step[0])
-      {
-        if (map.labels[grid.index(i, j, k)] == 0) continue;
-        const Vec3 p{ i * grid.spacing.x, j * grid.spacing.y, k * grid.spacing.z };
-        cubes += nearCubes * cubesPerVoxel(scale(grid.gridToWorld(p)), voxel);
-      }
-    }
-  }
-  return cubes * step[0] * step[1] * step[2];
-}
-
-std::string inGigabytes(std::uint64_t bytes)
-{
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << std::fixed << std::setprecision(1) << double(bytes) / 1e9 << " GB";
-  return text.str();
-}
-
 /// A long voxel is cut into several cells, and its faces with it.
 std::array<double, 3> cellsOfFaces(const Grid& grid)
 {
@@ -79,34 +52,114 @@ std::array<double, 3> cellsOfFaces(const Grid& grid)
   return cells;
 }
 
-} // namespace
+double areaOf(const Grid& grid, int axis) { return grid.spacing[(axis + 1) % 3] * grid.spacing[(axis + 2) % 3]; }
 
-double startingFaces(const TissueMap& map, const ScaleField& scale, bool hasBlocks)
+/// That of edges at a voxel, mm.
+double lengthAt(const ScaleField& scale, const Grid& grid, const std::array<int, 3>& voxel)
+{
+  const Vec3 p = grid.gridToWorld(grid.position(voxel[0], voxel[1], voxel[2]));
+  return std::max(scale(p), shortestLatticeLength(grid));
+}
+
+/// Of tissue, from a voxel in every few: L varies slowly.
+void addFilled(const TissueMap& map, const ScaleField& scale, MeshingSize& size)
+{
+  constexpr std::size_t mostSamplesPerAxis = 64;
+  const Grid& grid = map.grid;
+  std::array<int, 3> step;
+  for (int axis = 0; axis < 3; ++axis) step[axis] = int((grid.size[axis] - 1) / mostSamplesPerAxis) + 1;
+  const double voxel = grid.smallestSpacing(), volume = grid.spacing.x * grid.spacing.y * grid.spacing.z;
+  const double nearCubes = volume / (voxel * voxel * voxel); // per voxel
+  double cubes = 0, tetrahedra = 0;
+  for (int k = 0; k < grid.size[2]; k += step[2])
+    for (int j = 0; j < grid.size[1]; j += step[1])
+      for (int i = 0; i < grid.size[0]; i += step[0])
+      {
+        if (map.labels[grid.index(i, j, k)] == 0) continue;
+        const double length = lengthAt(scale, grid, { i, j, k });
+        cubes += nearCubes * cubesPerVoxel(length, voxel);
+        tetrahedra += volume / (kTetrahedronVolume * std::pow(length, 3));
+      }
+  const double voxelsPerSample = double(step[0]) * step[1] * step[2];
+  size.startingCubes = voxelsPerSample * cubes;
+  size.tetrahedra = voxelsPerSample * tetrahedra;
+}
+
+/// What the faces of a slice add.
+struct Faces
+{
+  double all = 0, samples = 0, starting = 0, tetrahedra = 0;
+  Faces& operator+=(const Faces& more)
+  {
+    all += more.all;
+    samples += more.samples;
+    starting += more.starting;
+    tetrahedra += more.tetrahedra;
+    return *this;
+  }
+};
+
+void addInterface(const TissueMap& map, const ScaleField& scale, bool hasBlocks, MeshingSize& size)
 {
   const Grid& grid = map.grid;
   const double voxel = grid.smallestSpacing();
   const std::array<double, 3> cells = cellsOfFaces(grid);
   const bool mayHaveBlocks = hasBlocks && std::max({ cells[0], cells[1], cells[2] }) == 1;
-  const auto share = [&](const VoxelFace& face)
+  const auto add = [&](const VoxelFace& face, Faces& faces)
   {
-    if (!mayHaveBlocks) return 1.0;
-    const auto [i, j, k] = voxelInside(grid, face);
-    return shareOfFace(scale(grid.gridToWorld(grid.position(i, j, k))), voxel);
+    const double length = lengthAt(scale, grid, voxelInside(grid, face));
+    const double area = areaOf(grid, face.axis) / (length * length);
+    const bool isOuter = labelAt(map, face.lower) == 0 || labelAt(map, face.upper()) == 0;
+    faces.all += 1;
+    faces.samples += std::min(1.0, kSamplesPerTriangle / kTriangleArea * area);
+    faces.starting += cells[face.axis] * (mayHaveBlocks ? shareOfFace(length, voxel) : 1);
+    faces.tetrahedra += (kTetrahedraPerArea + (isOuter ? kMorePerOuterArea : 0)) * area;
   };
-  return sumOverBoundarySlices<double>(
-    map,
-    [&](int k)
-    {
-      double faces = 0;
-      forEachBoundaryFace(map, k, [&](const VoxelFace& face) { faces += cells[face.axis] * share(face); });
-      return faces;
-    });
+  const auto ofSlice = [&](int k)
+  {
+    Faces faces;
+    forEachBoundaryFace(map, k, [&](const VoxelFace& face) { add(face, faces); });
+    return faces;
+  };
+  const Faces faces = sumOverBoundarySlices<Faces>(map, ofSlice);
+  size.faces = faces.all;
+  size.samples = faces.samples;
+  size.startingFaces = faces.starting;
+  size.tetrahedra += faces.tetrahedra;
 }
 
-std::uint64_t estimateSurfaceMemory(const TissueMap& map, const ScaleField& scale, double startingFaces)
+std::string inGigabytes(std::uint64_t bytes)
 {
-  return std::uint64_t(kBytes + kBytesPerFace * startingFaces + kBytesPerCube * countCubes(map, scale) +
-                       kBytesPerVoxel * double(map.grid.voxelCount()) + kBytesPerLength * double(scale.lengths.size()));
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::fixed << std::setprecision(1) << double(bytes) / 1e9 << " GB";
+  return text.str();
+}
+
+} // namespace
+
+MeshingSize meshingSize(const TissueMap& map, const ScaleField& scale, bool hasBlocks)
+{
+  MeshingSize size;
+  size.voxels = map.grid.voxelCount();
+  size.lengths = scale.lengths.size();
+  addFilled(map, scale, size);
+  addInterface(map, scale, hasBlocks, size);
+  return size;
+}
+
+std::uint64_t estimateSurfaceMemory(const MeshingSize& size)
+{
+  const double start =
+    kBytesPerSample * size.samples + kBytesPerStartingFace * size.startingFaces + kBytesPerCube * size.startingCubes;
+  const double end = kBytesAtEnd + kBytesPerTetrahedron * size.tetrahedra;
+  return std::uint64_t(kBytes + kBytesPerVoxel * double(size.voxels) + kBytesPerLength * double(size.lengths) +
+                       std::max(start, end));
+}
+
+std::uint64_t estimateTetrahedralMemory(const MeshingSize& size)
+{
+  return std::uint64_t(kBytesInTissues + kBytesPerTissueTetrahedron * size.tetrahedra);
 }
 
 std::uint64_t estimateReadingMemory(const Grid& grid)

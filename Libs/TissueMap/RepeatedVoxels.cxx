@@ -82,7 +82,6 @@ std::array<int, 3> wholeBlocks(const VoxelRepeats& repeats)
 VoxelRepeats findRepeats(const TissueMap& map, double shortestLength)
 {
   constexpr int leastChanges = 12; // along each axis; were places chance, one map in 2^33 would have even ones alone
-  constexpr double perVoxel = 4;   // of the shortest edges of a lattice
   const VoxelRepeats none{ map.grid };
   VoxelRepeats repeats = none;
   int times = 0;
@@ -93,7 +92,7 @@ VoxelRepeats findRepeats(const TissueMap& map, double shortestLength)
     if (steps.count() < leastChanges || times == 1) return none;
     repeats.first[axis] = steps.first();
   }
-  if (times < 2 || shortestLength < times * map.grid.smallestSpacing() / perVoxel) return none;
+  if (times < 2 || shortestLength < times * shortestLatticeLength(map.grid)) return none;
   repeats.times = times;
   std::array<int, 3> end;
   for (int a = 0; a < 3; ++a)

@@ -41,6 +41,9 @@ inline Label labelAt(const TissueMap& map, const std::array<int, 3>& voxel)
   return map.grid.contains(i, j, k) ? map.labels[map.grid.index(i, j, k)] : Label(0);
 }
 
+/// The shortest edges, mm, that meshing voxels of this grid gives: a quarter of their shortest side.
+inline double shortestLatticeLength(const Grid& grid) { return grid.smallestSpacing() / 4; }
+
 /// Labels present in the map, ascending, without background.
 std::vector<Label> presentLabels(const TissueMap& map);
 

@@ -427,7 +427,11 @@ class ProgramTest(unittest.TestCase):
             estimate = json.load(file)
         count = len(read_mesh("out/mesh.vtu").tetrahedra)
         self.assertTrue(count / 2 < estimate["tetrahedra"] < count * 2, (count, estimate))
-        self.assertGreater(estimate["memoryBytes"], 25e6)
+        finer = surgicalmesher("estimate", "map.nrrd", "--target", TARGET, "--minimumEdgeLength", "0.5",
+                               "--maximumEdgeLength", "0.5", "--estimate", "finer.json")
+        self.assertEqual(finer.returncode, 0, finer.stderr)
+        with open("finer.json", encoding="utf-8") as file:
+            self.assertGreater(json.load(file)["memoryBytes"], 1.5 * estimate["memoryBytes"])
         self.assertGreater(estimate["processorSeconds"], 0)
 
     def test_presets_are_values_of_options(self):

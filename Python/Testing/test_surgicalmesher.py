@@ -232,7 +232,8 @@ class MeshingTest(unittest.TestCase):
     def test_estimate(self):
         figures = surgicalmesher.estimate(self.image(), targets=TARGET, minimumEdgeLength=1.5, maximumEdgeLength=6)
         self.assertLess(abs(figures["tetrahedra"] / len(self.mesh.tetrahedra) - 1), 0.5)
-        self.assertGreater(figures["memoryBytes"], 1e6)
+        finer = surgicalmesher.estimate(self.image(), targets=TARGET, minimumEdgeLength=0.5, maximumEdgeLength=0.5)
+        self.assertGreater(finer["memoryBytes"], 1.5 * figures["memoryBytes"])
 
     def test_warning(self):
         with self.assertWarnsRegex(surgicalmesher.MeshingWarning, "outside the label map") as caught:

@@ -361,8 +361,8 @@ void run(CommandLine& line)
   const ScaleField scale = lengthsFor(line, map, asked, options, results);
   const std::string tooShort = warningOfShortLengths(map, scale, line.text("labelMap"));
   if (!tooShort.empty()) line.warning(tooShort);
-  const double faces = startingFaces(map, scale, leavesVoxels(options));
-  requireMemory(estimateSurfaceMemory(map, scale, faces), availableMemory(), line.text("labelMap"));
+  const MeshingSize size = meshingSize(map, scale, leavesVoxels(options));
+  requireMemory(estimateSurfaceMemory(size), availableMemory(), line.text("labelMap"));
 
   const Grid world = map.grid;
   map.grid = inOwnFrame(world);

@@ -45,11 +45,6 @@ std::string listed(const std::vector<Label>& piece, const TissueTable& names)
 
 } // namespace
 
-double shortestLatticeLength(const Grid& grid)
-{
-  return std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z }) / 4;
-}
-
 std::string warningOfShortLengths(const TissueMap& map, const ScaleField& scale, const std::string& labelMap)
 {
   const double asked = shortestLength(map, scale), given = shortestLatticeLength(map.grid);

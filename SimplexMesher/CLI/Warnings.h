@@ -13,9 +13,6 @@
 namespace surgicalmesher
 {
 
-/// The shortest edge length that the lattice of the map's voxels gives, mm: a quarter of the smallest voxel side.
-double shortestLatticeLength(const Grid& grid);
-
 /// That tissue asks for shorter edges than the lattice gives; empty if it does not. `labelMap` names the map.
 std::string warningOfShortLengths(const TissueMap& map, const ScaleField& scale, const std::string& labelMap);
 

@@ -35,9 +35,8 @@ struct Results
   float longest = 0;
   NullDisplacement nullDisplacement;
   MeshSizeEstimate estimate;
-  std::size_t meshedVoxels = 0; ///< without what repeats
-  double startingFaces = 0;
-  std::uint64_t surfaceMemory = 0; ///< bytes
+  MeshingSize meshing;                                    ///< without what repeats
+  std::uint64_t surfaceMemory = 0, tetrahedralMemory = 0; ///< bytes
 };
 
 /// To three significant digits, without an exponent.
@@ -223,9 +222,11 @@ void writeResults(JsonWriter& json, const Results& results, const std::vector<st
               {
                 writeMember(json, "triangles", std::int64_t(std::llround(results.estimate.triangles)));
                 writeMember(json, "tetrahedra", std::int64_t(std::llround(results.estimate.tetrahedra)));
-                writeMember(json, "meshedVoxels", results.meshedVoxels);
-                writeMember(json, "startingFaces", std::int64_t(std::llround(results.startingFaces)));
+                writeMember(json, "meshedVoxels", results.meshing.voxels);
+                writeMember(json, "voxelFaces", std::int64_t(std::llround(results.meshing.faces)));
+                writeMember(json, "startingFaces", std::int64_t(std::llround(results.meshing.startingFaces)));
                 writeMember(json, "surfaceMemoryBytes", std::int64_t(results.surfaceMemory));
+                writeMember(json, "tetrahedralMemoryBytes", std::int64_t(results.tetrahedralMemory));
               });
   writeWarnings(json, warnings);
 }
@@ -319,11 +320,11 @@ void run(CommandLine& line)
   report(progress, 0.7, "null displacement");
   markFarTissue(line, map, focus, named, repeats, results);
   report(progress, 0.8, "estimating the size of the mesh");
-  results.meshedVoxels = map.grid.voxelCount();
   results.estimate = estimateMeshSize(map, scale);
-  results.startingFaces = startingFaces(map, scale);
-  results.surfaceMemory =
-    std::max(estimateReadingMemory(repeats.grid), estimateSurfaceMemory(map, scale, results.startingFaces));
+  results.meshing = meshingSize(map, scale);
+  results.meshing.tetrahedra = std::max(results.meshing.tetrahedra, results.estimate.tetrahedra);
+  results.surfaceMemory = std::max(estimateReadingMemory(repeats.grid), estimateSurfaceMemory(results.meshing));
+  results.tetrahedralMemory = estimateTetrahedralMemory(results.meshing);
 
   line.message("edge lengths: " + text::rounded(results.shortest, 4) + " to " + text::rounded(results.longest, 4) +
                " mm");

@@ -11,6 +11,7 @@ import numpy as np
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path[:0] = [os.path.join(ROOT, "workflow", "example"), os.path.join(ROOT, "Testing", "Benchmarks")]
+import estimates  # noqa: E402
 import inputs  # noqa: E402
 import page  # noqa: E402
 import remeshing  # noqa: E402
@@ -105,6 +106,17 @@ class RunTest(unittest.TestCase):
         mesh = read_mesh("records/mesh.vtu")
         self.assertEqual(record["quality"]["tetrahedra"], len(mesh.tetrahedra))
         self.assertEqual(record["quality"]["wrongTissues"], 0)
+
+    def test_what_is_foretold_stands_beside_what_is_taken(self):
+        labels, affine = cut_out(np.s_[58:90, 84:116, 30:56])
+        write_nrrd("foretold.nrrd", labels, affine)
+        name, lengths, triangles, tetrahedra, memory, seconds = \
+            estimates.row(BIN, os.path.abspath("foretold.nrrd"), 3, 3).strip("| ").split(" | ")
+        self.assertEqual((name, lengths), ("foretold", "3 to 3"))
+        for ratio in (triangles, tetrahedra):
+            self.assertTrue(0.5 < float(ratio) < 2, ratio)
+        for pair in (memory, seconds):
+            self.assertGreater(min(float(number) for number in pair.split(", ")), 0, pair)
 
     def test_remeshed_tissues_have_no_angle_under_20_degrees(self):
         labels, affine = cut_out(np.s_[60:78, 90:108, 60:78])

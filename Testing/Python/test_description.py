@@ -3,7 +3,8 @@
 Usage: test_description.py EXECUTABLE SOURCE.cxx
 
 For every parameter in the XML that EXECUTABLE prints: a legal value is accepted and comes back, an illegal one is
-refused, --help lists it, and SOURCE.cxx, or a header beside it that it includes, asks for it. They ask for nothing else.
+refused, --help lists it, and SOURCE.cxx, or a header beside it that it includes, asks for it. They ask for nothing
+else.
 """
 import os
 import re

@@ -1,4 +1,5 @@
-"""The foretold mesh size is that of the mesh, within a factor of 1.5. usage: test_estimate.py BIN OUTDIR"""
+"""What is foretold of a mesh: its size within a factor of 1.5, memory that is enough, and at most three times as much as
+is taken. usage: test_estimate.py BIN OUTDIR"""
 import json
 import os
 import shutil
@@ -17,7 +18,18 @@ BIN, OUTDIR = sys.argv[1:3]
 
 
 def run(module, *arguments):
-    subprocess.run([os.path.join(BIN, module), *arguments], check=True, stdout=subprocess.DEVNULL)
+    """Its peak memory, bytes."""
+    measured = os.path.join(ROOT, "Testing", "Benchmarks", "measured.py")
+    subprocess.run([sys.executable, measured, "figures.json", os.path.join(BIN, module), *arguments], check=True,
+                   stdout=subprocess.DEVNULL)
+    with open("figures.json", encoding="utf-8") as file:
+        return json.load(file)["peakMemory"]
+
+
+def is_sanitized():
+    """Then what a program takes is mostly the sanitizer's."""
+    with open(os.path.join(BIN, "SimplexMesherCLI"), "rb") as file:
+        return b"__asan_init" in file.read()
 
 
 class EstimateTest(unittest.TestCase):
@@ -32,8 +44,9 @@ class EstimateTest(unittest.TestCase):
         target = (affine @ [*(np.array(labels.shape) // 2), 1])[:3]
         run("SurgicalPathScaleCLI", "--targetPoint", "%g,%g,%g" % tuple(target), *options, "--report", "scale.json",
             "map.nrrd", "scale.nrrd")
-        run("SimplexMesherCLI", "--scale", "scale.nrrd", "--ambient", "ambient.vtu", "map.nrrd", "surface.vtp")
-        run("FuchsTetrahedralizerCLI", "--scale", "scale.nrrd", "--ambient", "ambient.vtu", "surface.vtp", "mesh.vtu")
+        common = ("--threads", "2", "--scale", "scale.nrrd", "--ambient", "ambient.vtu")
+        taken = [run("SimplexMesherCLI", *common, "map.nrrd", "surface.vtp"),
+                 run("FuchsTetrahedralizerCLI", *common, "surface.vtp", "mesh.vtu")]
         with open("scale.json", encoding="utf-8") as file:
             estimate = json.load(file)["estimate"]
         found = {"triangles": read_dataset("surface.vtp").GetNumberOfCells(),
@@ -43,6 +56,11 @@ class EstimateTest(unittest.TestCase):
             print("%s: %d %s, foretold %.2f times as many" % (" ".join(options), number, what, ratio))
             self.assertGreater(ratio, 1 / 1.5, what)
             self.assertLess(ratio, 1.5, what)
+        foretold = max(estimate["surfaceMemoryBytes"], estimate["tetrahedralMemoryBytes"])
+        print("%.0f MB, foretold %.0f" % (max(taken) / 1e6, foretold / 1e6))
+        if not is_sanitized():
+            self.assertGreater(foretold, max(taken))
+            self.assertLess(foretold, 3 * max(taken))
 
     def test_around_a_target(self):
         self.assert_foretold(np.s_[58:98, 84:120, 30:66], "--minimumEdgeLength", "1", "--maximumEdgeLength", "8",
@@ -50,6 +68,9 @@ class EstimateTest(unittest.TestCase):
 
     def test_with_one_length_everywhere(self):
         self.assert_foretold(np.s_[58:98, 84:120, 30:66], "--minimumEdgeLength", "2", "--maximumEdgeLength", "2")
+
+    def test_with_elements_as_small_as_voxels(self):
+        self.assert_foretold(np.s_[58:98, 84:120, 30:66], "--minimumEdgeLength", "1", "--maximumEdgeLength", "1.25")
 
     def test_with_elements_larger_than_the_tissues(self):
         self.assert_foretold(np.s_[30:70, 60:100, 60:100], "--minimumEdgeLength", "6", "--maximumEdgeLength", "6")
