@@ -12,7 +12,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 OPTIONS = {"minimumEdgeLength": 3, "maximumEdgeLength": 6, "childRadius": 5, "minimumIslandVolume": 30}
 
 
-def write_cohort(count, damaged):
+def write_cohort(count, damaged, pictures=True):
     """Maps p0, p1 ... of boxes of an atlas, number `damaged` cut off, and cohort.yaml (JSON is YAML)."""
     patients = {}
     for number in range(count):
@@ -23,7 +23,7 @@ def write_cohort(count, damaged):
         patients[name] = {"map": name + ".nrrd", "targetPoint": "%g,%g,%g" % tuple(target)}
     with open(f"p{damaged}.nrrd", "r+b") as file:
         file.truncate(os.path.getsize(file.name) // 2)
-    write_config({"folder": "out", "options": OPTIONS, "patients": patients})
+    write_config({"folder": "out", "pictures": pictures, "options": OPTIONS, "patients": patients})
 
 
 def write_config(config):

@@ -50,7 +50,7 @@ class CohortTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         clear_folder()
-        cohorts.write_cohort(8, damaged=3)
+        cohorts.write_cohort(8, damaged=3, pictures=False)
 
     def assert_done(self, process, status=0):
         self.assertEqual(process.returncode, status, process.stdout)
@@ -111,7 +111,7 @@ class CohortTest(unittest.TestCase):
     def test_6_every_patient_has_options_of_its_own(self):
         clear_folder()
         cohorts.write_cohort(1, damaged=0)
-        cohorts.write_cohort(2, damaged=0)
+        cohorts.write_cohort(2, damaged=0, pictures=False)
         config = read_config()
         del config["patients"]["p0"]
         config["patients"]["p1"].update(nullDisplacementRadius=9, maximumEdgeLength=4)
@@ -124,6 +124,7 @@ class CohortTest(unittest.TestCase):
 
 
 OWN = "minimumEdgeLength: 4, maximumEdgeLength: 6, childRadius: 5"
+QUICK = "folder: out\npictures: no\n"
 
 
 class ConfigurationTest(unittest.TestCase):
@@ -146,7 +147,7 @@ class ConfigurationTest(unittest.TestCase):
     def test_b07_names_are_text_whatever_yaml_makes_of_them(self):
         names = ("010", "007", "1e3", "yes", "2026-11-23", "1_0", "p.1")
         patients = "".join(f"  {name}: {{map: p0.nrrd, targetPoint: \"{self.point}\"}}\n" for name in names)
-        write_text(f"folder: out\noptions: {{{OWN}}}\npatients:\n{patients}")
+        write_text(f"{QUICK}options: {{{OWN}}}\npatients:\n{patients}")
         self.assertEqual(self.meshed(run()), set(names))
         for name in names:
             self.assertTrue(os.path.exists(f"out/{name}/mesh/mesh.vtu"), name)
@@ -164,7 +165,7 @@ class ConfigurationTest(unittest.TestCase):
 
     def test_b15_booleans_in_quotes(self):
         for text, on in (("'no'", False), ("no", False), ("'yes'", True), ("true", True)):
-            write_text(f"folder: out\noptions: {{{OWN}, followThickness: {text}}}\n"
+            write_text(f"{QUICK}options: {{{OWN}, followThickness: {text}}}\n"
                        f"patients: {{a: {{map: p0.nrrd, targetPoint: \"{self.point}\"}}}}\n")
             self.assertEqual(self.meshed(run()), {"a"}, text)
             with open("out/a/surface/report.json", encoding="utf-8") as file:
@@ -173,7 +174,10 @@ class ConfigurationTest(unittest.TestCase):
     def test_members_given_to_snakemake(self):
         write_text(f"folder: out\noptions: {{{OWN}}}\n"
                    f"patients: {{01: {{map: p0.nrrd, targetPoint: \"{self.point}\"}}}}\n")
-        self.assertEqual(self.meshed(run(arguments=["--config", "folder=elsewhere", "threads=1"]), "elsewhere"), {"01"})
+        given = ["--config", "folder=elsewhere", "threads=1", "pictures=no"]
+        self.assertEqual(self.meshed(run(arguments=given), "elsewhere"), {"01"})
+        self.assertFalse(os.path.exists("elsewhere/01/picture"))
+        self.assertEqual(read_summary("elsewhere")["01"]["picture"], "")
 
     def test_patients_by_a_pattern(self):
         os.makedirs("maps")
@@ -184,7 +188,7 @@ class ConfigurationTest(unittest.TestCase):
                 position = [float(x) for x in self.point.split(",")]
                 json.dump({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS",
                                         "controlPoints": [{"id": "1", "position": position}]}]}, file)
-        write_text(f"folder: out\noptions: {{{OWN}, targets: '{{folder}}/{{patient}}.mrk.json'}}\n"
+        write_text(f"{QUICK}options: {{{OWN}, targets: '{{folder}}/{{patient}}.mrk.json'}}\n"
                    "patients: maps/*/*.nrrd\n")
         self.assertEqual(self.meshed(run()), {"003", "anna"})
 
@@ -192,7 +196,7 @@ class ConfigurationTest(unittest.TestCase):
         with open("list.csv", "w", encoding="utf-8") as file:
             file.write(f"patient,map,targetPoint,maximumEdgeLength\n007,p0.nrrd,\"{self.point}\",5\n"
                        f"008,p1.nrrd,\"{self.point}\",\n")
-        write_text(f"folder: out\noptions: {{{OWN}}}\npatients: list.csv\n")
+        write_text(f"{QUICK}options: {{{OWN}}}\npatients: list.csv\n")
         self.assertEqual(self.meshed(run()), {"007"})
         self.assertEqual(read_summary()["008"]["state"], "refused by scale")
         with open("out/007/scale/report.json", encoding="utf-8") as file:
@@ -204,7 +208,7 @@ class ConfigurationTest(unittest.TestCase):
         os.makedirs(anat)
         image = nibabel.Nifti1Image(labels, np.diag([-1, -1, 1, 1]) @ affine)
         nibabel.save(image, f"{anat}/sub-01_space-orig_dseg.nii.gz")
-        write_text(f"folder: out\noptions: {{{OWN}, targetPoint: '{self.point}'}}\npatients: bids\n")
+        write_text(f"{QUICK}options: {{{OWN}, targetPoint: '{self.point}'}}\npatients: bids\n")
         self.assertEqual(self.meshed(run()), {"sub-01_space-orig"})
 
     def test_b08_bytes_of_bad_files_and_damaged_results_leave_the_table_whole(self):
@@ -212,7 +216,7 @@ class ConfigurationTest(unittest.TestCase):
             file.write(b"\xff\x00\x1b[2J\xfe table\n" * 20)
         patients = {name: {"map": "p0.nrrd", "targetPoint": self.point} for name in ("a", "b", "c", "d")}
         patients["a"]["names"] = "names.lut"
-        write_config({"folder": "out", "options": cohorts.OPTIONS, "patients": patients})
+        write_config({"folder": "out", "pictures": False, "options": cohorts.OPTIONS, "patients": patients})
         self.assertEqual(self.meshed(run()), {"b", "c", "d"})
         row = read_summary()["a"]
         self.assertEqual(row["state"], "refused by scale")
@@ -293,6 +297,8 @@ class RefusalTest(unittest.TestCase):
         self.assert_refused({"patients": {"p0": {"targetPoint": "0,0,0"}}}, "p0 has no map")
         self.assert_refused({"patients": {"../p0": patient}}, "'../p0'")
         self.assert_refused({"patients": {"p0": patient}, "threads": 1.5}, "threads")
+        self.assert_refused({"patients": {"p0": patient}, "pictures": "perhaps"}, "pictures", "true or false")
+        self.assert_refused({"patients": {"p0": patient}, "pictures": ["no"]}, "pictures", "true or false")
         for folder in ("", "out/{patient}", ["out"]):
             self.assert_refused({"patients": {"p0": patient}, "folder": folder}, "folder")
 

@@ -9,7 +9,7 @@ from configuration import ConfigurationError, patients_of, with_placeholders  # 
 from options import (PROGRAMS, TRUTHS, OptionError, check_value, flag_named, flags_by_stage, is_taken,  # noqa: E402
                      values_of_list)
 
-SETTINGS = {"folder", "threads", "options", "patients"}
+SETTINGS = {"folder", "threads", "pictures", "options", "patients"}
 PATIENT_NAME = re.compile(r"[A-Za-z0-9][\w.-]*", re.ASCII)
 NO_WILDCARDS = re.compile(r"[^{}]*")  # which braces are to Snakemake
 TABLES = ("summary.csv", "summary.md", "volumes.csv")
@@ -25,10 +25,16 @@ def threads_of(text):
     return int(text)
 
 
+def truth_of(name, text):
+    if not isinstance(text, str) or text.lower() not in TRUTHS:
+        raise ConfigurationError(f"{name}: {text}, expected true or false")
+    return TRUTHS[text.lower()]
+
+
 class Cohort:
-    """`config` is of texts, lists and mappings, with the members folder, threads, options (of all patients) and
-    patients (name -> map and options of its own, or where to find them). Raises ConfigurationError on anything else, and on
-    options that no program takes."""
+    """`config` is of texts, lists and mappings, with the members folder, threads, pictures (whether they are drawn),
+    options (of all patients) and patients (name -> map and options of its own, or where to find them). Raises
+    ConfigurationError on anything else, and on options that no program takes."""
 
     def __init__(self, config):
         try:
@@ -42,6 +48,7 @@ class Cohort:
         if not isinstance(self.folder, str) or not self.folder.strip() or not NO_WILDCARDS.fullmatch(self.folder):
             raise ConfigurationError("folder: expected the name of a folder for the results, without { and }")
         self.threads = threads_of(config.get("threads", "2"))
+        self.has_pictures = truth_of("pictures", config.get("pictures", "true"))
         common = config.get("options") or {}
         if not isinstance(common, dict):
             raise ConfigurationError("options: expected a mapping of options")
