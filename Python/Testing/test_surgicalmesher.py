@@ -56,6 +56,16 @@ def oblique_affine():
     return affine
 
 
+def write_nifti(file, qform, sform, units="unknown", unit=1):
+    """The ball, placed by forms of these codes; `unit` is how many of the units are a mm."""
+    affine = np.diag([unit, unit, unit, 1]) @ LPS_FROM_RAS @ oblique_affine()
+    image = nibabel.Nifti1Image(ball(), affine)
+    image.set_qform(affine, qform)
+    image.set_sform(affine, sform)
+    image.header.set_xyzt_units(units)
+    nibabel.save(image, file)
+
+
 def vtk_image(labels, in_cells=False):
     image = vtkImageData()
     image.SetDimensions(*(np.array(labels.shape) + in_cells))
@@ -168,6 +178,25 @@ class MeshingTest(unittest.TestCase):
         self.assert_programs_bytes(surgicalmesher.mesh(
             self.labels, origin=self.affine[:3, 3], directions=self.affine[:3, :3], targets=[TARGET], threads=1, **OPTIONS))
         self.assert_programs_bytes(surgicalmesher.mesh("map.nrrd", targetPoint=[TARGET], **OPTIONS))
+
+    def test_nifti_is_taken_as_its_file(self):
+        arguments = dict(preset="draft", targets=(5, 5, 5))
+        for forms in ((1, 0), (0, 1), (0, 0), (0, 1, "micron", 1000), (0, 0, "micron", 1000)):
+            write_nifti("forms.nii.gz", *forms)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # the target is in some of the balls only
+                theirs = surgicalmesher.mesh("forms.nii.gz", **arguments)
+                ours = surgicalmesher.mesh(nibabel.load("forms.nii.gz"), **arguments)
+            self.assertEqual(ours.vtu, theirs.vtu, forms)
+            self.assertLess(np.ptp(ours.points, axis=0).max(), 30, forms)
+        write_nifti("metres.nii.gz", 0, 1, "meter", 0.001)
+        for labels in ("metres.nii.gz", nibabel.load("metres.nii.gz")):
+            self.assert_refused(1, "coordinates in metres, expected mm or microns", labels, **arguments)
+
+    def test_nifti_without_an_affine(self):
+        image = nibabel.Nifti1Image(ball(), None)
+        arguments = dict(preset="draft", targets=(5, 5, 5))
+        self.assertEqual(surgicalmesher.mesh(image, **arguments).vtu, surgicalmesher.mesh(ball(), **arguments).vtu)
 
     def test_arrays(self):
         corners = self.mesh.points[self.mesh.tetrahedra]

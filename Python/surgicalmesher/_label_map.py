@@ -7,6 +7,9 @@ import numpy as np
 import numpy.typing as npt
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
+# What a NIfTI header, 1 or 2, says of the places of its voxels.
+NIFTI_PLACEMENT = ("pixdim", "xyzt_units", "qform_code", "quatern_b", "quatern_c", "quatern_d", "qoffset_x", "qoffset_y",
+                   "qoffset_z", "sform_code", "srow_x", "srow_y", "srow_z")
 
 
 @dataclass(frozen=True)
@@ -19,6 +22,10 @@ class LabelMap:
 
 def _is_nibabel(image: Any) -> bool:
     return hasattr(image, "dataobj") and hasattr(image, "affine")
+
+
+def _is_nifti(image: Any) -> bool:
+    return _is_nibabel(image) and hasattr(image.header, "get_xyzt_units")
 
 
 def _is_simpleitk(image: Any) -> bool:
@@ -90,12 +97,13 @@ def label_map(image: Any, spacing: Optional[Sequence[float]], origin: Optional[S
     if given:
         raise ValueError(f"{given[0]}: the image has its own, expected with numpy arrays only")
     if _is_nibabel(image):
-        return LabelMap(_as_labels(image.dataobj), LPS_FROM_RAS @ image.affine)
+        affine = image.header.get_best_affine() if image.affine is None else image.affine
+        return LabelMap(_as_labels(image.dataobj), LPS_FROM_RAS @ affine)
     values, affine = _from_simpleitk(image) if _is_simpleitk(image) else _from_vtk(image)
     return LabelMap(_as_labels(values), affine)
 
 
-def write_nrrd(map_: LabelMap, file: str) -> None:
+def _write_nrrd(map_: LabelMap, file: str) -> None:
     """Uncompressed, by the format's own definition; numbers in full."""
     vectors = ["(%s)" % ",".join("%.17g" % x for x in map_.affine[:3, column]) for column in range(4)]
     header = ("NRRD0005\ntype: uint16\ndimension: 3\nspace: left-posterior-superior\nsizes: %d %d %d\n"
@@ -103,3 +111,27 @@ def write_nrrd(map_: LabelMap, file: str) -> None:
     with open(file, "wb") as stream:
         stream.write((header % (*map_.labels.shape, *vectors)).encode("ascii"))
         stream.write(map_.labels.astype("<u2", copy=False).tobytes(order="F"))
+
+
+def _write_nifti(map_: LabelMap, image: Any, file: str) -> None:
+    import nibabel
+
+    header = nibabel.Nifti1Header()
+    header.set_data_dtype(np.uint16)
+    for field in NIFTI_PLACEMENT:
+        header[field] = image.header[field]
+    nibabel.Nifti1Image(map_.labels, image.affine, header).to_filename(file)
+
+
+def file_name(image: Any) -> str:
+    """Of the map that `write_map` writes."""
+    return "map.nii" if _is_nifti(image) else "map.nrrd"
+
+
+def write_map(map_: LabelMap, image: Any, file: str) -> None:
+    """The image's labels. Units and forms of a NIfTI header go to the program as they are, which reads them as it does
+    in the image's own file."""
+    if _is_nifti(image):
+        _write_nifti(map_, image, file)
+    else:
+        _write_nrrd(map_, file)

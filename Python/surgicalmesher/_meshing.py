@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence
 
 import numpy as np
 
-from ._label_map import label_map, write_nrrd
+from ._label_map import file_name, label_map, write_map
 from ._programs import Progress, run
 from ._tetrahedra import Mesh, read_mesh
 
@@ -59,15 +59,16 @@ def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
             raise ValueError("spacing, origin and directions are the file's own, expected with numpy arrays only")
         yield os.path.abspath(labels)
         return
-    file = os.path.join(folder, "map.nrrd")
+    file = os.path.join(folder, file_name(labels))
     content = label_map(labels, *grid)
     made = not os.path.isdir(folder)
     os.makedirs(folder, exist_ok=True)
     try:
-        write_nrrd(content, file)
+        write_map(content, labels, file)
         yield file
     except BaseException:
-        os.remove(file)
+        with contextlib.suppress(FileNotFoundError):
+            os.remove(file)
         if made:
             with contextlib.suppress(OSError):  # stages that were complete stay in it
                 os.rmdir(folder)
