@@ -2,6 +2,7 @@
 
 usage: test_surgicalmesher.py SOURCE PROGRAMS OUTDIR, by the environment's Python
 """
+import json
 import os
 import shutil
 import signal
@@ -128,6 +129,8 @@ class LabelMapTest(unittest.TestCase):
         for labels in (self.labels + 0.5, -self.labels, self.labels + 65500, self.labels[0], vtkImageData()):
             with self.assertRaisesRegex(ValueError, "^labels: .*expected"):
                 label_map(labels, None, None, None)
+        with self.assertRaisesRegex(ValueError, "^spacing: .*scaleSpacing"):
+            label_map(vtk_image(self.labels), SPACING, None, None)
         with self.assertRaisesRegex(ValueError, "^origin: "):
             label_map(vtk_image(self.labels), None, ORIGIN, None)
 
@@ -258,6 +261,13 @@ class MeshingTest(unittest.TestCase):
         other = surgicalmesher.mesh(ball() // 5, **arguments)
         self.assertEqual(set(other.tissue_labels), {1})
 
+    def test_spacing_of_the_scale_volume(self):
+        surgicalmesher.mesh(ball(), preset="draft", targets=(5, 5, 5), spacing=(1, 1, 1.5), scaleSpacing=0.75, folder="finer")
+        with open("finer/scale.json", encoding="utf-8") as stream:
+            self.assertEqual(json.load(stream)["parameters"]["spacing"], 0.75)
+        with self.assertRaisesRegex(surgicalmesher.MeshingError, "spacing.*-1"):
+            surgicalmesher.estimate(ball(), targets=(5, 5, 5), scaleSpacing=-1)
+
     def test_estimate(self):
         figures = surgicalmesher.estimate(self.image(), targets=TARGET, minimumEdgeLength=1.5, maximumEdgeLength=6)
         self.assertLess(abs(figures["tetrahedra"] / len(self.mesh.tetrahedra) - 1), 0.5)
@@ -286,7 +296,7 @@ class MeshingTest(unittest.TestCase):
             surgicalmesher.mesh(ball(), targets=[1, 2])
         with self.assertRaisesRegex(ValueError, "^export: "):
             surgicalmesher.mesh(ball(), export="head.inp")
-        with self.assertRaisesRegex(ValueError, "^spacing"):
+        with self.assertRaisesRegex(ValueError, "^spacing.*scaleSpacing"):
             surgicalmesher.mesh("map.nrrd", spacing=(1, 1, 1))
         with self.assertRaisesRegex(surgicalmesher.MeshingError, "map.nrrd: "), warnings.catch_warnings():
             surgicalmesher.read_mesh("map.nrrd")

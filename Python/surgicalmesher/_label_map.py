@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
+ARRAYS_ONLY = "expected with numpy arrays only (the voxels of the scale volume have scaleSpacing)"
 # What a NIfTI header, 1 or 2, says of the places of its voxels.
 NIFTI_PLACEMENT = ("pixdim", "xyzt_units", "qform_code", "quatern_b", "quatern_c", "quatern_d", "qoffset_x", "qoffset_y",
                    "qoffset_z", "sform_code", "srow_x", "srow_y", "srow_z")
@@ -95,7 +96,7 @@ def label_map(image: Any, spacing: Optional[Sequence[float]], origin: Optional[S
                                                    (0, 0, 0) if origin is None else origin,
                                                    np.eye(3) if directions is None else directions))
     if given:
-        raise ValueError(f"{given[0]}: the image has its own, expected with numpy arrays only")
+        raise ValueError(f"{given[0]}: the image has its own, {ARRAYS_ONLY}")
     if _is_nibabel(image):
         affine = image.header.get_best_affine() if image.affine is None else image.affine
         return LabelMap(_as_labels(image.dataobj), LPS_FROM_RAS @ affine)

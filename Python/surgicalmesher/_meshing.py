@@ -8,7 +8,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence
 
 import numpy as np
 
-from ._label_map import file_name, label_map, write_map
+from ._label_map import ARRAYS_ONLY, file_name, label_map, write_map
 from ._programs import Progress, run
 from ._tetrahedra import Mesh, read_mesh
 
@@ -56,7 +56,7 @@ def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
     """The map's file: its own, or one that is written into the folder."""
     if isinstance(labels, (str, os.PathLike)):
         if any(value is not None for value in grid):
-            raise ValueError("spacing, origin and directions are the file's own, expected with numpy arrays only")
+            raise ValueError(f"spacing, origin and directions are the file's own, {ARRAYS_ONLY}")
         yield os.path.abspath(labels)
         return
     file = os.path.join(folder, file_name(labels))
@@ -82,19 +82,21 @@ def _arguments(targets: Any, path: Any, options: Mapping[str, Any]) -> List[str]
 
 def mesh(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Optional[Sequence[float]] = None,
          directions: Any = None, targets: Any = None, path: Any = None, preset: Optional[str] = None,
-         folder: "str | os.PathLike[str] | None" = None, progress: Optional[Progress] = None, **options: Any) -> Mesh:
+         scaleSpacing: Optional[float] = None, folder: "str | os.PathLike[str] | None" = None,
+         progress: Optional[Progress] = None, **options: Any) -> Mesh:
     """Tetrahedra of all tissues of a label map, fine around targets and paths, as `surgicalmesher mesh` makes them.
 
-    labels      numpy array of labels [i, j, k] (0 is background), nibabel, SimpleITK, VTK or pyvista image, or a file
-    spacing     of an array: mm between voxels along i, j, k; 1 without
-    origin      of an array: centre of the first voxel (mm, LPS)
-    directions  of an array: 3 x 3, whose columns are the axes i, j, k in LPS
-    targets     points (mm, LPS), or files of markups
-    path        points from entry to target (mm, LPS), or files of markups
-    preset      draft, default, fine or simulation
-    folder      where the files and the report of the run stay; without it they go with a temporary folder
-    progress    called with the share done, from 0 to 1, and the name of the stage; what it raises cancels the run
-    options     those of `surgicalmesher mesh --help`, by name: minimumEdgeLength=0.5, export=["head.inp"], ...
+    labels        numpy array of labels [i, j, k] (0 is background), nibabel, SimpleITK, VTK or pyvista image, or a file
+    spacing       of an array: mm between voxels along i, j, k; 1 without
+    origin        of an array: centre of the first voxel (mm, LPS)
+    directions    of an array: 3 x 3, whose columns are the axes i, j, k in LPS
+    targets       points (mm, LPS), or files of markups
+    path          points from entry to target (mm, LPS), or files of markups
+    preset        draft, default, fine or simulation
+    scaleSpacing  mm between voxels of the scale volume, the program's --spacing
+    folder        where the files and the report of the run stay; without it they go with a temporary folder
+    progress      called with the share done, from 0 to 1, and the name of the stage; what it raises cancels the run
+    options       those of `surgicalmesher mesh --help`, by name: minimumEdgeLength=0.5, export=["head.inp"], ...
 
     VTK's and pyvista's images are taken as LPS. Ctrl-C ends the run; without `folder`, nothing stays of it. Raises
     MeshingError with the program's sentence, ValueError for what is no map; warns by MeshingWarning.
@@ -103,7 +105,7 @@ def mesh(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Opti
         raise ValueError("export: its files lie in the folder of the results, expected with folder=")
     with tempfile.TemporaryDirectory(prefix="surgicalmesher-") as scratch:
         results = os.path.join(scratch, "results") if folder is None else os.path.abspath(folder)
-        words = _arguments(targets, path, {"preset": preset, **options})
+        words = _arguments(targets, path, {"preset": preset, "spacing": scaleSpacing, **options})
         with _map_file(labels, (spacing, origin, directions), results) as file:
             run("mesh", [*words, file, results], progress)
         return read_mesh(os.path.join(results, "mesh.vtu"))
@@ -111,13 +113,13 @@ def mesh(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Opti
 
 def estimate(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Optional[Sequence[float]] = None,
              directions: Any = None, targets: Any = None, path: Any = None, preset: Optional[str] = None,
-             **options: Any) -> Dict[str, Any]:
+             scaleSpacing: Optional[float] = None, **options: Any) -> Dict[str, Any]:
     """What `mesh` with the same arguments will take: the figures of `surgicalmesher estimate --estimate`, `triangles`,
     `tetrahedra`, `memoryBytes` and `processorSeconds`. Options are those of `surgicalmesher estimate --help`, which
     set lengths. Raises as `mesh` does."""
     with tempfile.TemporaryDirectory(prefix="surgicalmesher-") as scratch:
         figures = os.path.join(scratch, "estimate.json")
-        words = _arguments(targets, path, {"preset": preset, **options})
+        words = _arguments(targets, path, {"preset": preset, "spacing": scaleSpacing, **options})
         with _map_file(labels, (spacing, origin, directions), scratch) as file:
             run("estimate", [*words, f"--estimate={figures}", file])
         with open(figures, encoding="utf-8") as stream:
