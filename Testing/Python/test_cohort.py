@@ -123,6 +123,12 @@ class CohortTest(unittest.TestCase):
         self.assertTrue(os.path.exists(os.path.join("out", "p1", "scale", "labels.nrrd")))
 
 
+def write_nifti(file):
+    """The map p0.nrrd."""
+    labels, affine = read_nrrd("p0.nrrd")
+    nibabel.save(nibabel.Nifti1Image(labels, np.diag([-1, -1, 1, 1]) @ affine), file)
+
+
 OWN = "minimumEdgeLength: 4, maximumEdgeLength: 6, childRadius: 5"
 QUICK = "folder: out\npictures: no\n"
 
@@ -143,6 +149,12 @@ class ConfigurationTest(unittest.TestCase):
             if row["state"] != "meshed":
                 print(f"{self.id()}: {name}: {row['state']}: {row['error']}", flush=True)
         return {name for name, row in rows.items() if row["state"] == "meshed"}
+
+    def write_target(self, name):
+        position = [float(x) for x in self.point.split(",")]
+        with open(name, "w", encoding="utf-8") as file:
+            json.dump({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS",
+                                    "controlPoints": [{"id": "1", "position": position}]}]}, file)
 
     def test_b07_names_are_text_whatever_yaml_makes_of_them(self):
         names = ("010", "007", "1e3", "yes", "2026-11-23", "1_0", "p.1")
@@ -184,13 +196,19 @@ class ConfigurationTest(unittest.TestCase):
         for name in ("003", "anna"):
             os.makedirs(f"maps/{name}")
             shutil.copy("p0.nrrd", f"maps/{name}/{name}.nrrd")
-            with open(f"maps/{name}/{name}.mrk.json", "w", encoding="utf-8") as file:
-                position = [float(x) for x in self.point.split(",")]
-                json.dump({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS",
-                                        "controlPoints": [{"id": "1", "position": position}]}]}, file)
+            self.write_target(f"maps/{name}/{name}.mrk.json")
         write_text(f"{QUICK}options: {{{OWN}, targets: '{{folder}}/{{patient}}.mrk.json'}}\n"
                    "patients: maps/*/*.nrrd\n")
         self.assertEqual(self.meshed(run()), {"003", "anna"})
+
+    def test_files_of_any_name(self):
+        os.makedirs("the maps")
+        for name in ("ben (2)", "an na's", "a+b", "müller", "Ünal"):
+            write_nifti(f"the maps/{name}.nii.gz")
+            self.write_target(f"the maps/{name}.mrk.json")
+        write_text(f"{QUICK}options: {{{OWN}, targets: '{{folder}}/{{file}}.mrk.json'}}\n"
+                   "patients: the maps/*.nii.gz\n")
+        self.assertEqual(self.meshed(run()), {"ben_2_", "an_na_s", "a_b", "m_ller", "_nal"})
 
     def test_patients_by_a_table(self):
         with open("list.csv", "w", encoding="utf-8") as file:
@@ -203,13 +221,12 @@ class ConfigurationTest(unittest.TestCase):
             self.assertEqual(json.load(file)["parameters"]["maximumEdgeLength"], 5)
 
     def test_patients_of_a_bids_folder(self):
-        labels, affine = read_nrrd("p0.nrrd")
         anat = "bids/derivatives/seg/sub-01/anat"
         os.makedirs(anat)
-        image = nibabel.Nifti1Image(labels, np.diag([-1, -1, 1, 1]) @ affine)
-        nibabel.save(image, f"{anat}/sub-01_space-orig_dseg.nii.gz")
+        write_nifti(f"{anat}/sub-01_space-orig_dseg.nii.gz")
+        write_nifti(f"{anat}/sub-01 (2)_dseg.nii.gz")
         write_text(f"{QUICK}options: {{{OWN}, targetPoint: '{self.point}'}}\npatients: bids\n")
-        self.assertEqual(self.meshed(run()), {"sub-01_space-orig"})
+        self.assertEqual(self.meshed(run()), {"sub-01_space-orig", "sub-01_2_"})
 
     def test_b08_bytes_of_bad_files_and_damaged_results_leave_the_table_whole(self):
         with open("names.lut", "wb") as file:
@@ -295,7 +312,8 @@ class RefusalTest(unittest.TestCase):
         self.assert_refused({"patients": {"p0": {**patient, "childRadus": 5}}}, "p0", "childRadus")
         self.assert_refused({"patients": {"p0": patient}, "options": {"threads": 1}}, "options", "threads")
         self.assert_refused({"patients": {"p0": {"targetPoint": "0,0,0"}}}, "p0 has no map")
-        self.assert_refused({"patients": {"../p0": patient}}, "'../p0'")
+        for name in ("../p0", "ben (2)", "müller", "-p", ".p"):
+            self.assert_refused({"patients": {name: patient}}, repr(name))
         self.assert_refused({"patients": {"p0": patient}, "threads": 1.5}, "threads")
         self.assert_refused({"patients": {"p0": patient}, "pictures": "perhaps"}, "pictures", "true or false")
         self.assert_refused({"patients": {"p0": patient}, "pictures": ["no"]}, "pictures", "true or false")
@@ -328,6 +346,9 @@ class RefusalTest(unittest.TestCase):
             os.makedirs(name)
             open(f"{name}/head.nii.gz", "wb").close()
         self.assert_refused({"patients": "*/head.nii.gz"}, "are both called head")
+        for name in ("a b", "a+b"):
+            open(f"{name}.nii", "wb").close()
+        self.assert_refused({"patients": "*.nii"}, "a b.nii and a+b.nii are both called a_b")
         write_text("folder: out\npatients:\n  a: {map: a}\n  a: {map: b}\n")
         self.assert_one_line("a is there twice")
 

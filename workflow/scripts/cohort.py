@@ -10,7 +10,7 @@ from options import (PROGRAMS, TRUTHS, OptionError, check_value, flag_named, fla
                      values_of_list)
 
 SETTINGS = {"folder", "threads", "pictures", "options", "patients"}
-PATIENT_NAME = re.compile(r"[A-Za-z0-9][\w.-]*", re.ASCII)
+PATIENT_NAME = re.compile(r"\w[\w.-]*", re.ASCII)
 NO_WILDCARDS = re.compile(r"[^{}]*")  # which braces are to Snakemake
 TABLES = ("summary.csv", "summary.md", "volumes.csv")
 

@@ -69,11 +69,16 @@ def read_configuration(files, given, loaded):
     return merged(config, overridden)
 
 
-def patient_of(file):
-    """A name for the patient whose map this is."""
+def stem_of(file):
+    """The map's file name without its ending."""
     name = os.path.basename(file)
     ending = next((ending for ending in MAP_ENDINGS if name.lower().endswith(ending)), "")
     return re.sub(r"_dseg$", "", name[:len(name) - len(ending)])
+
+
+def patient_of(file):
+    """A name for the patient whose map this is: runs of characters that no name has become one _ each."""
+    return re.sub(r"^\W+|[^\w.-]+", "_", stem_of(file), flags=re.ASCII)
 
 
 def from_maps(where, files):
@@ -134,11 +139,14 @@ def patients_of(wanted):
 
 
 def with_placeholders(options, patient, map_file):
-    """{patient} and {folder} in texts stand for the patient's name and for the folder of its map."""
+    """{patient}, {folder} and {file} in texts stand for the patient's name, and for the folder of its map and the name
+    of that file without the ending."""
+    meanings = {"patient": patient, "folder": os.path.dirname(map_file) or ".", "file": stem_of(map_file)}
+
     def filled(value):
         if isinstance(value, list):
             return [filled(member) for member in value]
         if not isinstance(value, str):
             return value
-        return value.replace("{patient}", patient).replace("{folder}", os.path.dirname(map_file) or ".")
+        return re.sub("{(patient|folder|file)}", lambda name: meanings[name[1]], value)
     return {name: filled(value) for name, value in options.items()}
