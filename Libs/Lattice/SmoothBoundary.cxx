@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -704,9 +705,9 @@ std::vector<std::int32_t> interfaceVertices(const KuhnLattice& lattice)
 Vec3 scaled(const Vec3& p, const Vec3& by) { return { p.x * by.x, p.y * by.y, p.z * by.z }; }
 
 /// The smooth boundary's points in the order of their voxels; `order` gives the sample that each belongs to.
-/// `lengths`, voxels: L at each sample; if there are none, no smoothing is wider.
+/// `lengths`, voxels: L at each sample; if there are none, no smoothing is wider. `mostScales`: see mostScalesOf.
 std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& samples, const TissueMap& map, double sigma,
-                                const std::vector<float>& lengths,
+                                const std::vector<float>& lengths, const std::vector<double>& mostScales,
                                 std::vector<std::pair<std::int64_t, std::int32_t>>& order)
 {
   const Index size = map.grid.size;
@@ -727,7 +728,9 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
               [&](std::size_t i)
               {
                 points[i] = pointOf(samples[order[i].second].position, map); // once more: all would take as much again
-                if (!lengths.empty()) points[i].scale = scaleAt(lengths[order[i].second]);
+                if (!lengths.empty())
+                  points[i].scale = std::min(
+                    { scaleAt(lengths[order[i].second]), mostScales[points[i].inside], mostScales[points[i].outside] });
                 tie.place(points[i]);
                 keepLabels(points[i]);
               });
@@ -736,6 +739,15 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
   parallelFor(n, [&](std::size_t i)
               { points[i].position += (offset[points[i].inside] - offset[points[i].outside]) * points[i].normal; });
   return points;
+}
+
+/// How much wider the smoothing may be at each label: a tissue of few voxels across would come out flat.
+std::vector<double> mostScalesOf(const std::map<Label, double>& thickness, double voxel)
+{
+  constexpr double perVoxel = 0.5;
+  std::vector<double> result(labelCount, std::numeric_limits<double>::infinity());
+  for (const auto& [label, mm] : thickness) result[label] = std::max(1.0, perVoxel * mm / voxel);
+  return result;
 }
 
 /// L at each sample, voxels.
@@ -789,7 +801,8 @@ void moveToSmoothBoundary(KuhnLattice& lattice, const TissueMap& map, const Smoo
   std::vector<std::pair<std::int64_t, std::int32_t>> order;
   const std::vector<Point> points =
     smoothPoints(background.samples, map, options.voxels,
-                 options.isWiderWithL ? lengthsAtSamples(background, voxel) : std::vector<float>(), order);
+                 options.isWiderWithL ? lengthsAtSamples(background, voxel) : std::vector<float>(),
+                 mostScalesOf(options.thickness, voxel), order);
   parallelFor(points.size(),
               [&](std::size_t i)
               {
@@ -825,7 +838,7 @@ std::vector<SmoothBoundaryPoint> smoothBoundaryPoints(const TissueMap& map, doub
         }
   std::vector<std::pair<std::int64_t, std::int32_t>> order;
   std::vector<SmoothBoundaryPoint> result;
-  for (const Point& p : smoothPoints(samples, map, voxels, {}, order))
+  for (const Point& p : smoothPoints(samples, map, voxels, {}, {}, order))
   {
     const Vec3 normal = scaled(p.normal, { 1 / mm.x, 1 / mm.y, 1 / mm.z });
     Index voxel = p.lower;

@@ -103,6 +103,56 @@ void visitVoxels(const TissueMap& map, const TissueSettings& settings, const Vis
                   });
 }
 
+constexpr double flattest = 0.32, smallest = 0.75; // of L: thickness, and size all round
+
+/// A tissue as far as its size goes, mm.
+struct Extent
+{
+  double thickness = 0; ///< mean
+  double size = 0;      ///< cube root of the volume
+};
+
+/// The longest edges, mm, that leave its volume to a tissue flatter than near-regular tetrahedra can be where they are to
+/// be as long as `length`; `length` itself elsewhere.
+double mostIfFlat(const Extent& extent, double length)
+{
+  constexpr double flatness = 0.5, leastSize = 0.9;
+  const bool isFlat = extent.thickness < flattest * length && extent.size > leastSize * length;
+  return isFlat ? extent.thickness / flatness : length;
+}
+
+/// The same of one that is small all round.
+double mostIfSmall(const Extent& extent, double length, double voxel)
+{
+  constexpr double enough = 8; // voxels
+  return std::min(length, std::max(extent.size / smallest, enough * voxel));
+}
+
+/// Of the labels that are `wanted`, the mean L within, mm.
+std::map<Label, double> meanLengths(const ScaleField& scale, const TissueMap& map, const std::vector<bool>& wanted)
+{
+  const Vec3& h = map.grid.spacing;
+  std::vector<std::map<Label, std::pair<double, std::size_t>>> lengths(map.grid.size[2]); // sum and number
+  parallelForEach(lengths.size(),
+                  [&](std::size_t k)
+                  {
+                    for (int j = 0; j < map.grid.size[1]; ++j)
+                      for (int i = 0; i < map.grid.size[0]; ++i)
+                        if (const Label label = map.labels[map.grid.index(i, j, int(k))]; wanted[label])
+                        {
+                          auto& [sum, number] = lengths[k][label];
+                          sum += scale(map.grid.gridToWorld({ i * h.x, j * h.y, k * h.z }));
+                          ++number;
+                        }
+                  });
+  std::map<Label, std::pair<double, std::size_t>> all;
+  for (const auto& slice : lengths)
+    for (const auto& [label, of] : slice) all[label].first += of.first, all[label].second += of.second;
+  std::map<Label, double> result;
+  for (const auto& [label, of] : all) result[label] = of.first / double(of.second);
+  return result;
+}
+
 } // namespace
 
 ScaleField scaleVolume(const ScaleField& scale, const Grid& map)
@@ -241,38 +291,29 @@ std::map<Label, double> meanThickness(const TissueMap& map)
   return result;
 }
 
-ScaleField followFlatTissues(const ScaleField& scale, const TissueMap& map, const std::map<Label, double>& thickness)
+ScaleField followSmallTissues(const ScaleField& scale, const TissueMap& map, const std::map<Label, double>& thickness)
 {
-  constexpr double flattest = 0.32, flatness = 0.5;
   const Vec3& h = map.grid.spacing;
   const double longest = *std::max_element(scale.lengths.begin(), scale.lengths.end());
-  std::vector<bool> mayBeFlat(labelCount, false);
-  for (const auto& [label, t] : thickness) mayBeFlat[label] = t < flattest * longest;
-  std::vector<std::map<Label, std::pair<double, std::size_t>>> lengths(map.grid.size[2]); // sum and number, of those
-  parallelForEach(lengths.size(),
-                  [&](std::size_t k)
-                  {
-                    for (int j = 0; j < map.grid.size[1]; ++j)
-                      for (int i = 0; i < map.grid.size[0]; ++i)
-                        if (const Label label = map.labels[map.grid.index(i, j, int(k))]; mayBeFlat[label])
-                        {
-                          auto& [sum, number] = lengths[k][label];
-                          sum += scale(map.grid.gridToWorld({ i * h.x, j * h.y, k * h.z }));
-                          ++number;
-                        }
-                  });
-  TissueSettings flat;
-  for (const auto& [label, t] : thickness)
+  const double voxel = map.grid.smallestSpacing();
+  std::map<Label, Extent> extents;
+  std::vector<bool> mayBeSmall(labelCount, false);
+  for (const auto& [label, voxels] : countVoxels(map))
   {
-    if (!mayBeFlat[label]) continue;
-    double sum = 0;
-    std::size_t number = 0;
-    for (const auto& slice : lengths)
-      if (const auto at = slice.find(label); at != slice.end()) sum += at->second.first, number += at->second.second;
-    const double length = sum / double(number), extent = std::cbrt(double(number) * h.x * h.y * h.z);
-    if (t < flattest * length && extent > 0.9 * length) flat[label].maximumEdgeLength = t / flatness;
+    if (label == 0) continue;
+    const Extent extent{ thickness.at(label), std::cbrt(double(voxels) * h.x * h.y * h.z) };
+    mayBeSmall[label] = extent.thickness < flattest * longest || extent.size < smallest * longest;
+    extents[label] = extent;
   }
-  return followTissues(scale, map, flat, 0);
+  constexpr double gradation = 0.5; // to edges as long as around them, small surfaces would come out larger
+  TissueSettings flat, small;
+  for (const auto& [label, length] : meanLengths(scale, map, mayBeSmall))
+  {
+    if (const double most = mostIfFlat(extents[label], length); most < length) flat[label].maximumEdgeLength = most;
+    else if (const double limit = mostIfSmall(extents[label], length, voxel); limit < length)
+      small[label].maximumEdgeLength = limit;
+  }
+  return followTissues(followTissues(scale, map, flat, 0), map, small, gradation);
 }
 
 } // namespace surgicalmesher

@@ -52,9 +52,12 @@ ScaleField followCurvature(const ScaleField& scale, const TissueMap& map, const 
 /// again as a smooth boundary.
 std::map<Label, double> meanThickness(const TissueMap& map);
 
-/// The scale that tissues flatter than near-regular tetrahedra can be need to keep their volume: at most twice their
-/// thickness (as of meanThickness) within those that are thinner than 0.32 times their mean L, and whose volume's cube
-/// root is yet above 0.9 times it: what is small all round is no sheet. `scale` itself if there are none.
-ScaleField followFlatTissues(const ScaleField& scale, const TissueMap& map, const std::map<Label, double>& thickness);
+/// The scale that small tissues need to keep their volume; `scale` itself if there are none. Of each the mean L counts,
+/// and its extent, the cube root of its volume:
+/// - flatter than near-regular tetrahedra can be, thinner (as of meanThickness) than 0.32 L at an extent above 0.9 L:
+///   at most twice its thickness;
+/// - small all round, of an extent below 0.75 L where L is more than eight voxels: at most 1.33 times its extent, but
+///   eight voxels are enough. A few triangles that long would stand too far off the samples to hold the volume.
+ScaleField followSmallTissues(const ScaleField& scale, const TissueMap& map, const std::map<Label, double>& thickness);
 
 } // namespace surgicalmesher

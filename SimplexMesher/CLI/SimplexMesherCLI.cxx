@@ -287,6 +287,8 @@ void assessDistances(CommandLine& line, const SurfaceComplex& surface, const Tis
   results.world = world;
   results.maximumDistance = bound;
   results.fidelity = assessFidelity(inOwnFrame, map, bound > 0 ? bound : std::numeric_limits<double>::infinity());
+  const std::string volumes = warningOfVolumes(results.fidelity, map);
+  if (!volumes.empty()) line.warning(volumes);
   if (bound == 0) return;
   for (const std::string& warning : warningsOfDistance(results.fidelity, bound, world)) line.warning(warning);
 }

@@ -5,6 +5,7 @@
 #include "Structures.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace surgicalmesher
 {
@@ -85,6 +86,29 @@ std::vector<std::string> warningsOfDistance(const std::map<Label, TissueFidelity
   check(&TissueFidelity::mapToMesh, "from boundaries of the map the surface is");
   check(&TissueFidelity::meshToMap, "from the surface the boundaries of the map are");
   return warnings;
+}
+
+std::string warningOfVolumes(const std::map<Label, TissueFidelity>& fidelity, const TissueMap& map)
+{
+  constexpr double most = 0.1, leastVoxels = 27; // fewer are more often noise than tissue
+  constexpr std::size_t listedMost = 5;
+  const Vec3& h = map.grid.spacing;
+  const double least = (leastVoxels - 0.5) * h.x * h.y * h.z;
+  std::vector<std::pair<double, Label>> off;
+  for (const auto& [label, tissue] : fidelity)
+    if (const double change = tissue.meshVolume / tissue.mapVolume - 1;
+        tissue.mapVolume > least && std::abs(change) > most)
+      off.emplace_back(change, label);
+  if (off.empty()) return {};
+  std::stable_sort(off.begin(), off.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a.first) > std::abs(b.first); });
+  std::string list;
+  for (std::size_t n = 0; n < std::min(listedMost, off.size()); ++n)
+    list += (n > 0 ? ", " : " ") + nameOf(off[n].second, map.table) + (off[n].first > 0 ? " +" : " ") +
+            std::to_string(std::lround(100 * off[n].first)) + " %";
+  if (off.size() > listedMost) list += " and " + std::to_string(off.size() - listedMost) + " more";
+  return "the volume of " + std::to_string(off.size()) + (off.size() == 1 ? " tissue" : " tissues") +
+         " is off by more than a tenth, as the lengths there are too long for what is so small:" + list;
 }
 
 } // namespace surgicalmesher

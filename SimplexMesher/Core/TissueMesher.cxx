@@ -92,7 +92,8 @@ StartingMesh startingMesh(const TissueMap& map, const ScaleField& scale, const s
     lattice.background, map, thickness, length,
     { options.maximumDistance, options.features, options.proximity, *shortest, *longest, options.smoothing > 0 });
   if (options.smoothing > 0)
-    moveToSmoothBoundary(lattice, map, { .voxels = options.smoothing, .isWiderWithL = leavesVoxels(options) });
+    moveToSmoothBoundary(
+      lattice, map, { .voxels = options.smoothing, .isWiderWithL = leavesVoxels(options), .thickness = thickness });
   else smoothInterface(lattice, map.grid.spacing);
   return { std::move(lattice.background), lattice.interfaceFaces.size() };
 }
@@ -207,7 +208,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   const Grid& grid = prepared.grid;
   SmoothedLabels smoothed = withoutRoughness(prepared, wanted, options);
   const std::map<Label, double> thickness = meanThickness(smoothed.map);
-  const ScaleField scale = followFlatTissues(wanted, smoothed.map, thickness);
+  const ScaleField scale = followSmallTissues(wanted, smoothed.map, thickness);
   const SizingFunction length = [&](const Vec3& p) { return double(float(scale(grid.gridToWorld(p)))); };
   const MeshSizes sizes = sizesOf(prepared, scale, options);
   StartingMesh start = startingMesh(smoothed.map, scale, thickness, length, options, subProgress(progress, 0, 0.06));

@@ -299,6 +299,24 @@ TEST(SurfaceMesher, ResistsBendingAtTheTopologyOfTheMap)
   }
 }
 
+TEST(SurfaceMesher, KeepsTheVolumeOfTissuesSmallerThanL)
+{
+  const Vec3 middle{ 20, 20, 20 };
+  const TissueMap map = paintedMap({ 41, 41, 41 },
+                                   [&](int i, int j, int k)
+                                   {
+                                     const double square = squareAt(i, j, k, middle);
+                                     return square < 3.6 * 3.6 ? 2 : square < 18 * 18 ? 1 : 0;
+                                   });
+  const double voxels = double(std::count(map.labels.begin(), map.labels.end(), 2));
+  for (const double length : { 10.0, 14.0, 20.0 })
+  {
+    const MeshedMap mesh = meshed(map, uniformScale(length));
+    EXPECT_EQ(faultOf(mesh, map), "") << length;
+    EXPECT_NEAR(checkSurface(interfaceOf(mesh.background.mesh)).at(2).volume, voxels, 0.1 * voxels) << length;
+  }
+}
+
 TEST(SurfaceMesher, KeepsTheDistanceAskedFor)
 {
   const TissueMap map = shapes()[2].map;

@@ -179,7 +179,7 @@ TEST(TissueScale, FlatTissueGetsEdgesOfTwiceItsThickness)
   EXPECT_NEAR(thickness.at(1), 2, 1.0) << "the staircase allowance is half the thickness of an even sheet";
   EXPECT_GT(thickness.at(2), 5);
   const ScaleField coarse = uniformScale(9), fine = uniformScale(4);
-  const ScaleField limited = followFlatTissues(coarse, map, thickness);
+  const ScaleField limited = followSmallTissues(coarse, map, thickness);
   visitPlaces(map,
               [&](Label label, const Vec3& p)
               {
@@ -187,9 +187,24 @@ TEST(TissueScale, FlatTissueGetsEdgesOfTwiceItsThickness)
                 EXPECT_LE(limited(p), 2 * thickness.at(1) + 1e-4);
               });
   EXPECT_FLOAT_EQ(limited({ 15, 15, 22 }), 9) << "thick tissue";
-  EXPECT_EQ(followFlatTissues(fine, map, thickness).lengths, fine.lengths) << "not flat for its edges";
-  const ScaleField huge = uniformScale(40);
-  EXPECT_EQ(followFlatTissues(huge, map, thickness).lengths, huge.lengths) << "small all round for its edges";
+  EXPECT_EQ(followSmallTissues(fine, map, thickness).lengths, fine.lengths) << "not flat for its edges";
+}
+
+TEST(TissueScale, TissueSmallAllRoundGetsEdgesOfItsSize)
+{
+  const TissueMap map = paintedMap({ 40, 40, 40 },
+                                   [](int i, int j, int k) {
+                                     return std::max({ i, j, k }) < 8 ? 2 : 1;
+                                   });
+  const auto thickness = meanThickness(map);
+  const ScaleField limited = followSmallTissues(uniformScale(16), map, thickness);
+  EXPECT_NEAR(limited({ 4, 4, 4 }), 8 / 0.75, 1e-4);
+  EXPECT_LT(limited({ 12, 4, 4 }), 16) << "rises slowly around it";
+  EXPECT_FLOAT_EQ(limited({ 35, 35, 35 }), 16) << "large tissue";
+  const ScaleField usual = uniformScale(8);
+  EXPECT_EQ(followSmallTissues(usual, map, thickness).lengths, usual.lengths) << "no more than eight voxels";
+  const TissueMap dot = paintedMap({ 40, 40, 40 }, [](int i, int j, int k) { return i + j + k == 0 ? 2 : 1; });
+  EXPECT_NEAR(followSmallTissues(uniformScale(16), dot, meanThickness(dot))({ 0, 0, 0 }), 8, 1e-4);
 }
 
 TEST(TissueScale, VolumeOfAUniformScaleCoversTheMap)
