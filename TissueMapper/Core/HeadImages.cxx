@@ -3,6 +3,7 @@
 
 #include "Errors.h"
 #include "ItkImage.h"
+#include "ThreadCount.h"
 
 #include <itkBSplineControlPointImageFilter.h>
 #include <itkN4BiasFieldCorrectionImageFilter.h>
@@ -60,6 +61,7 @@ std::vector<float> logarithmOfBias(const Grid& grid, const std::vector<float>& v
   std::vector<bool> counts = head; // a logarithm is taken
   for (std::size_t n = 0; n < counts.size(); ++n) counts[n] = counts[n] && values[n] > 0;
   const auto image = asItkImage<ItkImage>(inGridFrame(grid), values);
+  const OneWorkUnit ofOthersToo; // sums depend on their order
   const auto filter = N4::New();
   filter->SetInput(shrunk<ItkImage>(image));
   filter->SetMaskImage(shrunk<Mask>(asItkImage<Mask>(inGridFrame(grid), counts)));
@@ -68,7 +70,6 @@ std::vector<float> logarithmOfBias(const Grid& grid, const std::vector<float>& v
   filter->SetNumberOfFittingLevels(2);
   filter->SetMaximumNumberOfIterations(iterations);
   filter->SetConvergenceThreshold(0.001);
-  filter->SetNumberOfWorkUnits(1); // sums depend on their order
   filter->Update();
 
   using Spline = itk::BSplineControlPointImageFilter<N4::BiasFieldControlPointLatticeType, N4::ScalarImageType>;

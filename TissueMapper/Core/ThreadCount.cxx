@@ -13,4 +13,11 @@ void setThreadCount(int count)
   if (count > 0) itk::MultiThreaderBase::SetGlobalMaximumNumberOfThreads(itk::ThreadIdType(count));
 }
 
+OneWorkUnit::OneWorkUnit() : m_Before(itk::MultiThreaderBase::GetGlobalDefaultNumberOfThreads())
+{
+  itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(1);
+}
+
+OneWorkUnit::~OneWorkUnit() { itk::MultiThreaderBase::SetGlobalDefaultNumberOfThreads(m_Before); }
+
 } // namespace surgicalmesher
