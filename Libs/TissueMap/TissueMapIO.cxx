@@ -218,6 +218,23 @@ bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& colu
   return arePerpendicular(columns);
 }
 
+/// The origin of a NIfTI header's qform in LPS mm, if its unit is another: ITK scales the spacing to mm, but, in the
+/// version of Debian 12, not the origin.
+std::optional<Vec3> qformOriginInMm(const MetaData& metaData)
+{
+  const double unit = niftiUnit(metaData);
+  if (unit == 1) return {};
+  const std::array<const char*, 3> keys{ "qoffset_x", "qoffset_y", "qoffset_z" };
+  Vec3 origin;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const std::string* text = find(metaData, keys[axis]);
+    if (!text || !text::parseNumber(text::trimmed(*text), origin[axis])) return {};
+    origin[axis] *= (axis < 2 ? -1 : 1) * unit;
+  }
+  return origin;
+}
+
 /// The grid in the order of the file; its axes may be left-handed.
 Grid fileGrid(const itk::ImageIOBase& io, const MetaData& niftiHeader, const std::string& file)
 {
@@ -232,6 +249,7 @@ Grid fileGrid(const itk::ImageIOBase& io, const MetaData& niftiHeader, const std
       columns[axis] = io.GetSpacing(axis) * Vec3{ direction[0], direction[1], direction[2] };
       grid.origin[axis] = io.GetOrigin(axis);
     }
+    grid.origin = qformOriginInMm(niftiHeader).value_or(grid.origin);
   }
   for (int axis = 0; axis < 3; ++axis)
   {

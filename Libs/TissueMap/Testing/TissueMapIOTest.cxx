@@ -139,6 +139,7 @@ struct Nifti
   std::array<float, 3> pixdim{ 1, 1, 1 };
   short qformCode = 0;
   short sformCode = 0;
+  std::array<float, 6> qform{}; ///< b, c, d of the quaternion, offset
   std::array<float, 12> srow{};
   float slope = 0;
   char units = 2; // mm
@@ -158,6 +159,7 @@ struct Nifti
     put(123, units);
     put(252, qformCode);
     put(254, sformCode);
+    put(256, qform);
     put(280, srow);
     std::memcpy(&file[344], "n+1", 4);
     for (std::size_t n = 0; n < voxelBytes; ++n) file += char(n % 3);
@@ -406,6 +408,13 @@ TEST(ReadTissueMap, ReadsNiftiInMicrometres)
   const TissueMap map = readTissueMap(folder.write("map.nii", nifti.content(24)));
   expectNear(map.grid.spacing, { 0.5, 0.5, 0.5 }, 1e-9);
   expectNear(map.grid.origin, { 0, 0, 3 }, 1e-9);
+
+  nifti.sformCode = 0;
+  nifti.qformCode = 1;
+  nifti.qform = { 0, 0, 1, 2000, -1000, 3000 }; // RAS, half a turn about S
+  const TissueMap byQform = readTissueMap(folder.write("map.nii", nifti.content(24)));
+  expectNear(byQform.grid.spacing, { 0.5, 0.5, 0.5 }, 1e-9);
+  expectNear(byQform.grid.origin, { -2, 1, 3 }, 1e-9);
 }
 
 TEST(ReadTissueMap, IgnoresANiftiHeaderThatAnotherFormatCarriesOn)
