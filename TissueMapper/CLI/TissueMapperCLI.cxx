@@ -113,7 +113,7 @@ void requireMemory(const ScalarImage& image, std::size_t channels, const std::st
                    " MB of memory, found " + std::to_string(std::lround(double(*available) / 1e6)) + " MB available");
 }
 
-/// The largest probability of every voxel in one image, and one of every class beside it.
+/// The probability of the class that every voxel has in one image, and one of every class beside it.
 void writeProbabilities(CommandLine& line, const std::vector<TissueClass>& classes, Classification& found)
 {
   const std::string file = line.outputFile("probability");
@@ -121,8 +121,9 @@ void writeProbabilities(CommandLine& line, const std::vector<TissueClass>& class
   const std::filesystem::path name = line.outputNames("probability").front();
   const auto [before, after] = besideProbability(name);
   ScalarImage image{ found.map.grid, std::vector<float>(found.map.labels.size(), 0) };
-  for (const std::vector<float>& ofClass : found.probabilities)
-    for (std::size_t n = 0; n < ofClass.size(); ++n) image.values[n] = std::max(image.values[n], ofClass[n]);
+  for (std::size_t c = 0; c < classes.size(); ++c)
+    for (std::size_t n = 0; n < image.values.size(); ++n)
+      if (found.map.labels[n] == classes[c].label) image.values[n] = found.probabilities[c][n];
   writeImage(image, file);
   for (std::size_t c = 0; c < classes.size(); ++c)
   {

@@ -78,6 +78,22 @@ TEST_F(TissueMapperCLI, TakesSeveralImagesAndWritesProbabilities)
   expectRefused("--training points.fcsv --probability p.nrrd t1.nrrd p-3.nrrd", 2, "p-3.nrrd");
 }
 
+TEST_F(TissueMapperCLI, WritesTheProbabilityOfTheClassThatTheMapHas)
+{
+  writeImage(headPhantom(14).image, folder.file("noisy.nrrd"));
+  expectDone("--training points.fcsv --probability p.nrrd noisy.nrrd map.nrrd"); // one image: thresholds decide
+  const TissueMap map = readTissueMap(folder.file("map.nrrd"));
+  const ScalarImage found = readImage(folder.file("p.nrrd"));
+  std::vector<ScalarImage> ofClass;
+  for (const Label label : presentLabels(map))
+    ofClass.push_back(readImage(folder.file("p-" + std::to_string(label) + ".nrrd")));
+  for (std::size_t n = 0; n < map.labels.size(); ++n)
+  {
+    const Label label = map.labels[n]; // 1 to 7, or 0 outside
+    ASSERT_EQ(found.values[n], label == 0 ? 0 : ofClass[label - 1].values[n]) << n;
+  }
+}
+
 TEST_F(TissueMapperCLI, WritesTheCompartmentsThatItsClassesKeepTo)
 {
   expectDone("--training points.fcsv --compartments c.nrrd t1.nrrd map.nrrd");
