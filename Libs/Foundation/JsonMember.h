@@ -4,18 +4,24 @@
 
 #include "Vec3.h"
 
+#include <cmath>
 #include <string_view>
 #include <type_traits>
 
 namespace surgicalmesher
 {
 
-/// `value` is a bool, an integer, a floating-point number, a text, a point, or a range of such values: an array.
+/// `value` is a bool, an integer, a floating-point number, a text, a point, or a range of such values: an array. JSON has
+/// no NaN and no infinity: they become null.
 template <class Writer, class Value>
 void writeValue(Writer& json, const Value& value)
 {
   if constexpr (std::is_same_v<Value, bool>) json.Bool(value);
-  else if constexpr (std::is_floating_point_v<Value>) json.Double(value);
+  else if constexpr (std::is_floating_point_v<Value>)
+  {
+    if (std::isfinite(value)) json.Double(value);
+    else json.Null();
+  }
   else if constexpr (std::is_integral_v<Value> && std::is_signed_v<Value>) json.Int64(value);
   else if constexpr (std::is_integral_v<Value>) json.Uint64(value);
   else if constexpr (std::is_convertible_v<const Value&, std::string_view>)
@@ -26,7 +32,7 @@ void writeValue(Writer& json, const Value& value)
   else if constexpr (std::is_same_v<Value, Vec3>)
   {
     json.StartArray();
-    for (int axis = 0; axis < 3; ++axis) json.Double(value[axis]);
+    for (int axis = 0; axis < 3; ++axis) writeValue(json, value[axis]);
     json.EndArray();
   }
   else

@@ -18,7 +18,7 @@ namespace
 void writePlace(JsonWriter& json, const Vec3& place)
 {
   json.StartArray();
-  for (int axis = 0; axis < 3; ++axis) json.Double(std::round(place[axis] * 100) / 100 + 0.0);
+  for (int axis = 0; axis < 3; ++axis) writeValue(json, std::round(place[axis] * 100) / 100 + 0.0);
   json.EndArray();
 }
 

@@ -105,10 +105,7 @@ void writeDistance(JsonWriter& json, const char* key, const SurfaceDistance& dis
   json.StartObject();
   writeMember(json, "mean", distance.mean);
   writeMember(json, "maximum", distance.maximum);
-  json.Key("where");
-  json.StartArray();
-  for (int axis = 0; axis < 3; ++axis) json.Double(distance.where[axis]);
-  json.EndArray();
+  writeMember(json, "where", distance.where);
   json.EndObject();
 }
 

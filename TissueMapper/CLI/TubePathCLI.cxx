@@ -30,6 +30,14 @@ struct Results
   std::vector<std::string> warnings;
 };
 
+void requireApart(const std::vector<Vec3>& places, const std::string& file)
+{
+  constexpr double leastDistance = 0.01; // mm
+  const auto isApart = [&](const Vec3& p) { return norm(p - places.front()) > leastDistance; };
+  if (std::any_of(places.begin(), places.end(), isApart)) return;
+  throw InputError(file + ": " + std::to_string(places.size()) + " points in one place, expected two or more apart");
+}
+
 std::vector<Vec3> readPlaces(const CommandLine& line)
 {
   const std::string file = line.text("points");
@@ -40,6 +48,7 @@ std::vector<Vec3> readPlaces(const CommandLine& line)
     throw InputError(file + ": " + std::to_string(markups.size()) + " markups, expected the points of one tube");
   }
   if (markups.front().size() < 2) throw InputError(file + ": one point, expected two or more on the tube");
+  requireApart(markups.front(), file);
   return markups.front();
 }
 

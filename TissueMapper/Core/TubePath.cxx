@@ -232,6 +232,14 @@ Ridge fluxRidge(const FluxField& field, int sign, const RadiusRange& range)
   return { field.grid, strongestFlux(field, sign, range), at };
 }
 
+/// Points side by side on a tube are one place of it.
+void requireLength(const Grid& grid, const std::vector<Vec3>& path)
+{
+  if (polylineLength(path) > 0.01 * voxelLength(grid)) return;
+  throw InputError("the points lie in one place along the tube, at " + place(grid.gridToWorld(path.front())) +
+                   " LPS, expected two or more apart");
+}
+
 /// The axis of the tube that runs through these places, at half a voxel's steps.
 std::vector<Vec3> axisThrough(const Ridge& ridge, const std::vector<bool>& isBlocked, const std::vector<Vec3>& places,
                               const char* polarity, const TubePathOptions& options, const Progress& progress)
@@ -256,6 +264,7 @@ std::vector<Vec3> axisThrough(const Ridge& ridge, const std::vector<bool>& isBlo
   report(progress, 0.9, "refinement");
   path = refinedPath(grid, ridge.at, path);
   path = fittedToEnds(path, places.front(), places.back());
+  requireLength(grid, path);
   return resampled(path, 0.5 * voxelLength(grid));
 }
 

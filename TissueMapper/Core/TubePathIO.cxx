@@ -15,10 +15,7 @@ void writeControlPoint(JsonWriter& json, const Vec3& point, std::size_t number)
 {
   json.StartObject();
   writeMember(json, "id", std::to_string(number));
-  json.Key("position");
-  json.StartArray();
-  for (int axis = 0; axis < 3; ++axis) json.Double(point[axis]);
-  json.EndArray();
+  writeMember(json, "position", point);
   writeMember(json, "positionStatus", "defined");
   json.EndObject();
 }
@@ -30,10 +27,7 @@ void writeMeasurement(JsonWriter& json, const std::string& name, const std::stri
   writeMember(json, "name", name);
   writeMember(json, "enabled", true);
   writeMember(json, "units", units);
-  json.Key("controlPointValues");
-  json.StartArray();
-  for (const double value : values) json.Double(value);
-  json.EndArray();
+  writeMember(json, "controlPointValues", values);
   json.EndObject();
 }
 

@@ -98,6 +98,7 @@ TEST_F(TubePathCLI, ReadsItsOwnPathAsATubeToKeepOutOf)
 TEST_F(TubePathCLI, RefusesBadInputWithOneLineAndStatusOne)
 {
   folder.write("one.fcsv", fcsv({ scene.places[0] }));
+  folder.write("same.fcsv", fcsv({ scene.places[0], scene.places[0] }));
   folder.write("outside.fcsv", fcsv({ scene.places[0], { 900, 0, 0 } }));
   folder.write("text.nrrd", "not an image\n");
   ScalarImage hole = image;
@@ -111,6 +112,7 @@ TEST_F(TubePathCLI, RefusesBadInputWithOneLineAndStatusOne)
   expectRefused(points + "nan.nrrd p.mrk.json", 1, "nan.nrrd: a voxel of value nan");
   expectRefused(points + "vector.nrrd p.mrk.json", 1, "vector.nrrd: ");
   expectRefused("--points one.fcsv image.nrrd p.mrk.json", 1, "one.fcsv: one point");
+  expectRefused("--points same.fcsv image.nrrd p.mrk.json", 1, "same.fcsv: 2 points in one place");
   expectRefused("--points outside.fcsv image.nrrd p.mrk.json", 1, "lies outside the image");
   expectRefused("--points missing.fcsv image.nrrd p.mrk.json", 1, "missing.fcsv: no such file");
   expectRefused(points + "--addTo missing.nrrd --labelMap out.nrrd image.nrrd p.mrk.json", 1, "missing.nrrd");

@@ -265,6 +265,7 @@ TEST(TubePath, RefusesWhatItCanNotTrace)
   const ScalarImage image = drawn(scene);
   EXPECT_THROW(traceTube(image, { scene.places[0] }, {}, {}), InputError);
   EXPECT_THROW(traceTube(image, { scene.places[0], { 500, 0, 0 } }, {}, {}), InputError);
+  EXPECT_THROW(traceTube(image, { scene.places[0], scene.places[0] }, {}, {}), InputError);
   ScalarImage even = image;
   std::fill(even.values.begin(), even.values.end(), 7.f);
   EXPECT_THROW(traceTube(even, scene.places, {}, {}), InputError);
