@@ -3,6 +3,7 @@
 
 #include "Errors.h"
 #include "ItkImage.h"
+#include "Place.h"
 #include "Sampling.h"
 
 #include <itkFastMarchingImageFilterBase.h>
@@ -157,7 +158,9 @@ std::vector<Vec3> minimalPath(const Grid& grid, const std::vector<float>& speed,
   const std::vector<float> times = arrivalTimes(grid, speed, source, target);
   const std::array<int, 3> last = nearestVoxel(grid, target);
   if (!(times[grid.index(last[0], last[1], last[2])] < infinity))
-    throw EngineError("minimal path: no front from one point reaches the next");
+    throw InputError("--block: every way from " + place(grid.gridToWorld(source)) + " to " +
+                     place(grid.gridToWorld(target)) +
+                     " LPS is blocked, expected one outside the tubes to keep out of");
   const double step = voxelLength(grid) / 3;
   const double closeEnough = voxelLength(grid);
   const std::size_t limit = 200 * (std::size_t(grid.size[0]) + grid.size[1] + grid.size[2]);

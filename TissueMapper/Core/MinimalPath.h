@@ -17,7 +17,7 @@ std::vector<float> arrivalTimes(const Grid& grid, const std::vector<float>& spee
                                 const Vec3& target);
 
 /// From `target` down to `source`, given in the other order: source first. Steps of a third of a voxel. Throws
-/// EngineError if no front reaches the target.
+/// InputError if no front reaches the target.
 std::vector<Vec3> minimalPath(const Grid& grid, const std::vector<float>& speed, const Vec3& source,
                               const Vec3& target);
 

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace surgicalmesher
 {
@@ -79,6 +80,13 @@ std::vector<double> tubeRadii(const Grid& grid, const TubePathOptions& options)
                      std::to_string(largest) + " mm");
   }
   return radiiBetween(smallest, largest, radiusCount);
+}
+
+/// The radius that fits best may lie beyond the radii tried.
+double withinAsked(double radius, const TubePathOptions& options)
+{
+  const double largest = options.maximumRadius > 0 ? options.maximumRadius : std::numeric_limits<double>::infinity();
+  return std::clamp(radius, options.minimumRadius, largest);
 }
 
 /// The place of the highest value near p, less the farther away; p itself if snapDistance is 0.
@@ -329,6 +337,7 @@ TubePath traceTube(const ScalarImage& image, const std::vector<Vec3>& places, co
   TubePath tube;
   tube.isBright = sign > 0;
   tube.radii = radiiAlong(field, sign, path);
+  for (double& radius : tube.radii) radius = withinAsked(radius, options);
   const std::vector<float> strongest = strongestFlux(field, sign, all);
   for (const Vec3& p : path)
   {

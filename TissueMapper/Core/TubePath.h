@@ -46,8 +46,8 @@ struct TubePath
 };
 
 /// `places`: two or more, in the order in which the tube runs through them. No front enters `blocked` tubes. Throws
-/// InputError for places outside the image, all in one place along the tube, or where there is none at all, EngineError
-/// where no front comes from one to the next. The same bytes whatever the number of threads.
+/// InputError for places outside the image, all in one place along the tube, where there is none at all, or where blocked
+/// tubes leave no way from one to the next. The same bytes whatever the number of threads.
 TubePath traceTube(const ScalarImage& image, const std::vector<Vec3>& places, const std::vector<TubePath>& blocked,
                    const TubePathOptions& options, const Progress& progress = {});
 

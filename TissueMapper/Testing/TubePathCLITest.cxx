@@ -90,9 +90,8 @@ TEST_F(TubePathCLI, WritesTheSameBytesOnAnyNumberOfThreads)
 TEST_F(TubePathCLI, ReadsItsOwnPathAsATubeToKeepOutOf)
 {
   expectDone("--points points.fcsv image.nrrd path.mrk.json");
-  const Outcome result = run("--points points.fcsv --block path.mrk.json --snap 0 image.nrrd again.mrk.json");
-  EXPECT_EQ(result.status, 3) << result.out; // the only tube is blocked
-  EXPECT_NE(result.err.find("no front"), std::string::npos) << result.err;
+  expectRefused("--points points.fcsv --block path.mrk.json --snap 0 image.nrrd again.mrk.json", 1,
+                "--block: every way from"); // the only tube is blocked
 }
 
 TEST_F(TubePathCLI, RefusesBadInputWithOneLineAndStatusOne)

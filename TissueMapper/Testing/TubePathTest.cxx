@@ -111,7 +111,7 @@ TEST(MinimalPath, GoesRoundAWallAndSaysWhenThereIsNoWay)
   for (const Vec3& p : path) EXPECT_TRUE(std::abs(p.x - 15) > 0.6 || p.y > 24) << p.x << " " << p.y;
   for (int k = 0; k < 9; ++k)
     for (int j = 0; j < 31; ++j) speed[grid.index(15, j, k)] = 0;
-  EXPECT_THROW(minimalPath(grid, speed, { 5, 10, 4 }, { 25, 10, 4 }), EngineError);
+  EXPECT_THROW(minimalPath(grid, speed, { 5, 10, 4 }, { 25, 10, 4 }), InputError);
 }
 
 TEST(PathRefinement, SmoothsNoLineAndKeepsTheWeightsOrder)
@@ -257,6 +257,23 @@ TEST(TubePath, IsTheSameOnOneThreadAndMany)
   for (std::size_t n = 0; n < one.points.size(); ++n) EXPECT_TRUE(one.points[n] == three.points[n]);
   EXPECT_EQ(one.radii, three.radii);
   EXPECT_EQ(one.flux, three.flux);
+}
+
+TEST(TubePath, HasNoRadiusBeyondThoseAskedFor)
+{
+  const TubeScene scene = helix(1.5);
+  const ScalarImage image = drawn(scene);
+  for (const auto& [least, largest] : { std::pair(1.7, 2.0), std::pair(0.9, 1.3) })
+  {
+    TubePathOptions options;
+    options.minimumRadius = least;
+    options.maximumRadius = largest;
+    for (const double radius : traceTube(image, scene.places, {}, options).radii)
+    {
+      EXPECT_GE(radius, least);
+      EXPECT_LE(radius, largest);
+    }
+  }
 }
 
 TEST(TubePath, RefusesWhatItCanNotTrace)
