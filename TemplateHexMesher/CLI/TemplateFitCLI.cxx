@@ -15,10 +15,10 @@
 #include "TissueMapIO.h"
 #include "Validity.h"
 
+#include <vtkPointSet.h>
 #include <vtkSMPTools.h>
 
 #include <filesystem>
-#include <set>
 #include <sstream>
 
 using namespace surgicalmesher;
@@ -90,18 +90,16 @@ struct Carried
   ElementMeshFile content;
 };
 
-std::vector<Carried> readCarried(const CommandLine& line)
+/// Announces where they go; before anything is read.
+std::vector<Carried> announceCarried(CommandLine& line)
 {
   const std::filesystem::path fitted = line.outputNames("fitted").at(0);
   std::vector<Carried> files;
-  std::set<std::string> taken{ fitted.string() };
   for (const std::string& file : line.texts("carry"))
   {
     const std::string name = fitted.stem().string() + "." + std::filesystem::path(file).stem().string() + ".vtu";
-    const std::string destination = (fitted.parent_path() / name).string();
-    if (!taken.insert(destination).second)
-      throw UsageError("--carry: " + destination + " would be written twice, expected files of different names");
-    files.push_back({ file, destination, readElementMesh(file) });
+    files.push_back({ file, (fitted.parent_path() / name).string(), {} });
+    line.alsoWrites("carry", files.back().destination);
   }
   return files;
 }
@@ -249,13 +247,14 @@ void run(CommandLine& line)
   const Progress progress = line.progress();
   report(progress, 0, "reading");
   const SolverExports exports = readExports(line);
+  std::vector<Carried> carriedFiles = announceCarried(line);
   const Units units{ millimetresIn(line.text("templateUnit")), millimetresIn(line.text("targetUnit")) };
   const LandmarkPairs pairs = readPairs(line, units);
   const std::string templateFile = line.text("template"), fittedName = line.outputNames("fitted").at(0);
   const ElementMeshFile content = readElementMesh(templateFile);
   requireRightSideOut(content.mesh, templateFile);
   requireWritable(content, templateFile, fittedName);
-  const std::vector<Carried> carriedFiles = readCarried(line);
+  for (Carried& file : carriedFiles) file.content = readElementMesh(file.source);
   const ElementMesh mesh{ units.ofTemplate * content.mesh.points, content.mesh.elements };
   const TargetSurface target(readTarget(line, units.ofTarget));
 

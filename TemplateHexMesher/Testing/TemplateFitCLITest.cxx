@@ -140,5 +140,8 @@ TEST_F(TemplateFitCLI, RefusesCommandLinesAtFault)
   expectRefused(meshes + "f.vtu", 2, "--landmarks");
   expectRefused("--landmarks a.fcsv,b.fcsv " + meshes + "f.vtu", 1, "units");
   expectRefused("--targetUnit m --landmarks a.fcsv,b.fcsv " + meshes + "f.vtp", 2, "f.vtp");
+  const std::string carrying = "--targetUnit m --landmarks a.fcsv,b.fcsv --carry muscle.obj ";
+  expectRefused(carrying + "--export f.muscle.vtu " + meshes + "f.vtu", 2, "'f.muscle.vtu' is an output of --export");
+  expectRefused(carrying + "--carry muscle.stl " + meshes + "f.vtu", 2, "'f.muscle.vtu' is an output of --carry");
   expectRefused("--targetUnit inch --landmarks a.fcsv,b.fcsv " + meshes + "f.vtu", 2, "targetUnit");
 }
