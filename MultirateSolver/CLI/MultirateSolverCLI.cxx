@@ -53,6 +53,16 @@ std::map<Label, TissueMaterial> readMaterials(const CommandLine& line, const Mes
   return readMaterialTable(file, names, present);
 }
 
+/// That the two files are not each other's. Files without SubMesh don't tell.
+void requireParts(const CommandLine& line, const MeshFile& parent, const MeshFile& child)
+{
+  const auto isChilds = [](std::int32_t subMesh) { return subMesh > 0; };
+  if (!parent.subMesh.empty() && std::all_of(parent.subMesh.begin(), parent.subMesh.end(), isChilds))
+    throw InputError(line.text("parentMesh") + ": all tetrahedra are a child's (SubMesh), expected the parent's");
+  if (!child.subMesh.empty() && std::none_of(child.subMesh.begin(), child.subMesh.end(), isChilds))
+    throw InputError(line.text("childMesh") + ": all tetrahedra are the parent's (SubMesh), expected a child's");
+}
+
 /// A part's file once more, to be written with displacements.
 class DisplacedPart
 {
@@ -200,6 +210,7 @@ void run(CommandLine& line)
   const ReplayOptions options = readOptions(line);
   Motion motion(line);
   const MeshFile parent = readMesh(line.text("parentMesh")), child = readMesh(line.text("childMesh"));
+  requireParts(line, parent, child);
   std::vector<ToolPath> tools;
   for (const std::string& file : line.texts("tool")) tools.push_back(readToolPath(file));
   const CoupledMesh mesh = coupledMesh(parent, child, readMaterials(line, parent, child));

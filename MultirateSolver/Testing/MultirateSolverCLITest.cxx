@@ -71,6 +71,18 @@ TEST_F(MultirateSolverCLI, RefusesBadInput)
   expectRefused("parent.vtu small.vtu c.vtu", 1, "small.vtu");
 }
 
+TEST_F(MultirateSolverCLI, RefusesPartsThatAreEachOthers)
+{
+  DividedBox box = dividedBox(1);
+  box.parent.subMesh.assign(box.parent.mesh.tetrahedra.size(), 0);
+  box.child.subMesh.assign(box.child.mesh.tetrahedra.size(), 1);
+  writeMesh(box.parent, folder.file("outer.vtu"));
+  writeMesh(box.child, folder.file("inner.vtu"));
+  expectDone("--tool tool.csv outer.vtu inner.vtu c.vtu");
+  expectRefused("--tool tool.csv inner.vtu outer.vtu d.vtu", 1, "inner.vtu: all tetrahedra are a child's");
+  expectRefused("--tool tool.csv outer.vtu outer.vtu d.vtu", 1, "outer.vtu: all tetrahedra are the parent's");
+}
+
 TEST_F(MultirateSolverCLI, LeavesNothingWhenKilled)
 {
   folder.write("long.csv", "seconds,x,y,z\n0,6,8,8\n2000,8,8,8\n");
