@@ -130,6 +130,7 @@ void moveIntoPlace(const std::map<std::string, std::string>& temporaryByFinal)
     }
     inPlace.push_back(path);
   }
+  if (!inPlace.empty()) outputIsInPlace();
 }
 
 } // namespace

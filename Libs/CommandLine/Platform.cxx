@@ -47,6 +47,9 @@ std::atomic<const Doomed*> doomedFiles{ nullptr };
 /// Where the user's stderr is: 2, or what QuietStderr has put aside.
 std::atomic<int> stderrDescriptor{ 2 };
 
+/// How a signal's line ends.
+std::atomic<const char*> outputsFate{ ", no output was written\n" };
+
 void writeAll(int descriptor, const char* text, std::size_t length)
 {
 #ifdef _WIN32
@@ -105,7 +108,8 @@ extern "C" void removeDoomedFiles(int signal)
   {
     writeAll(descriptor, lastWords->data(), lastWords->size());
     writeAll(descriptor, cause, std::strlen(cause));
-    writeAll(descriptor, ", no output was written\n", 24);
+    const char* const fate = outputsFate.load();
+    writeAll(descriptor, fate, std::strlen(fate));
   }
   std::raise(signal);
 }
@@ -122,6 +126,8 @@ void removeOnSignal(const std::string& file)
 }
 
 void keepOnSignal() { doomedFiles.store(nullptr); }
+
+void outputIsInPlace() { outputsFate.store(", outputs that were complete stay\n"); }
 
 void returnFreedMemory()
 {

@@ -33,7 +33,8 @@ bool syncToDevice(const std::string& file);
 void installSignalHandlers(const std::string& program);
 /// `file` must be absolute. Safe against a signal at any moment.
 void removeOnSignal(const std::string& file);
-void keepOnSignal(); ///< forgets all files
+void keepOnSignal();    ///< forgets all files
+void outputIsInPlace(); ///< from now on the line on stderr says that what is complete stays
 
 /// Writes to what stderr was before a QuietStderr.
 void writeToStderr(const std::string& text);

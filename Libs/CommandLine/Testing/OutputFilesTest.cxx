@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -99,6 +100,24 @@ TEST_F(OutputFilesTest, oneMayComeWithoutTheOthersOrNotAtAll)
   EXPECT_EQ(content(), (Names{ "fault", "result" }));
   EXPECT_EQ(read(folder / "fault"), "why") << "as it was";
 }
+
+#ifndef _WIN32
+TEST_F(OutputFilesTest, oneThatIsInPlaceStaysWhenASignalEndsTheProcess)
+{
+  const auto endHalfWay = [&]
+  {
+    installSignalHandlers("program");
+    OutputFiles outputs;
+    const std::string early = (folder / "early.vtp").string();
+    write(outputs.temporary(early), "x");
+    write(outputs.temporary((folder / "late.vtp").string()), "x");
+    outputs.commit(early);
+    std::raise(SIGTERM);
+  };
+  EXPECT_EXIT(endHalfWay(), testing::KilledBySignal(SIGTERM), "^program: told to end, outputs that were complete stay");
+  EXPECT_EQ(content(), Names{ "early.vtp" });
+}
+#endif
 
 TEST_F(OutputFilesTest, leaveNothingWithoutCommit)
 {
