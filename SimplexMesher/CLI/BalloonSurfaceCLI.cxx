@@ -74,14 +74,25 @@ std::set<Label> readStops(const CommandLine& line, const TissueMap& map)
   return stops;
 }
 
-/// Seeds in the grid frame, with labels after those of the map, which `map.table` gets names for.
+/// After those of the map; where they run out, the smallest that are free.
+std::vector<Label> freeLabels(const TissueMap& map, std::size_t count)
+{
+  const std::vector<Label> present = presentLabels(map);
+  std::size_t label = present.empty() ? 1 : std::size_t(present.back()) + 1;
+  if (label + count > labelCount) label = 1;
+  std::vector<Label> labels;
+  for (; label < labelCount && labels.size() < count; ++label)
+    if (!std::binary_search(present.begin(), present.end(), Label(label))) labels.push_back(Label(label));
+  if (labels.size() == count) return labels;
+  throw InputError("the label map leaves " + std::to_string(labels.size()) + " labels, expected one for each of " +
+                   std::to_string(count) + " balloons");
+}
+
+/// Seeds in the grid frame, with labels of their own, which `map.table` gets names for.
 std::vector<BalloonSeed> placeSeeds(const std::vector<Seed>& seeds, const std::string& file,
                                     const std::set<Label>& stops, TissueMap& map)
 {
-  std::size_t label = 0;
-  for (const Label used : presentLabels(map)) label = std::max<std::size_t>(label, used);
-  if (label + seeds.size() >= labelCount)
-    throw InputError("the label map uses labels to " + std::to_string(label) + ", none is left for the balloons");
+  const std::vector<Label> labels = freeLabels(map, seeds.size());
   std::vector<BalloonSeed> placed;
   for (const Seed& seed : seeds)
   {
@@ -93,7 +104,7 @@ std::vector<BalloonSeed> placeSeeds(const std::vector<Seed>& seeds, const std::s
     const Label here = labelAt(map, voxel);
     if (stops.count(here) > 0)
       throw InputError(what + "lies in " + nameOf(here, map.table) + ", which --stop names, expected a free place");
-    placed.push_back({ p, Label(++label) });
+    placed.push_back({ p, labels[placed.size()] });
   }
   constexpr std::array<std::array<double, 3>, 4> colors{
     { { 0.55, 0.75, 0.9 }, { 0.95, 0.75, 0.55 }, { 0.65, 0.85, 0.6 }, { 0.85, 0.65, 0.85 } }

@@ -146,6 +146,14 @@ TEST_F(BalloonSurfaceCLI, WritesItsGrowthEveryTenthMotion)
   expectRefused("--seeds seeds.mrk.json --stop 2 --edgeLength 2 --growth g.pvd map.nrrd g-10.vtp", 2, "g-10.vtp");
 }
 
+TEST_F(BalloonSurfaceCLI, TakesTheSmallestFreeLabelIfTheMapHasTheLast)
+{
+  std::replace(map.labels.begin(), map.labels.end(), Label(2), Label(65535));
+  folder.write("last.nrrd", nrrd("uint16", nrrdGeometry(map.grid), map.labels));
+  expectDone("--seeds seeds.mrk.json --stop 65535 --edgeLength 2 --rigidity 6 last.nrrd s.vtp");
+  EXPECT_EQ(readSurface(folder.file("s.vtp")).tissues.begin()->first, 1); // 0, 3 and 65535 are taken
+}
+
 TEST_F(BalloonSurfaceCLI, SaysWhereTheMembraneLeaks)
 {
   const Outcome result =
