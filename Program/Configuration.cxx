@@ -17,6 +17,8 @@ namespace surgicalmesher
 namespace
 {
 
+constexpr const char* resultFolder = "folder";
+
 /// Of a text, a number or a truth; empty for anything else.
 std::string scalarText(const toml::node& node)
 {
@@ -52,7 +54,11 @@ std::vector<std::string> valuesOf(const toml::node& node, const Parameter& param
   return values;
 }
 
-bool isReadFile(const Parameter& parameter) { return parameter.isFile() && !parameter.output; }
+/// Whether a value is a path that means another file elsewhere: not what lies in the folder of the results by its name.
+bool isPath(const Parameter& parameter, const std::string& value)
+{
+  return parameter.isFile() && (!parameter.output || std::filesystem::path(value).has_parent_path());
+}
 
 const Parameter& parameterOf(const std::string& key, const ModuleDescription& description, const std::string& file)
 {
@@ -92,7 +98,8 @@ std::string tomlValue(const Parameter& parameter, const std::string& value)
 {
   if (parameter.isInteger() || parameter.isNumber() || parameter.type == "boolean") return value;
   if (parameter.isPoint()) return "[" + text::joined(text::split(value, ','), ", ") + "]";
-  return quoted(isReadFile(parameter) ? absolutePath(value) : value);
+  if (parameter.name == resultFolder) return quoted("."); // which may be moved and copied
+  return quoted(isPath(parameter, value) ? absolutePath(value) : value);
 }
 
 std::string entryOf(const Parameter& parameter, const RunOptions& options)
@@ -131,10 +138,8 @@ RunOptions readConfiguration(const std::string& file, const ModuleDescription& d
     const Parameter& parameter = parameterOf(std::string(key.str()), description, file);
     std::vector<std::string> values = valuesOf(node, parameter);
     requireAccepted(parameter, values, file);
-    if (isReadFile(parameter))
-    {
-      for (std::string& value : values) value = (folder / value).lexically_normal().string();
-    }
+    for (std::string& value : values)
+      if (isPath(parameter, value)) value = (folder / value).lexically_normal().string();
     if (!values.empty()) options[parameter.name] = values;
   }
   return options;

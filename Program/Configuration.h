@@ -8,12 +8,12 @@ namespace surgicalmesher
 {
 
 /// The options in a file, one key each: texts, numbers, true and false, and lists of these; points are lists of three
-/// numbers. Files to read are taken from the folder of the file. Throws InputError, with the file's name, for what is no
+/// numbers. Paths are taken from the folder of the file. Throws InputError, with the file's name, for what is no
 /// TOML, an unknown key (with the nearest known one), and a value that its option does not accept.
 RunOptions readConfiguration(const std::string& file, const ModuleDescription& description);
 
-/// Every option of `description`, in its order and with its description as a comment; files as absolute paths. Options
-/// without a value and a default are comments.
+/// Every option of `description`, in its order and with its description as a comment, for a file in the folder of the
+/// results, which is `.` in it; other paths are absolute. Options without a value and a default are comments.
 std::string configurationText(const RunOptions& options, const ModuleDescription& description);
 
 } // namespace surgicalmesher

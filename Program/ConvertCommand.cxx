@@ -19,12 +19,14 @@ namespace surgicalmesher
 namespace
 {
 
-FiniteElementOptions readOptions(const CommandLine& line, const MeshFile& content)
+FiniteElementOptions readOptions(CommandLine& line, const MeshFile& content)
 {
   const std::set<Label> present(content.mesh.labels.begin(), content.mesh.labels.end());
   FiniteElementOptions options;
   const std::string materials = line.text("materials");
-  if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present);
+  std::vector<std::string> warnings;
+  if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present, &warnings);
+  for (const std::string& warning : warnings) line.warning(warning);
   options.shells = shellChoices(line.texts("shell"), content.tissues, present, line.number("shellThickness"));
   options.nodes = nodeChoices(line.texts("nodeSet"), line.texts("nodeMarkups"));
   return options;

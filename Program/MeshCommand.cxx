@@ -81,6 +81,20 @@ void requireReadable(const std::vector<std::string>& files)
   for (const std::string& file : files) text::requireReadableFile(file);
 }
 
+void requireFolders(const std::vector<Stage>& stages)
+{
+  for (const Stage& stage : stages)
+  {
+    for (const std::string& output : stage.outputs)
+    {
+      const fs::path folder = fs::path(output).parent_path();
+      std::error_code error;
+      if (!fs::is_directory(folder, error))
+        throw InputError(output + ": folder " + folder.string() + " not found, a writable folder expected");
+    }
+  }
+}
+
 void requireInputsKept(const std::vector<Stage>& stages, const std::vector<std::string>& given)
 {
   for (const Stage& stage : stages)
@@ -148,6 +162,7 @@ void runStages(const RunRequest& request, const std::string& programs, CommandLi
   const std::vector<Stage> stages = stagesOf(request);
   const std::vector<std::string> given = givenFiles(stages);
   requireReadable(given);
+  requireFolders(stages);
   requireInputsKept(stages, given);
   RunRecord record = readRunRecord(request.folder);
   forgetOthers(stages, record, request.folder, given);

@@ -8,7 +8,6 @@
 #include "MeshIO.h"
 #include "MeshQuality.h"
 #include "SolidElements.h"
-#include "SurfaceEdgeLength.h"
 #include "TextFile.h"
 #include "TissueMapIO.h"
 
@@ -56,17 +55,16 @@ void tellOfTetrahedra(CommandLine& line, const MeshQuality& quality, const Tissu
   for (const auto& [label, group] : quality.tissues) line.message(tissueColumn(label, tissues) + tetrahedraRow(group));
 }
 
-SizingFunction lengthsOf(const CommandLine& line, const MeshFile& content)
+MeshQuality qualityOf(const MeshFile& content, const std::string& scaleFile)
 {
-  const std::string file = line.text("scale");
-  if (!file.empty()) return [scale = readScale(file)](const Vec3& p) { return scale(p); };
-  if (content.targetEdgeLength.empty()) return {};
-  return edgeLengthFromPoints(content.mesh.points, content.targetEdgeLength);
+  if (scaleFile.empty()) return assessQualityFromPoints(content.mesh, content.subMesh, content.targetEdgeLength);
+  return assessQuality(content.mesh, content.subMesh,
+                       [scale = readScale(scaleFile)](const Vec3& p) { return scale(p); });
 }
 
 void measureTetrahedra(CommandLine& line, const MeshFile& content)
 {
-  const MeshQuality quality = assessQuality(content.mesh, content.subMesh, lengthsOf(line, content));
+  const MeshQuality quality = qualityOf(content, line.text("scale"));
   const std::string file = line.outputFile("report");
   if (!file.empty()) writeBytes(qualityJSON(quality, content.tissues) + "\n", file);
   tellOfTetrahedra(line, quality, content.tissues);

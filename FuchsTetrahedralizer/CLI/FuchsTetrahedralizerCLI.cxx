@@ -175,10 +175,9 @@ FiniteElementOptions readFiniteElementOptions(CommandLine& line, const Tetrahedr
   present.erase(0);
   FiniteElementOptions options;
   const std::string materials = line.text("materials");
-  if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present);
-  const std::string missing =
-    materials.empty() ? std::string() : warningOfMaterials(options, present, content.tissues, materials);
-  if (!missing.empty()) line.warning(missing);
+  std::vector<std::string> warnings;
+  if (!materials.empty()) options.materials = readMaterialTable(materials, content.tissues, present, &warnings);
+  for (const std::string& warning : warnings) line.warning(warning);
   options.shells = readShells(line, content.tissues, present);
   options.nodes = nodeChoices(line.texts("nodeSet"), line.texts("nodeMarkups"));
   options.beams.areTrusses = line.text("curveElements") == "truss";

@@ -35,22 +35,4 @@ std::string warningOfStillness(const std::vector<std::int32_t>& constitutive)
                  : std::string();
 }
 
-std::string warningOfMaterials(const FiniteElementOptions& options, const std::set<Label>& present,
-                               const TissueTable& names, const std::string& file)
-{
-  std::string missing;
-  int count = 0;
-  for (const Label label : present)
-  {
-    if (options.materials.count(label) > 0) continue;
-    const auto found = names.find(label);
-    const bool isNamed = found != names.end() && !found->second.name.empty();
-    missing += (missing.empty() ? "" : ", ") + (isNamed ? found->second.name : "tissue " + std::to_string(label));
-    ++count;
-  }
-  if (count == 0) return {};
-  return file + ": no row for " + std::to_string(count) + " of " + std::to_string(present.size()) +
-         " tissues, which get the default of soft tissue, 3 kPa: " + missing;
-}
-
 } // namespace surgicalmesher

@@ -20,8 +20,4 @@ std::vector<std::string> warningsOfPlaces(const ConstitutiveRule& rule, const Su
 /// That all tetrahedra of a mesh are null displacement; empty if they are not.
 std::string warningOfStillness(const std::vector<std::int32_t>& constitutive);
 
-/// The tissues without a material of their own; empty if there is none.
-std::string warningOfMaterials(const FiniteElementOptions& options, const std::set<Label>& present,
-                               const TissueTable& names, const std::string& file);
-
 } // namespace surgicalmesher

@@ -5,7 +5,6 @@
 #include "HostDifferences.h"
 #include "MeshQuality.h"
 #include "ModelMesh.h"
-#include "SurfaceEdgeLength.h"
 #include "vtkMRMLFuchsTetrahedralizerNode.h"
 
 #include <vtkMRMLModelNode.h>
@@ -278,11 +277,9 @@ void showReport(vtkMRMLModelNode* mesh, const std::string& reportJSON)
 void assessMesh(vtkMRMLModelNode* mesh)
 {
   const MeshFile content = meshOfModel(mesh);
-  std::function<double(const Vec3&)> edgeLength;
-  if (!content.targetEdgeLength.empty())
-    edgeLength = edgeLengthFromPoints(content.mesh.points, content.targetEdgeLength);
+  const MeshQuality measured = assessQualityFromPoints(content.mesh, content.subMesh, content.targetEdgeLength);
   rapidjson::Document quality;
-  quality.Parse(qualityJSON(assessQuality(content.mesh, content.subMesh, edgeLength), content.tissues).c_str());
+  quality.Parse(qualityJSON(measured, content.tissues).c_str());
   showQuality(mesh, quality);
 }
 

@@ -2,6 +2,7 @@
 #include "MaterialTable.h"
 
 #include "Errors.h"
+#include "Structures.h"
 #include "TextFile.h"
 #include "TextTable.h"
 #include "TissueMapIO.h"
@@ -58,7 +59,7 @@ Label readTissue(const TextTableRow& row, const TissueTable& names, const std::s
 {
   const std::string tissue = row.fields[ColumnTissue];
   Label label = 0;
-  if (!findTissue(tissue, names, label)) row.fail("\"" + tissue + "\" is neither a label nor a tissue's name");
+  if (!findTissue(tissue, names, label)) row.fail(whyNoTissue(tissue, names));
   if (present.count(label) == 0) row.fail("tissue " + tissue + " is not in the mesh, expected one that is");
   return label;
 }
@@ -83,10 +84,21 @@ TissueMaterial readMaterial(const TextTableRow& row)
   return material;
 }
 
+std::string warningOfMissing(const std::map<Label, TissueMaterial>& materials, const std::set<Label>& present,
+                             const TissueTable& names, const std::string& file)
+{
+  std::vector<std::string> missing;
+  for (const Label label : present)
+    if (materials.count(label) == 0) missing.push_back(nameOf(label, names));
+  if (missing.empty()) return {};
+  return file + ": no row for " + std::to_string(missing.size()) + " of " + std::to_string(present.size()) +
+         " tissues, which get the default of soft tissue, 3 kPa: " + text::joined(missing, ", ");
+}
+
 } // namespace
 
 std::map<Label, TissueMaterial> readMaterialTable(const std::string& file, const TissueTable& names,
-                                                  const std::set<Label>& present)
+                                                  const std::set<Label>& present, std::vector<std::string>* warnings)
 {
   const std::string columnNames = "tissue, model, youngsModulus, poissonsRatio, density";
   const TextTable table = readTextTable(file, ColumnCount, columnOf, columnNames);
@@ -103,6 +115,8 @@ std::map<Label, TissueMaterial> readMaterialTable(const std::string& file, const
       row.fail("tissue " + row.fields[ColumnTissue] + " is listed for the second time");
   }
   if (materials.empty()) throw InputError(file + ": no tissue, expected a header row and a row for each tissue");
+  const std::string missing = warnings ? warningOfMissing(materials, present, names, file) : std::string();
+  if (!missing.empty()) warnings->push_back(missing);
   return materials;
 }
 

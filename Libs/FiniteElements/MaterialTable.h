@@ -20,8 +20,10 @@ namespace surgicalmesher
 ///     density        kg/m^3, > 0; empty: 1000
 ///
 /// Columns model and density may be left out. Lines that are empty or begin with # are skipped. Throws InputError with
-/// file and line for anything else than that, a tissue that is not among `present`, one listed twice.
+/// file and line for anything else than that, a tissue that is not among `present`, one listed twice. Adds to `warnings` which
+/// of `present` are left to the default, if any are.
 std::map<Label, TissueMaterial> readMaterialTable(const std::string& file, const TissueTable& names,
-                                                  const std::set<Label>& present);
+                                                  const std::set<Label>& present,
+                                                  std::vector<std::string>* warnings = nullptr);
 
 } // namespace surgicalmesher

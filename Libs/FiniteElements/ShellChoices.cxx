@@ -50,7 +50,8 @@ std::vector<ShellChoice> shellChoices(const std::vector<std::string>& texts, con
       const std::optional<ShellChoice> choice = findShell(shell, names, present);
       if (!choice)
         throw UsageError("--shell: \"" + shell +
-                         "\" found, TISSUE or TISSUE:NEIGHBOUR with labels or names of the mesh's tissues expected");
+                         "\" found, TISSUE or TISSUE:NEIGHBOUR with labels of the mesh's tissues, or names that one of "
+                         "them has alone, expected");
       choices.push_back(*choice);
       choices.back().thickness = thickness;
     }

@@ -147,6 +147,9 @@ TetrahedronMeasures measuresOf(const TetMesh& mesh, std::size_t t)
            leastHeight(a, b, c, d) };
 }
 
+/// L of the edge between two points, mm.
+using EdgeTarget = std::function<double(std::int32_t a, std::int32_t b)>;
+
 /// What every group is assessed from, found once.
 struct Context
 {
@@ -157,18 +160,17 @@ struct Context
   Edges edges;
   std::vector<double> edgeOverTarget; ///< by edge; empty without a target
 
-  Context(const TetMesh& ofMesh, const std::function<double(const Vec3&)>& edgeLength)
-    : mesh(ofMesh), measures(mesh.tetrahedra.size())
+  Context(const TetMesh& ofMesh, const EdgeTarget& target) : mesh(ofMesh), measures(mesh.tetrahedra.size())
   {
     parallelFor(measures.size(), [&](vtkIdType t) { measures[t] = measuresOf(mesh, std::size_t(t)); });
-    if (!edgeLength) return;
+    if (!target) return;
     edges = edgesOf(mesh);
     edgeOverTarget.resize(edges.ends.size());
     parallelFor(edgeOverTarget.size(),
                 [&](vtkIdType e)
                 {
-                  const Vec3 &a = mesh.points[edges.ends[e][0]], &b = mesh.points[edges.ends[e][1]];
-                  edgeOverTarget[e] = norm(b - a) / edgeLength(0.5 * (a + b));
+                  const auto [a, b] = edges.ends[e];
+                  edgeOverTarget[e] = norm(mesh.points[b] - mesh.points[a]) / target(a, b);
                 });
   }
 };
@@ -401,10 +403,12 @@ std::size_t countBelow(const TetMesh& mesh, double degrees)
   return below;
 }
 
-MeshQuality assessQuality(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh,
-                          const std::function<double(const Vec3&)>& edgeLength)
+namespace
 {
-  const Context context(mesh, edgeLength);
+
+MeshQuality assessed(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh, const EdgeTarget& target)
+{
+  const Context context(mesh, target);
   std::vector<std::int32_t> all(mesh.tetrahedra.size());
   std::iota(all.begin(), all.end(), 0);
   std::map<Label, std::vector<std::int32_t>> byTissue;
@@ -433,6 +437,24 @@ MeshQuality assessQuality(const TetMesh& mesh, const std::vector<std::int32_t>& 
   for (const auto& [label, tetrahedra] : byTissue) add(result.tissues[label], tetrahedra);
   runInParallel(tasks);
   return result;
+}
+
+} // namespace
+
+MeshQuality assessQuality(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh,
+                          const std::function<double(const Vec3&)>& edgeLength)
+{
+  if (!edgeLength) return assessed(mesh, subMesh, {});
+  return assessed(mesh, subMesh,
+                  [&](std::int32_t a, std::int32_t b) { return edgeLength(0.5 * (mesh.points[a] + mesh.points[b])); });
+}
+
+MeshQuality assessQualityFromPoints(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh,
+                                    const std::vector<double>& edgeLengths)
+{
+  if (edgeLengths.empty()) return assessed(mesh, subMesh, {});
+  return assessed(mesh, subMesh,
+                  [&](std::int32_t a, std::int32_t b) { return 0.5 * (edgeLengths[a] + edgeLengths[b]); });
 }
 
 std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues)

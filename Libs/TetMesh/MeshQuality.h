@@ -86,6 +86,9 @@ std::map<Label, double> tissueVolumes(const TetMesh& mesh);
 /// L(x) in mm, asked at the middle of each edge, or empty.
 MeshQuality assessQuality(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh,
                           const std::function<double(const Vec3&)>& edgeLength);
+/// The same with L (mm) at each point, whose mean over both ends counts for an edge; empty without a target.
+MeshQuality assessQualityFromPoints(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh,
+                                    const std::vector<double>& edgeLengths);
 
 /// One JSON object: whole, tissues, subMeshes, histograms.
 std::string qualityJSON(const MeshQuality& quality, const TissueTable& tissues);

@@ -57,8 +57,11 @@ void completeTissueTable(TissueMap& map, const std::string& file, std::vector<st
 bool keepsTissues(const std::string& file);
 
 /// The label that `text` means: a number from 0 to 65535, or a name of `names` (underscores and blanks are the same).
-/// Returns false if it is neither.
+/// Returns false if it is neither, and for a name that several tissues have.
 bool findTissue(const std::string& text, const TissueTable& names, Label& label);
+
+/// For messages, why findTissue() finds none: that `text` is neither a label nor a name, or which tissues have the name.
+std::string whyNoTissue(const std::string& text, const TissueTable& names);
 
 /// Control points of every markup in a .mrk.json (Fiducial, Curve, ClosedCurve, Line) or .fcsv file, in LPS mm,
 /// whatever the file's own coordinate system; a ClosedCurve ends with its first point again. One list per markup that

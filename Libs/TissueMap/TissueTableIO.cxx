@@ -121,6 +121,19 @@ void completeTissueTable(TissueMap& map, const std::string& file, std::vector<st
   map.table = present;
 }
 
+namespace
+{
+
+std::vector<Label> tissuesNamed(const std::string& text, const TissueTable& names)
+{
+  std::vector<Label> found;
+  for (const auto& [label, tissue] : names)
+    if (!tissue.name.empty() && comparable(tissue.name) == comparable(text)) found.push_back(label);
+  return found;
+}
+
+} // namespace
+
 bool findTissue(const std::string& text, const TissueTable& names, Label& label)
 {
   long number = 0;
@@ -129,13 +142,18 @@ bool findTissue(const std::string& text, const TissueTable& names, Label& label)
     label = Label(number);
     return true;
   }
-  for (const auto& entry : names)
-  {
-    if (entry.second.name.empty() || comparable(entry.second.name) != comparable(text)) continue;
-    label = entry.first;
-    return true;
-  }
-  return false;
+  const std::vector<Label> found = tissuesNamed(text, names);
+  if (found.size() != 1) return false;
+  label = found.front();
+  return true;
+}
+
+std::string whyNoTissue(const std::string& text, const TissueTable& names)
+{
+  std::vector<std::string> labels;
+  for (const Label label : tissuesNamed(text, names)) labels.push_back(std::to_string(label));
+  if (labels.size() < 2) return "\"" + text + "\" is neither a label nor the name of a tissue";
+  return "\"" + text + "\" is the name of the tissues " + text::joined(labels, ", ") + ", expected a label";
 }
 
 } // namespace surgicalmesher

@@ -42,7 +42,7 @@ ReplayOptions readOptions(const CommandLine& line)
   return options;
 }
 
-std::map<Label, TissueMaterial> readMaterials(const CommandLine& line, const MeshFile& parent, const MeshFile& child)
+std::map<Label, TissueMaterial> readMaterials(CommandLine& line, const MeshFile& parent, const MeshFile& child)
 {
   const std::string file = line.text("materials");
   if (file.empty()) return {};
@@ -50,7 +50,10 @@ std::map<Label, TissueMaterial> readMaterials(const CommandLine& line, const Mes
   present.insert(child.mesh.labels.begin(), child.mesh.labels.end());
   TissueTable names = parent.tissues;
   names.insert(child.tissues.begin(), child.tissues.end());
-  return readMaterialTable(file, names, present);
+  std::vector<std::string> warnings;
+  std::map<Label, TissueMaterial> materials = readMaterialTable(file, names, present, &warnings);
+  for (const std::string& warning : warnings) line.warning(warning);
+  return materials;
 }
 
 /// That the two files are not each other's. Files without SubMesh don't tell.

@@ -190,7 +190,7 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assert_same_as_three_programs("repeated")
         with open("repeated/run.toml", encoding="utf-8") as file:
-            self.assertEqual(file.read().replace("/repeated", "/out"), bytes_of("out/run.toml").decode())
+            self.assertEqual(file.read(), bytes_of("out/run.toml").decode())
         done = surgicalmesher("mesh", "--config", "repeated/run.toml")
         self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
 
@@ -200,6 +200,25 @@ class ProgramTest(unittest.TestCase):
         done = surgicalmesher("mesh", "--config", "resumed/run.toml", "resumed")
         self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
         self.assertEqual({name: bytes_of(f"resumed/{name}") for name in before}, before)
+
+    def test_configuration_in_a_copied_folder_is_of_the_copy(self):
+        shutil.copytree("out", "copied")
+        stamps = {file: os.stat(file).st_mtime_ns for file in glob.glob("out/*")}
+        done = surgicalmesher("mesh", "--config", "copied/run.toml")
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
+        self.assertIn(os.path.abspath("copied/report.html"), done.stdout)
+        self.assertEqual({file: os.stat(file).st_mtime_ns for file in stamps}, stamps)
+
+    def test_export_with_a_folder_lies_there(self):
+        shutil.copytree("out", "elsewhere")
+        os.makedirs("exported")
+        command = [word if word != "out" else "elsewhere" for word in self.command]
+        done = surgicalmesher(*command[:-1], "exported/head.inp")
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 2), done.stderr)
+        self.assertEqual(bytes_of("exported/head.inp"), bytes_of("out/head.inp"))
+        self.assertFalse(os.path.exists("elsewhere/head.inp"))
+        done = surgicalmesher("mesh", "--config", "elsewhere/run.toml")
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
 
     def test_defaults_that_differ_have_an_option_each(self):
         lines = bytes_of("out/run.toml").decode().splitlines()
@@ -302,6 +321,7 @@ class ProgramTest(unittest.TestCase):
                 (2, ["out/scale.nrrd would be overwritten"], ["mesh", "out/scale.nrrd", "out", *target]),
                 (2, [".doc"], ["mesh", "map.nrrd", "new", *target, "--export", "head.doc"]),
                 (1, ["nothing.nrrd"], ["mesh", "nothing.nrrd", "new", *target]),
+                (1, ["nowhere not found"], ["mesh", "map.nrrd", "new", *target, "--export", "nowhere/head.inp"]),
                 (1, ["map.nrrd", "not a folder"], ["mesh", "map.nrrd", "map.nrrd", *target]),
                 (1, ["key.toml", "did you mean minimumEdgeLength?"], ["mesh", "--config", "key.toml"]),
                 (1, ["value.toml", "from 0 to 500"], ["mesh", "--config", "value.toml"]),

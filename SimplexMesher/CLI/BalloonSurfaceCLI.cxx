@@ -65,8 +65,7 @@ std::set<Label> readStops(const CommandLine& line, const TissueMap& map)
   for (const std::string& tissue : text::splitFields(tissues))
   {
     Label label = 0;
-    if (!findTissue(tissue, map.table, label))
-      throw UsageError("--stop: \"" + tissue + "\" is neither a label nor the name of a tissue");
+    if (!findTissue(tissue, map.table, label)) throw UsageError("--stop: " + whyNoTissue(tissue, map.table));
     if (label != 0 && !std::binary_search(present.begin(), present.end(), label))
       throw UsageError("--stop: no voxel of tissue " + tissue + " in the label map");
     stops.insert(label);

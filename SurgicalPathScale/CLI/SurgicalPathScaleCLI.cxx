@@ -102,9 +102,7 @@ NullDisplacementOptions readNullDisplacement(const CommandLine& line, const Tiss
   {
     Label label = 0;
     if (!findTissue(tissue, map.table, label))
-    {
-      throw UsageError("--nullDisplacementTissues: \"" + tissue + "\" is neither a label nor the name of a tissue");
-    }
+      throw UsageError("--nullDisplacementTissues: " + whyNoTissue(tissue, map.table));
     if (!std::binary_search(present.begin(), present.end(), label))
       throw UsageError("--nullDisplacementTissues: no voxel of tissue " + tissue + " in the label map");
     options.tissues.insert(label);

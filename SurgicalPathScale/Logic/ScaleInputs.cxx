@@ -65,8 +65,7 @@ NullDisplacementOptions nullDisplacementOptions(vtkMRMLSurgicalPathScaleNode* pa
   for (const std::string& tissue : text::splitFields(tissues))
   {
     Label label = 0;
-    if (!findTissue(tissue, names, label))
-      throw InputError("\"" + tissue + "\" is neither a label nor the name of a tissue");
+    if (!findTissue(tissue, names, label)) throw InputError(whyNoTissue(tissue, names));
     options.tissues.insert(label);
   }
   return options;

@@ -54,6 +54,26 @@ TEST_F(MaterialTable, ColumnsComeInAnyOrderAndTwoMayLack)
   EXPECT_DOUBLE_EQ(table.at(3).youngsModulus, 0.002);
 }
 
+TEST_F(MaterialTable, RefusesANameThatSeveralTissuesHave)
+{
+  names[4].name = "Gray matter";
+  names[5].name = "gray_matter";
+  expectRefused("tissue,youngsModulus,poissonsRatio\ngray matter,2,0.4\n",
+                "\"gray matter\" is the name of the tissues 3, 4, 5, expected a label");
+}
+
+TEST_F(MaterialTable, TellsWhichTissuesAreLeftToTheDefault)
+{
+  const std::string file = folder.write("m.csv", "tissue,youngsModulus,poissonsRatio\n3,2,0.4\n");
+  std::vector<std::string> warnings;
+  readMaterialTable(file, names, { 3, 4, 5 }, &warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            file + ": no row for 2 of 3 tissues, which get the default of soft tissue, 3 kPa: tissue 4, skull");
+  readMaterialTable(file, names, { 3 }, &warnings);
+  EXPECT_EQ(warnings.size(), 1u);
+}
+
 TEST_F(MaterialTable, RefusesHeadersAtFault)
 {
   expectRefused("", "no tissue");

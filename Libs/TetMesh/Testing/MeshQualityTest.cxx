@@ -113,6 +113,20 @@ TEST(AssessQuality, GroupsAddUp)
   EXPECT_EQ(quality.whole.dihedral.count, 6 * mesh.tetrahedra.size());
 }
 
+TEST(AssessQuality, LengthsAtPointsCountByTheMeanOfBothEnds)
+{
+  const TetMesh mesh = test::tetrahedraOf(test::paintedMap({ 3, 3, 3 }, [](int, int, int) { return 1; }));
+  const auto growing = [](const Vec3& p) { return 1 + 0.2 * p.x; };
+  std::vector<double> lengths;
+  for (const Vec3& p : mesh.points) lengths.push_back(growing(p));
+  const Distribution byPoints = assessQualityFromPoints(mesh, {}, lengths).whole.edgeOverTarget,
+                     byPlaces = assessQuality(mesh, {}, growing).whole.edgeOverTarget;
+  EXPECT_NEAR(byPoints.minimum, byPlaces.minimum, 1e-12);
+  EXPECT_NEAR(byPoints.mean, byPlaces.mean, 1e-12);
+  EXPECT_NEAR(byPoints.maximum, byPlaces.maximum, 1e-12);
+  EXPECT_EQ(assessQualityFromPoints(mesh, {}, {}).whole.edgeOverTarget.count, 0u);
+}
+
 TEST(AssessQuality, HistogramsCountEverything)
 {
   const TetMesh mesh =
