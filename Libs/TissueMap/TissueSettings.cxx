@@ -43,7 +43,7 @@ Label readTissue(const TextTableRow& row, const TissueMap& map, const std::vecto
   const std::string tissue = row.fields[ColumnLabel].empty() ? row.fields[ColumnName] : row.fields[ColumnLabel];
   Label label = 0;
   if (!findTissue(tissue, map.table, label)) row.fail(whyNoTissue(tissue, map.table));
-  if (label == 0) row.fail("tissue 0 is the background, expected a label from 1 to 65535");
+  if (label == 0) row.fail("\"" + tissue + "\" is neither a label from 1 to 65535 nor the name of a tissue");
   if (!std::binary_search(present.begin(), present.end(), label))
   {
     row.fail("tissue " + tissue + " has no voxel in the map, expected one that has");

@@ -90,7 +90,7 @@ std::vector<std::string> warningsOfDistance(const std::map<Label, TissueFidelity
 
 std::string warningOfVolumes(const std::map<Label, TissueFidelity>& fidelity, const TissueMap& map)
 {
-  constexpr double most = 0.1, leastVoxels = 27; // fewer are more often noise than tissue
+  constexpr double most = 0.25, leastVoxels = 27; // fewer are more often noise than tissue
   constexpr std::size_t listedMost = 5;
   const Vec3& h = map.grid.spacing;
   const double least = (leastVoxels - 0.5) * h.x * h.y * h.z;
@@ -108,7 +108,7 @@ std::string warningOfVolumes(const std::map<Label, TissueFidelity>& fidelity, co
             std::to_string(std::lround(100 * off[n].first)) + " %";
   if (off.size() > listedMost) list += " and " + std::to_string(off.size() - listedMost) + " more";
   return "the volume of " + std::to_string(off.size()) + (off.size() == 1 ? " tissue" : " tissues") +
-         " is off by more than a tenth, as the lengths there are too long for what is so small:" + list;
+         " is off by more than a quarter, as the lengths there are too long for what is so small:" + list;
 }
 
 } // namespace surgicalmesher

@@ -24,7 +24,7 @@ std::vector<std::string> warningsOfGroups(const TissueSelection& selection);
 std::vector<std::string> warningsOfDistance(const std::map<Label, TissueFidelity>& fidelity, double bound,
                                             const Grid& world);
 
-/// Tissues of 27 voxels or more that have lost or gained over a tenth of their volume in `map`, the worst first; empty if
+/// Tissues of 27 voxels or more that have lost or gained over a quarter of their volume in `map`, the worst first; empty if
 /// none has.
 std::string warningOfVolumes(const std::map<Label, TissueFidelity>& fidelity, const TissueMap& map);
 

@@ -59,7 +59,7 @@ std::map<Label, TissueLength> readTissueLengths(const std::string& file, const L
     Label label = 0;
     const std::string& tissue = row.fields[ColumnTissue];
     if (!findTissue(tissue, names, label)) row.fail(whyNoTissue(tissue, names));
-    if (label == 0) row.fail("tissue 0 is the background, expected a label from 1 to 65535");
+    if (label == 0) row.fail("\"" + tissue + "\" is neither a label from 1 to 65535 nor the name of a tissue");
     TissueLength length;
     length.range.minimum = readValue(row, ColumnMinimum, range.minimum);
     length.range.maximum = readValue(row, ColumnMaximum, range.maximum);
