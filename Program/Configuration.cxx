@@ -2,6 +2,7 @@
 #include "Configuration.h"
 
 #include "Arguments.h"
+#include "Descriptions.h"
 #include "Errors.h"
 #include "PrintableText.h"
 #include "TextFile.h"
@@ -16,8 +17,6 @@ namespace surgicalmesher
 
 namespace
 {
-
-constexpr const char* resultFolder = "folder";
 
 /// Of a text, a number or a truth; empty for anything else.
 std::string scalarText(const toml::node& node)
@@ -57,7 +56,7 @@ std::vector<std::string> valuesOf(const toml::node& node, const Parameter& param
 /// Whether a value is a path that means another file elsewhere: not what lies in the folder of the results by its name.
 bool isPath(const Parameter& parameter, const std::string& value)
 {
-  return parameter.isFile() && (!parameter.output || std::filesystem::path(value).has_parent_path());
+  return parameter.isFile() || (isOutputFile(parameter.name) && std::filesystem::path(value).has_parent_path());
 }
 
 const Parameter& parameterOf(const std::string& key, const ModuleDescription& description, const std::string& file)
@@ -89,17 +88,19 @@ void requireAccepted(const Parameter& parameter, const std::vector<std::string>&
   }
 }
 
-std::string absolutePath(const std::string& file)
+/// Absolute, but for what lies in the folder of the results: that may be moved and copied, and the configuration with it.
+std::string pathFrom(const std::string& resultFolder, const std::string& file)
 {
-  return std::filesystem::absolute(file).lexically_normal().string();
+  const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+  const std::filesystem::path inside = path.lexically_relative(resultFolder);
+  return inside.empty() || *inside.begin() == ".." ? path.string() : inside.string();
 }
 
-std::string tomlValue(const Parameter& parameter, const std::string& value)
+std::string tomlValue(const Parameter& parameter, const std::string& value, const std::string& resultFolder)
 {
   if (parameter.isInteger() || parameter.isNumber() || parameter.type == "boolean") return value;
   if (parameter.isPoint()) return "[" + text::joined(text::split(value, ','), ", ") + "]";
-  if (parameter.name == resultFolder) return quoted("."); // which may be moved and copied
-  return quoted(isPath(parameter, value) ? absolutePath(value) : value);
+  return quoted(isPath(parameter, value) ? pathFrom(resultFolder, value) : value);
 }
 
 std::string entryOf(const Parameter& parameter, const RunOptions& options)
@@ -110,7 +111,7 @@ std::string entryOf(const Parameter& parameter, const RunOptions& options)
   else if (!parameter.defaultValue.empty()) values = { canonicalValue(parameter, parameter.defaultValue) };
   else if (parameter.type == "boolean") values = { "false" };
   const bool isSet = !values.empty();
-  for (std::string& value : values) value = tomlValue(parameter, value);
+  for (std::string& value : values) value = tomlValue(parameter, value, options.at("folder").front());
   const std::string list = "[" + text::joined(values, ", ") + "]";
   const std::string value = parameter.multiple ? list : isSet ? values.front() : "\"\"";
   return "# " + parameter.description + "\n" + (isSet ? "" : "#") + parameter.name + " = " + value + "\n";
@@ -149,7 +150,8 @@ std::string configurationText(const RunOptions& options, const ModuleDescription
 {
   std::string text = "# surgicalmesher " + description.version +
                      "\n# A run is repeated by\n"
-                     "#     surgicalmesher mesh --config THIS_FILE [[MAP] FOLDER]\n";
+                     "#     surgicalmesher mesh --config THIS_FILE [[MAP] FOLDER]\n"
+                     "# Paths are taken from the folder of this file, which is the folder of the results as well.\n";
   for (const ParameterGroup& group : description.groups)
   {
     text += "\n# ---- " + group.label + "\n\n";

@@ -13,7 +13,8 @@ namespace surgicalmesher
 RunOptions readConfiguration(const std::string& file, const ModuleDescription& description);
 
 /// Every option of `description`, in its order and with its description as a comment, for a file in the folder of the
-/// results, which is `.` in it; other paths are absolute. Options without a value and a default are comments.
+/// results, option `folder`: paths there are relative to it, others absolute. Options without a value and a default are
+/// comments.
 std::string configurationText(const RunOptions& options, const ModuleDescription& description);
 
 } // namespace surgicalmesher

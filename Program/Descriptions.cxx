@@ -117,6 +117,20 @@ std::string mergedName(const std::string& name, const ModuleDescription& program
   return name;
 }
 
+bool isOutputFile(const std::string& name)
+{
+  const auto isIts = [&](const ModuleDescription& program)
+  {
+    const std::vector<const Parameter*> all = program.parameters();
+    return std::any_of(all.begin(), all.end(),
+                       [&](const Parameter* parameter) {
+                         return parameter->isFile() && parameter->output &&
+                                mergedName(parameter->name, program) == name;
+                       });
+  };
+  return std::any_of(programs().begin(), programs().end(), isIts);
+}
+
 std::string mergedDescription(const std::string& command, const std::vector<std::string>& programs, Outputs outputs)
 {
   const Element merged = parsed(command);

@@ -41,4 +41,7 @@ std::string mergedDescription(const std::string& command, const std::vector<std:
 /// another default for it. So every default can be told and kept.
 std::string mergedName(const std::string& name, const ModuleDescription& program);
 
+/// Whether an option among those put together, where outputs are texts, is an output file of a program.
+bool isOutputFile(const std::string& name);
+
 } // namespace surgicalmesher

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace surgicalmesher
 {
@@ -35,8 +36,15 @@ void parse(rapidjson::Document& json, const std::string& file)
   if (json.HasParseError() || !json.IsObject()) throw InputError(file + ": no JSON object, a stage's report expected");
 }
 
+/// NaN where a stage found none.
+double number(const Json& value)
+{
+  return value.IsNumber() ? value.GetDouble() : std::numeric_limits<double>::quiet_NaN();
+}
+
 std::string fixed(double value, int decimals)
 {
+  if (std::isnan(value)) return "&ndash;";
   char text[64];
   const double unit = std::pow(10.0, decimals);
   std::snprintf(text, sizeof(text), "%.*f", decimals, std::round(value * unit) / unit + 0.0); // not -0
@@ -94,16 +102,16 @@ std::string figures(const Results& results)
 {
   const Json& whole = results.mesh["quality"]["whole"];
   const Json& distances = results.surface["distances"];
-  return "<section class=figures>\n" + figure(grouped(results.surface["tissues"].GetDouble()), "tissues") +
-         figure(grouped(results.surface["triangles"].GetDouble()), "triangles") +
-         figure(grouped(whole["tetrahedra"].GetDouble()), "tetrahedra") +
-         figure(grouped(whole["points"].GetDouble()), "points") +
-         figure(fixed(whole["dihedral"]["minimum"].GetDouble(), 1) + "&deg; to " +
-                  fixed(whole["dihedral"]["maximum"].GetDouble(), 1) + "&deg;",
+  return "<section class=figures>\n" + figure(grouped(number(results.surface["tissues"])), "tissues") +
+         figure(grouped(number(results.surface["triangles"])), "triangles") +
+         figure(grouped(number(whole["tetrahedra"])), "tetrahedra") +
+         figure(grouped(number(whole["points"])), "points") +
+         figure(fixed(number(whole["dihedral"]["minimum"]), 1) + "&deg; to " +
+                  fixed(number(whole["dihedral"]["maximum"]), 1) + "&deg;",
                 "dihedral angles") +
-         figure(fixed(100 * whole["edgesNearTarget"].GetDouble(), 1) + " %", "of edges 0.7 to 1.4 of their target") +
-         figure(fixed(distances["mapToMesh"]["mean"].GetDouble(), 2) + " mm", "mean distance, map to surface") +
-         figure(fixed(distances["meshToMap"]["mean"].GetDouble(), 2) + " mm", "mean distance, surface to map") +
+         figure(fixed(100 * number(whole["edgesNearTarget"]), 1) + " %", "of edges 0.7 to 1.4 of their target") +
+         figure(fixed(number(distances["mapToMesh"]["mean"]), 2) + " mm", "mean distance, map to surface") +
+         figure(fixed(number(distances["meshToMap"]["mean"]), 2) + " mm", "mean distance, surface to map") +
          figure(grouped(double(wrongTissues(results))), "tissues of wrong topology, beside the prepared map") +
          "</section>\n";
 }
@@ -153,7 +161,7 @@ std::string picture(const std::vector<Facet>& facets, const Vec3& towards, const
          "</figcaption></figure>\n";
 }
 
-Vec3 pointOf(const Json& array) { return { array[0].GetDouble(), array[1].GetDouble(), array[2].GetDouble() }; }
+Vec3 pointOf(const Json& array) { return { number(array[0]), number(array[1]), number(array[2]) }; }
 
 /// The first target, or the end of the first path.
 Vec3 targetOf(const Results& results)
@@ -187,13 +195,13 @@ std::string histogram(const Json& data, const Axis& axis, const std::vector<doub
   constexpr double width = 460, height = 240, foot = 34;
   const Json& counts = data["counts"];
   double most = 1;
-  for (const Json& count : counts.GetArray()) most = std::max(most, count.GetDouble());
-  const double low = data["low"].GetDouble(), bin = (data["high"].GetDouble() - low) / counts.Size();
+  for (const Json& count : counts.GetArray()) most = std::max(most, number(count));
+  const double low = number(data["low"]), bin = (number(data["high"]) - low) / counts.Size();
   const auto x = [&](double value) { return width * (value - axis.low) / (axis.high - axis.low); };
   std::string bars;
   for (rapidjson::SizeType n = 0; n < counts.Size(); ++n)
   {
-    const double tall = (height - foot - 8) * counts[n].GetDouble() / most, at = x(low + n * bin);
+    const double tall = (height - foot - 8) * number(counts[n]) / most, at = x(low + n * bin);
     if (tall > 0 && at >= -1e-9 && at < width)
       bars += "M" + fixed(at, 1) + " " + fixed(height - foot, 1) + "v-" + fixed(tall, 1) + "h" +
               fixed(std::max(x(axis.low + bin) - 0.6, 0.6), 1) + "v" + fixed(tall, 1) + "z";
@@ -245,19 +253,17 @@ std::string tissueName(const Results& results, const Json& tissue)
 
 std::vector<std::string> distanceCells(const Json& tissue)
 {
-  return { fixed(tissue["mapToMesh"]["mean"].GetDouble(), 2), fixed(tissue["mapToMesh"]["maximum"].GetDouble(), 2),
-           fixed(tissue["meshToMap"]["mean"].GetDouble(), 2), fixed(tissue["meshToMap"]["maximum"].GetDouble(), 2) };
+  return { fixed(number(tissue["mapToMesh"]["mean"]), 2), fixed(number(tissue["mapToMesh"]["maximum"]), 2),
+           fixed(number(tissue["meshToMap"]["mean"]), 2), fixed(number(tissue["meshToMap"]["maximum"]), 2) };
 }
 
 std::vector<std::string> qualityCells(const Json* tissue)
 {
   if (!tissue) return { "0", "", "", "", "", "" };
   const Json& quality = *tissue;
-  return {
-    grouped(quality["tetrahedra"].GetDouble()),           fixed(quality["dihedral"]["minimum"].GetDouble(), 1),
-    fixed(quality["dihedral"]["maximum"].GetDouble(), 1), fixed(quality["minimumDihedral"]["mean"].GetDouble(), 1),
-    fixed(quality["radiusRatio"]["mean"].GetDouble(), 2), fixed(quality["height"]["minimum"].GetDouble(), 2)
-  };
+  return { grouped(number(quality["tetrahedra"])),           fixed(number(quality["dihedral"]["minimum"]), 1),
+           fixed(number(quality["dihedral"]["maximum"]), 1), fixed(number(quality["minimumDihedral"]["mean"]), 1),
+           fixed(number(quality["radiusRatio"]["mean"]), 2), fixed(number(quality["height"]["minimum"]), 2) };
 }
 
 std::string tissues(const Results& results)
@@ -267,9 +273,9 @@ std::string tissues(const Results& results)
   std::string rows;
   for (const Json& tissue : results.surface["fidelity"].GetArray())
   {
-    const double map = tissue["mapVolume"].GetDouble();
+    const double map = number(tissue["mapVolume"]);
     const auto found = quality.find(tissue["label"].GetUint());
-    const double mesh = found == quality.end() ? 0 : (*found->second)["volume"].GetDouble();
+    const double mesh = found == quality.end() ? 0 : number((*found->second)["volume"]);
     std::vector<std::string> cells{ tissueName(results, tissue), grouped(map), grouped(mesh),
                                     map > 0 ? fixed(100 * (mesh / map - 1), 1) + " %" : "" };
     for (const std::string& cell : distanceCells(tissue)) cells.push_back(cell);
@@ -302,8 +308,8 @@ std::string kindsOfSimplification(const Results& results)
   for (const Json& change : results.surface["simplification"]["changes"].GetArray())
   {
     auto& sum = kinds[change["kind"].GetString()];
-    sum[0] += change["count"].GetDouble();
-    sum[1] += change["voxels"].GetDouble();
+    sum[0] += number(change["count"]);
+    sum[1] += number(change["voxels"]);
   }
   std::string items;
   for (const auto& [kind, sum] : kinds)
@@ -318,14 +324,14 @@ std::string changes(const Results& results)
   double islands = 0;
   for (const Json& change : preparation["changes"].GetArray())
   {
-    islands += change["islandsRemoved"].GetDouble();
-    rows += row({ tissueName(results, change), grouped(change["islandsRemoved"].GetDouble()),
-                  grouped(change["islandVoxels"].GetDouble()), grouped(change["voxelsLost"].GetDouble()),
-                  grouped(change["voxelsGained"].GetDouble()) },
+    islands += number(change["islandsRemoved"]);
+    rows += row({ tissueName(results, change), grouped(number(change["islandsRemoved"])),
+                  grouped(number(change["islandVoxels"])), grouped(number(change["voxelsLost"])),
+                  grouped(number(change["voxelsGained"])) },
                 "td");
   }
   return "<h2>What was changed in the map</h2>\n<p>" + grouped(islands) + " islands removed; " +
-         grouped(preparation["contactVoxelsChanged"].GetDouble()) +
+         grouped(number(preparation["contactVoxelsChanged"])) +
          " voxels changed where a tissue touched itself only along an edge or a corner of voxels.</p>\n" +
          kindsOfSimplification(results) +
          (rows.empty()

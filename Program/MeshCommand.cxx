@@ -137,7 +137,7 @@ void forgetOthers(const std::vector<Stage>& stages, RunRecord& record, const fs:
   if (!others.empty()) writeRunRecord(record, folder.string());
 }
 
-/// Fingerprints of what a stage has written: by name in the folder, by path elsewhere.
+/// Fingerprints of what a stage has written: by name in the folder, by path from there below it, by path elsewhere.
 std::map<std::string, std::string> writtenSince(const std::map<std::string, std::string>& before, const Stage& stage,
                                                 const fs::path& folder)
 {
@@ -149,9 +149,11 @@ std::map<std::string, std::string> writtenSince(const std::map<std::string, std:
   }
   for (const fs::path file : stage.outputs)
   {
-    const bool isElsewhere = file.parent_path() != folder;
-    const std::string bytes = isElsewhere ? fingerprint(file.string()) : std::string();
-    if (!bytes.empty()) written[file.string()] = bytes;
+    if (file.parent_path() == folder) continue;
+    const fs::path inside = file.lexically_relative(folder);
+    const bool isBelow = !inside.empty() && *inside.begin() != "..";
+    const std::string bytes = fingerprint(file.string());
+    if (!bytes.empty()) written[(isBelow ? inside : file).string()] = bytes;
   }
   return written;
 }

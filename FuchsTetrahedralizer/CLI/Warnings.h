@@ -3,11 +3,9 @@
 /// What a run of the volume stage warns of: sentences for the user.
 
 #include "ConstitutiveTags.h"
-#include "FiniteElementModel.h"
 #include "TetMesh.h"
 
 #include <cstdint>
-#include <set>
 #include <string>
 #include <vector>
 

@@ -218,12 +218,13 @@ bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& colu
   return arePerpendicular(columns);
 }
 
-/// The origin of a NIfTI header's qform in LPS mm, if its unit is another: ITK scales the spacing to mm, but, in the
-/// version of Debian 12, not the origin.
+/// The origin of a NIfTI header's qform in LPS mm, if there is one whose unit is another: ITK scales the spacing to mm,
+/// but, in the version of Debian 12, not the origin.
 std::optional<Vec3> qformOriginInMm(const MetaData& metaData)
 {
   const double unit = niftiUnit(metaData);
-  if (unit == 1) return {};
+  const std::string* code = find(metaData, "qform_code");
+  if (unit == 1 || !code || text::trimmed(*code) == "0") return {};
   const std::array<const char*, 3> keys{ "qoffset_x", "qoffset_y", "qoffset_z" };
   Vec3 origin;
   for (int axis = 0; axis < 3; ++axis)

@@ -220,6 +220,18 @@ class ProgramTest(unittest.TestCase):
         done = surgicalmesher("mesh", "--config", "elsewhere/run.toml")
         self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
 
+    def test_moved_folder_keeps_its_own_map_and_exports(self):
+        shutil.copytree("out", "full")
+        shutil.copy("map.nrrd", "full")
+        os.makedirs("full/models")
+        command = ["full/map.nrrd" if word == "map.nrrd" else "full" if word == "out" else word for word in self.command]
+        done = surgicalmesher(*command[:-1], "full/models/head.inp")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        os.rename("full", "moved")
+        done = surgicalmesher("mesh", "--config", "moved/run.toml")
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
+        self.assertFalse(os.path.exists("full"))
+
     def test_defaults_that_differ_have_an_option_each(self):
         lines = bytes_of("out/run.toml").decode().splitlines()
         for line in ("gradation = 0", "simplexMesherGradation = 0.3"):

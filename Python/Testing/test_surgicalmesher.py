@@ -261,6 +261,16 @@ class MeshingTest(unittest.TestCase):
         other = surgicalmesher.mesh(ball() // 5, **arguments)
         self.assertEqual(set(other.tissue_labels), {1})
 
+    def test_images_own_file_is_not_overwritten(self):
+        os.makedirs("case")
+        write_nifti("case/map.nii", 1, 1)
+        with open("case/map.nii", "rb") as stream:
+            before = stream.read()
+        with self.assertRaisesRegex(ValueError, "map.nii: the image's own file would be overwritten"):
+            surgicalmesher.mesh(nibabel.load("case/map.nii"), preset="draft", targets=(5, 5, 5), folder="case")
+        with open("case/map.nii", "rb") as stream:
+            self.assertEqual(stream.read(), before)
+
     def test_spacing_of_the_scale_volume(self):
         surgicalmesher.mesh(ball(), preset="draft", targets=(5, 5, 5), spacing=(1, 1, 1.5), scaleSpacing=0.75, folder="finer")
         with open("finer/scale.json", encoding="utf-8") as stream:

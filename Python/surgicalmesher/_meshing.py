@@ -51,6 +51,12 @@ def _place_arguments(flag: str, point_flag: str, places: Any) -> List[str]:
     return option_arguments({point_flag: points.reshape(-1, 3)})
 
 
+def _is_source(image: Any, file: str) -> bool:
+    """Whether nibabel has read the image from that file, perhaps not all of it yet."""
+    source = image.get_filename() if hasattr(image, "get_filename") else None
+    return source is not None and os.path.exists(file) and os.path.samefile(source, file)
+
+
 @contextlib.contextmanager
 def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
     """The map's file: its own, or one that is written into the folder."""
@@ -61,6 +67,8 @@ def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
         return
     file = os.path.join(folder, file_name(labels))
     content = label_map(labels, *grid)
+    if _is_source(labels, file):
+        raise ValueError(f"{file}: the image's own file would be overwritten, expected another folder")
     made = not os.path.isdir(folder)
     os.makedirs(folder, exist_ok=True)
     try:

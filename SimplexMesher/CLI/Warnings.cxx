@@ -108,7 +108,7 @@ std::string warningOfVolumes(const std::map<Label, TissueFidelity>& fidelity, co
             std::to_string(std::lround(100 * off[n].first)) + " %";
   if (off.size() > listedMost) list += " and " + std::to_string(off.size() - listedMost) + " more";
   return "the volume of " + std::to_string(off.size()) + (off.size() == 1 ? " tissue" : " tissues") +
-         " is off by more than a quarter, as the lengths there are too long for what is so small:" + list;
+         " is off by more than a quarter:" + list + "; shorter edges there keep more of it";
 }
 
 } // namespace surgicalmesher

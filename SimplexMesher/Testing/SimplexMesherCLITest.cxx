@@ -798,7 +798,7 @@ TEST_F(SimplexMesherCLI, TissuesThatLoseMuchOfTheirVolumeAreNamed)
   EXPECT_EQ(result.status, 0);
   const rapidjson::Document report = parsed("r.json");
   ASSERT_EQ(report["warnings"].Size(), 1u) << result.err;
-  EXPECT_NE(result.err.find("so small: tissue 2 -"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("off by more than a quarter: tissue 2 -"), std::string::npos) << result.err;
   EXPECT_EQ(run("--edgeLength 4 --report r.json plate.nrrd s.vtp").err, "");
 }
 

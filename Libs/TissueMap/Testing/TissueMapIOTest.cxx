@@ -415,6 +415,13 @@ TEST(ReadTissueMap, ReadsNiftiInMicrometres)
   const TissueMap byQform = readTissueMap(folder.write("map.nii", nifti.content(24)));
   expectNear(byQform.grid.spacing, { 0.5, 0.5, 0.5 }, 1e-9);
   expectNear(byQform.grid.origin, { -2, 1, 3 }, 1e-9);
+
+  nifti.qformCode = 0; // its offset means nothing
+  expectNear(readTissueMap(folder.write("map.nii", nifti.content(24))).grid.spacing, { 0.5, 0.5, 0.5 }, 1e-9);
+  nifti.units = 2;
+  nifti.pixdim = { 0.5, 0.5, 0.5 };
+  const Vec3 inMm = readTissueMap(folder.write("mm.nii", nifti.content(24))).grid.origin;
+  expectNear(readTissueMap(folder.file("map.nii")).grid.origin, inMm, 1e-9);
 }
 
 TEST(ReadTissueMap, IgnoresANiftiHeaderThatAnotherFormatCarriesOn)
