@@ -30,9 +30,9 @@ def write_config(config):
     write_text(json.dumps(config))
 
 
-def write_text(text):
-    """cohort.yaml as it is."""
-    with open("cohort.yaml", "w", encoding="utf-8") as file:
+def write_text(text, name="cohort.yaml"):
+    """The file as it is."""
+    with open(name, "w", encoding="utf-8") as file:
         file.write(text)
 
 

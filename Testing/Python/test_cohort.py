@@ -317,6 +317,9 @@ class RefusalTest(unittest.TestCase):
         self.assert_refused({"patients": {"p0": patient}, "threads": 1.5}, "threads")
         self.assert_refused({"patients": {"p0": patient}, "pictures": "perhaps"}, "pictures", "true or false")
         self.assert_refused({"patients": {"p0": patient}, "pictures": ["no"]}, "pictures", "true or false")
+        write_text("x", "a {b}.nrrd")
+        self.assert_refused({"patients": {"p0": {**patient, "map": "a {b}.nrrd"}}}, "a {b}.nrrd", "without { and }")
+        self.assert_refused({"patients": "a *.nrrd"}, "a {b}.nrrd", "without { and }")
         for folder in ("", "out/{patient}", ["out"]):
             self.assert_refused({"patients": {"p0": patient}, "folder": folder}, "folder")
 

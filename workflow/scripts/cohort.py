@@ -64,7 +64,12 @@ class Cohort:
         own = {option: value for option, value in patient.items() if option != "map"}
         self.check("options", with_placeholders(common, name, patient["map"]))
         self.check(f"patient {name}", with_placeholders(own, name, patient["map"]))
-        return {**with_placeholders({**common, **own}, name, patient["map"]), "map": patient["map"]}
+        options = {**with_placeholders({**common, **own}, name, patient["map"]), "map": patient["map"]}
+        for file in (text for option in options.values() for text in values_of(option) if isinstance(text, str)):
+            if os.path.exists(file) and not NO_WILDCARDS.fullmatch(file):
+                raise ConfigurationError(f"patient {name}: {file}, expected a path without {{ and }}, which are "
+                                         "Snakemake's")
+        return options
 
     def check(self, where, options):
         try:
