@@ -51,11 +51,9 @@ inline void writeExports(CommandLine& line, const SolverExports& exports, const 
   const SolidMesh solid = solidMeshOf(content, points, file);
   FiniteElementOptions options;
   options.nodes = exports.nodes;
-  std::vector<std::string> warnings;
   if (!exports.materials.empty())
     options.materials =
-      readMaterialTable(exports.materials, solid.tissues, { solid.labels.begin(), solid.labels.end() }, &warnings);
-  for (const std::string& warning : warnings) line.warning(warning);
+      readMaterialTable(exports.materials, solid.tissues, { solid.labels.begin(), solid.labels.end() });
   const FiniteElementModel model = inUnits(finiteElementModel(solid, options), exports.units);
   for (const std::string& name : exports.files)
     exportModel(model, name, [&](const std::string& finalPath) { return line.outputPath(finalPath); });
