@@ -5,6 +5,7 @@
 #include "Descriptions.h"
 #include "Errors.h"
 #include "PrintableText.h"
+#include "Stages.h"
 #include "TextFile.h"
 
 #include <toml++/toml.h>
@@ -92,8 +93,7 @@ void requireAccepted(const Parameter& parameter, const std::vector<std::string>&
 std::string pathFrom(const std::string& resultFolder, const std::string& file)
 {
   const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
-  const std::filesystem::path inside = path.lexically_relative(resultFolder);
-  return inside.empty() || *inside.begin() == ".." ? path.string() : inside.string();
+  return pathInResults(path, resultFolder).value_or(path).string();
 }
 
 std::string tomlValue(const Parameter& parameter, const std::string& value, const std::string& resultFolder)

@@ -150,10 +150,8 @@ std::map<std::string, std::string> writtenSince(const std::map<std::string, std:
   for (const fs::path file : stage.outputs)
   {
     if (file.parent_path() == folder) continue;
-    const fs::path inside = file.lexically_relative(folder);
-    const bool isBelow = !inside.empty() && *inside.begin() != "..";
     const std::string bytes = fingerprint(file.string());
-    if (!bytes.empty()) written[(isBelow ? inside : file).string()] = bytes;
+    if (!bytes.empty()) written[pathInResults(file, folder).value_or(file).string()] = bytes;
   }
   return written;
 }

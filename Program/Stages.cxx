@@ -215,4 +215,12 @@ double shareOf(const std::vector<Stage>& stages)
                          [](double sum, const Stage& stage) { return sum + stage.share; });
 }
 
+std::optional<std::filesystem::path> pathInResults(const std::filesystem::path& file,
+                                                   const std::filesystem::path& folder)
+{
+  const std::filesystem::path path = file.lexically_relative(folder);
+  if (path.empty() || *path.begin() == "..") return {};
+  return path;
+}
+
 } // namespace surgicalmesher

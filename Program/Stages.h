@@ -4,6 +4,9 @@
 
 #include "RunOptions.h"
 
+#include <filesystem>
+#include <optional>
+
 namespace surgicalmesher
 {
 
@@ -38,5 +41,9 @@ std::string labelMapOf(const RunRequest& request);
 
 /// The sum of their shares.
 double shareOf(const std::vector<Stage>& stages);
+
+/// The path of a file from the folder of the results on, where it lies in it; both absolute.
+std::optional<std::filesystem::path> pathInResults(const std::filesystem::path& file,
+                                                   const std::filesystem::path& folder);
 
 } // namespace surgicalmesher

@@ -7,12 +7,12 @@
 /// to the quadric that moving least squares fits to the samples of the same two labels around it (D. Levin,
 /// "Mesh-independent surface interpolation", 2003), which keeps curvature and takes away the terraces that a Gaussian
 /// of this width leaves; the fit is up to five times as wide where the boundary is one quadric that far, and then one
-/// for the points of a cell. Where L is more than eight voxels, G is up to 2.5, the fit up to four times as wide, no more
-/// than half as many times as thin tissues have voxels across. Where a tissue is so thin that its indicator loses, narrower Gaussians take the place of the
-/// first. No sample's plane comes within 0.14 voxel of the centres of the two voxels beside its face, but where L is
-/// that long. After that the
-/// boundary of every tissue is offset by one length, 0.3 voxel at most, so that the tissue keeps its volume (u_0 in
-/// "Unstructured mesh generation from the Virtual Family models", section 3.1, for all tissues together).
+/// for the points of a cell. Where L is more than eight voxels, G is up to 2.5, the fit up to four times as wide, no
+/// more than half as many times as thin tissues have voxels across. Where a tissue is so thin that its indicator
+/// loses, narrower Gaussians take the place of the first. No sample's plane comes within 0.14 voxel of the centres of
+/// the two voxels beside its face, but where L is that long. After that the boundary of every tissue is offset by one
+/// length, 0.3 voxel at most, so that the tissue keeps its volume (u_0 in "Unstructured mesh generation from the
+/// Virtual Family models", section 3.1, for all tissues together).
 
 #include "KuhnLattice.h"
 
