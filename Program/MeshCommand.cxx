@@ -137,19 +137,17 @@ void forgetOthers(const std::vector<Stage>& stages, RunRecord& record, const fs:
   if (!others.empty()) writeRunRecord(record, folder.string());
 }
 
-/// Fingerprints of what a stage has written: by name in the folder, by path from there below it, by path elsewhere.
-std::map<std::string, std::string> writtenSince(const std::map<std::string, std::string>& before, const Stage& stage,
-                                                const fs::path& folder)
+/// Fingerprints of what a stage has written, and of nothing else that lies there: by name in the folder, by path from
+/// there below it, by path elsewhere. What a link stands for is told by the link.
+std::map<std::string, std::string> writtenBy(const Stage& stage, const std::vector<std::string>& files,
+                                             const fs::path& folder)
 {
+  std::map<std::string, fs::path> byPlace;
+  for (const std::string& output : stage.outputs) byPlace.emplace(placeOf(output), output);
+  for (const std::string& file : files) byPlace.emplace(placeOf(file), file);
   std::map<std::string, std::string> written;
-  for (const auto& [name, state] : filesIn(folder.string()))
+  for (const auto& [place, file] : byPlace)
   {
-    const auto earlier = before.find(name);
-    if (earlier == before.end() || earlier->second != state) written[name] = fingerprint((folder / name).string());
-  }
-  for (const fs::path file : stage.outputs)
-  {
-    if (file.parent_path() == folder) continue;
     const std::string bytes = fingerprint(file.string());
     if (!bytes.empty()) written[pathInResults(file, folder).value_or(file).string()] = bytes;
   }
@@ -182,11 +180,10 @@ void runStages(const RunRequest& request, const std::string& programs, CommandLi
     const bool isFirstRun = record.empty();
     for (auto later = stage; later != stages.end(); ++later) forget(later->name, record, request.folder, given);
     if (!isFirstRun) writeRunRecord(record, request.folder);
-    const std::map<std::string, std::string> before = filesIn(request.folder);
     const auto start = std::chrono::steady_clock::now();
-    runStage(*stage, programs, line, subProgress(progress, begin, done));
+    const std::vector<std::string> files = runStage(*stage, programs, line, subProgress(progress, begin, done));
     present.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    present.outputs = writtenSince(before, *stage, request.folder);
+    present.outputs = writtenBy(*stage, files, request.folder);
     record[stage->name] = present;
     writeRunRecord(record, request.folder);
   }

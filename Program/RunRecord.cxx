@@ -130,18 +130,6 @@ bool stillHolds(const StageRecord& earlier, const StageRecord& present, const st
   return !earlier.outputs.empty() && std::all_of(earlier.outputs.begin(), earlier.outputs.end(), isWhole);
 }
 
-std::map<std::string, std::string> filesIn(const std::string& folder)
-{
-  std::map<std::string, std::string> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-  {
-    if (!entry.is_regular_file() || entry.path().filename().string().front() == '.') continue;
-    files[entry.path().filename().string()] =
-      std::to_string(entry.file_size()) + " " + std::to_string(entry.last_write_time().time_since_epoch().count());
-  }
-  return files;
-}
-
 RunRecord readRunRecord(const std::string& folder)
 {
   RunRecord record;

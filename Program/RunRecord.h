@@ -33,7 +33,4 @@ StageRecord recordOf(const Stage& stage, const std::string& program, const std::
 /// Whether `earlier` was run with the same as `present`, and all that it wrote is as it was.
 bool stillHolds(const StageRecord& earlier, const StageRecord& present, const std::string& folder);
 
-/// Names of the regular files in a folder, with what changes when they are written.
-std::map<std::string, std::string> filesIn(const std::string& folder);
-
 } // namespace surgicalmesher

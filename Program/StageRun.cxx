@@ -15,8 +15,9 @@ namespace surgicalmesher
 namespace
 {
 
-/// A line of a program's --progress json.
-void handOn(const std::string& text, const Stage& stage, CommandLine& line, const Progress& progress)
+/// A line of a program's --progress json; what it has written is added to `files`.
+void handOn(const std::string& text, const Stage& stage, CommandLine& line, const Progress& progress,
+            std::vector<std::string>& files)
 {
   rapidjson::Document json;
   json.Parse(text.c_str());
@@ -25,6 +26,7 @@ void handOn(const std::string& text, const Stage& stage, CommandLine& line, cons
     report(progress, json["progress"].GetDouble(), stage.name + ": " + json["stage"].GetString());
   if (json.HasMember("message")) line.message(stage.name + ": " + json["message"].GetString());
   if (json.HasMember("warning")) line.warning(json["warning"].GetString());
+  if (json.HasMember("output")) files.emplace_back(json["output"].GetString());
 }
 
 /// The last line that is no warning, without the program's name.
@@ -41,14 +43,16 @@ std::string reasonIn(const std::string& errors, const Stage& stage)
 
 } // namespace
 
-void runStage(const Stage& stage, const std::string& programs, CommandLine& line, const Progress& progress)
+std::vector<std::string> runStage(const Stage& stage, const std::string& programs, CommandLine& line,
+                                  const Progress& progress)
 {
   std::vector<std::string> arguments = stage.arguments;
   arguments.insert(arguments.begin(), "--progress=json");
   report(progress, 0, stage.name);
+  std::vector<std::string> files;
   const ChildOutcome outcome = runChild((std::filesystem::path(programs) / stage.program).string(), arguments,
-                                        [&](const std::string& text) { handOn(text, stage, line, progress); });
-  if (outcome.status == 0) return;
+                                        [&](const std::string& text) { handOn(text, stage, line, progress, files); });
+  if (outcome.status == 0) return files;
   const std::string reason = reasonIn(outcome.errors, stage);
   if (outcome.status == 1) throw InputError(reason);
   if (outcome.status == 2) throw UsageError(reason);

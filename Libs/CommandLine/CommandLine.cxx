@@ -445,6 +445,7 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
     line->d->writeReturnParameterFile();
     line->d->outputs.commit();
     line->d->progress->finish();
+    for (const std::string& file : line->d->outputs.committed()) line->d->progress->output(file);
   };
 
   try

@@ -185,6 +185,7 @@ std::string OutputFiles::withFinalNames(std::string message) const
 void OutputFiles::commit()
 {
   moveIntoPlace(m_TemporaryByFinal);
+  for (const auto& file : m_TemporaryByFinal) m_Committed.push_back(file.first);
   m_TemporaryByFinal.clear();
   keepOnSignal();
 }
@@ -194,6 +195,7 @@ void OutputFiles::commit(const std::string& finalPath)
   const auto known = m_TemporaryByFinal.find(resolved(finalPath).string());
   if (known == m_TemporaryByFinal.end()) return;
   moveIntoPlace({ *known });
+  m_Committed.push_back(known->first);
   m_TemporaryByFinal.erase(known);
 }
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace surgicalmesher
 {
@@ -37,6 +38,9 @@ public:
   /// The same for one file, whatever becomes of the others.
   void commit(const std::string& finalPath);
 
+  /// Final paths of all that is in place so far.
+  const std::vector<std::string>& committed() const { return m_Committed; }
+
   /// Removes the temporary of a file that is not to be written after all.
   void discard(const std::string& finalPath);
 
@@ -48,6 +52,7 @@ public:
 private:
   std::map<std::string, std::string> m_TemporaryByFinal; ///< absolute paths
   std::set<std::string> m_CleanedFolders;
+  std::vector<std::string> m_Committed;
 };
 
 } // namespace surgicalmesher

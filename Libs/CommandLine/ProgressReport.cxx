@@ -117,6 +117,12 @@ void ProgressReport::warning(const std::string& line)
   else if (m_Warn) m_Warn(text);
 }
 
+void ProgressReport::output(const std::string& path)
+{
+  const std::lock_guard<std::mutex> lock(m_Mutex);
+  if (m_Format == ProgressFormat::Json) m_Stream << "{\"output\": " << quoted(path) << "}\n" << std::flush;
+}
+
 void ProgressReport::finish()
 {
   const std::lock_guard<std::mutex> lock(m_Mutex);

@@ -33,6 +33,9 @@ public:
   void message(const std::string& line);
   void warning(const std::string& line);
 
+  /// A file that is in place: programs that run others have to know. Other formats don't tell.
+  void output(const std::string& path);
+
   void finish(); ///< ends the stage, or the bar's line
 
 private:

@@ -15,6 +15,15 @@ int byteAt(const std::string& text, std::size_t at)
   return at < text.size() ? static_cast<unsigned char>(text[at]) : 0;
 }
 
+/// Of ASCII: what strings of JSON or TOML don't hold as it is.
+bool isControl(unsigned char letter) { return letter < 0x20 || letter == 0x7f; }
+
+std::string numbered(unsigned char letter)
+{
+  const char* const digits = "0123456789abcdef";
+  return { '\\', 'u', '0', '0', digits[letter >> 4], digits[letter & 15] };
+}
+
 bool isControl(const std::string& text, std::size_t at, std::size_t length)
 {
   const int first = byteAt(text, at), second = byteAt(text, at + 1), third = byteAt(text, at + 2);
@@ -75,7 +84,7 @@ std::string quoted(const std::string& text)
   for (const char letter : text)
   {
     if (letter == '"' || letter == '\\') result += '\\';
-    result += letter;
+    result += isControl(letter) ? numbered(letter) : std::string(1, letter);
   }
   return result + "\"";
 }

@@ -15,7 +15,7 @@ std::size_t utf8Length(const std::string& text, std::size_t at);
 /// C1), characters that turn the direction of what follows, and bytes that are no UTF-8 become \xHH, byte by byte.
 std::string printable(const std::string& text);
 
-/// Printable text without line ends as a string of JSON or TOML, its quotes included.
+/// UTF-8 as a string of JSON or TOML, its quotes included.
 std::string quoted(const std::string& text);
 
 } // namespace surgicalmesher

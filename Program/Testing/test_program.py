@@ -185,6 +185,24 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 2), done.stderr)
         self.assertNotEqual(bytes_of("again/mesh.vtu"), bytes_of("out/mesh.vtu"))
 
+    def command_into(self, folder, *more):
+        return [word if word != "out" else folder for word in self.command[:-2]] + list(more)
+
+    def test_files_of_the_users_in_the_folder_stay(self):
+        os.makedirs("mine")
+        command = [os.path.join(BIN, "surgicalmesher"), *self.command_into("mine", "--export", "a.stl")]
+        for _ in range(2):
+            with open("mine/log.txt", "a", encoding="utf-8") as log:
+                subprocess.run(command, stdin=subprocess.DEVNULL, stdout=log, check=True)
+        self.assertEqual(bytes_of("mine/log.txt").decode().count("nothing has changed"), 3)
+        shutil.copy("mine/a.stl", "mine/a.mine.stl")
+        pieces = set(glob.glob("mine/a.*")) - {"mine/a.mine.stl"}
+        self.assertGreater(len(pieces), 3)  # the names, the whole and one for each tissue
+        done = surgicalmesher(*self.command_into("mine"))
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 2), done.stderr)
+        self.assertEqual(glob.glob("mine/a.*"), ["mine/a.mine.stl"])
+        self.assertTrue(os.path.exists("mine/log.txt"))
+
     def test_a_run_is_repeated_by_its_configuration(self):
         done = surgicalmesher("mesh", "--config", "out/run.toml", "repeated")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -121,7 +121,8 @@ class Runtime(unittest.TestCase):
         done = self.act("warn", "--progress", "json")
         lines = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual(lines[0], {"progress": 0, "stage": "Writing <all>"})
-        self.assertEqual(lines[-1]["progress"], 1)
+        self.assertEqual([line["progress"] for line in lines if "progress" in line][-1], 1)
+        self.assertEqual([line["output"] for line in lines if "output" in line], [self.extra, self.result])
         self.assertIn({"message": 'a "message"'}, lines)
         self.assertIn({"warning": "something \\x1b odd"}, lines)
         self.assertEqual(self.act("warn", "--progress", "none").stdout, 'a "message"\n')

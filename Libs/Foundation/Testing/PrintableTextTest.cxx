@@ -22,6 +22,12 @@ TEST(Trial, B08_controlCharactersAndBytesThatAreNoTextAreEscaped)
             "\\xc2\\x9b31m \\xe2\\x80\\xae");
 }
 
+TEST(PrintableText, quotedTextHasNoControlCharacters)
+{
+  EXPECT_EQ(quoted("a \"b\" \\ é"), R"("a \"b\" \\ é")");
+  EXPECT_EQ(quoted("a\nb\x1b\x7f"), "\"a\\u000ab\\u001b\\u007f\"");
+}
+
 TEST(Trial, B08_errorsCarryTheWholeMessageInPrintableForm)
 {
   const InputError error("a.lut:1: \"" + std::string("\xff\0\x1b", 3) + "\", expected a label");
