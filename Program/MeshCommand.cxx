@@ -81,31 +81,30 @@ void requireReadable(const std::vector<std::string>& files)
   for (const std::string& file : files) text::requireReadableFile(file);
 }
 
-void requireFolders(const std::vector<Stage>& stages)
+/// Of a whole run.
+std::vector<std::string> allOutputs(const std::vector<Stage>& stages, const fs::path& folder)
 {
-  for (const Stage& stage : stages)
-  {
-    for (const std::string& output : stage.outputs)
-    {
-      const fs::path folder = fs::path(output).parent_path();
-      std::error_code error;
-      if (!fs::is_directory(folder, error))
-        throw InputError(output + ": folder " + folder.string() + " not found, a writable folder expected");
-    }
-  }
+  std::vector<std::string> files;
+  for (const Stage& stage : stages) files.insert(files.end(), stage.outputs.begin(), stage.outputs.end());
+  for (const char* name : { "stages.json", "run.toml", "report.html" }) files.push_back((folder / name).string());
+  return files;
 }
 
-void requireInputsKept(const std::vector<Stage>& stages, const std::vector<std::string>& given)
+/// Throws if a folder stands there, say, before hours have gone into what comes earlier.
+void requireWritable(const std::vector<std::string>& outputs)
 {
-  for (const Stage& stage : stages)
+  OutputFiles attempt; // leaves nothing
+  for (const std::string& output : outputs) attempt.temporary(output);
+}
+
+void requireInputsKept(const std::vector<std::string>& outputs, const std::vector<std::string>& given)
+{
+  for (const std::string& output : outputs)
   {
-    for (const std::string& output : stage.outputs)
+    for (const std::string& input : given)
     {
-      for (const std::string& input : given)
-      {
-        if (placeOf(input) == placeOf(output))
-          throw UsageError(input + " would be overwritten, expected another folder for the results");
-      }
+      if (placeOf(input) == placeOf(output))
+        throw UsageError(input + " would be overwritten, expected another folder for the results");
     }
   }
 }
@@ -160,8 +159,9 @@ void runStages(const RunRequest& request, const std::string& programs, CommandLi
   const std::vector<Stage> stages = stagesOf(request);
   const std::vector<std::string> given = givenFiles(stages);
   requireReadable(given);
-  requireFolders(stages);
-  requireInputsKept(stages, given);
+  const std::vector<std::string> outputs = allOutputs(stages, request.folder);
+  requireInputsKept(outputs, given);
+  requireWritable(outputs);
   RunRecord record = readRunRecord(request.folder);
   forgetOthers(stages, record, request.folder, given);
   const double all = shareOf(stages) / 0.96; // the report takes the rest

@@ -374,6 +374,13 @@ class ProgramTest(unittest.TestCase):
             with self.subTest(arguments=arguments):
                 self.assert_refused(status, words, *arguments)
 
+    def test_places_that_are_taken_are_found_before_anything_runs(self):
+        for name in ("report.html", "run.toml", "stages.json", "mesh.vtu"):
+            with self.subTest(name=name):
+                os.makedirs(f"taken/{name}")
+                self.assert_refused(1, [f"taken/{name}: folder found"], *self.command_into("taken"))
+                os.rmdir(f"taken/{name}")
+
     def test_an_image_becomes_a_mesh(self):
         write_coarse_head("head.nrrd")
         run_four_programs("four")
