@@ -17,6 +17,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <iterator>
 
 namespace fs = std::filesystem;
 
@@ -109,7 +110,13 @@ void requireInputsKept(const std::vector<std::string>& outputs, const std::vecto
   }
 }
 
-/// What was made of results that are about to change goes, so that the folder never holds what does not fit together.
+void writeConfiguration(const std::string& configuration, const fs::path& folder)
+{
+  OutputFiles file; // that may be an input of this very run, too
+  writeBytes(configuration, file.temporary((folder / "run.toml").string()));
+  file.commit();
+}
+
 void forget(const std::string& stage, RunRecord& record, const fs::path& folder, const std::vector<std::string>& given)
 {
   for (const auto& output : record[stage].outputs)
@@ -122,9 +129,29 @@ void forget(const std::string& stage, RunRecord& record, const fs::path& folder,
   record.erase(stage);
 }
 
-/// The same for stages of an earlier run that this one does without.
-void forgetOthers(const std::vector<Stage>& stages, RunRecord& record, const fs::path& folder,
-                  const std::vector<std::string>& given)
+/// What was made of results that are about to change goes, so that the folder never holds what does not fit together:
+/// outputs of stages, and the page. The options become those of the run that is about to change them, which may have
+/// been called by that very file, and may have to be called by it again.
+void forget(const std::vector<std::string>& stages, RunRecord& record, const fs::path& folder,
+            const std::vector<std::string>& given, const std::string& configuration)
+{
+  if (stages.empty() || record.empty()) return; // nothing here is of an earlier run
+  std::error_code error;
+  fs::remove(folder / "report.html", error);
+  if (fs::exists(folder / "run.toml", error)) writeConfiguration(configuration, folder);
+  for (const std::string& stage : stages) forget(stage, record, folder, given);
+  writeRunRecord(record, folder.string());
+}
+
+std::vector<std::string> namesOf(std::vector<Stage>::const_iterator begin, std::vector<Stage>::const_iterator end)
+{
+  std::vector<std::string> names;
+  std::transform(begin, end, std::back_inserter(names), [](const Stage& stage) { return stage.name; });
+  return names;
+}
+
+/// Stages of an earlier run that this one does without.
+std::vector<std::string> othersIn(const RunRecord& record, const std::vector<Stage>& stages)
 {
   std::vector<std::string> others;
   for (const auto& earlier : record)
@@ -132,8 +159,7 @@ void forgetOthers(const std::vector<Stage>& stages, RunRecord& record, const fs:
     const auto isIt = [&](const Stage& stage) { return stage.name == earlier.first; };
     if (std::none_of(stages.begin(), stages.end(), isIt)) others.push_back(earlier.first);
   }
-  for (const std::string& other : others) forget(other, record, folder, given);
-  if (!others.empty()) writeRunRecord(record, folder.string());
+  return others;
 }
 
 /// Fingerprints of what a stage has written, and of nothing else that lies there: by name in the folder, by path from
@@ -154,7 +180,8 @@ std::map<std::string, std::string> writtenBy(const Stage& stage, const std::vect
 }
 
 /// Runs what has to be run, and keeps the record.
-void runStages(const RunRequest& request, const std::string& programs, CommandLine& line, const Progress& progress)
+void runStages(const RunRequest& request, const std::string& configuration, const std::string& programs,
+               CommandLine& line, const Progress& progress)
 {
   const std::vector<Stage> stages = stagesOf(request);
   const std::vector<std::string> given = givenFiles(stages);
@@ -163,7 +190,7 @@ void runStages(const RunRequest& request, const std::string& programs, CommandLi
   requireInputsKept(outputs, given);
   requireWritable(outputs);
   RunRecord record = readRunRecord(request.folder);
-  forgetOthers(stages, record, request.folder, given);
+  forget(othersIn(record, stages), record, request.folder, given, configuration);
   const double all = shareOf(stages) / 0.96; // the report takes the rest
   double done = 0;
   for (auto stage = stages.begin(); stage != stages.end(); ++stage)
@@ -177,9 +204,7 @@ void runStages(const RunRequest& request, const std::string& programs, CommandLi
       line.message(stage->name + ": nothing has changed since the last run, its results stay");
       continue;
     }
-    const bool isFirstRun = record.empty();
-    for (auto later = stage; later != stages.end(); ++later) forget(later->name, record, request.folder, given);
-    if (!isFirstRun) writeRunRecord(record, request.folder);
+    forget(namesOf(stage, stages.end()), record, request.folder, given, configuration);
     const auto start = std::chrono::steady_clock::now();
     const std::vector<std::string> files = runStage(*stage, programs, line, subProgress(progress, begin, done));
     present.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -272,24 +297,22 @@ void meshCommand(CommandLine& line, const std::string& programs, const std::stri
 {
   const ModuleDescription description = parseModuleDescription(xml);
   const RunRequest request = requestOf(line, description);
+  RunOptions options = request.options;
+  options["labelMap"] = { request.labelMap };
+  options["folder"] = { request.folder };
+  const std::string configuration = configurationText(options, description);
   const Progress progress = line.progress();
   const ResultFolder folder(request.folder);
   try
   {
-    runStages(request, programs, line, progress);
+    runStages(request, configuration, programs, line, progress);
   }
   catch (const Interrupted& end)
   {
     endBy(end.signal);
   }
-  RunOptions options = request.options;
-  options["labelMap"] = { request.labelMap };
-  options["folder"] = { request.folder };
-  const std::string configuration = configurationText(options, description);
   report(progress, 0.96, "report");
-  OutputFiles record; // the configuration of this very run may be an input, too
-  writeBytes(configuration, record.temporary(request.folder + "/run.toml"));
-  record.commit();
+  writeConfiguration(configuration, request.folder);
   writeBytes(htmlReport(request.folder, configuration), line.outputPath(request.folder + "/report.html"));
   line.message("report: " + request.folder + "/report.html");
   report(progress, 1, "done");

@@ -203,6 +203,15 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(glob.glob("mine/a.*"), ["mine/a.mine.stl"])
         self.assertTrue(os.path.exists("mine/log.txt"))
 
+    def test_a_rerun_that_fails_leaves_nothing_that_does_not_fit(self):
+        shutil.copytree("out", "failed")
+        with open("absent.csv", "w", encoding="ascii") as file:
+            file.write("label,maximumEdgeLength\n4242,2\n")
+        done = surgicalmesher("mesh", "--config", "failed/run.toml", "--childRadius", "3", "--tissues", "absent.csv")
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertFalse(set(os.listdir("failed")) & {"report.html", "mesh.vtu", "surface.vtp", "head.inp"})
+        self.assertIn("childRadius = 3\n", bytes_of("failed/run.toml").decode())
+
     def test_a_run_is_repeated_by_its_configuration(self):
         done = surgicalmesher("mesh", "--config", "out/run.toml", "repeated")
         self.assertEqual(done.returncode, 0, done.stderr)
