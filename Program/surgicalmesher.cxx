@@ -11,6 +11,7 @@
 
 #include <filesystem>
 #include <iostream>
+#include <new>
 
 using namespace surgicalmesher;
 
@@ -107,5 +108,10 @@ int main(int argc, char** argv)
   {
     std::cerr << "surgicalmesher: " << error.what() << "\n";
     return error.exitStatus();
+  }
+  catch (const std::bad_alloc&)
+  {
+    std::cerr << "surgicalmesher: out of memory\n";
+    return 3;
   }
 }

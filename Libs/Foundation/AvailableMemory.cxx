@@ -2,7 +2,9 @@
 #include "AvailableMemory.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <new>
 #include <sstream>
 
 namespace surgicalmesher
@@ -95,6 +97,13 @@ std::optional<std::uint64_t> availableMemory(const std::string& root)
   Bytes machine = numberAfter("MemAvailable:", root + "/proc/meminfo");
   if (machine) *machine *= 1024;
   return least(machine, leftByControlGroups(root));
+}
+
+void requireMemory(std::uint64_t bytes)
+{
+  void* volatile attempt = std::malloc(bytes); // volatile: a compiler may leave out what is of no use
+  if (!attempt) throw std::bad_alloc();
+  std::free(attempt);
 }
 
 } // namespace surgicalmesher

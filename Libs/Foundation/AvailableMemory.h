@@ -14,4 +14,8 @@ namespace surgicalmesher
 /// where the system does not tell (anywhere but on Linux). `root` is the folder that holds proc and sys.
 std::optional<std::uint64_t> availableMemory(const std::string& root = "/");
 
+/// Throws std::bad_alloc unless that many bytes can be allocated now: a limit on the process's memory does not show in
+/// what is available. Where a library that lacks memory fails in ways of its own, this tells it from bad input.
+void requireMemory(std::uint64_t bytes);
+
 } // namespace surgicalmesher

@@ -3,10 +3,13 @@
 
 #ifndef _WIN32
 
+#include "Errors.h"
+
 #include <vtkSMPTools.h>
 
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -110,12 +113,17 @@ int endOf(pid_t child)
   return WIFEXITED(status) ? WEXITSTATUS(status) : kFailed;
 }
 
+[[noreturn]] void refuseToStart(int failure)
+{
+  throw EngineError("no process of its own can be started for a library (" + std::string(std::strerror(failure)) + ")");
+}
+
 } // namespace
 
 SeparateProcess::SeparateProcess(const std::function<std::string()>& work, int mostSeconds)
 {
   int ends[2];
-  if (pipe(ends) != 0) return;
+  if (pipe(ends) != 0) refuseToStart(errno);
 #ifdef __linux__
   const pid_t parent = getpid();
 #endif
@@ -130,8 +138,12 @@ SeparateProcess::SeparateProcess(const std::function<std::string()>& work, int m
     setLimits(mostSeconds);
     runAsChild(ends[1], work);
   }
+  const int failure = errno;
   close(ends[1]);
   m_Answers = ends[0];
+  if (m_Child >= 0) return;
+  close(m_Answers);
+  refuseToStart(failure);
 }
 
 SeparateProcess::~SeparateProcess()

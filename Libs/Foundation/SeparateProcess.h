@@ -18,7 +18,7 @@ class SeparateProcess
 {
 public:
   /// Begins. Work that takes more than `mostSeconds` of processor time, or ten times as long by the clock, is ended (0:
-  /// no limit).
+  /// no limit). Throws EngineError if the system has no process or pipe left.
   explicit SeparateProcess(const std::function<std::string()>& work, int mostSeconds = 0);
   /// Ends the process, if nobody has waited for its answer.
   ~SeparateProcess();

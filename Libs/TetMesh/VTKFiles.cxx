@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "VTKFiles.h"
 
+#include "AvailableMemory.h"
 #include "Errors.h"
 #include "HeaderClaims.h"
 #include "SeparateProcess.h"
@@ -225,6 +226,16 @@ vtkSmartPointer<vtkPointSet> fromXML(const std::string& text, const std::string&
   return outputOf(reader.Get(), file, "VTK");
 }
 
+std::uintmax_t sizeOf(const std::string& file)
+{
+  std::error_code error;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
+  return error ? 0 : bytes;
+}
+
+/// What a sound file needs to be read, at least, with room for what libraries take for themselves.
+std::uint64_t memoryFor(const std::string& file) { return (std::uint64_t(128) << 20) + 4 * sizeOf(file); }
+
 VTKFile fileOf(std::optional<std::string> answer, const std::string& file, int mostSeconds)
 {
   if (!answer || answer->size() < 2)
@@ -237,11 +248,20 @@ VTKFile fileOf(std::optional<std::string> answer, const std::string& file, int m
            ras };
 }
 
-int mostSecondsFor(const std::string& file)
+int mostSecondsFor(const std::string& file) { return 10 + int(std::min<std::uintmax_t>(sizeOf(file) >> 21, 1u << 20)); }
+
+/// VTK's readers and writers that lack memory crash, or report what a damaged file would be reported for.
+VTKFile fileOrNoMemory(SeparateProcess& reader, const std::string& file, int mostSeconds)
 {
-  std::error_code error;
-  const std::uintmax_t bytes = std::filesystem::file_size(file, error);
-  return 10 + (error ? 0 : int(std::min<std::uintmax_t>(bytes >> 21, 1u << 20)));
+  try
+  {
+    return fileOf(reader.answer(), file, mostSeconds);
+  }
+  catch (const InputError&)
+  {
+    requireMemory(memoryFor(file));
+    throw;
+  }
 }
 
 } // namespace
@@ -272,7 +292,7 @@ std::function<VTKFile()> beginReadingVTKFile(const std::string& file, const std:
     refuse(file, "unknown kind of file '" + extension + "', expected " + listed(extensions));
   const int mostSeconds = mostSecondsFor(file);
   const auto reader = std::make_shared<SeparateProcess>([file] { return answerFor(file); }, mostSeconds);
-  return [file, reader, mostSeconds] { return fileOf(reader->answer(), file, mostSeconds); };
+  return [file, reader, mostSeconds] { return fileOrNoMemory(*reader, file, mostSeconds); };
 }
 
 } // namespace surgicalmesher

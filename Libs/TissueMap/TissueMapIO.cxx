@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueMapIO.h"
 
+#include "AvailableMemory.h"
 #include "CanonicalGrid.h"
 #include "Errors.h"
 #include "ImageData.h"
@@ -37,6 +38,9 @@ using MetaData = std::map<std::string, std::string>;
 const char* const nullDisplacementTag = "SurgicalMesher.Role:null displacement|";
 
 constexpr double maximumVoxelCount = 2147483648.0; // 2^31: 4 GB of labels
+
+/// Bytes that a reader may take besides an image's data.
+constexpr std::uint64_t memoryOfLibraries = 64 << 20;
 
 /// An image file as it lies in memory after reading, and how to walk it in the order of the canonical grid.
 struct Volume : CanonicalGrid
@@ -152,6 +156,7 @@ void requireHarmlessHeader(const std::string& file)
       }
     },
     mostSeconds);
+  if (!answer || !answer->empty()) requireMemory(memoryOfLibraries); // or it may be for lack of it
   if (!answer)
     throw InputError(file + ": the image header is damaged: its reader crashed or did not end within " +
                      std::to_string(mostSeconds) + " s of processor time, or ten times as long by the clock");
@@ -311,23 +316,25 @@ Volume readVolume(const std::string& file)
   for (unsigned int axis = 0; axis < dimension; ++axis) region.SetSize(axis, io->GetDimensions(axis));
   io->SetIORegion(region);
   const Silence silence;
+  const std::size_t byteCount = volume.grid.voxelCount() * volume.components * io->GetComponentSize();
   try
   {
-    const std::size_t byteCount = volume.grid.voxelCount() * volume.components * io->GetComponentSize();
     requireImageData(file, bytesOnDisk(niftiHeader, volume.grid.voxelCount(), byteCount));
     volume.data.reset(new char[byteCount]);
     io->Read(volume.data.get());
   }
   catch (const InputError&)
   {
+    requireMemory(memoryOfLibraries);
     throw;
   }
-  catch (const std::bad_alloc&)
+  catch (const std::bad_alloc&) // the file has all that its header promises
   {
-    throw InputError(file + ": not enough memory for the grid that its header promises");
+    throw;
   }
   catch (const std::exception& error)
   {
+    requireMemory(byteCount + memoryOfLibraries);
     throw InputError(file + ": the image data cannot be read, truncated or damaged (" + reasonOf(error) + ")");
   }
   return volume;

@@ -9,6 +9,7 @@ import io
 import json
 import os
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -471,6 +472,21 @@ class ProgramTest(unittest.TestCase):
         for tissue in report["tissues"]:
             self.assertAlmostEqual(tissue["volume"], volumes[mesh.tissue == tissue["label"]].sum(), delta=1e-3)
         self.assertEqual(done.stdout.count("\n"), 2 + len(report["tissues"]))
+
+    def run_with_memory(self, megabytes, *command):
+        limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+        return subprocess.run([os.path.join(BIN, command[0]), *command[1:]], stdin=subprocess.DEVNULL, text=True,
+                              stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False, preexec_fn=limit)
+
+    def test_too_little_memory_is_no_fault_of_a_file(self):
+        for megabytes in range(100, 200, 5):  # from too little for the libraries themselves to enough for all
+            done = self.run_with_memory(megabytes, "surgicalmesher", "quality", "out/mesh.vtu")
+            self.assertNotIn(done.returncode, (1, 2), done.stderr)
+        write_nrrd("large.nrrd", np.ones((300, 300, 300), np.uint16), np.eye(4))
+        for megabytes in range(80, 200, 10):
+            done = self.run_with_memory(megabytes, "SimplexMesherCLI", "--edgeLength", "5", "large.nrrd", "large.vtp")
+            self.assertNotIn(done.returncode, (0, 1, 2), done.stderr)
+        os.remove("large.nrrd")
 
     def test_quality_of_hexahedra(self):
         write_hexahedra("cubes.vtk")

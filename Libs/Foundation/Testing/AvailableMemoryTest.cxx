@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <new>
 
 namespace fs = std::filesystem;
 using surgicalmesher::availableMemory;
@@ -103,3 +104,11 @@ TEST_F(AvailableMemory, IsNothingInAGroupOverItsLimit)
 TEST(ThisMachine, HasMemoryIfItTells) { EXPECT_GT(availableMemory().value_or(std::uint64_t(1) << 40), 10 * MiB); }
 
 } // namespace
+
+TEST(RequiredMemory, whatCannotBeAllocatedIsAFailureOfItsOwn)
+{
+  EXPECT_NO_THROW(surgicalmesher::requireMemory(MiB));
+#ifndef __SANITIZE_ADDRESS__ // which ends the process
+  EXPECT_THROW(surgicalmesher::requireMemory(std::uint64_t(1) << 62), std::bad_alloc);
+#endif
+}

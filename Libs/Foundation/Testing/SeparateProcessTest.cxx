@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "SeparateProcess.h"
 
+#include "Errors.h"
 #include "Parallel.h"
 
 #include <gtest/gtest.h>
@@ -12,6 +13,7 @@
 #include <thread>
 #include <vector>
 #ifndef _WIN32
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #endif
@@ -90,6 +92,16 @@ TEST(SeparateProcess, WhatWaitsTooLongEndsWhateverHasBecomeOfAlarms)
   const auto sleeping = []() -> std::string { return std::to_string(sleep(30)); }; // that uses no processor time
   EXPECT_EQ(runInSeparateProcess(sleeping, 1), std::nullopt);
   EXPECT_EQ(patient.answer(), large) << "waits as long, but its work was done";
+}
+
+TEST(SeparateProcess, WhatCannotBeStartedIsNoMissingAnswer)
+{
+  rlimit before{};
+  getrlimit(RLIMIT_NOFILE, &before);
+  const rlimit none{ 0, before.rlim_max };
+  setrlimit(RLIMIT_NOFILE, &none);
+  EXPECT_THROW(runInSeparateProcess([] { return std::string(); }), EngineError);
+  setrlimit(RLIMIT_NOFILE, &before);
 }
 
 void loopInParallel(int times)
