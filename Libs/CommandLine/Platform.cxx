@@ -193,6 +193,8 @@ void installSignalHandlers(const std::string& program)
 
 bool stdoutIsTerminal() { return _isatty(_fileno(stdout)) != 0; }
 
+void openStandardStreams() {}
+
 std::string hostName()
 {
   char name[MAX_COMPUTERNAME_LENGTH + 1];
@@ -285,6 +287,15 @@ void installSignalHandlers(const std::string& program)
 }
 
 bool stdoutIsTerminal() { return isatty(STDOUT_FILENO) != 0; }
+
+void openStandardStreams()
+{
+  for (const int descriptor : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO })
+  {
+    const bool isClosed = fcntl(descriptor, F_GETFD) < 0;
+    if (isClosed && open("/dev/null", O_RDWR) < 0) return; // it takes the lowest that is free, which is this one
+  }
+}
 
 std::string hostName()
 {

@@ -9,6 +9,10 @@ namespace surgicalmesher
 
 bool stdoutIsTerminal();
 
+/// Those of stdin, stdout and stderr that whoever started the process has closed lead nowhere from now on: what is opened
+/// later would take their place, and what is printed would go there.
+void openStandardStreams();
+
 /// From now on, large arrays go back to the system as soon as they are freed, where the system's allocator would keep
 /// them; some tens of megabytes stay for those that come next.
 void returnFreedMemory();

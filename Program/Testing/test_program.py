@@ -473,6 +473,15 @@ class ProgramTest(unittest.TestCase):
             self.assertAlmostEqual(tissue["volume"], volumes[mesh.tissue == tissue["label"]].sum(), delta=1e-3)
         self.assertEqual(done.stdout.count("\n"), 2 + len(report["tissues"]))
 
+    def test_closed_streams_are_no_fault_of_a_file(self):
+        command = [os.path.join(BIN, "SurgicalPathScaleCLI"), "--targetPoint", TARGET, *SIZES, "map.nrrd", "closed.nrrd"]
+        for closed in ("<&- >&-", "<&- 2>&-", ">&- 2>&-", "<&- >&- 2>&-"):
+            done = subprocess.run(["bash", "-c", f'"$@" {closed}', "bash", *command], stdout=subprocess.PIPE,
+                                  stderr=subprocess.PIPE, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), closed)
+            self.assertEqual(bytes_of("closed.nrrd"), bytes_of("three/scale.nrrd"))
+            os.remove("closed.nrrd")
+
     def run_with_memory(self, megabytes, *command):
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
         return subprocess.run([os.path.join(BIN, command[0]), *command[1:]], stdin=subprocess.DEVNULL, text=True,
