@@ -5,6 +5,7 @@
 #include "Commands.h"
 #include "Descriptions.h"
 #include "Errors.h"
+#include "Platform.h"
 #include "Text.h"
 
 #include <vtksys/SystemTools.hxx>
@@ -98,10 +99,10 @@ int main(int argc, char** argv)
   try
   {
     const std::string first = arguments.empty() ? "--help" : arguments.front();
-    if (first == "--version")
-      std::cout << "surgicalmesher " << parseModuleDescription(meshXML).version << "\n" << std::flush;
-    else if (first == "--help" || first == "-h") std::cout << usage() << std::flush;
+    if (first == "--version") std::cout << "surgicalmesher " << parseModuleDescription(meshXML).version << "\n";
+    else if (first == "--help" || first == "-h") std::cout << usage();
     else return run(argv[0], arguments);
+    requireStdoutWritten();
     return arguments.empty() ? 2 : 0;
   }
   catch (const Error& error)

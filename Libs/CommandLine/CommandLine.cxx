@@ -452,6 +452,7 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
   try
   {
     run();
+    requireStdoutWritten();
     return 0;
   }
   catch (const Error& error)

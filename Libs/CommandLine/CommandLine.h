@@ -10,7 +10,7 @@
 ///
 /// runModule answers --xml, --help and --version, parses and checks the options, hands them to the function, renames
 /// the outputs into place when it returns, and turns what it throws into one line on stderr and an exit status: 0 done,
-/// 1 InputError, 2 UsageError, 3 EngineError or anything else. Outputs appear whole or not at all, and never in place
+/// 1 InputError, 2 UsageError, 3 EngineError or anything else, stdout that could not be written to among it. Outputs appear whole or not at all, and never in place
 /// of an input.
 ///
 /// While the function runs, what libraries write to stderr is discarded, unless the environment variable

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Platform.h"
 
+#include "Errors.h"
+
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -10,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
+#include <iostream>
 #include <mutex>
 #include <system_error>
 #include <vector>
@@ -23,6 +26,7 @@
 #else
 #include <cerrno>
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 #endif
 #ifdef __GLIBC__
@@ -195,6 +199,13 @@ bool stdoutIsTerminal() { return _isatty(_fileno(stdout)) != 0; }
 
 void openStandardStreams() {}
 
+namespace
+{
+
+bool readerOfStdoutIsGone() { return false; }
+
+} // namespace
+
 std::string hostName()
 {
   char name[MAX_COMPUTERNAME_LENGTH + 1];
@@ -271,6 +282,12 @@ void handle(int signal)
   sigaction(signal, &action, nullptr);
 }
 
+bool readerOfStdoutIsGone()
+{
+  pollfd out{ STDOUT_FILENO, POLLOUT, 0 };
+  return poll(&out, 1, 0) > 0 && (out.revents & (POLLERR | POLLHUP));
+}
+
 } // namespace
 
 void installSignalHandlers(const std::string& program)
@@ -335,5 +352,13 @@ QuietStderr::~QuietStderr()
 }
 
 #endif
+
+void requireStdoutWritten()
+{
+  std::cout.flush();
+  const bool isLost = !std::cout || std::fflush(stdout) != 0 || std::ferror(stdout);
+  if (isLost && !readerOfStdoutIsGone())
+    throw EngineError("stdout: not all that was printed could be written, a place with room for it expected");
+}
 
 } // namespace surgicalmesher

@@ -23,6 +23,10 @@ void returnFreedMemory();
 /// happened before that it could not do twice. Where GLIBC_TUNABLES is set, nothing is done.
 void useLargePages();
 
+/// Throws EngineError if something that was printed on stdout has not got there, for want of room, say. A reader that
+/// has gone away wants no more of it.
+void requireStdoutWritten();
+
 std::string hostName();
 int processId();
 bool processIsAlive(int id); ///< on this host; true in doubt

@@ -482,6 +482,15 @@ class ProgramTest(unittest.TestCase):
             self.assertEqual(bytes_of("closed.nrrd"), bytes_of("three/scale.nrrd"))
             os.remove("closed.nrrd")
 
+    @unittest.skipUnless(os.path.exists("/dev/full"), "only Linux has it")
+    def test_stdout_without_room_is_noticed(self):
+        for arguments in (["--help"], ["--version"], ["quality", "out/mesh.vtu"]):
+            with open("/dev/full", "w", encoding="ascii") as full:
+                done = subprocess.run([os.path.join(BIN, "surgicalmesher"), *arguments], stdout=full,
+                                      stderr=subprocess.PIPE, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (3, 1), done.stderr)
+            self.assertIn("stdout: not all that was printed", done.stderr)
+
     def run_with_memory(self, megabytes, *command):
         limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
         return subprocess.run([os.path.join(BIN, command[0]), *command[1:]], stdin=subprocess.DEVNULL, text=True,

@@ -273,6 +273,23 @@ class Runtime(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
 
+    @unittest.skipUnless(os.path.exists("/dev/full"), "only Linux has it")
+    def test_stdout_without_room(self):
+        message = "CommandLineTestModule: stdout: not all that was printed could be written, a place with room for it expected\n"
+        for arguments in (["--help"], ["--xml"], ["--version"], ["--echo", "in", self.result], ["in", self.result]):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([MODULE, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, timeout=120)
+            self.assertEqual((done.returncode, done.stderr), (3, message), arguments)
+        self.assertEqual(os.listdir(self.folder), ["result.vtp"])
+        read, write = os.pipe()
+        os.close(read)
+        for ignored, status in ((False, -signal.SIGPIPE), (True, 0)):
+            action = signal.SIG_IGN if ignored else signal.SIG_DFL
+            done = subprocess.run([MODULE, "--help"], stdout=write, stderr=subprocess.PIPE, restore_signals=False,
+                                  preexec_fn=lambda: signal.signal(signal.SIGPIPE, action))
+            self.assertEqual((done.returncode, done.stderr), (status, b""))
+        os.close(write)
+
     def wait_for_half(self, folder, prepare=None, result=None, environment=None):
         process = subprocess.Popen(
             [MODULE, "--act", "wait", "--extra", self.extra, "in", result or self.result], stdout=subprocess.PIPE,
