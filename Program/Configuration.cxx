@@ -100,7 +100,9 @@ std::string tomlValue(const Parameter& parameter, const std::string& value, cons
 {
   if (parameter.isInteger() || parameter.isNumber() || parameter.type == "boolean") return value;
   if (parameter.isPoint()) return "[" + text::joined(text::split(value, ','), ", ") + "]";
-  return quoted(isPath(parameter, value) ? pathFrom(resultFolder, value) : value);
+  const std::string text = isPath(parameter, value) ? pathFrom(resultFolder, value) : value;
+  if (!isUTF8(text)) throw UsageError(parameter.spelling() + ": '" + text + "' found, UTF-8 expected, as in run.toml");
+  return quoted(text);
 }
 
 std::string entryOf(const Parameter& parameter, const RunOptions& options)

@@ -14,7 +14,7 @@ RunOptions readConfiguration(const std::string& file, const ModuleDescription& d
 
 /// Every option of `description`, in its order and with its description as a comment, for a file in the folder of the
 /// results, option `folder`: paths there are relative to it, others absolute. Options without a value and a default are
-/// comments.
+/// comments. Throws UsageError for what is not UTF-8, which TOML can't hold.
 std::string configurationText(const RunOptions& options, const ModuleDescription& description);
 
 } // namespace surgicalmesher

@@ -64,6 +64,17 @@ std::size_t utf8Length(const std::string& text, std::size_t at)
   return length;
 }
 
+bool isUTF8(const std::string& text)
+{
+  for (std::size_t at = 0; at < text.size();)
+  {
+    const std::size_t length = utf8Length(text, at);
+    if (length == 0) return false;
+    at += length;
+  }
+  return true;
+}
+
 std::string printable(const std::string& text)
 {
   std::string result;

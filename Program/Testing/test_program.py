@@ -222,6 +222,19 @@ class ProgramTest(unittest.TestCase):
         done = surgicalmesher("mesh", "--config", "repeated/run.toml")
         self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
 
+    def test_configuration_holds_any_name_of_a_file(self):
+        os.makedirs("line\nend")
+        shutil.copy("map.nrrd", 'line\nend/"map"\x7f.nrrd')
+        command = ("mesh", 'line\nend/"map"\x7f.nrrd', "two\nlines", "--target", TARGET, *COARSE)
+        done = surgicalmesher(*command)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = surgicalmesher("mesh", "--config", "two\nlines/run.toml")
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
+        latin = os.fsdecode(b"m\xfcller.nrrd")
+        shutil.copy("map.nrrd", latin)
+        self.assert_refused(2, ["m\\xfcller.nrrd", "UTF-8 expected"], "mesh", latin, "new", "--target", TARGET)
+        os.remove(latin)
+
     def test_configuration_of_a_finished_run_reruns_nothing(self):
         shutil.copytree("out", "resumed")
         before = {name: bytes_of(f"resumed/{name}") for name in os.listdir("resumed") if name.endswith((".vtu", ".vtp", ".nrrd"))}

@@ -22,6 +22,14 @@ TEST(Trial, B08_controlCharactersAndBytesThatAreNoTextAreEscaped)
             "\\xc2\\x9b31m \\xe2\\x80\\xae");
 }
 
+TEST(PrintableText, textIsUTF8ToItsEnd)
+{
+  EXPECT_TRUE(isUTF8(""));
+  EXPECT_TRUE(isUTF8(std::string("a\0é 🧠", 9)));
+  EXPECT_FALSE(isUTF8("a\xff"));
+  EXPECT_FALSE(isUTF8("cut \xe8\x84"));
+}
+
 TEST(PrintableText, quotedTextHasNoControlCharacters)
 {
   EXPECT_EQ(quoted("a \"b\" \\ é"), R"("a \"b\" \\ é")");
