@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 namespace fs = std::filesystem;
 
@@ -73,15 +74,33 @@ std::string insideFolder(std::string text, const std::string& folder)
   return at == std::string::npos ? text : text.erase(at, folder.size() + 1);
 }
 
-/// The file, and those beside it that share its name.
+/// What follows a file's stem, without compression: ".img" of "map.img.gz".
+std::string kindOf(const fs::path& file)
+{
+  const std::string kind = text::lowerCase(file.filename().string().substr(stemOf(file).size()));
+  const fs::path last = fs::path("x" + kind).extension();
+  return last == ".gz" || last == ".bz2" ? kind.substr(0, kind.size() - last.string().size()) : kind;
+}
+
+/// Whether `file` may be a header, or the data that one tells of.
+bool isOfAPair(const fs::path& file)
+{
+  static const std::set<std::string> kinds{
+    "", ".hdr", ".img", ".nhdr", ".mhd", ".mha", ".raw", ".zraw", ".dat", ".bin"
+  };
+  return kinds.count(kindOf(file)) != 0;
+}
+
+/// The file, and those beside it that share its name and may hold its data.
 std::vector<std::string> withSiblings(const std::string& file)
 {
-  std::vector<std::string> files;
+  std::vector<std::string> files{ file };
   std::error_code error;
   for (fs::directory_iterator entry(fs::path(file).parent_path(), error), end; !error && entry != end;
        entry.increment(error))
   {
-    const bool isSibling = entry->is_regular_file(error) && stemOf(entry->path()) == stemOf(file);
+    const bool isSibling =
+      entry->is_regular_file(error) && stemOf(entry->path()) == stemOf(file) && isOfAPair(entry->path());
     if (isSibling) files.push_back(entry->path().string());
   }
   return files;

@@ -26,8 +26,8 @@ void writeRunRecord(const RunRecord& record, const std::string& folder);
 /// MD5 of a file's bytes, in hexadecimal; empty if it can't be read.
 std::string fingerprint(const std::string& file);
 
-/// What a stage is about to be run with. Of a file outside of `folder`, files beside it that share its name up to the
-/// first dot count, too: the data of a header, say.
+/// What a stage is about to be run with. Of a file outside of `folder`, headers and data beside it, told by the extension,
+/// that share its name up to the first dot count, too.
 StageRecord recordOf(const Stage& stage, const std::string& program, const std::string& folder);
 
 /// Whether `earlier` was run with the same as `present`, and all that it wrote is as it was.

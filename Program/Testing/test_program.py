@@ -213,6 +213,22 @@ class ProgramTest(unittest.TestCase):
         self.assertFalse(set(os.listdir("failed")) & {"report.html", "mesh.vtu", "surface.vtp", "head.inp"})
         self.assertIn("childRadius = 3\n", bytes_of("failed/run.toml").decode())
 
+    def test_only_data_of_a_header_are_inputs_beside_it(self):
+        os.makedirs("beside")
+        image = nibabel.Nifti1Pair(np.asarray(cut_out(np.s_[58:90, 84:116, 30:56])[0]).astype(np.uint8), np.eye(4))
+        nibabel.save(image, "beside/pat.hdr")
+        for name in ("beside/pat.hdr", "map.nrrd"):
+            stem = os.path.splitext(name)[0]
+            command = ("mesh", name, "of-" + os.path.basename(stem), "--target", "10,10,10", *COARSE)
+            self.assertEqual(surgicalmesher(*command).returncode, 0)
+            with open(stem + ".log", "w", encoding="ascii") as file:
+                file.write("mine")
+            self.assertEqual(surgicalmesher(*command).stdout.count("nothing has changed"), 3)
+        os.remove("map.log")
+        with open("of-pat/stages.json", encoding="utf-8") as file:
+            names = {os.path.basename(path) for path in json.load(file)["scale"]["inputs"]}
+        self.assertEqual(names, {"pat.hdr", "pat.img"})
+
     def test_a_run_is_repeated_by_its_configuration(self):
         done = surgicalmesher("mesh", "--config", "out/run.toml", "repeated")
         self.assertEqual(done.returncode, 0, done.stderr)
