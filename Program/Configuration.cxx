@@ -92,7 +92,7 @@ void requireAccepted(const Parameter& parameter, const std::vector<std::string>&
 /// Absolute, but for what lies in the folder of the results: that may be moved and copied, and the configuration with it.
 std::string pathFrom(const std::string& resultFolder, const std::string& file)
 {
-  const std::filesystem::path path = std::filesystem::absolute(file).lexically_normal();
+  const std::filesystem::path path = absolutePath(file);
   return pathInResults(path, resultFolder).value_or(path).string();
 }
 
@@ -124,7 +124,7 @@ std::string entryOf(const Parameter& parameter, const RunOptions& options)
 RunOptions readConfiguration(const std::string& file, const ModuleDescription& description)
 {
   const std::string content = text::readTextFile(file);
-  const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+  const std::filesystem::path folder = std::filesystem::path(absolutePath(file)).parent_path();
   toml::table table;
   try
   {

@@ -105,7 +105,7 @@ void estimateCommand(CommandLine& line, const std::string& programs, const std::
   const ScratchFolder folder;
   RunOptions given = line.givenValues();
   given.erase("estimate");
-  const RunRequest request{ fs::absolute(line.text("labelMap")).lexically_normal().string(), folder.path(),
+  const RunRequest request{ absolutePath(line.text("labelMap")), folder.path(),
                             completedOptions(given, parseModuleDescription(xml)) };
   const Progress progress = line.progress();
   try

@@ -55,8 +55,8 @@ private:
 RunRequest requestOf(const CommandLine& line, const ModuleDescription& description)
 {
   RunRequest request;
-  request.labelMap = fs::absolute(line.text("labelMap")).lexically_normal().string();
-  request.folder = fs::absolute(line.text("folder")).lexically_normal().string();
+  request.labelMap = absolutePath(line.text("labelMap"));
+  request.folder = absolutePath(line.text("folder"));
   if (request.folder.back() == '/') request.folder.pop_back();
   request.options = completedOptions(line.givenValues(), description);
   return request;

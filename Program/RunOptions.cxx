@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "RunOptions.h"
 
+#include "Errors.h"
 #include "Text.h"
 
 #include <algorithm>
+#include <filesystem>
 
 namespace surgicalmesher
 {
@@ -24,6 +26,14 @@ std::string shortestNumber(const std::string& text)
 }
 
 } // namespace
+
+std::string absolutePath(const std::string& path)
+{
+  std::error_code error;
+  const std::filesystem::path absolute = std::filesystem::absolute(path, error);
+  if (error) throw InputError(path + ": relative to a working directory that is not there any more, another expected");
+  return absolute.lexically_normal().string();
+}
 
 std::string canonicalValue(const Parameter& parameter, const std::string& value)
 {

@@ -14,6 +14,9 @@ namespace surgicalmesher
 /// Values by parameter name, as a command line has them.
 using RunOptions = std::map<std::string, std::vector<std::string>>;
 
+/// Without dots, from the working directory on. Throws InputError if that has been deleted.
+std::string absolutePath(const std::string& path);
+
 /// The same value always in the same letters: numbers as short as they can be.
 std::string canonicalValue(const Parameter& parameter, const std::string& value);
 

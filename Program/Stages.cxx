@@ -24,8 +24,7 @@ std::string inFolder(const RunRequest& request, const std::string& name)
 std::string placeOfOutput(const RunRequest& request, const std::string& value)
 {
   const std::filesystem::path path(value);
-  return path.has_parent_path() ? std::filesystem::absolute(path).lexically_normal().string()
-                                : inFolder(request, value);
+  return path.has_parent_path() ? absolutePath(value) : inFolder(request, value);
 }
 
 bool isGiven(const std::string& name, const ModuleDescription& program, const RunOptions& options)
@@ -52,8 +51,7 @@ void addValue(Stage& stage, const RunRequest& request, const Parameter& paramete
   if (parameter.isFile())
   {
     if (parameter.output) checkValue(parameter, value);
-    text =
-      parameter.output ? placeOfOutput(request, value) : std::filesystem::absolute(value).lexically_normal().string();
+    text = parameter.output ? placeOfOutput(request, value) : absolutePath(value);
     (parameter.output ? stage.outputs : stage.inputs).push_back(text);
     const bool isOneOfAList = parameter.multiple && parameter.output && text.find(',') != std::string::npos;
     if (isOneOfAList) text = "\"" + text + "\"";

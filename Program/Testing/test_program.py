@@ -229,6 +229,15 @@ class ProgramTest(unittest.TestCase):
             names = {os.path.basename(path) for path in json.load(file)["scale"]["inputs"]}
         self.assertEqual(names, {"pat.hdr", "pat.img"})
 
+    def test_a_working_directory_that_is_gone(self):
+        for arguments in (("mesh", os.path.abspath("map.nrrd"), "new", "--target", TARGET),
+                          ("mesh", "--config", "run.toml"), ("estimate", "map.nrrd", "--target", TARGET)):
+            os.makedirs("gone")
+            command = ["bash", "-c", 'cd gone && rmdir ../gone && exec "$@"', "bash", os.path.join(BIN, "surgicalmesher")]
+            done = subprocess.run([*command, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                  check=False)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (1, 1), done.stderr)
+
     def test_a_run_is_repeated_by_its_configuration(self):
         done = surgicalmesher("mesh", "--config", "out/run.toml", "repeated")
         self.assertEqual(done.returncode, 0, done.stderr)
