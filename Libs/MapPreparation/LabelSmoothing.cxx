@@ -261,11 +261,13 @@ private:
 
   /// Finds the constants with which tissues keep their volumes; the background's stays 0. Each goes up or down by a step
   /// of its own, which grows while that helps and halves when the tissue has come to have too much of what it lacked
-  /// (Riedmiller and Braun 1993): how many voxels a constant moves differs by orders of magnitude between tissues.
+  /// (Riedmiller and Braun 1993): how many voxels a constant moves differs by orders of magnitude between tissues. A
+  /// strand of one voxel gains none by any constant, as all beside it are in walls; it has to be able to keep its own,
+  /// against a neighbour that has a constant, too.
   void balance()
   {
     constexpr int rounds = 60;
-    constexpr float first = 0.05F, longest = 0.1F, most = 0.8F;
+    constexpr float first = 0.05F, longest = 0.1F, most = 1.6F;
     const Bidders all = bidders();
     std::vector<float> steps(m_Constants.size(), first);
     std::vector<std::int32_t> before(m_Constants.size(), 0);

@@ -80,17 +80,29 @@ TEST(LabelSmoothing, WallsAndEdgesOfABoxStay)
   EXPECT_LE(different(smoothed(box).map, box), 16u) << "its corners, and what balances their volume";
 }
 
-TEST(LabelSmoothing, AStrandOfOneVoxelStays)
+/// A strand one voxel high and so many wide and long, within another tissue.
+TissueMap withStrand(int wide, int length)
 {
-  const TissueMap strand = paintedMap({ 24, 24, 24 },
-                                      [](int i, int j, int k)
-                                      {
-                                        if (!isWithin(3, 21, i, j, k)) return 0;
-                                        return i == 12 && j == 12 ? 2 : 1;
-                                      });
-  const TissueMap result = smoothed(strand).map;
-  EXPECT_GE(countVoxels(result).at(2), 16u);
-  EXPECT_EQ(tissueTopology(result), tissueTopology(strand));
+  return paintedMap({ 40, 40, 40 },
+                    [=](int i, int j, int k)
+                    {
+                      if (!isWithin(3, 37, i, j, k)) return 0;
+                      const bool isStrand = i >= 18 && i < 18 + wide && j == 18;
+                      return isStrand && k >= 5 && k < 5 + length ? 2 : 1;
+                    });
+}
+
+TEST(LabelSmoothing, StrandsAndSpecksStayHoweverThin)
+{
+  for (const double length : { 1.2, 2.0, 4.0 })
+    for (const int wide : { 1, 2 })
+      for (const int voxels : { 2, 8, 30 })
+      {
+        const TissueMap map = withStrand(wide, voxels);
+        const TissueMap result = smoothed(map, length).map;
+        EXPECT_GE(countVoxels(result).at(2), 0.9 * wide * voxels) << length << ' ' << wide << ' ' << voxels;
+        EXPECT_EQ(tissueTopology(result), tissueTopology(map));
+      }
 }
 
 TEST(LabelSmoothing, ProtectedTissuesKeepEveryVoxel)
