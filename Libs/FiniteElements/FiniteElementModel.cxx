@@ -418,6 +418,10 @@ private:
 
 } // namespace
 
+double sectionArea(const Beam& beam) { return 3.14159265358979323846 * beam.radius * beam.radius; }
+
+double secondMomentOfArea(const Beam& beam) { return sectionArea(beam) * beam.radius * beam.radius / 4; }
+
 std::string nameOf(SetKind kind)
 {
   switch (kind)

@@ -108,6 +108,10 @@ struct Beam : SetInfo
   std::int32_t material = 0; ///< index into FiniteElementModel::materials
 };
 
+/// Of the round section, in the square and the fourth power of the radius's unit.
+double sectionArea(const Beam& beam);
+double secondMomentOfArea(const Beam& beam);
+
 /// What all numbers of a model are in.
 enum class Units
 {

@@ -57,12 +57,22 @@ std::optional<NodeChoice> findChoice(const std::string& text)
   return {};
 }
 
-std::int32_t nearestNode(const Vec3& place, const std::vector<Vec3>& points)
+/// Throws where that is farther off than the mesh is large: the point was for another mesh, or in other units.
+std::int32_t nearestNode(const NodeChoice& choice, const std::vector<Vec3>& points)
 {
+  const Vec3& place = choice.a;
   const auto nearest =
     std::min_element(points.begin(), points.end(),
                      [&](const Vec3& p, const Vec3& q) { return squaredNorm(p - place) < squaredNorm(q - place); });
-  return static_cast<std::int32_t>(nearest - points.begin());
+  Vec3 low = points[0], high = points[0];
+  for (const Vec3& p : points)
+    for (int axis = 0; axis < 3; ++axis)
+      low[axis] = std::min(low[axis], p[axis]), high[axis] = std::max(high[axis], p[axis]);
+  const double distance = norm(*nearest - place);
+  if (distance <= norm(high - low)) return static_cast<std::int32_t>(nearest - points.begin());
+  throw InputError("--nodeMarkups " + choice.name + ": a point " + text::rounded(distance, 4) +
+                   " mm from the mesh, which is " + text::rounded(norm(high - low), 4) +
+                   " mm large, expected points at its nodes");
 }
 
 bool isWithin(const NodeChoice& choice, const Vec3& p)
@@ -93,8 +103,8 @@ std::vector<NodeChoice> nodeChoices(const std::vector<std::string>& texts)
     const std::optional<NodeChoice> choice = findChoice(text);
     if (!choice)
       throw UsageError("--nodeSet: \"" + text +
-                       "\" found, NAME: box X Y Z X Y Z, NAME: sphere X Y Z RADIUS, NAME: plane X Y Z NX NY NZ or "
-                       "NAME: FILE of markups expected");
+                       "\" found, NAME: box X Y Z X Y Z, NAME: sphere X Y Z RADIUS or NAME: plane X Y Z NX NY NZ "
+                       "expected (markups are for --nodeMarkups)");
     choices.push_back(*choice);
   }
   return choices;
@@ -150,7 +160,7 @@ std::map<std::string, std::vector<std::int32_t>> chosenNodes(const std::vector<N
     std::set<std::int32_t>& some = members[choice.name];
     if (choice.shape == NodeShape::NearestNode)
     {
-      some.insert(nearestNode(choice.a, points));
+      some.insert(nearestNode(choice, points));
       continue;
     }
     for (std::size_t i = 0; i < points.size(); ++i)

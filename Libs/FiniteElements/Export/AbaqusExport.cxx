@@ -16,7 +16,6 @@ namespace
 
 constexpr std::size_t kNumberLength = 20; ///< of a data field that CalculiX reads
 constexpr std::size_t kIdsPerLine = 16;
-constexpr double kPi = 3.14159265358979323846;
 
 /// Abaqus's number of the face opposite to each corner: S1 has the corners 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1.
 constexpr int kFaceNumber[4] = { 3, 4, 2, 1 };
@@ -131,13 +130,12 @@ Vec3 acrossAll(const Beam& beam, const std::vector<Vec3>& points)
 void appendBeamSection(std::string& text, const Beam& beam, const FiniteElementModel& model)
 {
   const std::string of = ", ELSET=" + beam.name + ", MATERIAL=" + model.materials[beam.material].name;
-  const double r = beam.radius;
   if (beam.isTruss)
   {
-    text += "*SOLID SECTION" + of + "\n" + number(kPi * r * r) + "\n";
+    text += "*SOLID SECTION" + of + "\n" + number(sectionArea(beam)) + "\n";
     return;
   }
-  const std::string side = number(std::pow(3 * kPi, 0.25) * r);
+  const std::string side = number(std::pow(12 * secondMomentOfArea(beam), 0.25));
   const Vec3 across = acrossAll(beam, model.content.mesh.points);
   text += "*BEAM SECTION" + of + ", SECTION=RECT\n" + side + ", " + side + "\n" + number(across.x) + ", " +
           number(across.y) + ", " + number(across.z) + "\n";

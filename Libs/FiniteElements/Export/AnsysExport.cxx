@@ -7,6 +7,7 @@
 #include "Units.h"
 
 #include <map>
+#include <numeric>
 
 namespace surgicalmesher
 {
@@ -32,6 +33,9 @@ const std::map<std::size_t, Type> kSolids{ { 4, { 285, { 0, 1, 2, 3 } } },
 const std::map<std::size_t, Type> kFaces{ { 3, { 181, { 0, 1, 2, 2 } } },
                                           { 4, { 181, { 0, 1, 2, 3 } } },
                                           { 6, { 281, { 0, 1, 2, 2, 3, 4, 2, 5 } } } };
+const Type kBeam{ 188, { 0, 1 } }, kTruss{ 180, { 0, 1 } };
+
+const Type& typeOf(const Beam& beam) { return beam.isTruss ? kTruss : kBeam; }
 
 std::string right(const std::string& text, std::size_t width)
 {
@@ -49,6 +53,7 @@ Types typesOf(const FiniteElementModel& model)
   for (const Cell& element : model.elements) types[kSolids.at(element.size()).number];
   for (const Shell& shell : model.shells)
     for (const Cell& cell : shell.cells) types[kFaces.at(cell.size()).number];
+  for (const Beam& beam : model.beams) types[typeOf(beam).number];
   std::size_t next = 0;
   for (auto& [type, number] : types) number = ++next;
   return types;
@@ -93,7 +98,13 @@ void appendElement(std::string& text, const Head& head, const std::vector<int>& 
   text += "\n";
 }
 
-/// Solids need no section, and name one that is not there; those of shells follow.
+/// Solids need no section, and name one that is not there; those of shells follow, and of curves these.
+std::size_t sectionOfShell(std::size_t shell) { return shell + 2; }
+std::size_t sectionOfBeam(const FiniteElementModel& model, std::size_t beam)
+{
+  return sectionOfShell(model.shells.size()) + beam;
+}
+
 void appendElements(std::string& text, const FiniteElementModel& model, const Types& types)
 {
   std::vector<std::size_t> material(model.elements.size());
@@ -102,6 +113,7 @@ void appendElements(std::string& text, const FiniteElementModel& model, const Ty
       material[e] = std::size_t(section.material) + 1;
   std::size_t count = model.elements.size();
   for (const Shell& shell : model.shells) count += shell.cells.size();
+  for (const Beam& beam : model.beams) count += beam.edges.size();
   text += "EBLOCK,19,SOLID," + std::to_string(count) + "," + std::to_string(count) + "\n(19i9)\n";
   std::size_t next = 0;
   for (const Cell& element : model.elements)
@@ -115,9 +127,18 @@ void appendElements(std::string& text, const FiniteElementModel& model, const Ty
     for (const Cell& cell : model.shells[s].cells)
     {
       const Type& type = kFaces.at(cell.size());
-      appendElement(text, { ++next, types.at(type.number), std::size_t(model.shells[s].material) + 1, s + 2 },
+      appendElement(text,
+                    { ++next, types.at(type.number), std::size_t(model.shells[s].material) + 1, sectionOfShell(s) },
                     type.order, cell);
     }
+  }
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+  {
+    const Beam& beam = model.beams[b];
+    const Type& type = typeOf(beam);
+    for (const Cell& edge : beam.edges)
+      appendElement(text, { ++next, types.at(type.number), std::size_t(beam.material) + 1, sectionOfBeam(model, b) },
+                    type.order, edge);
   }
   text += right("-1", kNodeColumns) + "\n";
 }
@@ -140,12 +161,19 @@ void appendMaterials(std::string& text, const std::vector<Material>& materials)
   }
 }
 
-void appendShellSections(std::string& text, const FiniteElementModel& model)
+void appendSections(std::string& text, const FiniteElementModel& model)
 {
   for (std::size_t s = 0; s < model.shells.size(); ++s)
   {
-    text += "SECTYPE," + std::to_string(s + 2) + ",SHELL,," + validName(model.shells[s].name, 8) + "\nSECDATA," +
-            textOf(model.shells[s].thickness) + "," + std::to_string(model.shells[s].material + 1) + "\n";
+    text += "SECTYPE," + std::to_string(sectionOfShell(s)) + ",SHELL,," + validName(model.shells[s].name, 8) +
+            "\nSECDATA," + textOf(model.shells[s].thickness) + "," + std::to_string(model.shells[s].material + 1) +
+            "\n";
+  }
+  for (std::size_t b = 0; b < model.beams.size(); ++b) // of a beam the radius, of a truss the area
+  {
+    const Beam& beam = model.beams[b];
+    text += "SECTYPE," + std::to_string(sectionOfBeam(model, b)) + (beam.isTruss ? ",LINK,," : ",BEAM,CSOLID,") +
+            validName(beam.name, 8) + "\nSECDATA," + textOf(beam.isTruss ? sectionArea(beam) : beam.radius) + "\n";
   }
 }
 
@@ -170,6 +198,13 @@ void appendComponents(std::string& text, const FiniteElementModel& model)
     for (std::size_t i = 0; i < shell.cells.size(); ++i) ids.push_back(next++);
     appendComponent(text, names.unique(shell.name), "ELEM", ids);
   }
+  for (const Beam& beam : model.beams)
+  {
+    std::vector<std::int32_t> ids(beam.edges.size());
+    std::iota(ids.begin(), ids.end(), next);
+    next += static_cast<std::int32_t>(ids.size());
+    appendComponent(text, names.unique(beam.name), "ELEM", ids);
+  }
   for (const NodeSet& set : model.nodeSets)
   {
     const std::string name = names.unique(set.name);
@@ -187,7 +222,7 @@ void writeAnsys(const FiniteElementModel& model, const std::string& file, const 
   std::string text = "/COM, " + frameAndUnits(model) + "\n/PREP7\n";
   appendTypes(text, types);
   appendMaterials(text, model.materials);
-  appendShellSections(text, model);
+  appendSections(text, model);
   appendNodes(text, model.content.mesh.points);
   appendElements(text, model, types);
   appendComponents(text, model);

@@ -15,7 +15,6 @@ namespace
 {
 
 constexpr std::size_t kIdsPerLine = 16;
-constexpr double kPi = 3.14159265358979323846;
 
 /// <tag id="n">a,b,c</tag>, ids counted from 1.
 void appendRow(std::string& text, const std::string& tag, const Cell& cell, std::size_t number)
@@ -40,7 +39,7 @@ void appendBeamMaterial(std::string& text, const Beam& beam, const FiniteElement
   const Material& material = model.materials[beam.material];
   const auto line = [&](const char* tag, double value)
   { text += std::string("      <") + tag + ">" + textOf(value) + "</" + tag + ">\n"; };
-  const double area = kPi * beam.radius * beam.radius, moment = area * beam.radius * beam.radius / 4;
+  const double area = sectionArea(beam), moment = secondMomentOfArea(beam);
   text += "    <material id=\"" + std::to_string(id) + "\" name=\"" + beamMaterialName(beam) + "\" type=\"" +
           (beam.isTruss ? "linear truss" : "linear-beam") + "\">\n";
   line("density", material.density);
@@ -164,8 +163,8 @@ void appendDomains(std::string& text, const FiniteElementModel& model)
     if (!beam.isTruss) text += "/>\n";
     else
     {
-      text += ">\n      <cross_sectional_area>" + textOf(kPi * beam.radius * beam.radius) +
-              "</cross_sectional_area>\n    </BeamDomain>\n";
+      text +=
+        ">\n      <cross_sectional_area>" + textOf(sectionArea(beam)) + "</cross_sectional_area>\n    </BeamDomain>\n";
     }
   }
   text += "  </MeshDomains>\n";

@@ -19,6 +19,7 @@ constexpr std::size_t kColumns = 10;       ///< elsewhere
 constexpr std::size_t kCoordinateColumns = 16;
 constexpr std::size_t kIdsPerLine = 8;
 constexpr std::size_t kShellForm = 16;
+constexpr std::size_t kBeamForm = 1, kTrussForm = 3;
 
 /// The shape of solids of so many nodes: their formulation, and the corners in the order of a hexahedron whose nodes
 /// may coincide.
@@ -130,6 +131,30 @@ void appendShells(std::string& text, const FiniteElementModel& model, std::size_
   }
 }
 
+/// Round sections need no third node.
+void appendBeams(std::string& text, const FiniteElementModel& model, std::size_t firstPart)
+{
+  if (!model.beams.empty()) text += "*ELEMENT_BEAM\n";
+  std::size_t next = 0; // beams are numbered by themselves, as shells of second order are more than the model's
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+  {
+    for (const Cell& edge : model.beams[b].edges)
+      text += whole(++next, kElementColumns) + whole(firstPart + b, kElementColumns) +
+              whole(std::size_t(edge[0]) + 1, kElementColumns) + whole(std::size_t(edge[1]) + 1, kElementColumns) +
+              "\n";
+  }
+}
+
+/// Of a beam the diameters at both ends and those of the hole, of a truss its area. A round section's shear area is 0.9
+/// of its area.
+void appendBeamSection(std::string& text, const Beam& beam, std::size_t number)
+{
+  const double diameter = 2 * beam.radius;
+  text += "*SECTION_BEAM\n" + whole(number) + whole(beam.isTruss ? kTrussForm : kBeamForm);
+  if (beam.isTruss) text += "\n" + real(sectionArea(beam)) + "\n";
+  else text += real(0.9) + whole(2) + real(1) + "\n" + real(diameter) + real(diameter) + real(0) + real(0) + "\n";
+}
+
 /// A part has a section of its own, with its number.
 void appendPart(std::string& text, const std::string& name, std::size_t number, std::int32_t material)
 {
@@ -152,6 +177,11 @@ void appendParts(std::string& text, const FiniteElementModel& model, const std::
     for (int corner = 0; corner < 4; ++corner) text += real(shell.thickness);
     text += "\n";
   }
+  for (const Beam& beam : model.beams)
+  {
+    appendPart(text, beam.name, ++next, beam.material);
+    appendBeamSection(text, beam, next);
+  }
 }
 
 /// Ogden's law with one term of the exponent 2 is the neo-Hookean, its coefficient the shear modulus.
@@ -161,7 +191,8 @@ void appendMaterials(std::string& text, const std::vector<Material>& materials)
   {
     const Material& material = materials[m];
     const std::string begin = "_TITLE\n" + material.name + "\n" + whole(m + 1) + real(material.density);
-    const double E = material.youngsModulus, nu = material.poissonsRatio;
+    const double E = material.youngsModulus;
+    const double nu = std::min(material.poissonsRatio, 0.49999999); // more digits would round to 0.5
     if (material.law == MaterialLaw::LinearElastic) text += "*MAT_ELASTIC" + begin + real(E) + real(nu) + "\n";
     else
       text +=
@@ -202,6 +233,7 @@ void writeLsDyna(const FiniteElementModel& model, const std::string& file, const
   appendNodes(text, model.content.mesh.points);
   appendSolids(text, model, parts);
   appendShells(text, model, parts.size() + 1);
+  appendBeams(text, model, parts.size() + model.shells.size() + 1);
   appendParts(text, model, parts);
   appendMaterials(text, model.materials);
   appendSets(text, model);

@@ -37,9 +37,13 @@ void writeMedit(const FiniteElementModel& model, const std::string& file, const 
   }
   for (std::size_t e = 0; e < model.elements.size(); ++e)
     elements[model.elements[e].size()].push_back({ model.elements[e], mesh.labels[e] });
+  std::vector<std::pair<Cell, std::int32_t>> edges;
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+    for (const Cell& edge : model.beams[b].edges) edges.push_back({ edge, tags.beams[b] });
   ExportText out;
   out << "MeshVersionFormatted 2\n\nDimension 3\n\nVertices\n" << mesh.points.size();
   for (std::size_t i = 0; i < mesh.points.size(); ++i) out << '\n' << mesh.points[i] << ' ' << reference[i];
+  writeSection(out, "Edges", edges);
   writeSection(out, "Triangles", faces[3]);
   writeSection(out, "Quadrilaterals", faces[4]);
   writeSection(out, "Tetrahedra", elements[4]);

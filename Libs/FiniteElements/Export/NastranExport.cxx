@@ -5,6 +5,8 @@
 #include "TextNumbers.h"
 #include "Units.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace surgicalmesher
@@ -57,7 +59,29 @@ void appendElement(std::string& text, const std::string& name, std::size_t numbe
   appendCard(text, name, fields);
 }
 
-/// Properties have the numbers of sections, those of shells follow.
+/// The axis that is most across an edge: what a bar's section is turned to.
+std::vector<std::string> across(const Cell& edge, const std::vector<Vec3>& points)
+{
+  const Vec3 along = points[edge[1]] - points[edge[0]];
+  int least = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(along[axis]) < std::abs(along[least])) least = axis;
+  std::vector<std::string> direction(3, "0.");
+  direction[std::size_t(least)] = "1.";
+  return direction;
+}
+
+void appendBar(std::string& text, std::size_t number, std::size_t property, const Beam& beam, const Cell& edge,
+               const std::vector<Vec3>& points)
+{
+  std::vector<std::string> fields{ std::to_string(number), std::to_string(property), std::to_string(edge[0] + 1),
+                                   std::to_string(edge[1] + 1) };
+  if (!beam.isTruss)
+    for (const std::string& component : across(edge, points)) fields.push_back(component);
+  appendCard(text, beam.isTruss ? "CROD" : "CBAR", fields);
+}
+
+/// Properties have the numbers of sections, those of shells follow, and of curves these.
 void appendElements(std::string& text, const FiniteElementModel& model)
 {
   std::vector<std::size_t> property(model.elements.size());
@@ -73,6 +97,23 @@ void appendElements(std::string& text, const FiniteElementModel& model)
     for (const Cell& cell : model.shells[s].cells)
       appendElement(text, kFaces.at(cell.size()), ++next, model.sections.size() + s + 1, cell);
   }
+  for (std::size_t b = 0; b < model.beams.size(); ++b)
+  {
+    const std::size_t number = model.sections.size() + model.shells.size() + b + 1;
+    for (const Cell& edge : model.beams[b].edges)
+      appendBar(text, ++next, number, model.beams[b], edge, model.content.mesh.points);
+  }
+}
+
+/// Of a round section; a rod has no moments of area but that of torsion.
+void appendBarProperty(std::string& text, std::size_t number, const Beam& beam)
+{
+  const double moment = secondMomentOfArea(beam);
+  const std::string begin =
+    field(std::to_string(number), kWide) + field(std::to_string(beam.material + 1), kWide) + wide(sectionArea(beam));
+  text += "$ " + beam.name + "\n";
+  if (beam.isTruss) text += "PROD*   " + begin + wide(0) + "\n";
+  else text += "PBAR*   " + begin + wide(moment) + "\n*       " + wide(moment) + wide(2 * moment) + "\n";
 }
 
 void appendProperties(std::string& text, const FiniteElementModel& model)
@@ -89,6 +130,7 @@ void appendProperties(std::string& text, const FiniteElementModel& model)
     text += "$ " + shell.name + "\nPSHELL* " + field(std::to_string(++next), kWide) + material + wide(shell.thickness) +
             material + "\n*       " + field("", kWide) + material + "\n";
   }
+  for (const Beam& beam : model.beams) appendBarProperty(text, ++next, beam);
   for (std::size_t m = 0; m < model.materials.size(); ++m)
   {
     const Material& material = model.materials[m];
@@ -119,7 +161,9 @@ void appendNodeSets(std::string& text, const FiniteElementModel& model)
 
 void writeNastran(const FiniteElementModel& model, const std::string& file, const Destination& destination)
 {
-  std::string text = "$ " + frameAndUnits(model) + "\nSOL 101\nCEND\nSPC = 1\nBEGIN BULK\n";
+  const bool isHeld = std::any_of(model.nodeSets.begin(), model.nodeSets.end(),
+                                  [](const NodeSet& set) { return set.kind == SetKind::NullDisplacement; });
+  std::string text = "$ " + frameAndUnits(model) + "\nSOL 101\nCEND\n" + (isHeld ? "SPC = 1\n" : "") + "BEGIN BULK\n";
   appendNodes(text, model.content.mesh.points);
   appendElements(text, model);
   appendProperties(text, model);

@@ -16,6 +16,7 @@
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUtilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -646,6 +647,135 @@ TEST(Beams, FebioHasTheirElementsAndSections)
       ASSERT_TRUE(written);
       EXPECT_NEAR(std::stod(written->GetCharacterData()), area, 1e-9 * area);
     }
+  }
+}
+
+/// Numbers of all lines that have this name in their first eight columns, and fields so wide after them.
+std::vector<Numbers> rowsOf(const std::string& text, const std::string& name, std::size_t width)
+{
+  std::vector<Numbers> rows;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+  {
+    if (line.rfind(name, 0) != 0) continue;
+    rows.emplace_back();
+    for (std::size_t at = 8; at < line.size(); at += width)
+      for (const double number : numbersIn(line.substr(at, width))) rows.back().push_back(number);
+  }
+  return rows;
+}
+
+TEST(Beams, NastranHasTheirElementsAndSections)
+{
+  for (const bool areTrusses : { false, true })
+  {
+    const FiniteElementModel model = modelWithCurves(areTrusses);
+    const std::string deck = written(model, "m.bdf");
+    const auto elements = rowsOf(deck, areTrusses ? "CROD " : "CBAR ", 8);
+    const auto properties = rowsOf(deck, areTrusses ? "PROD* " : "PBAR* ", 16);
+    ASSERT_EQ(elements.size(), 3u);
+    ASSERT_EQ(properties.size(), 3u);
+    for (std::size_t b = 0; b < 3; ++b)
+    {
+      const Beam& beam = model.beams[b];
+      const Numbers& row = elements[b];
+      EXPECT_EQ(row[0], double(model.elements.size() + b + 1));
+      EXPECT_EQ(row[1], properties[b][0]);
+      EXPECT_EQ((Ids{ int(row[2]) - 1, int(row[3]) - 1 }), (Ids{ beam.edges[0][0], beam.edges[0][1] }));
+      EXPECT_EQ(properties[b][1], beam.material + 1);
+      EXPECT_NEAR(properties[b][2], sectionArea(beam), 1e-9 * sectionArea(beam));
+      if (areTrusses) continue;
+      const auto& points = model.content.mesh.points;
+      const Vec3 along = points[beam.edges[0][1]] - points[beam.edges[0][0]], direction{ row[4], row[5], row[6] };
+      EXPECT_LT(std::abs(dot(along, direction)), 0.6 * norm(along)) << "hardly across the bar";
+      EXPECT_NEAR(properties[b][3], secondMomentOfArea(beam), 1e-9 * properties[b][3]);
+    }
+  }
+}
+
+TEST(Beams, LsDynaHasTheirElementsAndSections)
+{
+  for (const bool areTrusses : { false, true })
+  {
+    const FiniteElementModel model = modelWithCurves(areTrusses);
+    const std::string deck = written(model, "m.k");
+    const Numbers elements = numbersAfter(deck, "*ELEMENT_BEAM\n", 3);
+    ASSERT_EQ(elements.size(), 12u);
+    for (std::size_t b = 0; b < 3; ++b)
+    {
+      const Beam& beam = model.beams[b];
+      EXPECT_EQ((Ids{ int(elements[4 * b + 2]) - 1, int(elements[4 * b + 3]) - 1 }),
+                (Ids{ beam.edges[0][0], beam.edges[0][1] }));
+      const Numbers part = numbersAfter(deck, "*PART\n" + beam.name + "\n");
+      EXPECT_EQ(part[0], elements[4 * b + 1]);
+      EXPECT_EQ(part[2], beam.material + 1);
+      const std::string section = "*SECTION_BEAM\n";
+      const std::size_t begin = deck.find(section, deck.find("*PART\n" + beam.name)) + section.size();
+      const Numbers numbers = numbersIn(deck.substr(begin, deck.find('*', begin) - begin));
+      EXPECT_EQ(numbers[0], part[1]);
+      const double d = 2 * beam.radius;
+      if (areTrusses) EXPECT_NEAR(numbers.at(2), sectionArea(beam), 1e-6 * sectionArea(beam));
+      else EXPECT_EQ(Numbers(numbers.begin() + 4, numbers.end()), (Numbers{ 1, d, d, 0, 0 }));
+    }
+  }
+}
+
+TEST(Beams, AnsysHasTheirElementsAndSections)
+{
+  for (const bool areTrusses : { false, true })
+  {
+    const FiniteElementModel model = modelWithCurves(areTrusses);
+    const std::string archive = written(model, "m.cdb");
+    const std::size_t rows = model.elements.size() + 3;
+    const std::string count = std::to_string(rows);
+    const Numbers block = numbersAfter(archive, "EBLOCK,19,SOLID," + count + "," + count + "\n(19i9)\n", int(rows));
+    for (std::size_t b = 0; b < 3; ++b)
+    {
+      const Beam& beam = model.beams[b];
+      const Numbers row(block.end() - 13 * (3 - std::ptrdiff_t(b)), block.end() - 13 * (2 - std::ptrdiff_t(b)));
+      EXPECT_NE(archive.find("ET," + std::to_string(int(row[1])) + (areTrusses ? ",180\n" : ",188\n")), archive.npos);
+      EXPECT_EQ(row[0], beam.material + 1);
+      EXPECT_EQ(row[8], 2);
+      EXPECT_EQ((Ids{ int(row[11]) - 1, int(row[12]) - 1 }), (Ids{ beam.edges[0][0], beam.edges[0][1] }));
+      const std::string section = "SECTYPE," + std::to_string(int(row[3])) + (areTrusses ? ",LINK," : ",BEAM,CSOLID,");
+      const std::size_t data = archive.find("SECDATA,", archive.find(section));
+      ASSERT_NE(data, archive.npos);
+      EXPECT_DOUBLE_EQ(std::stod(archive.substr(data + 8)), areTrusses ? sectionArea(beam) : beam.radius);
+      EXPECT_NE(archive.find("CMBLOCK," + beam.name + ",ELEM"), archive.npos);
+    }
+  }
+}
+
+TEST(Beams, MeditHasTheirEdges)
+{
+  const FiniteElementModel model = modelWithCurves(false);
+  const Numbers edges = numbersAfter(written(model, "m.mesh"), "\nEdges\n", 4);
+  ASSERT_EQ(edges.size(), 10u); // their number; then nodes and reference
+  for (std::size_t b = 0; b < 3; ++b)
+    EXPECT_EQ((Ids{ int(edges[3 * b + 1]) - 1, int(edges[3 * b + 2]) - 1 }),
+              (Ids{ model.beams[b].edges[0][0], model.beams[b].edges[0][1] }));
+  EXPECT_EQ((std::set<double>{ edges[3], edges[6], edges[9] }.size()), 3u) << "a reference for each";
+}
+
+TEST(Export, NastranHoldsNodesOnlyWhereTheModelDoes)
+{
+  FiniteElementModel model = richModel();
+  EXPECT_NE(written(model, "m.bdf").find("\nSPC = 1\n"), std::string::npos);
+  const auto isHeld = [](const NodeSet& set) { return set.kind == SetKind::NullDisplacement; };
+  model.nodeSets.erase(std::remove_if(model.nodeSets.begin(), model.nodeSets.end(), isHeld), model.nodeSets.end());
+  EXPECT_EQ(written(model, "m.bdf").find("SPC"), std::string::npos);
+}
+
+TEST(Export, LsDynaRoundsNoPoissonsRatioToAHalf)
+{
+  FiniteElementModel model = richModel();
+  for (Material& material : model.materials) material.poissonsRatio = 0.4999999999;
+  const std::string deck = written(model, "m.k");
+  for (const Material& material : model.materials)
+  {
+    const bool isLinear = material.law == MaterialLaw::LinearElastic;
+    const std::string title = isLinear ? "*MAT_ELASTIC_TITLE\n" : "*MAT_OGDEN_RUBBER_TITLE\n";
+    EXPECT_LT(numbersAfter(deck, title + material.name + "\n").at(isLinear ? 3 : 2), 0.5);
   }
 }
 
