@@ -7,6 +7,7 @@
 #include "Place.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -219,11 +220,17 @@ std::vector<Vec3> displacementsOf(const CoupledMesh& mesh, const std::vector<Dom
   return whole;
 }
 
-double lastSecond(const std::vector<ToolPath>& tools)
+/// From the first place of any tool to the last: a recorder's clock may have begun long before.
+std::array<double, 2> spanOf(const std::vector<ToolPath>& tools)
 {
-  double last = 0;
-  for (const ToolPath& tool : tools) last = std::max(last, tool.seconds.back());
-  return last;
+  if (tools.empty()) return {};
+  std::array<double, 2> span{ tools.front().seconds.front(), tools.front().seconds.back() };
+  for (const ToolPath& tool : tools)
+  {
+    span[0] = std::min(span[0], tool.seconds.front());
+    span[1] = std::max(span[1], tool.seconds.back());
+  }
+  return span;
 }
 
 } // namespace
@@ -246,10 +253,11 @@ ReplayResult replay(const CoupledMesh& mesh, const std::vector<ToolPath>& tools,
   for (const Domain& domain : domains) result.sizes.children.push_back(domain.sizes());
 
   const auto stepsBetween = std::int64_t(std::round(options.childRate / options.parentRate));
-  const auto steps = std::int64_t(std::floor(lastSecond(tools) * options.childRate + 1e-6));
+  const auto [first, last] = spanOf(tools);
+  const auto steps = std::int64_t(std::floor((last - first) * options.childRate + 1e-6));
   for (std::int64_t k = 0; k <= steps; ++k)
   {
-    const double seconds = double(k) / options.childRate;
+    const double seconds = first + double(k) / options.childRate;
     for (Domain& domain : domains)
     {
       if (!domain.hasTool()) continue;

@@ -166,6 +166,23 @@ TEST(Replay, TellsTheFramesOfTheParentsRate)
   EXPECT_NEAR(seconds[1], 0.02, 1e-12);
 }
 
+TEST(Replay, BeginsAtTheFirstTimeOfTheRecording)
+{
+  const DividedBox box = dividedBox(1);
+  const CoupledMesh mesh = coupledMesh(box.parent, box.child, {});
+  const ToolPath early = tool(kFirstTip, { 1, 0, 0 });
+  const auto expected = replay(mesh, { early }, options(ChildLaw::Linear)).steps;
+  for (const double begin : { -1.0, 10.0, 1764500000.0 }) // of a clock that counts from 1970
+  {
+    ToolPath late = early;
+    for (double& seconds : late.seconds) seconds += begin;
+    const auto found = replay(mesh, { late }, options(ChildLaw::Linear)).steps;
+    ASSERT_EQ(found.size(), expected.size());
+    EXPECT_EQ(found.front().seconds, begin);
+    EXPECT_LT(norm(found.back().force - expected.back().force), 1e-6 * norm(expected.back().force));
+  }
+}
+
 TEST(Replay, CanBeCancelled)
 {
   const DividedBox box = dividedBox(1);
