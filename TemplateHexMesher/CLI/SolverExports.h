@@ -24,7 +24,7 @@ struct SolverExports
 };
 
 /// What the command line asks for. Announces what is written beside the exports. Throws UsageError for sets of nodes
-/// without an export; before anything is read.
+/// or materials without an export; before anything is read.
 inline SolverExports readExports(CommandLine& line)
 {
   SolverExports exports{ line.outputNames("export"), line.text("materials"),
@@ -40,6 +40,8 @@ inline SolverExports readExports(CommandLine& line)
   }
   if (exports.files.empty() && !exports.nodes.empty())
     throw UsageError("--nodeSet or --nodeMarkups is given, but no --export, expected both");
+  if (exports.files.empty() && !exports.materials.empty())
+    throw UsageError("--materials is given, but no --export, expected both");
   return exports;
 }
 

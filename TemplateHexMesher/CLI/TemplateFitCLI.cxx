@@ -18,6 +18,7 @@
 #include <vtkPointSet.h>
 #include <vtkSMPTools.h>
 
+#include <array>
 #include <filesystem>
 #include <sstream>
 
@@ -54,16 +55,14 @@ NamedPoints readLandmarks(const std::string& file, double unit)
   return landmarks;
 }
 
-LandmarkPairs readPairs(const CommandLine& line, const Units& units)
+/// Those of the template, and the patient's.
+std::array<NamedPoints, 2> readLandmarks(const CommandLine& line, const Units& units)
 {
   const std::vector<std::string> files = line.texts("landmarks");
   if (files.size() != 2)
     throw UsageError("--landmarks: " + std::to_string(files.size()) +
                      " files found, expected the template's and the patient's");
-  LandmarkPairs pairs =
-    pairedByName(readLandmarks(files[0], units.ofTemplate), readLandmarks(files[1], units.ofTarget));
-  requireUsable(pairs, files[0], files[1]);
-  return pairs;
+  return { readLandmarks(files[0], units.ofTemplate), readLandmarks(files[1], units.ofTarget) };
 }
 
 TriangleSurface readTarget(const CommandLine& line, double unit)
@@ -249,14 +248,18 @@ void run(CommandLine& line)
   const SolverExports exports = readExports(line);
   std::vector<Carried> carriedFiles = announceCarried(line);
   const Units units{ millimetresIn(line.text("templateUnit")), millimetresIn(line.text("targetUnit")) };
-  const LandmarkPairs pairs = readPairs(line, units);
+  const auto landmarks = readLandmarks(line, units);
+  const LandmarkPairs pairs = pairedByName(landmarks[0], landmarks[1]);
+  requireUsable(pairs, landmarks[0].file, landmarks[1].file);
   const std::string templateFile = line.text("template"), fittedName = line.outputNames("fitted").at(0);
   const ElementMeshFile content = readElementMesh(templateFile);
   requireRightSideOut(content.mesh, templateFile);
   requireWritable(content, templateFile, fittedName);
   for (Carried& file : carriedFiles) file.content = readElementMesh(file.source);
   const ElementMesh mesh{ units.ofTemplate * content.mesh.points, content.mesh.elements };
+  requireNear(landmarks[0], mesh.points, templateFile);
   const TargetSurface target(readTarget(line, units.ofTarget));
+  requireNear(landmarks[1], target.surface().points, line.text("target"));
 
   FitOptions options;
   options.alpha = line.number("alpha");

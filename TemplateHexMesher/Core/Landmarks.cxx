@@ -98,4 +98,21 @@ void requireUsable(const LandmarkPairs& pairs, const std::string& sourceFile, co
   throw InputError(text.str());
 }
 
+void requireNear(const NamedPoints& landmarks, const Points& mesh, const std::string& meshFile)
+{
+  const Eigen::Vector3d low = mesh.rowwise().minCoeff(), high = mesh.rowwise().maxCoeff();
+  for (Eigen::Index i = 0; i < landmarks.points.cols(); ++i)
+  {
+    const Eigen::Vector3d p = landmarks.points.col(i);
+    const double distance = (p - p.cwiseMax(low).cwiseMin(high)).norm();
+    if (distance <= 0.5 * (high - low).norm()) continue;
+    std::ostringstream text;
+    text.precision(3);
+    text << landmarks.file << ": landmark \"" << landmarks.names[std::size_t(i)] << "\" is " << distance << " mm from "
+         << meshFile << ", which is " << (high - low).norm()
+         << " mm large, expected landmarks on it: the template's file first, then the patient's";
+    throw InputError(text.str());
+  }
+}
+
 } // namespace surgicalmesher

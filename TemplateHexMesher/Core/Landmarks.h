@@ -36,4 +36,8 @@ Eigen::Affine3d similarityOf(const LandmarkPairs& pairs);
 /// well; and for sides whose sizes differ by more than a factor of four, as they do in different units.
 void requireUsable(const LandmarkPairs& pairs, const std::string& sourceFile, const std::string& targetFile);
 
+/// Throws InputError, naming both files, for a landmark farther from the box around `mesh` than half its diagonal: it is
+/// another mesh's, or in another frame.
+void requireNear(const NamedPoints& landmarks, const Points& mesh, const std::string& meshFile);
+
 } // namespace surgicalmesher

@@ -113,6 +113,8 @@ TEST_F(TemplateFitCLI, RefusesLandmarksAtFault)
   expectLandmarksRefused("# columns = label,x,y,z\n", "bad.fcsv");
   points.row(0) *= -1;
   expectLandmarksRefused(markupsOf(points), "mirror");
+  points = pairs.target.colwise() + Eigen::Vector3d(1, 0, 0); // of a patient a metre away
+  expectLandmarksRefused(markupsOf(points), "mm from target.inp");
   points = pairs.target.colwise() - pairs.target.col(0);
   for (Eigen::Index i = 0; i < points.cols(); ++i) points.col(i) = Eigen::Vector3d(1, 1, 0) * double(i);
   expectLandmarksRefused(markupsOf(points), "line");

@@ -104,6 +104,7 @@ TEST_F(VolumetricHexCLI, ExportsMetresAndSetsOfNodes)
   EXPECT_NE(text.find("m, N, Pa, kg, s"), std::string::npos);
   const std::string files = "envelope.vtk sides.vtk n.vtu";
   expectRefused(coarse + "--nodeSet 'far: plane 0 0 0 -1 0 0' " + files, 2, "no --export");
+  expectRefused(coarse + "--materials m.csv " + files, 2, "no --export");
   expectRefused(coarse + "--nodeSet 'far: cone' --export n.inp " + files, 2, "far: cone");
   expectRefused(coarse + "--nodeSet 'right: plane 0 0 0 -1 0 0' --export n.inp " + files, 1,
                 "right: the mesh has a set of nodes of this name");
