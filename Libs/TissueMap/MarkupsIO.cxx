@@ -103,13 +103,22 @@ void readMeasurements(const Json& markup, const std::vector<bool>& isPlaced, Mar
   }
 }
 
+/// A text, or a list of the unit's code, the scheme of codes and the unit's name.
+std::string unitsOf(const Json& markup)
+{
+  const Json* value = member(markup, "coordinateUnits");
+  if (!value || value->IsNull()) return "mm";
+  if (value->IsArray() && !value->Empty()) value = &(*value)[0];
+  return value->IsString() ? value->GetString() : "no text";
+}
+
 /// The control points that are placed: Slicer also keeps points "undefined", "missing" and "preview".
 Markup readMarkup(const Json& markup, const std::string& file)
 {
   const Json* controlPoints = markup.IsObject() ? member(markup, "controlPoints") : nullptr;
   if (!controlPoints || !controlPoints->IsArray()) throw InputError(file + ": a markup without controlPoints");
   const bool ras = isRas(textMember(markup, "coordinateSystem", "LPS"), file);
-  const std::string units = textMember(markup, "coordinateUnits", "mm");
+  const std::string units = unitsOf(markup);
   if (units != "mm") throw InputError(file + ": coordinates in \"" + units + "\", expected mm");
   Markup result;
   result.type = textMember(markup, "type", "");

@@ -119,6 +119,14 @@ TEST(Markups, RefusesCoordinatesThatAreNone)
   }
 }
 
+TEST(Markups, ReadsUnitsFromAList)
+{
+  const TemporaryFolder folder;
+  folder.write("a.mrk.json", R"({ "markups": [ { "coordinateUnits": ["mm", "UCUM", "millimeter"], "controlPoints": [)" +
+                               controlPoint("[1, 2, 3]") + "] } ] }");
+  EXPECT_EQ(readMarkups(folder.file("a.mrk.json")).at(0).at(0).x, 1);
+}
+
 TEST(Markups, RefusesDocumentsThatAreNone)
 {
   expectRefused("a.mrk.json", "{ \"markups\": [", "not valid JSON at byte");
@@ -126,7 +134,10 @@ TEST(Markups, RefusesDocumentsThatAreNone)
   expectRefused("a.mrk.json", R"({ "markups": [ 3 ] })", "without controlPoints");
   expectRefused("a.mrk.json", document(markup("Fiducial", "\"IJK\"", controlPoint("[1, 2, 3]"))),
                 "expected LPS or RAS");
-  expectRefused("a.mrk.json", R"({ "markups": [ { "coordinateUnits": "cm", "controlPoints": [] } ] })", "expected mm");
+  for (const char* units : { "\"cm\"", "[\"um\", \"UCUM\", \"micrometer\"]", "3" })
+    expectRefused("a.mrk.json",
+                  std::string(R"({ "markups": [ { "coordinateUnits": )") + units + R"(, "controlPoints": [] } ] })",
+                  "expected mm");
   expectRefused("a.fcsv", "# CoordinateSystem = 2\nF,1,2,3\n", "expected LPS or RAS");
   expectRefused("a.fcsv", "# columns = label,y,x,z\nF,1,2,3\n", "expected x,y,z");
 }
