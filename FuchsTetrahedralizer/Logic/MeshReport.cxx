@@ -22,6 +22,8 @@
 
 #include <rapidjson/document.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
