@@ -7,6 +7,7 @@
 #include "JsonReport.h"
 #include "MeshIO.h"
 #include "MeshQuality.h"
+#include "PrintableText.h"
 #include "SolidElements.h"
 #include "TextFile.h"
 #include "TissueMapIO.h"
@@ -20,10 +21,13 @@ namespace surgicalmesher
 namespace
 {
 
+/// Cut or filled to so many letters, of which UTF-8 has some in several bytes.
 std::string column(const std::string& text, int width)
 {
-  const std::string cut = text.substr(0, std::size_t(width));
-  return cut + std::string(std::size_t(width) - cut.size(), ' ');
+  std::size_t bytes = 0;
+  int letters = 0;
+  for (; letters < width && bytes < text.size(); ++letters) bytes += std::max<std::size_t>(1, utf8Length(text, bytes));
+  return text.substr(0, bytes) + std::string(std::size_t(width - letters), ' ');
 }
 
 std::string tissueColumn(Label label, const TissueTable& tissues)

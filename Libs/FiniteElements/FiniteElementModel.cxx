@@ -40,7 +40,7 @@ Neighbours neighboursOf(const std::vector<Cell>& elements)
     if (!(faces[i].first == faces[i - 1].first)) continue;
     const ElementFace here = faces[i].second, there = faces[i - 1].second;
     if (result[there.element][there.face].element >= 0)
-      throw InputError("element " + std::to_string(here.element + 1) + ": a face that three elements share");
+      throw InputError("element " + std::to_string(here.element) + " (the first is 0) has a face that three share");
     result[here.element][here.face] = there;
     result[there.element][there.face] = here;
   }

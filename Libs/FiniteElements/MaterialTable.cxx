@@ -77,10 +77,11 @@ TissueMaterial readMaterial(const TextTableRow& row)
   constexpr double huge = 1e30;
   TissueMaterial material;
   material.nonlinearLaw = readLaw(row);
-  material.youngsModulus = numberIn(row, ColumnYoung, 0, huge, "a finite number above 0 (kPa)") / kKiloPascal;
+  material.youngsModulus = numberIn(row, ColumnYoung, 0, huge, "a number above 0 and below 1e30 (kPa)") / kKiloPascal;
   material.poissonsRatio = numberIn(row, ColumnPoisson, -1, 0.5, "a number between -1 and 0.5");
   if (!row.fields[ColumnDensity].empty())
-    material.density = numberIn(row, ColumnDensity, 0, huge, "a finite number above 0 (kg/m^3)") / kKilogramPerM3;
+    material.density =
+      numberIn(row, ColumnDensity, 0, huge, "a number above 0 and below 1e30 (kg/m^3)") / kKilogramPerM3;
   return material;
 }
 
