@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -88,25 +89,37 @@ class CohortTest(unittest.TestCase):
         self.assert_done(run())
         assert_one_refused(self, "p3")
 
-    def test_5_lost_job_is_reported_and_tried_again(self):
+    @staticmethod
+    def write_failing_mesher():
+        """Modules of which the mesher fails three patients as machines do, and refuses one."""
         os.makedirs("bin", exist_ok=True)
         for name in os.listdir(BIN):
             if "CLI" in name and not os.path.exists(os.path.join("bin", name)):
                 os.symlink(os.path.join(BIN, name), os.path.join("bin", name))
         mesher = os.path.join("bin", "SimplexMesherCLI")
         os.remove(mesher)
-        with open(mesher, "w", encoding="utf-8") as file:  # the machine kills the second patient's job
-            file.write(f'#!/bin/sh\ncase "$*" in *p1.nrrd*) kill -9 $$;; esac\nexec {BIN}/SimplexMesherCLI "$@"\n')
+        with open(mesher, "w", encoding="utf-8") as file:
+            file.write('#!/bin/sh\ncase "$*" in\n'
+                       '*p1.nrrd*) kill -9 $$;;\n'
+                       '*p2.nrrd*) echo "SimplexMesherCLI: out of memory" >&2; exit 3;;\n'
+                       '*p4.nrrd*) trap "" XFSZ; ulimit -f 8;;\n'  # all room that there is for a file
+                       '*p6.nrrd*) echo "SimplexMesherCLI: p6.nrrd: cannot be read to its end" >&2; exit 1;;\n'
+                       f'esac\nexec {BIN}/SimplexMesherCLI "$@"\n')
         os.chmod(mesher, 0o755)
-        for patient in ("p1", "p2"):
+
+    def test_5_lost_job_is_reported_and_tried_again(self):
+        self.write_failing_mesher()
+        lost = {"p1": "signal 9", "p2": "out of memory", "p4": "written"}
+        for patient in (*lost, "p6", "p7"):
             shutil.rmtree(os.path.join("out", patient))
         self.assert_done(run(os.path.abspath("bin")), status=1)
         rows = read_summary()
-        self.assertEqual(rows["p1"]["state"], "lost at surface")
-        self.assertIn("signal 9", rows["p1"]["error"])
-        self.assertEqual(rows["p2"]["state"], "meshed")
+        for patient, words in lost.items():
+            self.assertEqual(rows[patient]["state"], "lost at surface", rows[patient])
+            self.assertIn(words, rows[patient]["error"])
+        self.assertEqual((rows["p6"]["state"], rows["p7"]["state"]), ("refused by surface", "meshed"))
         self.assert_done(run())
-        assert_one_refused(self, "p3")
+        self.assertEqual({patient for patient, row in read_summary().items() if row["state"] != "meshed"}, {"p3", "p6"})
 
     def test_6_every_patient_has_options_of_its_own(self):
         clear_folder()
@@ -276,6 +289,43 @@ class ConfigurationTest(unittest.TestCase):
         for name, row in rows.items():
             self.assertTrue(os.path.exists(os.path.join("out", row["log"])), name)
             self.assertGreater(os.path.getsize(os.path.join("out", row["picture"])), 10_000, name)
+
+
+class StageTest(unittest.TestCase):
+    """What a program's end means: a result of the stage, or that the job is lost."""
+
+    def setUp(self):
+        clear_folder()
+
+    def status_after(self, status, line):
+        script = f"echo {shlex.quote(line)} >&2; exit {status}"
+        stage = [sys.executable, os.path.join(ROOT, "workflow", "scripts", "stage.py"), "surface", "out", "out.log", "--",
+                 "sh", "-c", script]
+        shutil.rmtree("out", ignore_errors=True)
+        done = subprocess.run(stage, check=False).returncode
+        self.assertEqual(os.path.exists("out/run.json"), done == 0, line)
+        return done
+
+    def test_results(self):
+        for status, line in ((0, ""), (2, "X: --edgeLength: '-1' found, a number expected"),
+                             (1, "X: p0.nrrd: cannot be opened for reading"), (1, "X: p0.nrrd: cannot be read to its end"),
+                             (1, "X: out/a.xyz: cannot be written as an image, expected the extension of NRRD"),
+                             (1, "X: out/a.msh: label 120 found, SimNIBS's tissues are 1 to 99")):
+            self.assertEqual(self.status_after(status, line), 0, line)
+
+    def test_lost(self):
+        for status, line in ((3, "X: out of memory"), (139, ""), (3, ""),
+                             (1, "X: out/a.vtu: can't be written to its end (No space left on device)"),
+                             (1, "X: out/a.vtu: can't be opened for writing (Permission denied)"),
+                             (1, "X: out/a.nrrd: cannot be written whole, expected room for it on the disk"),
+                             (1, "X: out/a.vtp: disk full or failing, room for the file expected"),
+                             (1, "X: out/a.vtp: can't be replaced, a writable file expected"),
+                             (1, "X: out/a.vtp: can't create a file in out, a writable folder expected"),
+                             (1, "X: p0.nrrd: meshing this map at this scale takes about 9 GB of memory, found 4 GB "
+                                 "available, expected more, or larger voxels or minimum edge length")):
+            self.assertEqual(self.status_after(status, line), 1, line)
+            with open("out.log", encoding="utf-8") as log:
+                self.assertEqual(log.read().strip(), line or f"sh ended by status {status}")
 
 
 class RefusalTest(unittest.TestCase):

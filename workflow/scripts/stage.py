@@ -1,19 +1,25 @@
 #!/usr/bin/python3
 """Runs one stage for one patient. usage: stage.py STAGE FOLDER LOG [--after FOLDER] -- COMMAND...
 
-Leaves run.json in FOLDER: stage, exit status, error line, seconds and peak memory (bytes). The exit statuses 1 to 3,
-by which the programs refuse their input, are results like others; if the stage before ended with one, it is handed on
-and nothing runs. Whatever else goes wrong is the machine's fault and ends this script with status 1.
+Leaves run.json in FOLDER: stage, exit status, error line, seconds and peak memory (bytes). The exit statuses 1 and 2,
+by which the programs refuse their input and their options, are results like others; if the stage before ended with one,
+it is handed on and nothing runs. Whatever else goes wrong may go well another time and ends this script with status 1:
+signals, status 3, by which the programs tell of a failure of their own as for want of memory, and status 1 where it is
+the room for the outputs or the memory that is not there.
 """
 import argparse
 import json
 import os
+import re
 import resource
 import subprocess
 import sys
 import time
 
-RESULTS = range(4)
+DONE, BAD_INPUT, BAD_OPTION, FAILURE = range(4)
+# What the programs say, with the status of bad input, when the input is not at fault.
+WANTING = re.compile(r": (can't|cannot) (be (opened for writing|replaced|written(?! as an image))|create a file)"
+                     r"|: disk full|, a writable (file|folder) expected| of memory, found .* available")
 LONGEST = 500  # characters of a line for a table
 
 
@@ -44,8 +50,16 @@ def printable(text):
 def last_line(text):
     """What a program says last on stderr is why it ended."""
     lines = [line for line in text.split("\n") if line.strip()]
-    line = printable(lines[-1]) if lines else "no message"
+    return printable(lines[-1]) if lines else "no message"
+
+
+def shortened(line):
     return line if len(line) <= LONGEST else line[:LONGEST] + " ..."
+
+
+def is_result(status, error):
+    """Whether the same files and options would end so on any machine."""
+    return status in (DONE, BAD_OPTION) or (status == BAD_INPUT and not WANTING.search(error))
 
 
 def run(arguments):
@@ -55,12 +69,14 @@ def run(arguments):
                                  check=False)
         said = process.stderr.decode("utf-8", "backslashreplace")
         log.write("\n".join(printable(line) for line in said.split("\n")))
-        if process.returncode not in RESULTS:
-            end = f"signal {-process.returncode}" if process.returncode < 0 else f"status {process.returncode}"
-            log.write(f"{arguments.command[0]} ended by {end}\n")
+        error = last_line(said)
+        if not is_result(process.returncode, error):
+            if process.returncode not in (BAD_INPUT, FAILURE) or not said.strip():  # it could not tell why
+                end = f"signal {-process.returncode}" if process.returncode < 0 else f"status {process.returncode}"
+                log.write(f"{arguments.command[0]} ended by {end}\n")
             sys.exit(1)
     return {"stage": arguments.stage, "status": process.returncode,
-            "error": last_line(said) if process.returncode else "",
+            "error": shortened(error) if process.returncode else "",
             "seconds": round(time.monotonic() - start, 2),
             "peakMemory": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss * 1024}
 
