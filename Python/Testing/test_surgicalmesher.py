@@ -261,6 +261,41 @@ class MeshingTest(unittest.TestCase):
         other = surgicalmesher.mesh(ball() // 5, **arguments)
         self.assertEqual(set(other.tissue_labels), {1})
 
+    def assert_map_stays(self, folder, call, error):
+        before, names = bytes_of(f"{folder}/map.nrrd"), set(os.listdir(folder))
+        with self.assertRaises(error):
+            call()
+        self.assertEqual(bytes_of(f"{folder}/map.nrrd"), before)
+        self.assertEqual(set(os.listdir(folder)), names)
+
+    def test_failed_run_leaves_the_earlier_map(self):
+        def refused():
+            surgicalmesher.mesh(ball() // 5, **arguments, noSuchOption=1)
+
+        def cancelled():
+            surgicalmesher.mesh(ball() // 5, **arguments, progress=cancel)
+
+        def cancel(share, stage):
+            raise InterruptedError(stage)
+
+        arguments = dict(preset="draft", targets=(5, 5, 5), folder="again")
+        os.makedirs("again")
+        with open("again/map.nrrd", "wb") as stream:
+            stream.write(b"the user's own")
+        self.assert_map_stays("again", refused, surgicalmesher.MeshingError)
+        self.assert_map_stays("again", cancelled, InterruptedError)
+        mesh = surgicalmesher.mesh(ball(), **arguments)
+        self.assertEqual([name for name in os.listdir("again") if name.startswith((".", "map"))], ["map.nrrd"])
+        self.assert_map_stays("again", refused, surgicalmesher.MeshingError)
+        program("mesh", "--config", "again/run.toml")
+        self.assertEqual(bytes_of("again/mesh.vtu"), mesh.vtu)
+
+    def test_map_that_cannot_be_written(self):
+        os.makedirs("taken/map.nrrd")
+        with self.assertRaises(OSError):
+            surgicalmesher.mesh(ball(), preset="draft", targets=(5, 5, 5), folder="taken")
+        self.assertEqual(os.listdir("taken"), ["map.nrrd"])
+
     def test_images_own_file_is_not_overwritten(self):
         os.makedirs("case")
         write_nifti("case/map.nii", 1, 1)

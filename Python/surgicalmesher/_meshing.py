@@ -58,8 +58,27 @@ def _is_source(image: Any, file: str) -> bool:
 
 
 @contextlib.contextmanager
+def _anew(file: str) -> Iterator[None]:
+    """The file may be written. What was there before comes back, and otherwise nothing, if what is done with it fails."""
+    aside = os.path.join(os.path.dirname(file), f".{os.getpid()}.{os.path.basename(file)}")
+    was_there = os.path.lexists(file) and not os.path.isdir(file)  # into a folder's place nothing is written
+    try:
+        if was_there:
+            os.rename(file, aside)
+        yield
+    except BaseException:
+        if os.path.lexists(aside):
+            os.replace(aside, file)
+        elif not was_there and os.path.isfile(file):
+            os.remove(file)
+        raise
+    if was_there:
+        os.remove(aside)
+
+
+@contextlib.contextmanager
 def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
-    """The map's file: its own, or one that is written into the folder."""
+    """The map's file: its own, or one that is written into the folder, and stays there if the run succeeds."""
     if isinstance(labels, (str, os.PathLike)):
         if any(value is not None for value in grid):
             raise ValueError(f"spacing, origin and directions are the file's own, {ARRAYS_ONLY}")
@@ -72,11 +91,10 @@ def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
     made = not os.path.isdir(folder)
     os.makedirs(folder, exist_ok=True)
     try:
-        write_map(content, labels, file)
-        yield file
+        with _anew(file):
+            write_map(content, labels, file)
+            yield file
     except BaseException:
-        with contextlib.suppress(FileNotFoundError):
-            os.remove(file)
         if made:
             with contextlib.suppress(OSError):  # stages that were complete stay in it
                 os.rmdir(folder)
