@@ -18,11 +18,12 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkImageData
 
 import surgicalmesher
-from surgicalmesher._label_map import label_map
+from surgicalmesher._label_map import label_map, write_map
 
 SOURCE, PROGRAMS, OUTDIR = (os.path.abspath(path) for path in sys.argv[1:4])
-sys.path.insert(0, os.path.join(SOURCE, "Testing", "Python"))
+sys.path[:0] = [os.path.join(SOURCE, "Testing", "Python"), os.path.join(SOURCE, "workflow", "example")]
 from maps import LPS_FROM_RAS, cut_out, write_nrrd  # noqa: E402
+from meshfiles import read_nrrd  # noqa: E402
 
 TARGET = (-4.0, 12.0, -7.0)
 OPTIONS = {"minimumEdgeLength": 1.5, "maximumEdgeLength": 6, "minimumIslandVolume": np.float32(30)}
@@ -91,6 +92,17 @@ class LabelMapTest(unittest.TestCase):
         self.assert_map(self.labels, np.eye(4))
         self.assert_map(self.labels.astype(float), spacing=SPACING, origin=ORIGIN, directions=LEFT_HANDED)
         self.assert_map(self.labels.tolist(), np.diag([2, 3, 4, 1]), spacing=[2, 3, 4])
+
+    def test_masked_voxels_are_background(self):
+        masked = np.ma.masked_array(self.labels, self.labels % 7 == 0)
+        self.labels = np.where(self.labels % 7 == 0, 0, self.labels)
+        self.assert_map(masked, np.eye(4))
+        self.assertNotIsInstance(label_map(masked, None, None, None).labels, np.ma.MaskedArray)
+        hidden = np.ma.masked_array(np.where(masked.mask, np.nan, self.labels), masked.mask)
+        self.assert_map(hidden, np.eye(4))
+        write_map(label_map(masked, None, None, None), masked, "masked.nrrd")
+        self.addCleanup(os.remove, "masked.nrrd")
+        np.testing.assert_array_equal(read_nrrd("masked.nrrd")[0], self.labels)
 
     def test_nibabel(self):
         self.assert_map(nibabel.Nifti1Image(self.labels.astype(np.int16), LPS_FROM_RAS @ oblique_affine()))

@@ -74,6 +74,8 @@ def _from_vtk(image: Any) -> "tuple[Any, npt.NDArray[np.float64]]":
 
 def _as_labels(values: Any) -> npt.NDArray[np.uint16]:
     values = np.asanyarray(values)
+    if isinstance(values, np.ma.MaskedArray):
+        values = values.filled(0)  # what is under a mask is no label
     if values.ndim == 4 and values.shape[3] == 1:
         values = values[..., 0]
     if values.ndim != 3:
