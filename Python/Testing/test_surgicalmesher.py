@@ -146,6 +146,17 @@ class LabelMapTest(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "^origin: "):
             label_map(vtk_image(self.labels), None, ORIGIN, None)
 
+    def test_refused_grids(self):
+        for number in (np.nan, np.inf):
+            for grid, name in (([(1, number, 1), None, None], "spacing"), ([None, (0, 0, number), None], "origin"),
+                               ([None, None, np.diag([1, 1, number])], "directions")):
+                with self.assertRaisesRegex(ValueError, f"^{name}: .*(nan|inf).*expected"):
+                    label_map(self.labels, *grid)
+            image = vtk_image(self.labels)
+            image.SetOrigin(0, 0, number)
+            with self.assertRaisesRegex(ValueError, "^labels: .*(nan|inf).*expected"):
+                label_map(image, None, None, None)
+
 
 class MeshingTest(unittest.TestCase):
     @classmethod

@@ -37,10 +37,17 @@ def _is_vtk(image: Any) -> bool:
     return hasattr(image, "GetIndexToPhysicalMatrix") and hasattr(image, "GetPointData")
 
 
+def _finite(name: str, values: Any) -> npt.NDArray[np.float64]:
+    numbers = np.asarray(values, float)
+    if not np.isfinite(numbers).all():
+        raise ValueError(f"{name}: {numbers.tolist()} found, finite numbers expected")
+    return numbers
+
+
 def _affine(spacing: Any, origin: Any, directions: Any) -> npt.NDArray[np.float64]:
     affine = np.eye(4)
-    affine[:3, :3] = np.asarray(directions, float).reshape(3, 3) * np.asarray(spacing, float).reshape(3)
-    affine[:3, 3] = np.asarray(origin, float).reshape(3)
+    affine[:3, :3] = _finite("directions", directions).reshape(3, 3) * _finite("spacing", spacing).reshape(3)
+    affine[:3, 3] = _finite("origin", origin).reshape(3)
     return affine
 
 
@@ -62,7 +69,7 @@ def _from_vtk(image: Any) -> "tuple[Any, npt.NDArray[np.float64]]":
     if (at_points is None) == (in_cells is None):
         raise ValueError("labels: an image with one active scalar array, of points or of cells, expected")
     matrix = image.GetIndexToPhysicalMatrix()
-    affine = np.array([[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])
+    affine = _finite("labels: affine", [[matrix.GetElement(row, column) for column in range(4)] for row in range(4)])
     first, sizes = np.array(image.GetExtent()[::2], float), np.array(image.GetDimensions())
     if at_points is None:
         first, sizes = first + 0.5, np.maximum(sizes - 1, 1)
@@ -101,7 +108,7 @@ def label_map(image: Any, spacing: Optional[Sequence[float]], origin: Optional[S
         raise ValueError(f"{given[0]}: the image has its own, {ARRAYS_ONLY}")
     if _is_nibabel(image):
         affine = image.header.get_best_affine() if image.affine is None else image.affine
-        return LabelMap(_as_labels(image.dataobj), LPS_FROM_RAS @ affine)
+        return LabelMap(_as_labels(image.dataobj), LPS_FROM_RAS @ _finite("labels: affine", affine))
     values, affine = _from_simpleitk(image) if _is_simpleitk(image) else _from_vtk(image)
     return LabelMap(_as_labels(values), affine)
 
