@@ -4,6 +4,7 @@ usage: test_surgicalmesher.py SOURCE PROGRAMS OUTDIR, by the environment's Pytho
 """
 import json
 import os
+import pathlib
 import shutil
 import signal
 import subprocess
@@ -362,12 +363,26 @@ class MeshingTest(unittest.TestCase):
         self.assertFalse(os.path.exists("refused"))
         with self.assertRaisesRegex(ValueError, "^targets: "):
             surgicalmesher.mesh(ball(), targets=[1, 2])
-        with self.assertRaisesRegex(ValueError, "^export: "):
-            surgicalmesher.mesh(ball(), export="head.inp")
+        with self.assertRaisesRegex(ValueError, "^folder: '' found"):
+            surgicalmesher.mesh(ball(), folder="")
         with self.assertRaisesRegex(ValueError, "^spacing.*scaleSpacing"):
             surgicalmesher.mesh("map.nrrd", spacing=(1, 1, 1))
         with self.assertRaisesRegex(surgicalmesher.MeshingError, "map.nrrd: "), warnings.catch_warnings():
             surgicalmesher.read_mesh("map.nrrd")
+
+    def test_outputs_that_would_go_with_the_folder(self):
+        for outputs in (dict(export="head.inp"), dict(export=["new/head.inp", "head.msh"]), dict(export="new/a.inp,b.inp"),
+                        dict(evolution="e.csv"), dict(parentMesh=pathlib.Path("p.vtu"))):
+            with self.assertRaisesRegex(ValueError, f"^{list(outputs)[0]}: .*folder="):
+                surgicalmesher.mesh(ball(), targets=(5, 5, 5), preset="draft", **outputs)
+        os.makedirs("elsewhere")
+        write_nrrd("ball.nrrd", ball().astype(np.uint16), np.eye(4))
+        with open("names.ctbl", "w", encoding="utf-8") as stream:  # an output of one program, an input of this one
+            stream.write("2 inner 255 0 0 255\n5 outer 0 255 0 255\n")
+        mesh = surgicalmesher.mesh("ball.nrrd", targets=(5, 5, 5), preset="draft", names="names.ctbl",
+                                   evolution="elsewhere/e.csv", export=["elsewhere/ball.inp"])
+        self.assertEqual(mesh.tissue_names, {2: "inner", 5: "outer"})
+        self.assertEqual(set(os.listdir("elsewhere")), {"e.csv", "ball.inp", "ball.inp.names.json"})
 
     def test_callback_cancels(self):
         def refuse(share, stage):

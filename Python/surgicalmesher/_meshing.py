@@ -9,7 +9,7 @@ from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence
 import numpy as np
 
 from ._label_map import ARRAYS_ONLY, file_name, label_map, write_map
-from ._programs import Progress, run
+from ._programs import Progress, output_flags, run
 from ._tetrahedra import Mesh, read_mesh
 
 
@@ -49,6 +49,23 @@ def _place_arguments(flag: str, point_flag: str, places: Any) -> List[str]:
     if points.ndim == 0 or points.size == 0 or points.shape[-1] != 3 or points.ndim > 2:
         raise ValueError(f"{flag}: points of three numbers (mm, LPS) or files expected, found {places!r}")
     return option_arguments({point_flag: points.reshape(-1, 3)})
+
+
+def _lies_in_results(value: Any) -> bool:
+    """Whether one of an output's names has no folder of its own."""
+    if isinstance(value, (str, os.PathLike)):
+        return any(not os.path.dirname(name) for name in os.fspath(value).split(","))
+    return hasattr(value, "__iter__") and any(map(_lies_in_results, value))
+
+
+def _require_kept(options: Mapping[str, Any]) -> None:
+    """Raises ValueError for outputs that would go with a temporary folder."""
+    names = [name for name, value in options.items() if _lies_in_results(value)]
+    outputs = output_flags() if names else ()
+    for name in names:
+        if name in outputs:
+            raise ValueError(f"{name}: {options[name]!r} would lie in the folder of the results, expected with folder=, or "
+                             "with a folder of its own")
 
 
 def _is_source(image: Any, file: str) -> bool:
@@ -120,15 +137,18 @@ def mesh(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Opti
     path          points from entry to target (mm, LPS), or files of markups
     preset        draft, default, fine or simulation
     scaleSpacing  mm between voxels of the scale volume, the program's --spacing
-    folder        where the files and the report of the run stay; without it they go with a temporary folder
+    folder        where the files and the report of the run stay; without it they go with a temporary folder, and
+                  outputs asked for need one of their own: export="models/head.inp"
     progress      called with the share done, from 0 to 1, and the name of the stage; what it raises cancels the run
-    options       those of `surgicalmesher mesh --help`, by name: minimumEdgeLength=0.5, export=["head.inp"], ...
+    options       those of `surgicalmesher mesh --help`, by name: minimumEdgeLength=0.5, threads=1, ...
 
     VTK's and pyvista's images are taken as LPS. Ctrl-C ends the run; without `folder`, nothing stays of it. Raises
     MeshingError with the program's sentence, ValueError for what is no map; warns by MeshingWarning.
     """
-    if folder is None and "export" in options:
-        raise ValueError("export: its files lie in the folder of the results, expected with folder=")
+    if folder is None:
+        _require_kept(options)
+    elif not os.fspath(folder):
+        raise ValueError("folder: '' found, a folder expected")
     with tempfile.TemporaryDirectory(prefix="surgicalmesher-") as scratch:
         results = os.path.join(scratch, "results") if folder is None else os.path.abspath(folder)
         words = _arguments(targets, path, {"preset": preset, "spacing": scaleSpacing, **options})

@@ -5,9 +5,11 @@ import os
 import subprocess
 import tempfile
 import warnings
-from typing import Callable, Optional, Sequence
+import xml.etree.ElementTree as xml
+from typing import Callable, Dict, List, Optional, Sequence, Set
 
 Progress = Callable[[float, str], None]
+STAGES = ("SurgicalPathScaleCLI", "SimplexMesherCLI", "FuchsTetrahedralizerCLI", "TissueMapperCLI")
 
 
 class MeshingError(RuntimeError):
@@ -27,6 +29,30 @@ def program() -> str:
     """Path of the program: in the package, or in the folder that SURGICALMESHER_PROGRAMS names."""
     package = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bin")
     return os.path.join(os.environ.get("SURGICALMESHER_PROGRAMS", package), "surgicalmesher")
+
+
+def _missing(path: str, error: OSError) -> MeshingError:
+    return MeshingError(f"{path}: {error.strerror}, expected the program {os.path.basename(path)}", 3)
+
+
+def _parameters(*words: str) -> List[xml.Element]:
+    """Those with a flag, as a program describes itself."""
+    try:
+        described = subprocess.run([*words, "--xml"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, check=True).stdout
+    except OSError as error:
+        raise _missing(words[0], error) from None
+    return [found for found in xml.fromstring(described).iterfind("parameters/*") if found.findtext("longflag")]
+
+
+def output_flags() -> Set[str]:
+    """Of the stages of `surgicalmesher mesh`, whose own description has them as texts. What an earlier stage reads and
+    a later one writes is to be read."""
+    folder = os.path.dirname(os.path.realpath(program()))
+    channels: Dict[str, Optional[str]] = {}
+    for stage in STAGES:
+        for parameter in _parameters(os.path.join(folder, stage)):
+            channels.setdefault(str(parameter.findtext("longflag")), parameter.findtext("channel"))
+    return {flag for flag, channel in channels.items() if channel == "output"}
 
 
 def _hand_on(line: bytes, progress: Optional[Progress]) -> None:
@@ -54,7 +80,7 @@ def run(command: str, arguments: Sequence[str], progress: Optional[Progress] = N
         try:
             child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors)
         except OSError as error:
-            raise MeshingError(f"{words[0]}: {error.strerror}, expected the program surgicalmesher", 3) from None
+            raise _missing(words[0], error) from None
         with child:
             try:
                 assert child.stdout is not None
