@@ -20,6 +20,7 @@ from vtkmodules.vtkCommonDataModel import vtkImageData
 
 import surgicalmesher
 from surgicalmesher._label_map import label_map, write_map
+from surgicalmesher._meshing import option_arguments
 
 SOURCE, PROGRAMS, OUTDIR = (os.path.abspath(path) for path in sys.argv[1:4])
 sys.path[:0] = [os.path.join(SOURCE, "Testing", "Python"), os.path.join(SOURCE, "workflow", "example")]
@@ -255,6 +256,39 @@ class MeshingTest(unittest.TestCase):
         with self.assertRaisesRegex(surgicalmesher.MeshingError, "ours.xyz") as caught:
             self.mesh.save("ours.xyz")
         self.assertEqual((caught.exception.status, os.path.exists("ours.xyz")), (2, False))
+
+    def test_values_of_options(self):
+        for options, words in ((dict(minimumEdgeLength=np.array(3)), ["--minimumEdgeLength=3"]),
+                               (dict(threads=[np.array(1.5)]), ["--threads=1.5"]),
+                               (dict(correctBias=np.array(True), noProximity=False), ["--correctBias"]),
+                               (dict(proximity=(0.5, 1)), ["--proximity=0.5,1"]),
+                               (dict(proximity=np.array([0.5, 1])), ["--proximity=0.5,1"]),
+                               (dict(proximity="0,0"), ["--proximity=0,0"]),
+                               (dict(export=["a.inp", "b.inp"]), ["--export=a.inp", "--export=b.inp"]),
+                               (dict(targetPoint=[(1, 2, 3), (4, 5, 6)]), ["--targetPoint=1,2,3", "--targetPoint=4,5,6"])):
+            self.assertEqual(option_arguments("mesh", options), words)
+        figures = surgicalmesher.mesh(ball(), targets=(5, 5, 5), preset="draft", proximity=(0.5, 1))
+        self.assertEqual(set(figures.tissue_labels), {2, 5})
+
+    def test_options_that_answer_questions(self):
+        for name in ("help", "version", "xml", "echo"):
+            for call in (lambda **more: surgicalmesher.mesh(ball(), targets=(5, 5, 5), **more),
+                         lambda **more: surgicalmesher.estimate(ball(), targets=(5, 5, 5), **more),
+                         lambda **more: self.mesh.save("saved.inp", **more)):
+                with self.assertRaisesRegex(ValueError, f"^{name}: "):
+                    call(**{name: True})
+        with self.assertRaisesRegex(ValueError, "^progress: "):
+            surgicalmesher.estimate(ball(), targets=(5, 5, 5), progress=print)
+
+    def test_files_that_are_no_mesh_of_all_arrays(self):
+        self.mesh.save("plain.vtu", elementOrder=1)
+        self.mesh.save("second.vtu", elementOrder=2)
+        with open("cut.vtu", "wb") as stream:
+            stream.write(self.mesh.vtu[:2000])
+        for file, words in (("plain.vtu", "no array TissueNames"), ("second.vtu", ".*of four points alone"), ("cut.vtu", "")):
+            with self.assertRaisesRegex(surgicalmesher.MeshingError, f"^{file}: {words}.*expected") as caught:
+                surgicalmesher.read_mesh(file)
+            self.assertEqual(caught.exception.status, 1)
 
     def test_meshio(self):
         self.mesh.to_meshio().write("meshio.vtu")

@@ -4,17 +4,26 @@ import contextlib
 import json
 import os
 import tempfile
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence
 
 import numpy as np
 
 from ._label_map import ARRAYS_ONLY, file_name, label_map, write_map
-from ._programs import Progress, output_flags, run
+from ._programs import Progress, output_flags, run, vector_flags
 from ._tetrahedra import Mesh, read_mesh
+
+
+QUESTIONS = {"help", "version", "xml", "echo", "progress"}  # about a program, which answers in other lines than are read
+
+
+def _plain(value: Any) -> Any:
+    """An array without axes is the number in it."""
+    return value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
 
 
 def _word(value: Any) -> str:
     """A value as the programs read it; a point as x,y,z."""
+    value = _plain(value)
     if isinstance(value, (str, os.PathLike)):
         return os.fspath(value)
     if isinstance(value, (int, np.integer)):
@@ -25,15 +34,27 @@ def _word(value: Any) -> str:
     return ",".join(_word(part) for part in value)
 
 
-def option_arguments(options: Mapping[str, Any]) -> List[str]:
-    """`--name=value` of every option that is not None; a sequence repeats its flag, True is a flag alone."""
-    words = []
-    for name, value in options.items():
+def _is_sequence(value: Any) -> bool:
+    return not isinstance(value, (str, os.PathLike)) and hasattr(value, "__iter__")
+
+
+def _repeated(name: str, values: Iterable[Any]) -> List[str]:
+    return [f"--{name}={_word(value)}" for value in values]
+
+
+def option_arguments(command: str, options: Mapping[str, Any]) -> List[str]:
+    """`--name=value` of every option that is not None; a sequence repeats its flag, but where one value is several
+    numbers; True is a flag alone. Raises ValueError for what is a question, and no option of the command."""
+    words: List[str] = []
+    plain = {name: _plain(value) for name, value in options.items()}
+    vectors = vector_flags(command) if any(map(_is_sequence, plain.values())) else set()
+    for name, value in plain.items():
+        if name in QUESTIONS:
+            raise ValueError(f"{name}: no option of this function, expected those of `surgicalmesher {command} --help`")
         if isinstance(value, (bool, np.bool_)):
             words += [f"--{name}"] if value else []
         elif value is not None:
-            single = isinstance(value, (str, os.PathLike)) or not hasattr(value, "__iter__")
-            words += [f"--{name}={_word(part)}" for part in ([value] if single else value)]
+            words += _repeated(name, value if _is_sequence(value) and name not in vectors else [value])
     return words
 
 
@@ -44,17 +65,18 @@ def _place_arguments(flag: str, point_flag: str, places: Any) -> List[str]:
     if isinstance(places, (str, os.PathLike)):
         places = [places]
     if len(places) and all(isinstance(place, (str, os.PathLike)) for place in places):
-        return option_arguments({flag: places})
+        return _repeated(flag, places)
     points = np.asarray(places, dtype=float)
     if points.ndim == 0 or points.size == 0 or points.shape[-1] != 3 or points.ndim > 2:
         raise ValueError(f"{flag}: points of three numbers (mm, LPS) or files expected, found {places!r}")
-    return option_arguments({point_flag: points.reshape(-1, 3)})
+    return _repeated(point_flag, points.reshape(-1, 3))
 
 
 def _lies_in_results(value: Any) -> bool:
     """Whether one of an output's names has no folder of its own."""
     if isinstance(value, (str, os.PathLike)):
         return any(not os.path.dirname(name) for name in os.fspath(value).split(","))
+    value = _plain(value)
     return hasattr(value, "__iter__") and any(map(_lies_in_results, value))
 
 
@@ -118,9 +140,9 @@ def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
         raise
 
 
-def _arguments(targets: Any, path: Any, options: Mapping[str, Any]) -> List[str]:
+def _arguments(command: str, targets: Any, path: Any, options: Mapping[str, Any]) -> List[str]:
     return [*_place_arguments("targets", "targetPoint", targets), *_place_arguments("path", "pathPoint", path),
-            *option_arguments(options)]
+            *option_arguments(command, options)]
 
 
 def mesh(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Optional[Sequence[float]] = None,
@@ -151,7 +173,7 @@ def mesh(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Opti
         raise ValueError("folder: '' found, a folder expected")
     with tempfile.TemporaryDirectory(prefix="surgicalmesher-") as scratch:
         results = os.path.join(scratch, "results") if folder is None else os.path.abspath(folder)
-        words = _arguments(targets, path, {"preset": preset, "spacing": scaleSpacing, **options})
+        words = _arguments("mesh", targets, path, {"preset": preset, "spacing": scaleSpacing, **options})
         with _map_file(labels, (spacing, origin, directions), results) as file:
             run("mesh", [*words, file, results], progress)
         return read_mesh(os.path.join(results, "mesh.vtu"))
@@ -165,7 +187,7 @@ def estimate(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: 
     set lengths. Raises as `mesh` does."""
     with tempfile.TemporaryDirectory(prefix="surgicalmesher-") as scratch:
         figures = os.path.join(scratch, "estimate.json")
-        words = _arguments(targets, path, {"preset": preset, "spacing": scaleSpacing, **options})
+        words = _arguments("estimate", targets, path, {"preset": preset, "spacing": scaleSpacing, **options})
         with _map_file(labels, (spacing, origin, directions), scratch) as file:
             run("estimate", [*words, f"--estimate={figures}", file])
         with open(figures, encoding="utf-8") as stream:

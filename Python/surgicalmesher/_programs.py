@@ -55,6 +55,12 @@ def output_flags() -> Set[str]:
     return {flag for flag, channel in channels.items() if channel == "output"}
 
 
+def vector_flags(command: str) -> Set[str]:
+    """Of `surgicalmesher command`: those whose one value is several numbers."""
+    return {str(parameter.findtext("longflag")) for parameter in _parameters(program(), command)
+            if parameter.tag.endswith("-vector")}
+
+
 def _hand_on(line: bytes, progress: Optional[Progress]) -> None:
     """A line of --progress json."""
     event = json.loads(line)

@@ -43,7 +43,7 @@ class Mesh:
             source = os.path.join(scratch, "mesh.vtu")
             with open(source, "wb") as stream:
                 stream.write(self.vtu)
-            run("convert", [*option_arguments(options), source, os.path.abspath(file)])
+            run("convert", [*option_arguments("convert", options), source, os.path.abspath(file)])
 
     def to_meshio(self) -> Any:
         """A meshio.Mesh with the same arrays."""
@@ -68,8 +68,10 @@ class Mesh:
 
 
 def read_mesh(file: "str | os.PathLike[str]") -> Mesh:
-    """A mesh.vtu that Fuchs Tetrahedralizer or `surgicalmesher mesh` wrote. Raises MeshingError for other files."""
+    """A mesh.vtu that Fuchs Tetrahedralizer or `surgicalmesher mesh` wrote. Raises MeshingError for others, as `convert`
+    writes them: they have no names and colours of tissues."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonDataModel import VTK_TETRA
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
     file = os.fspath(file)
@@ -81,16 +83,21 @@ def read_mesh(file: "str | os.PathLike[str]") -> Mesh:
     reader.SetFileName(file)
     reader.Update()
     grid = reader.GetOutput()
+    if grid.GetNumberOfCells() == 0 or (vtk_to_numpy(grid.GetCellTypesArray()) != VTK_TETRA).any():
+        raise MeshingError(f"{file}: other cells or none found, tetrahedra of four points alone expected", 1)
 
-    def array(data: Any, name: str) -> Any:
-        values = data.GetArray(name)
+    def found(data: Any, name: str) -> Any:
+        values = data.GetAbstractArray(name)
         if values is None:
             raise MeshingError(f"{file}: no array {name}, expected tetrahedra that surgicalmesher wrote", 1)
-        return vtk_to_numpy(values).copy()
+        return values
+
+    def array(data: Any, name: str) -> Any:
+        return vtk_to_numpy(found(data, name)).copy()
 
     cells, texts = grid.GetCellData(), grid.GetFieldData()
     ids = [int(label) for label in array(texts, "TissueIds")]
-    names = texts.GetAbstractArray("TissueNames")
+    names = found(texts, "TissueNames")
     colors = array(texts, "TissueColors")
     return Mesh(
         points=vtk_to_numpy(grid.GetPoints().GetData()).astype(np.float64),
