@@ -257,6 +257,25 @@ class MeshingTest(unittest.TestCase):
             self.mesh.save("ours.xyz")
         self.assertEqual((caught.exception.status, os.path.exists("ours.xyz")), (2, False))
 
+    def test_names_with_commas(self):
+        os.makedirs("Doe, John")
+        for ours, theirs in (("Doe, John/ours.inp", "theirs.inp"), ("ours, too.inp", "theirs.inp"),
+                             ("a,b.xdmf", "theirs.xdmf")):
+            program("convert", "out/mesh.vtu", theirs)
+            for _ in range(2):  # new, and there already
+                self.mesh.save(ours)
+                self.assertEqual(bytes_of(ours), bytes_of(theirs).replace(b"theirs.h5", b"a,b.h5"))
+        self.assertEqual(len(meshio.read("a,b.xdmf").cells_dict["tetra"]), len(self.mesh.tetrahedra))
+        self.mesh.save("c,d.stl")
+        self.assertTrue(all(os.path.getsize(name) for name in os.listdir() if name.startswith("c,d")))
+        for file, status in (("no,such/ours.inp", 1), ("a,b.xyz", 2)):
+            with self.assertRaises(surgicalmesher.MeshingError) as caught:
+                self.mesh.save(file)
+            self.assertEqual((caught.exception.status, os.path.exists(file)), (status, False), file)
+        with self.assertRaises(surgicalmesher.MeshingError):
+            self.mesh.save("ours, too.inp", noSuchOption=1)
+        self.assertEqual(bytes_of("ours, too.inp"), bytes_of("theirs.inp"))
+
     def test_values_of_options(self):
         for options, words in ((dict(minimumEdgeLength=np.array(3)), ["--minimumEdgeLength=3"]),
                                (dict(threads=[np.array(1.5)]), ["--threads=1.5"]),

@@ -1,14 +1,33 @@
 # SPDX-License-Identifier: Apache-2.0
 """The mesh as arrays."""
+import contextlib
 import os
 import tempfile
 from dataclasses import dataclass, field
-from typing import Any, Dict, Tuple
+from typing import Any, Dict, Iterator, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from ._programs import MeshingError, run
+
+
+@contextlib.contextmanager
+def _one_name(file: str) -> Iterator[None]:
+    """The program takes a name with commas for a list of names, unless there is such a file: an empty one stands in."""
+    if "," not in file or os.path.exists(file):
+        yield
+        return
+    try:
+        with open(file, "xb"):
+            pass
+    except OSError as error:
+        raise MeshingError(f"{file}: {error.strerror}, a writable folder expected", 1) from None
+    try:
+        yield
+    finally:
+        if os.path.exists(file) and os.path.getsize(file) == 0:  # refused, or a format of other files
+            os.remove(file)
 
 
 @dataclass(frozen=True)
@@ -34,7 +53,7 @@ class Mesh:
         `surgicalmesher convert` does (.inp, .feb, .msh ...), whose options these are. Raises MeshingError."""
         from ._meshing import option_arguments
 
-        file = os.fspath(file)
+        file = os.path.abspath(file)
         if file.endswith(".vtu") and not options:
             with open(file, "wb") as stream:
                 stream.write(self.vtu)
@@ -43,7 +62,9 @@ class Mesh:
             source = os.path.join(scratch, "mesh.vtu")
             with open(source, "wb") as stream:
                 stream.write(self.vtu)
-            run("convert", [*option_arguments("convert", options), source, os.path.abspath(file)])
+            words = option_arguments("convert", options)
+            with _one_name(file):
+                run("convert", [*words, source, file])
 
     def to_meshio(self) -> Any:
         """A meshio.Mesh with the same arrays."""
