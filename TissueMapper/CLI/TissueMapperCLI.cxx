@@ -191,8 +191,7 @@ void run(CommandLine& line)
   const std::vector<Label> present = presentLabels(found.map);
   for (const TissueClass& tissue : classes)
   {
-    if (!std::binary_search(present.begin(), present.end(), tissue.label))
-      line.message("warning: " + tissue.name + " has no voxel");
+    if (!std::binary_search(present.begin(), present.end(), tissue.label)) line.warning(tissue.name + " has no voxel");
   }
   line.message(std::to_string(present.size()) + " tissues");
   report(progress, 1, "done");

@@ -15,7 +15,9 @@
 #include "TubePathIO.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
+#include <set>
 
 using namespace surgicalmesher;
 
@@ -25,6 +27,7 @@ namespace
 /// What the run found out, besides its outputs.
 struct Results
 {
+  Label label = 1; ///< of the tube in the label map
   std::size_t voxels = 0;
   double weakest = 1; ///< least flux along the path over the mean
   std::vector<std::string> warnings;
@@ -101,23 +104,44 @@ TissueMap readMap(const CommandLine& line, const Grid& grid)
   return map;
 }
 
+/// Of the map's tissues none has it, in voxels or by name.
+Label freeLabel(const TissueMap& map, const std::string& file)
+{
+  std::set<Label> taken;
+  for (const Label present : presentLabels(map)) taken.insert(present);
+  for (const auto& entry : map.table) taken.insert(entry.first);
+  for (int label = 1; label <= std::numeric_limits<Label>::max(); ++label)
+    if (taken.count(Label(label)) == 0) return Label(label);
+  throw InputError(file + ": all labels from 1 to 65535 are taken, expected one that is free for the tube");
+}
+
+/// The tissue's name and colour, which one that is there keeps.
+void nameTissue(const CommandLine& line, const TubePath& tube, TissueMap& map, Results& results)
+{
+  const std::vector<Label> present = presentLabels(map);
+  if (std::binary_search(present.begin(), present.end(), results.label))
+  {
+    const std::string& name = map.table[results.label].name;
+    results.warnings.push_back("label " + std::to_string(results.label) + (name.empty() ? "" : " (" + name + ")") +
+                               " has voxels already: the tube joins them, and may touch them anywhere");
+    if (!name.empty()) return;
+  }
+  map.table[results.label].name = line.text("name");
+  map.table[results.label].color =
+    tube.isBright ? std::array<double, 3>{ 0.85, 0.2, 0.2 } : std::array<double, 3>{ 0.95, 0.85, 0.3 };
+}
+
 void writeLabelMap(CommandLine& line, const TubePath& tube, const Grid& grid, Results& results)
 {
   const std::string file = line.outputFile("labelMap");
   if (file.empty()) return;
   TissueMap map = readMap(line, grid);
-  const Label label = Label(line.integer("label"));
-  if (std::find(map.labels.begin(), map.labels.end(), label) != map.labels.end())
-  {
-    results.warnings.push_back("label " + std::to_string(label) +
-                               " has voxels already: the tube joins them, and may touch them anywhere");
-  }
+  const bool isFree = !line.text("addTo").empty() && !line.given("label");
+  if (isFree) results.label = freeLabel(map, line.text("addTo"));
+  nameTissue(line, tube, map, results);
   const std::vector<std::size_t> voxels = tubeVoxels(map.grid, tube);
   if (voxels.empty()) throw InputError(line.text("addTo") + ": the path lies outside the label map");
-  for (const std::size_t n : voxels) map.labels[n] = label;
-  map.table[label].name = line.text("name");
-  map.table[label].color =
-    tube.isBright ? std::array<double, 3>{ 0.85, 0.2, 0.2 } : std::array<double, 3>{ 0.95, 0.85, 0.3 };
+  for (const std::size_t n : voxels) map.labels[n] = results.label;
   results.voxels = voxels.size();
   writeTissueMap(map, file);
 }
@@ -157,7 +181,7 @@ void writeReport(const std::string& file, const CommandLine& line, const TubePat
     writeMember(json, "maximumRadius", line.numbers("radius")[1]);
     for (const char* name : { "polarity", "potential" }) writeMember(json, name, line.text(name));
     for (const char* name : { "snap", "margin" }) writeMember(json, name, line.number(name));
-    writeMember(json, "label", line.integer("label"));
+    writeMember(json, "label", results.label);
     json.EndObject();
     writeMember(json, "polarity", tube.isBright ? "bright" : "dark");
     writeMember(json, "points", tube.points.size());
@@ -196,11 +220,12 @@ void run(CommandLine& line)
   const TubePath tube = traceTube(image, places, blocked, options, subProgress(progress, 0.1, 0.9));
 
   Results results;
+  results.label = Label(line.integer("label"));
   findOddities(tube, results);
   report(progress, 0.9, "writing");
   writeTubePath(tube, line.text("name"), line.outputFile("path"));
   writeLabelMap(line, tube, image.grid, results);
-  for (const std::string& warning : results.warnings) line.message("warning: " + warning);
+  for (const std::string& warning : results.warnings) line.warning(warning);
   const double length = polylineLength(tube.points);
   line.message(std::string(tube.isBright ? "bright" : "dark") + " tube of " + text::rounded(length, 4) +
                " mm, radius " + text::rounded(*std::min_element(tube.radii.begin(), tube.radii.end()), 3) + " to " +

@@ -79,6 +79,27 @@ TEST_F(TubePathCLI, AddsTheTubeToALabelMap)
   EXPECT_NE(readBytes(folder.file("r.txt")).find("length = "), std::string::npos);
 }
 
+TEST_F(TubePathCLI, TakesAFreeLabelAndRenamesNoTissue)
+{
+  TissueMap map;
+  map.grid = image.grid;
+  map.labels.assign(map.grid.voxelCount(), 1);
+  map.table[1].name = "muscle";
+  map.table[2].name = "bone"; // without a voxel
+  writeTissueMap(map, folder.file("map.nrrd"));
+  const std::string start = "--points points.fcsv --addTo map.nrrd --labelMap out.nrrd --name artery ";
+  expectDone(start + "image.nrrd path.mrk.json");
+  TissueMap out = readTissueMap(folder.file("out.nrrd"));
+  EXPECT_EQ(presentLabels(out), (std::vector<Label>{ 1, 3 }));
+  EXPECT_EQ(out.table.at(3).name, "artery");
+  const Outcome joined = run(start + "--label 1 --quiet image.nrrd path.mrk.json");
+  EXPECT_EQ(joined.status, 0);
+  EXPECT_NE(joined.err.find("warning: label 1 (muscle) has voxels already"), std::string::npos) << joined.err;
+  out = readTissueMap(folder.file("out.nrrd"));
+  EXPECT_EQ(presentLabels(out), (std::vector<Label>{ 1 }));
+  EXPECT_EQ(out.table.at(1).name, "muscle");
+}
+
 TEST_F(TubePathCLI, WritesTheSameBytesOnAnyNumberOfThreads)
 {
   expectDone("--points points.fcsv --threads 1 --labelMap a.nrrd image.nrrd a.mrk.json");
