@@ -17,6 +17,17 @@ Vec3 rounded(const Vec3& v)
   return { round(v.x), round(v.y), round(v.z) };
 }
 
+/// To a millionth, of small spacings to a few millionths of themselves.
+Vec3 roundedSpacing(const Vec3& spacing)
+{
+  const auto round = [](double x)
+  {
+    const double unit = x >= 0.01 ? 1e6 : std::pow(10, 4 - std::floor(std::log10(x)));
+    return std::round(x * unit) / unit;
+  };
+  return { round(spacing.x), round(spacing.y), round(spacing.z) };
+}
+
 } // namespace
 
 double ScaleField::operator()(const Vec3& world) const
@@ -46,14 +57,14 @@ Grid inOwnFrame(const Grid& grid)
 {
   Grid own;
   own.size = grid.size;
-  own.spacing = rounded(grid.spacing);
+  own.spacing = roundedSpacing(grid.spacing);
   return own;
 }
 
 ScaleField inFrameOf(const Grid& frame, const ScaleField& scale)
 {
   ScaleField moved = scale;
-  moved.grid.spacing = rounded(scale.grid.spacing);
+  moved.grid.spacing = roundedSpacing(scale.grid.spacing);
   moved.grid.origin = inFrameOf(frame, scale.grid.origin);
   for (Vec3& axis : moved.grid.axes)
   {

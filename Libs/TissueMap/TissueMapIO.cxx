@@ -101,12 +101,16 @@ const char* const formatNames = "NRRD, NIfTI, MetaImage or GIPL";
 
 /// What is wrong with a NIfTI header that the library refuses, and what the user can do; empty for other files and
 /// faults.
-std::string niftiAdvice(const std::string& file)
+std::string niftiAdvice(const std::string& file, const std::string& reason)
 {
   const std::optional<NiftiPlacement> placement = readNiftiPlacement(file);
   if (!placement) return {};
   if (placement->isInMetres) return "coordinates in metres, expected mm or microns";
-  if (placement->sformCode == 0 || placement->skew < 1e-5) return {};
+  if (placement->sformCode == 0) return {};
+  if (placement->skew < 1e-5 && reason.find("orthonormal") != std::string::npos)
+    return "the image library finds the voxel axes of its sform not perpendicular, as happens to small voxels and far "
+           "origins; expected a qform as well";
+  if (placement->skew < 1e-5) return {};
   return "the voxel axes of its sform are not perpendicular to each other (by " +
          text::rounded(std::ceil(placement->skew * 1000 - 0.5) / 1000, 10) +
          " degrees), as an affine registration leaves them; expected a grid without shear: resample the map, or give "
@@ -130,7 +134,7 @@ itk::ImageIOBase::Pointer openImage(const std::string& file)
     }
     catch (const std::exception& error)
     {
-      const std::string advice = niftiAdvice(file);
+      const std::string advice = niftiAdvice(file, error.what());
       if (!advice.empty()) throw InputError(file + ": " + advice);
       throw InputError(file + ": the image header cannot be read (" + reasonOf(error) + ")");
     }

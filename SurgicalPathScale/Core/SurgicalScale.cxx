@@ -58,10 +58,14 @@ void checkFocus(Combination combination, const std::vector<Vec3>& targets, const
   }
 }
 
-int voxelsAlong(const Grid& map, int axis, double spacing)
+/// Of the scale volume along an axis. A surface goes up to a sixth of the map's voxel beyond the map, which has to be
+/// covered, too.
+double voxelsAlong(const Grid& map, int axis, double spacing)
 {
+  constexpr double beyond = 0.2, tolerance = 1e-4; // rounded headers of one map must not differ here
   const double extent = map.size[axis] * map.spacing[axis];
-  return int(std::ceil(extent / spacing - 1e-4)) + 2; // rounded headers of one map must not differ here
+  const double margin = std::max(1.0, std::ceil(beyond * map.spacing[axis] / spacing - tolerance));
+  return std::ceil(extent / spacing - tolerance) + 2 * margin;
 }
 
 /// Lengths at one distance from the targets and one from the paths.
@@ -160,7 +164,7 @@ void checkScaleOptions(const SurgicalScaleOptions& options, const Grid& map, con
   require(std::isfinite(options.spacing) && options.spacing > 0, "the spacing of the scale volume", options.spacing,
           "a finite number above 0 mm");
   double count = 1;
-  for (int axis = 0; axis < 3; ++axis) count *= map.size[axis] * map.spacing[axis] / options.spacing + 2;
+  for (int axis = 0; axis < 3; ++axis) count *= voxelsAlong(map, axis, options.spacing);
   require(count < 2147483648.0, "the spacing of the scale volume", options.spacing,
           "a spacing that makes fewer than 2^31 voxels of this label map");
   checkFocus(options.combination, targets, paths);
@@ -174,7 +178,7 @@ Grid scaleGrid(const Grid& map, double spacing)
   Vec3 corner;
   for (int axis = 0; axis < 3; ++axis)
   {
-    grid.size[axis] = voxelsAlong(map, axis, spacing);
+    grid.size[axis] = int(voxelsAlong(map, axis, spacing));
     corner[axis] = ((map.size[axis] - 1) * map.spacing[axis] - (grid.size[axis] - 1) * spacing) / 2;
   }
   grid.origin = map.gridToWorld(corner);

@@ -91,6 +91,16 @@ TEST(ScaleField, HasTheSameNumbersInTheFrameOfAMapWhereverBothLie)
   }
 }
 
+TEST(ScaleField, OwnFramesKeepSmallSpacings)
+{
+  for (const double spacing : { 1e-7, 1.4e-6, 1.2345e-4, 9.765625e-4, 0.0512345678, 0.4882812 })
+  {
+    Grid grid;
+    grid.spacing = { spacing, 1, 1 };
+    EXPECT_NEAR(inOwnFrame(grid).spacing[0], spacing, 2e-5 * spacing);
+  }
+}
+
 TEST(ScaleField, IsUniformWhereAskedFor)
 {
   const ScaleField scale = uniformScale(2.5);

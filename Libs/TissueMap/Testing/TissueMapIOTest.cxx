@@ -610,6 +610,16 @@ TEST(Trial, 3a_ShearedPlacementsAreRefusedWithAWayOut)
   expectNear(readTissueMap(folder.write("map.nii", nifti.content(24))).grid.spacing, { 1, 1, 1 }, 1e-6); // the qform's
 }
 
+TEST(ReadTissueMap, TellsWhatHelpsWhereTheLibraryTakesAnglesForOblique)
+{
+  Nifti nifti;
+  nifti.sformCode = 2;
+  nifti.pixdim = { 0.05f, 0.05f, 0.05f };
+  nifti.srow = { 0.04974147f,  -0.00182136f, 0.0047401f,   40,          0.00260684f, 0.04921251f,
+                 -0.00844591f, -30,          -0.00435779f, 0.00864937f, 0.04905301f, 20 };
+  expectFileRefused("map.nii", nifti.content(24), "expected a qform as well");
+}
+
 TEST(Trial, B15_MetresAreNamed)
 {
   Nifti nifti;
