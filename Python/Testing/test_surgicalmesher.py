@@ -289,6 +289,19 @@ class MeshingTest(unittest.TestCase):
         figures = surgicalmesher.mesh(ball(), targets=(5, 5, 5), preset="draft", proximity=(0.5, 1))
         self.assertEqual(set(figures.tissue_labels), {2, 5})
 
+    def test_values_that_can_be_read_once(self):
+        arguments = dict(targets=(5, 5, 5), preset="draft")
+        mesh = surgicalmesher.mesh(ball(), **arguments, proximity=(0.5, 1), targetPoint=[(1, 2, 3), (9, 5, 5)])
+        for targets in ((5, 5, 5), iter([(5, 5, 5)]), zip([5], [5], [5])):
+            once = surgicalmesher.mesh(ball(), targets=targets, preset="draft", proximity=(x / 2 for x in (1, 2)),
+                                       targetPoint=zip((1, 9), (2, 5), (3, 5)))
+            self.assertEqual(once.vtu, mesh.vtu)
+        with self.assertRaisesRegex(ValueError, "^export: .*folder="):
+            surgicalmesher.mesh(ball(), **arguments, export=map(str, ["head.inp"]))
+        figures = [surgicalmesher.estimate(ball(), targets=(5, 5, 5), targetPoint=points, minimumEdgeLength=0.5)
+                   for points in (zip((1, 9), (2, 5), (3, 5)), [(1, 2, 3), (9, 5, 5)], [map(int, "123"), (9, 5, 5)])]
+        self.assertEqual(figures[:2], figures[1:])
+
     def test_options_that_answer_questions(self):
         for name in ("help", "version", "xml", "echo"):
             for call in (lambda **more: surgicalmesher.mesh(ball(), targets=(5, 5, 5), **more),

@@ -21,6 +21,13 @@ def _plain(value: Any) -> Any:
     return value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
 
 
+def _to_read_again(value: Any) -> Any:
+    """What gives its values once only, as a generator, becomes a list of them, in a list or tuple, too."""
+    if hasattr(value, "__next__") or isinstance(value, (list, tuple)):
+        return [_to_read_again(part) for part in value]
+    return value
+
+
 def _word(value: Any) -> str:
     """A value as the programs read it; a point as x,y,z."""
     value = _plain(value)
@@ -62,6 +69,7 @@ def _place_arguments(flag: str, point_flag: str, places: Any) -> List[str]:
     """Of files of markups, or of points."""
     if places is None:
         return []
+    places = _to_read_again(places)
     if isinstance(places, (str, os.PathLike)):
         places = [places]
     if len(places) and all(isinstance(place, (str, os.PathLike)) for place in places):
@@ -167,6 +175,7 @@ def mesh(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Opti
     VTK's and pyvista's images are taken as LPS. Ctrl-C ends the run; without `folder`, nothing stays of it. Raises
     MeshingError with the program's sentence, ValueError for what is no map; warns by MeshingWarning.
     """
+    options = {name: _to_read_again(value) for name, value in options.items()}
     if folder is None:
         _require_kept(options)
     elif not os.fspath(folder):
