@@ -276,6 +276,19 @@ class MeshingTest(unittest.TestCase):
             self.mesh.save("ours, too.inp", noSuchOption=1)
         self.assertEqual(bytes_of("ours, too.inp"), bytes_of("theirs.inp"))
 
+    def test_names_that_are_not_utf8(self):
+        program("convert", "out/mesh.vtu", "theirs.inp")
+        for name in (b"caf\xe9.inp", b"caf\xe9.xdmf", "caf\u00e9.inp".encode()):
+            self.mesh.save(os.fsdecode(name))
+            self.assertGreater(os.path.getsize(name), 0)
+        self.assertEqual(bytes_of(b"caf\xe9.inp"), bytes_of("theirs.inp"))
+        write_nrrd("ball.nrrd", ball().astype(np.uint16), np.eye(4))
+        os.replace("ball.nrrd", b"ball\xe9.nrrd")
+        with self.assertRaisesRegex(surgicalmesher.MeshingError, "UTF-8 expected"):
+            surgicalmesher.mesh(os.fsdecode(b"ball\xe9.nrrd"), targets=(5, 5, 5), preset="draft")
+        figures = surgicalmesher.estimate(os.fsdecode(b"ball\xe9.nrrd"), targets=(5, 5, 5))
+        self.assertEqual(figures, surgicalmesher.estimate(ball(), targets=(5, 5, 5)))
+
     def test_values_of_options(self):
         for options, words in ((dict(minimumEdgeLength=np.array(3)), ["--minimumEdgeLength=3"]),
                                (dict(threads=[np.array(1.5)]), ["--threads=1.5"]),

@@ -62,8 +62,8 @@ def vector_flags(command: str) -> Set[str]:
 
 
 def _hand_on(line: bytes, progress: Optional[Progress]) -> None:
-    """A line of --progress json."""
-    event = json.loads(line)
+    """A line of --progress json; in names of files, any bytes may be."""
+    event = json.loads(line.decode(errors="replace"))
     if progress is not None and "progress" in event:
         progress(event["progress"], event["stage"])
     if "warning" in event:
