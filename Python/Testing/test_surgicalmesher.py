@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import unittest
+import unittest.mock
 import warnings
 
 import meshio
@@ -448,6 +449,26 @@ class MeshingTest(unittest.TestCase):
             surgicalmesher.mesh("map.nrrd", spacing=(1, 1, 1))
         with self.assertRaisesRegex(surgicalmesher.MeshingError, "map.nrrd: "), warnings.catch_warnings():
             surgicalmesher.read_mesh("map.nrrd")
+
+    def test_programs_that_do_not_start(self):
+        os.makedirs("broken")
+        with unittest.mock.patch.dict(os.environ, SURGICALMESHER_PROGRAMS=os.path.abspath("broken")):
+            self.assert_refused(3, "broken/surgicalmesher: .*expected the program", ball(), proximity=(0.5, 1))
+            for script, status, words in (
+                    ("echo $0: error while loading shared libraries: libx.so: no such file >&2; exit 127", 127,
+                     "error while loading shared libraries: libx.so"),
+                    ("kill -9 $$", -9, "ended with status -9$")):
+                self.write_script("broken/surgicalmesher", script)
+                self.assert_refused(status, words, ball())
+                self.assert_refused(status, words, ball(), proximity=(0.5, 1))  # for which the program is asked first
+            self.write_script("broken/surgicalmesher", "echo '<executable>'")
+            self.assert_refused(3, "broken/surgicalmesher: no XML", ball(), proximity=(0.5, 1))
+
+    @staticmethod
+    def write_script(file, commands):
+        with open(file, "w", encoding="utf-8") as stream:
+            stream.write(f"#!/bin/sh\n{commands}\n")
+        os.chmod(file, 0o755)
 
     def test_outputs_that_would_go_with_the_folder(self):
         for outputs in (dict(export="head.inp"), dict(export=["new/head.inp", "head.msh"]), dict(export="new/a.inp,b.inp"),

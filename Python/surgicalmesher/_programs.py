@@ -35,13 +35,31 @@ def _missing(path: str, error: OSError) -> MeshingError:
     return MeshingError(f"{path}: {error.strerror}, expected the program {os.path.basename(path)}", 3)
 
 
+def _reason_in(errors: bytes, prefix: str) -> str:
+    """The last line that is no warning, without the program's name."""
+    lines = [line for line in errors.decode(errors="replace").splitlines() if line and ": warning: " not in line]
+    reason = lines[-1] if lines else ""
+    return reason[len(prefix):] if reason.startswith(prefix) else reason
+
+
+def _failed(name: str, status: int, reason: str) -> MeshingError:
+    return MeshingError(reason or f"{name} ended with status {status}", status)
+
+
 def _parameters(*words: str) -> List[xml.Element]:
     """Those with a flag, as a program describes itself."""
     try:
-        described = subprocess.run([*words, "--xml"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, check=True).stdout
+        done = subprocess.run([*words, "--xml"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, check=False)
     except OSError as error:
         raise _missing(words[0], error) from None
-    return [found for found in xml.fromstring(described).iterfind("parameters/*") if found.findtext("longflag")]
+    if done.returncode:
+        raise _failed(" ".join(words), done.returncode, _reason_in(done.stderr, f"{os.path.basename(words[0])}: "))
+    try:
+        described = xml.fromstring(done.stdout)
+    except xml.ParseError as error:
+        raise MeshingError(f"{words[0]}: no XML ({error}), expected a program of surgicalmesher", 3) from None
+    return [found for found in described.iterfind("parameters/*") if found.findtext("longflag")]
 
 
 def output_flags() -> Set[str]:
@@ -70,14 +88,6 @@ def _hand_on(line: bytes, progress: Optional[Progress]) -> None:
         warnings.warn(event["warning"], MeshingWarning, stacklevel=4)  # where the package's function was called
 
 
-def _reason_in(errors: str, command: str) -> str:
-    """The last line that is no warning, without the program's name."""
-    lines = [line for line in errors.splitlines() if line and ": warning: " not in line]
-    reason = lines[-1] if lines else ""
-    prefix = f"surgicalmesher {command}: "
-    return reason[len(prefix):] if reason.startswith(prefix) else reason
-
-
 def run(command: str, arguments: Sequence[str], progress: Optional[Progress] = None) -> None:
     """Runs `surgicalmesher command arguments...`. Ctrl-C and whatever `progress` raises end the program, which takes its
     half-written files with it. Raises MeshingError."""
@@ -97,6 +107,6 @@ def run(command: str, arguments: Sequence[str], progress: Optional[Progress] = N
                 child.communicate()  # it still has its files to take away, and a place for its last words
                 raise
         errors.seek(0)
-        reason = _reason_in(errors.read().decode(errors="replace"), command)
+        reason = _reason_in(errors.read(), f"surgicalmesher {command}: ")
     if child.returncode:
-        raise MeshingError(reason or f"surgicalmesher {command} ended with status {child.returncode}", child.returncode)
+        raise _failed(" ".join(words[:2]), child.returncode, reason)
