@@ -471,8 +471,8 @@ class MeshingTest(unittest.TestCase):
         os.chmod(file, 0o755)
 
     def test_outputs_that_would_go_with_the_folder(self):
-        for outputs in (dict(export="head.inp"), dict(export=["new/head.inp", "head.msh"]), dict(export="new/a.inp,b.inp"),
-                        dict(evolution="e.csv"), dict(parentMesh=pathlib.Path("p.vtu"))):
+        for outputs in (dict(export="head.inp"), dict(export=["new/head.inp", "head.msh"]),
+                        dict(export="a.inp,b.inp"), dict(evolution="e.csv"), dict(parentMesh=pathlib.Path("p.vtu"))):
             with self.assertRaisesRegex(ValueError, f"^{list(outputs)[0]}: .*folder="):
                 surgicalmesher.mesh(ball(), targets=(5, 5, 5), preset="draft", **outputs)
         os.makedirs("elsewhere")
@@ -483,6 +483,9 @@ class MeshingTest(unittest.TestCase):
                                    evolution="elsewhere/e.csv", export=["elsewhere/ball.inp"])
         self.assertEqual(mesh.tissue_names, {2: "inner", 5: "outer"})
         self.assertEqual(set(os.listdir("elsewhere")), {"e.csv", "ball.inp", "ball.inp.names.json"})
+        os.makedirs("commas")
+        surgicalmesher.mesh(ball(), targets=(5, 5, 5), preset="draft", export="commas/a,b.inp", evolution="commas/e,f.csv")
+        self.assertEqual(set(os.listdir("commas")), {"e,f.csv", "a,b.inp", "a,b.inp.names.json"})
 
     def test_callback_cancels(self):
         def refuse(share, stage):

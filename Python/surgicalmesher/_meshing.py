@@ -81,9 +81,9 @@ def _place_arguments(flag: str, point_flag: str, places: Any) -> List[str]:
 
 
 def _lies_in_results(value: Any) -> bool:
-    """Whether one of an output's names has no folder of its own."""
+    """Whether one of an output's names has no folder of its own. Commas are part of a name to `surgicalmesher mesh`."""
     if isinstance(value, (str, os.PathLike)):
-        return any(not os.path.dirname(name) for name in os.fspath(value).split(","))
+        return not os.path.dirname(value)
     value = _plain(value)
     return hasattr(value, "__iter__") and any(map(_lies_in_results, value))
 
