@@ -74,20 +74,22 @@ std::string insideFolder(std::string text, const std::string& folder)
   return at == std::string::npos ? text : text.erase(at, folder.size() + 1);
 }
 
-/// What follows a file's stem, without compression: ".img" of "map.img.gz".
+/// A file's last extension, without compression: ".raw" of "map.01.raw.gz".
 std::string kindOf(const fs::path& file)
 {
-  const std::string kind = text::lowerCase(file.filename().string().substr(stemOf(file).size()));
-  const fs::path last = fs::path("x" + kind).extension();
-  return last == ".gz" || last == ".bz2" ? kind.substr(0, kind.size() - last.string().size()) : kind;
+  const std::string last = text::lowerCase(file.extension().string());
+  return last == ".gz" || last == ".bz2" ? text::lowerCase(file.stem().extension().string()) : last;
 }
 
-/// Whether `file` may be a header, or the data that one tells of.
-bool isOfAPair(const fs::path& file)
+/// A header calls its data by any name, and a change of them that is missed is a mesh of an older image: only what is
+/// certainly none is left out. Text may be (ASCII data of NRRD); meshes are what --export may have put there.
+bool isNoData(const fs::path& file)
 {
-  static const std::set<std::string> kinds{
-    "", ".hdr", ".img", ".nhdr", ".mhd", ".mha", ".raw", ".zraw", ".dat", ".bin"
-  };
+  static const std::set<std::string> kinds{ ".log",  ".out",  ".err",  ".json",  ".toml", ".yaml", ".yml",
+                                            ".csv",  ".tsv",  ".html", ".pdf",   ".md",   ".png",  ".jpg",
+                                            ".svg",  ".sh",   ".py",   ".slurm", ".vtu",  ".vtp",  ".stl",
+                                            ".ply",  ".feb",  ".inp",  ".k",     ".cdb",  ".bdf",  ".msh",
+                                            ".msh2", ".mesh", ".exo",  ".xdmf",  ".h5" };
   return kinds.count(kindOf(file)) != 0;
 }
 
@@ -100,7 +102,7 @@ std::vector<std::string> withSiblings(const std::string& file)
        entry.increment(error))
   {
     const bool isSibling =
-      entry->is_regular_file(error) && stemOf(entry->path()) == stemOf(file) && isOfAPair(entry->path());
+      entry->is_regular_file(error) && stemOf(entry->path()) == stemOf(file) && !isNoData(entry->path());
     if (isSibling) files.push_back(entry->path().string());
   }
   return files;

@@ -229,6 +229,27 @@ class ProgramTest(unittest.TestCase):
             names = {os.path.basename(path) for path in json.load(file)["scale"]["inputs"]}
         self.assertEqual(names, {"pat.hdr", "pat.img"})
 
+    def test_data_of_a_header_may_have_any_name(self):
+        labels = np.asarray(cut_out(np.s_[58:90, 84:116, 30:56])[0]).astype(np.uint8)
+        for data in ("pat.01.raw", "pat.001"):
+            folder = "named-" + data
+            os.makedirs(folder)
+            header = ("NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\nsizes: %d %d %d\n"
+                      "space directions: (1,0,0) (0,1,0) (0,0,1)\nencoding: raw\nspace origin: (0,0,0)\n"
+                      "data file: %s\n" % (*labels.shape, data))
+            with open(f"{folder}/pat.01.nhdr", "w", encoding="ascii") as file:
+                file.write(header)
+            labels.tofile(f"{folder}/{data}")
+            command = ("mesh", f"{folder}/pat.01.nhdr", f"{folder}/results", "--target", "10,10,10", *COARSE, "--export",
+                       f"{folder}/pat.inp")
+            self.assertEqual(surgicalmesher(*command).returncode, 0)
+            with open(f"{folder}/pat.01.log", "w", encoding="ascii") as file:
+                file.write("mine")
+            self.assertEqual(surgicalmesher(*command).stdout.count("nothing has changed"), 3)
+            np.flip(labels, 0).tofile(f"{folder}/{data}")
+            done = surgicalmesher(*command)
+            self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 0), done.stderr)
+
     def test_a_working_directory_that_is_gone(self):
         for arguments in (("mesh", os.path.abspath("map.nrrd"), "new", "--target", TARGET),
                           ("mesh", "--config", "run.toml"), ("estimate", "map.nrrd", "--target", TARGET)):
