@@ -117,30 +117,42 @@ void writeConfiguration(const std::string& configuration, const fs::path& folder
   file.commit();
 }
 
-void forget(const std::string& stage, RunRecord& record, const fs::path& folder, const std::vector<std::string>& given)
+/// The folder of the results while stages run into it.
+struct Results
 {
-  for (const auto& output : record[stage].outputs)
+  fs::path folder;
+  std::vector<std::string> given; ///< files of the user's, which may lie there, too
+  std::string configuration;      ///< of the run at work
+  RunRecord record;
+  bool hasEarlier; ///< whether a run before this one has left anything: what this one has made is none of it
+};
+
+/// What a stage has written goes, and what the record says of it. Files that lie elsewhere stay: exports that were asked
+/// for there, and whatever a record from another folder names.
+void removeOutputs(const std::string& stage, Results& results)
+{
+  for (const auto& output : results.record[stage].outputs)
   {
     const fs::path file(output.first);
-    const bool isGiven = std::find(given.begin(), given.end(), (folder / file).string()) != given.end();
+    const std::string path = (results.folder / file).string();
+    const bool isGiven = std::find(results.given.begin(), results.given.end(), path) != results.given.end();
     std::error_code error;
-    if (file == file.filename() && !isGiven) fs::remove(folder / file, error);
+    if (file == file.filename() && !isGiven) fs::remove(path, error);
   }
-  record.erase(stage);
+  results.record.erase(stage);
 }
 
 /// What was made of results that are about to change goes, so that the folder never holds what does not fit together:
-/// outputs of stages, and the page. The options become those of the run that is about to change them, which may have
-/// been called by that very file, and may have to be called by it again.
-void forget(const std::vector<std::string>& stages, RunRecord& record, const fs::path& folder,
-            const std::vector<std::string>& given, const std::string& configuration)
+/// outputs of stages, and the page. The options become those of the run at work. They may not go: it may have been called
+/// by that very file, and may have to be called by it again.
+void removeEarlier(const std::vector<std::string>& stages, Results& results)
 {
-  if (stages.empty() || record.empty()) return; // nothing here is of an earlier run
+  if (stages.empty() || !results.hasEarlier) return;
   std::error_code error;
-  fs::remove(folder / "report.html", error);
-  if (fs::exists(folder / "run.toml", error)) writeConfiguration(configuration, folder);
-  for (const std::string& stage : stages) forget(stage, record, folder, given);
-  writeRunRecord(record, folder.string());
+  fs::remove(results.folder / "report.html", error);
+  if (fs::exists(results.folder / "run.toml", error)) writeConfiguration(results.configuration, results.folder);
+  for (const std::string& stage : stages) removeOutputs(stage, results);
+  writeRunRecord(results.record, results.folder.string());
 }
 
 std::vector<std::string> namesOf(std::vector<Stage>::const_iterator begin, std::vector<Stage>::const_iterator end)
@@ -189,8 +201,9 @@ void runStages(const RunRequest& request, const std::string& configuration, cons
   const std::vector<std::string> outputs = allOutputs(stages, request.folder);
   requireInputsKept(outputs, given);
   requireWritable(outputs);
-  RunRecord record = readRunRecord(request.folder);
-  forget(othersIn(record, stages), record, request.folder, given, configuration);
+  Results results{ request.folder, given, configuration, readRunRecord(request.folder), false };
+  results.hasEarlier = !results.record.empty();
+  removeEarlier(othersIn(results.record, stages), results);
   const double all = shareOf(stages) / 0.96; // the report takes the rest
   double done = 0;
   for (auto stage = stages.begin(); stage != stages.end(); ++stage)
@@ -198,19 +211,19 @@ void runStages(const RunRequest& request, const std::string& configuration, cons
     StageRecord present = recordOf(*stage, (fs::path(programs) / stage->program).string(), request.folder);
     const double begin = done;
     done += stage->share / all;
-    const auto earlier = record.find(stage->name);
-    if (earlier != record.end() && stillHolds(earlier->second, present, request.folder))
+    const auto earlier = results.record.find(stage->name);
+    if (earlier != results.record.end() && stillHolds(earlier->second, present, request.folder))
     {
       line.message(stage->name + ": nothing has changed since the last run, its results stay");
       continue;
     }
-    forget(namesOf(stage, stages.end()), record, request.folder, given, configuration);
+    removeEarlier(namesOf(stage, stages.end()), results);
     const auto start = std::chrono::steady_clock::now();
     const std::vector<std::string> files = runStage(*stage, programs, line, subProgress(progress, begin, done));
     present.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     present.outputs = writtenBy(*stage, files, request.folder);
-    record[stage->name] = present;
-    writeRunRecord(record, request.folder);
+    results.record[stage->name] = present;
+    writeRunRecord(results.record, request.folder);
   }
 }
 

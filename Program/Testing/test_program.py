@@ -33,6 +33,7 @@ HEAD = "/usr/share/mricron/templates/ch2.nii.gz"
 TRAINING = os.path.join(ROOT, "workflow", "from-image", "training.mrk.json")
 SELLA = "0,-7,-29"
 COARSE = ("--minimumEdgeLength", "8", "--maximumEdgeLength", "20")
+TISSUE_OF_NONE = "label,maximumEdgeLength\n4242,2\n"  # which the surface stage refuses
 SIZES = ("--minimumEdgeLength", "3", "--maximumEdgeLength", "6", "--childRadius", "4")
 
 
@@ -207,11 +208,23 @@ class ProgramTest(unittest.TestCase):
     def test_a_rerun_that_fails_leaves_nothing_that_does_not_fit(self):
         shutil.copytree("out", "failed")
         with open("absent.csv", "w", encoding="ascii") as file:
-            file.write("label,maximumEdgeLength\n4242,2\n")
+            file.write(TISSUE_OF_NONE)
         done = surgicalmesher("mesh", "--config", "failed/run.toml", "--childRadius", "3", "--tissues", "absent.csv")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertFalse(set(os.listdir("failed")) & {"report.html", "mesh.vtu", "surface.vtp", "head.inp"})
         self.assertIn("childRadius = 3\n", bytes_of("failed/run.toml").decode())
+
+    def test_a_first_run_that_fails_leaves_files_of_the_users(self):
+        os.makedirs("first")
+        mine = {"report.html": "mine", "run.toml": f'labelMap = "../map.nrrd"\nfolder = "."\ntissues = "tissues.csv"\n'
+                                                   f"targetPoint = [{TARGET}]\n", "tissues.csv": TISSUE_OF_NONE}
+        for name, text in mine.items():
+            with open(f"first/{name}", "w", encoding="ascii") as file:
+                file.write(text)
+        self.assertEqual(surgicalmesher("mesh", "--config", "first/run.toml").returncode, 1)
+        with open("first/stages.json", encoding="utf-8") as file:
+            self.assertEqual(list(json.load(file)), ["scale"])
+        self.assertEqual({name: bytes_of(f"first/{name}").decode() for name in mine}, mine)
 
     def test_only_data_of_a_header_are_inputs_beside_it(self):
         os.makedirs("beside")
