@@ -422,6 +422,17 @@ double sectionArea(const Beam& beam) { return 3.14159265358979323846 * beam.radi
 
 double secondMomentOfArea(const Beam& beam) { return sectionArea(beam) * beam.radius * beam.radius / 4; }
 
+Vec3 axisAcross(const Cell& edge, const std::vector<Vec3>& points)
+{
+  const Vec3 along = points[edge[1]] - points[edge[0]];
+  int least = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(along[axis]) < std::abs(along[least])) least = axis;
+  Vec3 across{ 0, 0, 0 };
+  across[least] = 1;
+  return across;
+}
+
 std::string nameOf(SetKind kind)
 {
   switch (kind)

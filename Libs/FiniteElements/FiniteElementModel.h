@@ -112,6 +112,9 @@ struct Beam : SetInfo
 double sectionArea(const Beam& beam);
 double secondMomentOfArea(const Beam& beam);
 
+/// The axis of the world that is most across an edge: what its section is turned to, where a solver asks for that.
+Vec3 axisAcross(const Cell& edge, const std::vector<Vec3>& points);
+
 /// What all numbers of a model are in.
 enum class Units
 {

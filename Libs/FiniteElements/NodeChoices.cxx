@@ -57,7 +57,7 @@ std::optional<NodeChoice> findChoice(const std::string& text)
   return {};
 }
 
-/// Throws where that is farther off than the mesh is large: the point was for another mesh, or in other units.
+/// Throws for a point that is farther from its node than the mesh is large: it is another mesh's, or in other units.
 std::int32_t nearestNode(const NodeChoice& choice, const std::vector<Vec3>& points)
 {
   const Vec3& place = choice.a;

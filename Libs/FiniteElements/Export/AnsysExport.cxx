@@ -98,7 +98,7 @@ void appendElement(std::string& text, const Head& head, const std::vector<int>& 
   text += "\n";
 }
 
-/// Solids need no section, and name one that is not there; those of shells follow, and of curves these.
+/// Sections are numbered: one that is not there, as solids need none, then those of shells, then those of curves.
 std::size_t sectionOfShell(std::size_t shell) { return shell + 2; }
 std::size_t sectionOfBeam(const FiniteElementModel& model, std::size_t beam)
 {

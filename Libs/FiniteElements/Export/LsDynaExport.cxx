@@ -116,7 +116,8 @@ void appendSolids(std::string& text, const FiniteElementModel& model, const std:
   }
 }
 
-void appendShells(std::string& text, const FiniteElementModel& model, std::size_t firstPart)
+/// Returns the last number; faces of second order are several shells.
+std::size_t appendShells(std::string& text, const FiniteElementModel& model, std::size_t firstPart)
 {
   if (!model.shells.empty()) text += "*ELEMENT_SHELL\n";
   std::size_t next = model.elements.size();
@@ -129,19 +130,24 @@ void appendShells(std::string& text, const FiniteElementModel& model, std::size_
                 nodesOfFace(face, kElementColumns) + "\n";
     }
   }
+  return next;
 }
 
-/// Round sections need no third node.
-void appendBeams(std::string& text, const FiniteElementModel& model, std::size_t firstPart)
+/// Beams with the vector that stands for their third node, which trusses don't need.
+void appendBeams(std::string& text, const FiniteElementModel& model, std::size_t firstPart, std::size_t lastNumber)
 {
-  if (!model.beams.empty()) text += "*ELEMENT_BEAM\n";
-  std::size_t next = 0; // beams are numbered by themselves, as shells of second order are more than the model's
+  const std::vector<Vec3>& points = model.content.mesh.points;
+  if (!model.beams.empty()) text += model.beams[0].isTruss ? "*ELEMENT_BEAM\n" : "*ELEMENT_BEAM_ORIENTATION\n";
   for (std::size_t b = 0; b < model.beams.size(); ++b)
   {
     for (const Cell& edge : model.beams[b].edges)
-      text += whole(++next, kElementColumns) + whole(firstPart + b, kElementColumns) +
+    {
+      text += whole(++lastNumber, kElementColumns) + whole(firstPart + b, kElementColumns) +
               whole(std::size_t(edge[0]) + 1, kElementColumns) + whole(std::size_t(edge[1]) + 1, kElementColumns) +
               "\n";
+      const Vec3 across = axisAcross(edge, points);
+      if (!model.beams[b].isTruss) text += real(across.x) + real(across.y) + real(across.z) + "\n";
+    }
   }
 }
 
@@ -232,8 +238,8 @@ void writeLsDyna(const FiniteElementModel& model, const std::string& file, const
   std::string text = "*KEYWORD\n$ " + frameAndUnits(model) + "\n";
   appendNodes(text, model.content.mesh.points);
   appendSolids(text, model, parts);
-  appendShells(text, model, parts.size() + 1);
-  appendBeams(text, model, parts.size() + model.shells.size() + 1);
+  const std::size_t last = appendShells(text, model, parts.size() + 1);
+  appendBeams(text, model, parts.size() + model.shells.size() + 1, last);
   appendParts(text, model, parts);
   appendMaterials(text, model.materials);
   appendSets(text, model);

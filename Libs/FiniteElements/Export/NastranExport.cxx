@@ -6,7 +6,6 @@
 #include "Units.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 namespace surgicalmesher
@@ -29,7 +28,7 @@ std::string field(const std::string& text, std::size_t width)
 
 std::string wide(double value) { return field(textWithin(value, kWide), kWide); }
 
-/// A card of whole numbers, on as many lines as it needs.
+/// A card of narrow fields, on as many lines as it needs.
 void appendCard(std::string& text, const std::string& name, const std::vector<std::string>& fields)
 {
   text += field(name, kNarrow);
@@ -59,29 +58,18 @@ void appendElement(std::string& text, const std::string& name, std::size_t numbe
   appendCard(text, name, fields);
 }
 
-/// The axis that is most across an edge: what a bar's section is turned to.
-std::vector<std::string> across(const Cell& edge, const std::vector<Vec3>& points)
-{
-  const Vec3 along = points[edge[1]] - points[edge[0]];
-  int least = 0;
-  for (int axis = 1; axis < 3; ++axis)
-    if (std::abs(along[axis]) < std::abs(along[least])) least = axis;
-  std::vector<std::string> direction(3, "0.");
-  direction[std::size_t(least)] = "1.";
-  return direction;
-}
-
 void appendBar(std::string& text, std::size_t number, std::size_t property, const Beam& beam, const Cell& edge,
                const std::vector<Vec3>& points)
 {
   std::vector<std::string> fields{ std::to_string(number), std::to_string(property), std::to_string(edge[0] + 1),
                                    std::to_string(edge[1] + 1) };
+  const Vec3 across = axisAcross(edge, points);
   if (!beam.isTruss)
-    for (const std::string& component : across(edge, points)) fields.push_back(component);
+    for (int axis = 0; axis < 3; ++axis) fields.push_back(textWithin(across[axis], kNarrow));
   appendCard(text, beam.isTruss ? "CROD" : "CBAR", fields);
 }
 
-/// Properties have the numbers of sections, those of shells follow, and of curves these.
+/// Properties are numbered: sections first, then shells, then curves.
 void appendElements(std::string& text, const FiniteElementModel& model)
 {
   std::vector<std::size_t> property(model.elements.size());
@@ -112,7 +100,7 @@ void appendBarProperty(std::string& text, std::size_t number, const Beam& beam)
   const std::string begin =
     field(std::to_string(number), kWide) + field(std::to_string(beam.material + 1), kWide) + wide(sectionArea(beam));
   text += "$ " + beam.name + "\n";
-  if (beam.isTruss) text += "PROD*   " + begin + wide(0) + "\n";
+  if (beam.isTruss) text += "PROD*   " + begin + wide(0) + "\n*\n"; // of large fields lines are even in number
   else text += "PBAR*   " + begin + wide(moment) + "\n*       " + wide(moment) + wide(2 * moment) + "\n";
 }
 

@@ -665,6 +665,27 @@ std::vector<Numbers> rowsOf(const std::string& text, const std::string& name, st
   return rows;
 }
 
+/// Cards whose name ends in an asterisk.
+std::size_t wideCards(const std::string& deck)
+{
+  std::size_t count = 0;
+  std::istringstream stream(deck);
+  for (std::string line; std::getline(stream, line);)
+  {
+    const std::size_t asterisk = line.substr(0, 8).find('*');
+    count += asterisk != std::string::npos && asterisk > 0;
+  }
+  return count;
+}
+
+/// Whether a direction tells how an edge's section is turned.
+bool isAcross(const Vec3& direction, const Cell& edge, const FiniteElementModel& model)
+{
+  const auto& points = model.content.mesh.points;
+  const Vec3 along = points[edge[1]] - points[edge[0]];
+  return norm(direction) > 0 && std::abs(dot(along, direction)) < 0.6 * norm(along) * norm(direction);
+}
+
 TEST(Beams, NastranHasTheirElementsAndSections)
 {
   for (const bool areTrusses : { false, true })
@@ -675,6 +696,7 @@ TEST(Beams, NastranHasTheirElementsAndSections)
     const auto properties = rowsOf(deck, areTrusses ? "PROD* " : "PBAR* ", 16);
     ASSERT_EQ(elements.size(), 3u);
     ASSERT_EQ(properties.size(), 3u);
+    EXPECT_EQ(rowsOf(deck, "*", 16).size(), wideCards(deck)) << "of wide cards lines are even";
     for (std::size_t b = 0; b < 3; ++b)
     {
       const Beam& beam = model.beams[b];
@@ -685,9 +707,7 @@ TEST(Beams, NastranHasTheirElementsAndSections)
       EXPECT_EQ(properties[b][1], beam.material + 1);
       EXPECT_NEAR(properties[b][2], sectionArea(beam), 1e-9 * sectionArea(beam));
       if (areTrusses) continue;
-      const auto& points = model.content.mesh.points;
-      const Vec3 along = points[beam.edges[0][1]] - points[beam.edges[0][0]], direction{ row[4], row[5], row[6] };
-      EXPECT_LT(std::abs(dot(along, direction)), 0.6 * norm(along)) << "hardly across the bar";
+      EXPECT_TRUE(isAcross({ row[4], row[5], row[6] }, beam.edges[0], model));
       EXPECT_NEAR(properties[b][3], secondMomentOfArea(beam), 1e-9 * properties[b][3]);
     }
   }
@@ -699,15 +719,19 @@ TEST(Beams, LsDynaHasTheirElementsAndSections)
   {
     const FiniteElementModel model = modelWithCurves(areTrusses);
     const std::string deck = written(model, "m.k");
-    const Numbers elements = numbersAfter(deck, "*ELEMENT_BEAM\n", 3);
-    ASSERT_EQ(elements.size(), 12u);
+    const char* keyword = areTrusses ? "*ELEMENT_BEAM\n" : "*ELEMENT_BEAM_ORIENTATION\n";
+    const std::size_t perBeam = areTrusses ? 4 : 7;
+    const Numbers elements = numbersAfter(deck, keyword, areTrusses ? 3 : 6);
+    ASSERT_EQ(elements.size(), 3 * perBeam);
     for (std::size_t b = 0; b < 3; ++b)
     {
       const Beam& beam = model.beams[b];
-      EXPECT_EQ((Ids{ int(elements[4 * b + 2]) - 1, int(elements[4 * b + 3]) - 1 }),
-                (Ids{ beam.edges[0][0], beam.edges[0][1] }));
+      const Numbers row(elements.begin() + std::ptrdiff_t(b * perBeam), elements.end());
+      EXPECT_EQ(row[0], double(model.elements.size() + b + 1));
+      EXPECT_TRUE(areTrusses || isAcross({ row[4], row[5], row[6] }, beam.edges[0], model));
+      EXPECT_EQ((Ids{ int(row[2]) - 1, int(row[3]) - 1 }), (Ids{ beam.edges[0][0], beam.edges[0][1] }));
       const Numbers part = numbersAfter(deck, "*PART\n" + beam.name + "\n");
-      EXPECT_EQ(part[0], elements[4 * b + 1]);
+      EXPECT_EQ(part[0], row[1]);
       EXPECT_EQ(part[2], beam.material + 1);
       const std::string section = "*SECTION_BEAM\n";
       const std::size_t begin = deck.find(section, deck.find("*PART\n" + beam.name)) + section.size();
