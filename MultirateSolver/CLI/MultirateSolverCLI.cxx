@@ -118,7 +118,7 @@ public:
     const std::string number = std::to_string(m_Files.size());
     const std::string file = m_Prefix + std::string(number.size() < 4 ? 4 - number.size() : 0, '0') + number + ".vtu";
     child.write(mesh, displacements, m_Line.outputPath(file));
-    m_Files.push_back({ text::rounded(seconds, 13), std::filesystem::path(file).filename().string() });
+    m_Files.push_back({ text::rounded(seconds, 16), std::filesystem::path(file).filename().string() });
   }
 
   void finish()
@@ -139,7 +139,7 @@ void writeForces(const std::vector<ReplayStep>& steps, const std::string& file)
   std::string table = "seconds,child,x,y,z,forceX,forceY,forceZ,largestDisplacement,iterations\n";
   for (const ReplayStep& step : steps)
   {
-    table += text::rounded(step.seconds, 13) + "," + std::to_string(step.child);
+    table += text::rounded(step.seconds, 16) + "," + std::to_string(step.child);
     for (int i = 0; i < 3; ++i) table += "," + text::rounded(step.tip[i], 9);
     for (int i = 0; i < 3; ++i) table += "," + text::rounded(step.force[i], 9);
     table += "," + text::rounded(step.largestDisplacement, 9) + "," + std::to_string(step.iterations) + "\n";

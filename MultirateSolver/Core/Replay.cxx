@@ -10,6 +10,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace surgicalmesher
@@ -254,7 +255,9 @@ ReplayResult replay(const CoupledMesh& mesh, const std::vector<ToolPath>& tools,
 
   const auto stepsBetween = std::int64_t(std::round(options.childRate / options.parentRate));
   const auto [first, last] = spanOf(tools);
-  const auto steps = std::int64_t(std::floor((last - first) * options.childRate + 1e-6));
+  // Of a clock that counts from long ago the last digits of a time are lost.
+  const double lost = 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(first), std::abs(last));
+  const auto steps = std::int64_t(std::floor((last - first + lost) * options.childRate + 1e-6));
   for (std::int64_t k = 0; k <= steps; ++k)
   {
     const double seconds = first + double(k) / options.childRate;

@@ -67,9 +67,9 @@ struct ReplayResult
 /// Is told, at every exchange, the displacements of all points of the whole.
 using FrameObserver = std::function<void(double seconds, const std::vector<Vec3>& displacements)>;
 
-/// From the first time of any path to the last of all. Throws InputError, naming the tool by its number from 1, if it is out of every child's reach, or two take hold of one
-/// child; as Surroundings does; if memory does not suffice for the interface's dense matrix. UsageError if the options
-/// are out of their ranges.
+/// From the first time of any path to the last of all. Throws InputError, naming the tool by its number from 1, if it is
+/// out of every child's reach, or two take hold of one child; as Surroundings does; if memory does not suffice for the
+/// interface's dense matrix. UsageError if the options are out of their ranges.
 ReplayResult replay(const CoupledMesh& mesh, const std::vector<ToolPath>& tools, const ReplayOptions& options,
                     const FrameObserver& observer = {}, const Progress& progress = {});
 

@@ -172,7 +172,8 @@ TEST(Replay, BeginsAtTheFirstTimeOfTheRecording)
   const CoupledMesh mesh = coupledMesh(box.parent, box.child, {});
   const ToolPath early = tool(kFirstTip, { 1, 0, 0 });
   const auto expected = replay(mesh, { early }, options(ChildLaw::Linear)).steps;
-  for (const double begin : { -1.0, 10.0, 1764500000.0 }) // of a clock that counts from 1970
+  for (const double begin :
+       { -1.0, 10.0, 1764500000.0, 1764500000.123, 1764500000.457 }) // of a clock that counts from 1970
   {
     ToolPath late = early;
     for (double& seconds : late.seconds) seconds += begin;
