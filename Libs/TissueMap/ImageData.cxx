@@ -93,13 +93,11 @@ DataBlock textHeader(const std::string& file, char separator, const std::string&
   return block;
 }
 
+bool isNRRD(const std::string& file) { return hasExtension(file, ".nrrd") || hasExtension(file, ".nhdr"); }
+
 DataBlock findData(const std::string& file)
 {
-  if (hasExtension(file, ".nrrd") || hasExtension(file, ".nhdr"))
-  {
-    const DataBlock block = textHeader(file, ':', "data file", "encoding");
-    return block.compressed ? block : DataBlock(); // NRRD's reader counts raw and text data itself
-  }
+  if (isNRRD(file)) return textHeader(file, ':', "data file", "encoding");
   if (hasExtension(file, ".mha") || hasExtension(file, ".mhd"))
   {
     return textHeader(file, '=', "elementdatafile", "compresseddata");
@@ -224,7 +222,7 @@ std::optional<NiftiPlacement> readNiftiPlacement(const std::string& file)
 void requireImageData(const std::string& imageFile, std::uint64_t byteCount)
 {
   const DataBlock block = findData(imageFile);
-  if (block.file.empty()) return;
+  if (isNRRD(imageFile) && !block.compressed) return; // its reader counts raw and text data itself
   std::ifstream stream(block.file.c_str(), std::ios::binary);
   if (!stream)
   {
@@ -243,6 +241,18 @@ void requireImageData(const std::string& imageFile, std::uint64_t byteCount)
   if (size >= block.offset + expected) return;
   throw InputError(block.file + ": truncated, " + std::to_string(size) + " bytes, expected " +
                    std::to_string(block.offset + expected));
+}
+
+void requirePlausibleData(const std::string& imageFile, std::uint64_t byteCount)
+{
+  constexpr std::uint64_t densestText = 4; // "0 " may stand for the eight bytes of a number
+  const DataBlock block = findData(imageFile);
+  std::ifstream stream(block.file.c_str(), std::ios::binary | std::ios::ate);
+  if (!stream || block.compressed) return; // counted already, or data of many files
+  const std::uint64_t size = std::uint64_t(stream.tellg());
+  if (densestText * size >= byteCount) return;
+  throw InputError(block.file + ": truncated, " + std::to_string(size) + " bytes, expected " +
+                   std::to_string(block.offset + byteCount));
 }
 
 } // namespace surgicalmesher

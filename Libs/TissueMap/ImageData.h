@@ -15,6 +15,10 @@ namespace surgicalmesher
 /// check sums hold.
 void requireImageData(const std::string& imageFile, std::uint64_t byteCount);
 
+/// Throws InputError if the file is too small to hold as many bytes of data uncompressed, as numbers of text even: where
+/// memory lacks for what a header promises, that tells whether there is anything to be read.
+void requirePlausibleData(const std::string& imageFile, std::uint64_t byteCount);
+
 /// Throws InputError for a MetaImage header with a number of dimensions that its reader would never come back from.
 void requireCredibleDimensions(const std::string& imageFile);
 

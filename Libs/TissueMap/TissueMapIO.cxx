@@ -332,8 +332,9 @@ Volume readVolume(const std::string& file)
     requireMemory(memoryOfLibraries);
     throw;
   }
-  catch (const std::bad_alloc&) // the file has all that its header promises
+  catch (const std::bad_alloc&)
   {
+    requirePlausibleData(file, byteCount);
     throw;
   }
   catch (const std::exception& error)

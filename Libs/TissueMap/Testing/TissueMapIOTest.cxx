@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "TissueMapIO.h"
+#include "ImageData.h"
 #include "TestFiles.h"
 
 #include <algorithm>
@@ -608,6 +609,14 @@ TEST(Trial, 3a_ShearedPlacementsAreRefusedWithAWayOut)
   nifti.srow[1] = 0.1f;
   const TemporaryFolder folder;
   expectNear(readTissueMap(folder.write("map.nii", nifti.content(24))).grid.spacing, { 1, 1, 1 }, 1e-6); // the qform's
+}
+
+TEST(ReadTissueMap, FilesThatCanNotHoldWhatTheyPromiseAreAtFault)
+{
+  const TemporaryFolder folder;
+  const std::string file = folder.write("map.nrrd", nrrd("float", cubeGeometry(2), std::vector<float>(8, 1.F)));
+  requirePlausibleData(file, 32);
+  expectInputError([&] { requirePlausibleData(file, std::uint64_t(1) << 34); }, file, "truncated");
 }
 
 TEST(ReadTissueMap, TellsWhatHelpsWhereTheLibraryTakesAnglesForOblique)
