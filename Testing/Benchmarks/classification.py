@@ -163,4 +163,7 @@ def constraints(program, truth, count, *options):
 
 
 if __name__ == "__main__":
-    {"draws": draws, "constraints": constraints}[sys.argv[1]](*sys.argv[2:])
+    commands = {"draws": draws, "constraints": constraints}
+    if len(sys.argv) < 5 or sys.argv[1] not in commands:
+        sys.exit(__doc__)
+    commands[sys.argv[1]](*sys.argv[2:])

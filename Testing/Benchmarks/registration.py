@@ -117,4 +117,7 @@ def local(program, ct, t1, target, radius):
 
 
 if __name__ == "__main__":
-    {"starts": starts, "local": local}[sys.argv[1]](*sys.argv[2:])
+    commands = {"starts": starts, "local": local}
+    if len(sys.argv) < 5 or sys.argv[1] not in commands:
+        sys.exit(__doc__)
+    commands[sys.argv[1]](*sys.argv[2:])

@@ -22,6 +22,8 @@ U
 *END STEP
 """
 
+if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
+    sys.exit(__doc__)
 folder, file = os.path.split(os.path.abspath(sys.argv[1]))
 sets = Sidecar(sys.argv[1]).sets
 clamped = "".join("\n*BOUNDARY\n%s, 1, 3" % sets[surface]["nodes"] for surface in sys.argv[2:])
