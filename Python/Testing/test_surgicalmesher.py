@@ -394,6 +394,66 @@ class MeshingTest(unittest.TestCase):
         program("mesh", "--config", "again/run.toml")
         self.assertEqual(bytes_of("again/mesh.vtu"), mesh.vtu)
 
+    def test_failed_run_leaves_the_earlier_options(self):
+        def cancel(share, stage):
+            if stage.startswith("surface"):
+                raise InterruptedError(stage)
+
+        arguments = dict(preset="draft", targets=(5, 5, 5), folder="options")
+        mesh = surgicalmesher.mesh(ball(), **arguments, maximumEdgeLength=4)
+        before = bytes_of("options/run.toml")
+        for more in (dict(maximumEdgeLength=6, progress=cancel), dict(maximumEdgeLength=6, noSuchOption=1)):
+            with self.assertRaises((InterruptedError, surgicalmesher.MeshingError)):
+                surgicalmesher.mesh(ball() // 5, **arguments, **more)
+            self.assertEqual(bytes_of("options/run.toml"), before)
+        program("mesh", "--config", "options/run.toml")
+        self.assertEqual(bytes_of("options/mesh.vtu"), mesh.vtu)
+        self.assertEqual([name for name in os.listdir("options") if name.startswith(".")], [])
+
+    def test_killed_run_is_made_good_by_the_next_call(self):
+        arguments = dict(preset="draft", targets=(5, 5, 5), folder="killed")
+        surgicalmesher.mesh(ball(), **arguments)
+        before = {name: bytes_of(f"killed/{name}") for name in ("map.nrrd", "run.toml")}
+        script = ("import os, sys, numpy, surgicalmesher\n"
+                  "def kill(share, stage):\n"
+                  "    if stage.startswith('surface'):\n"
+                  "        os.killpg(0, 9)\n"
+                  "surgicalmesher.mesh(numpy.ones((9, 9, 9)), preset='draft', targets=(5, 5, 5), maximumEdgeLength=6,"
+                  " folder='killed', progress=kill)")
+        done = subprocess.run([sys.executable, "-c", script], start_new_session=True, check=False)
+        self.assertEqual(done.returncode, -signal.SIGKILL)
+        for left in os.listdir("scratch"):
+            os.rmdir(os.path.join("scratch", left))
+        for name, content in before.items():
+            self.assertNotEqual(bytes_of(f"killed/{name}"), content)
+        with self.assertRaises(surgicalmesher.MeshingError):
+            surgicalmesher.mesh(ball(), **arguments, noSuchOption=1)
+        self.assertEqual({name: bytes_of(f"killed/{name}") for name in before}, before)
+        self.assertEqual([name for name in os.listdir("killed") if name.endswith(tuple(f".{file}" for file in before))], [])
+
+    def test_map_that_is_a_link_stays_one(self):
+        os.makedirs("linked")
+        os.makedirs("store")
+        os.symlink("../store/labels.nrrd", "linked/map.nrrd")
+        arguments = dict(preset="draft", targets=(5, 5, 5), folder="linked")
+        for labels in (ball(), ball() // 5):  # of a link to nothing, and to a file
+            surgicalmesher.mesh(labels, **arguments)
+            self.assertEqual(os.readlink("linked/map.nrrd"), "../store/labels.nrrd")
+            np.testing.assert_array_equal(read_nrrd("store/labels.nrrd")[0], labels)
+        with self.assertRaises(surgicalmesher.MeshingError):
+            surgicalmesher.mesh(ball(), **arguments, noSuchOption=1)
+        np.testing.assert_array_equal(read_nrrd("store/labels.nrrd")[0], ball() // 5)
+        self.assertEqual((os.readlink("linked/map.nrrd"), os.listdir("store")), ("../store/labels.nrrd", ["labels.nrrd"]))
+
+    def test_file_systems_without_hard_links(self):
+        arguments = dict(preset="draft", targets=(5, 5, 5), folder="unlinked")
+        with unittest.mock.patch("os.link", side_effect=PermissionError):
+            surgicalmesher.mesh(ball(), **arguments)
+            before = {name: bytes_of(f"unlinked/{name}") for name in os.listdir("unlinked")}
+            with self.assertRaises(surgicalmesher.MeshingError):
+                surgicalmesher.mesh(ball() // 5, **arguments, noSuchOption=1)
+        self.assertEqual({name: bytes_of(f"unlinked/{name}") for name in os.listdir("unlinked")}, before)
+
     def test_map_that_cannot_be_written(self):
         os.makedirs("taken/map.nrrd")
         with self.assertRaises(OSError):

@@ -3,8 +3,10 @@
 import contextlib
 import json
 import os
+import re
+import shutil
 import tempfile
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence
 
 import numpy as np
 
@@ -104,18 +106,62 @@ def _is_source(image: Any, file: str) -> bool:
     return source is not None and os.path.exists(file) and os.path.samefile(source, file)
 
 
+def _is_at_work(process: int) -> bool:
+    """Whether it may be another that meshes."""
+    if process == os.getpid():  # a number that was another's
+        return False
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except (OSError, OverflowError):  # another user's
+        pass
+    return True
+
+
+def _tidy(file: str) -> None:
+    """What calls that were killed have set aside of the file comes back, and what they had begun goes."""
+    folder, name = os.path.split(file)
+    for found in os.listdir(folder):
+        left = re.fullmatch(rf"\.([0-9]+)\.(new\.)?{re.escape(name)}", found)
+        if not left or _is_at_work(int(left[1])):
+            continue
+        if left[2]:
+            os.remove(os.path.join(folder, found))
+        else:
+            _bring_back(os.path.join(folder, found), file)
+
+
+def _bring_back(aside: str, file: str) -> None:
+    os.replace(aside, file)
+    with contextlib.suppress(FileNotFoundError):  # two names of one file are left as they are
+        os.remove(aside)
+
+
 @contextlib.contextmanager
-def _anew(file: str) -> Iterator[None]:
-    """The file may be written. What was there before comes back, and otherwise nothing, if what is done with it fails."""
-    aside = os.path.join(os.path.dirname(file), f".{os.getpid()}.{os.path.basename(file)}")
-    was_there = os.path.lexists(file) and not os.path.isdir(file)  # into a folder's place nothing is written
+def _as_before(file: str, write: Optional[Callable[[str], None]] = None) -> Iterator[None]:
+    """The file is replaced, by what `write` writes or later on. What was there before comes back if what is done with
+    it fails, by the next call if this one is killed. A link stays one."""
+    folder, name = os.path.split(os.path.realpath(file))
+    _tidy(os.path.join(folder, name))
+    file, aside, new = (os.path.join(folder, begin + name) for begin in ("", f".{os.getpid()}.", f".{os.getpid()}.new."))
+    was_there = os.path.isfile(file)
     try:
         if was_there:
-            os.rename(file, aside)
+            try:
+                os.link(file, aside)
+            except OSError:  # not on every file system
+                shutil.copy2(file, new)
+                os.replace(new, aside)  # never a part of it
+        if write:
+            write(new)
+            os.replace(new, file)
         yield
     except BaseException:
-        if os.path.lexists(aside):
-            os.replace(aside, file)
+        if os.path.exists(new):
+            os.remove(new)
+        if os.path.exists(aside):
+            _bring_back(aside, file)
         elif not was_there and os.path.isfile(file):
             os.remove(file)
         raise
@@ -138,9 +184,9 @@ def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
     made = not os.path.isdir(folder)
     os.makedirs(folder, exist_ok=True)
     try:
-        with _anew(file):
-            write_map(content, labels, file)
-            yield file
+        with _as_before(os.path.join(folder, "run.toml")):  # its options are those of a run with the map
+            with _as_before(file, lambda new: write_map(content, labels, new)):
+                yield file
     except BaseException:
         if made:
             with contextlib.suppress(OSError):  # stages that were complete stay in it
