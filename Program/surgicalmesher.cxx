@@ -6,10 +6,13 @@
 #include "Descriptions.h"
 #include "Errors.h"
 #include "Platform.h"
+#include "PrintableText.h"
 #include "Text.h"
 
 #include <vtksys/SystemTools.hxx>
 
+#include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
@@ -91,28 +94,42 @@ int run(const std::string& self, const std::vector<std::string>& arguments)
                    [&](CommandLine& line) { command.run(line, programs, command.xml); });
 }
 
+int answer(int argc, char** argv)
+{
+  const std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  const std::string first = arguments.empty() ? "--help" : arguments.front();
+  if (first == "--version") std::cout << "surgicalmesher " << parseModuleDescription(meshXML).version << "\n";
+  else if (first == "--help" || first == "-h") std::cout << usage();
+  else return run(argv[0], arguments);
+  requireStdoutWritten();
+  return arguments.empty() ? 2 : 0;
+}
+
+int failed(int status, const std::string& message)
+{
+  std::cerr << "surgicalmesher: " << text::oneLine(printable(message)) << "\n";
+  return status;
+}
+
 } // namespace
 
 int main(int argc, char** argv)
 {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
   try
   {
-    const std::string first = arguments.empty() ? "--help" : arguments.front();
-    if (first == "--version") std::cout << "surgicalmesher " << parseModuleDescription(meshXML).version << "\n";
-    else if (first == "--help" || first == "-h") std::cout << usage();
-    else return run(argv[0], arguments);
-    requireStdoutWritten();
-    return arguments.empty() ? 2 : 0;
+    openStandardStreams();
+    return answer(argc, argv);
   }
   catch (const Error& error)
   {
-    std::cerr << "surgicalmesher: " << error.what() << "\n";
-    return error.exitStatus();
+    return failed(error.exitStatus(), error.what());
   }
   catch (const std::bad_alloc&)
   {
-    std::cerr << "surgicalmesher: out of memory\n";
-    return 3;
+    return failed(3, "out of memory");
+  }
+  catch (const std::exception& error)
+  {
+    return failed(3, error.what());
   }
 }

@@ -553,6 +553,10 @@ class ProgramTest(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr), (0, ""), closed)
             self.assertEqual(bytes_of("closed.nrrd"), bytes_of("three/scale.nrrd"))
             os.remove("closed.nrrd")
+            for question in ("--help", "--version"):
+                done = subprocess.run(["bash", "-c", f'"$@" {closed}', "bash", os.path.join(BIN, "surgicalmesher"), question],
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
+                self.assertEqual((done.returncode, done.stderr), (0, ""), closed)
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "only Linux has it")
     def test_stdout_without_room_is_noticed(self):
