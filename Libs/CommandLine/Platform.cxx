@@ -202,7 +202,17 @@ void openStandardStreams() {}
 namespace
 {
 
-bool readerOfStdoutIsGone() { return false; }
+/// Also where there never was one: a program without a console has no stdout, and its descriptor is negative. A reader
+/// is asked for by a write of nothing, since the write that was refused may be long ago.
+bool readerOfStdoutIsGone()
+{
+  const int descriptor = _fileno(stdout);
+  if (descriptor < 0) return true;
+  DWORD written = 0;
+  if (WriteFile(reinterpret_cast<HANDLE>(_get_osfhandle(descriptor)), "", 0, &written, nullptr)) return false;
+  const DWORD error = GetLastError();
+  return error == ERROR_BROKEN_PIPE || error == ERROR_NO_DATA;
+}
 
 } // namespace
 
