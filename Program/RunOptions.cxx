@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <system_error>
 
 namespace surgicalmesher
 {
@@ -29,9 +30,14 @@ std::string shortestNumber(const std::string& text)
 
 std::string absolutePath(const std::string& path)
 {
+  if (path.empty()) throw InputError("'' found, name of a file or folder expected");
   std::error_code error;
   const std::filesystem::path absolute = std::filesystem::absolute(path, error);
-  if (error) throw InputError(path + ": relative to a working directory that is not there any more, another expected");
+  if (error == std::errc::no_such_file_or_directory)
+    throw InputError(path + ": relative to a working directory that is not there any more, another expected");
+  if (error)
+    throw InputError(path + ": relative to a working directory that cannot be told (" + error.message() +
+                     "), an absolute path expected");
   return absolute.lexically_normal().string();
 }
 

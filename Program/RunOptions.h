@@ -14,7 +14,8 @@ namespace surgicalmesher
 /// Values by parameter name, as a command line has them.
 using RunOptions = std::map<std::string, std::vector<std::string>>;
 
-/// Without dots, from the working directory on. Throws InputError if that has been deleted.
+/// The absolute path, without "." and "..". Throws InputError for an empty path, and for a relative one if the working
+/// directory cannot be told: it may have been deleted.
 std::string absolutePath(const std::string& path);
 
 /// The same value always in the same letters: numbers as short as they can be.
