@@ -127,6 +127,12 @@ struct Results
   bool hasEarlier; ///< whether a run before this one has left anything: what this one has made is none of it
 };
 
+void writeRecord(const Results& results, CommandLine& line)
+{
+  writeRunRecord(results.record, results.folder.string());
+  line.tellWritten((results.folder / "stages.json").string());
+}
+
 /// What a stage has written goes, and what the record says of it. Files that lie elsewhere stay: exports that were asked
 /// for there, and whatever a record from another folder names.
 void removeOutputs(const std::string& stage, Results& results)
@@ -143,16 +149,16 @@ void removeOutputs(const std::string& stage, Results& results)
 }
 
 /// What was made of results that are about to change goes, so that the folder never holds what does not fit together:
-/// outputs of stages, and the page. The options become those of the run at work. They may not go: it may have been called
-/// by that very file, and may have to be called by it again.
-void removeEarlier(const std::vector<std::string>& stages, Results& results)
+/// outputs of stages, and the page. The options become those of the run at work, but don't go: it may have been called by
+/// that very file, and may have to be called by it again.
+void removeEarlier(const std::vector<std::string>& stages, Results& results, CommandLine& line)
 {
   if (stages.empty() || !results.hasEarlier) return;
   std::error_code error;
   fs::remove(results.folder / "report.html", error);
   if (fs::exists(results.folder / "run.toml", error)) writeConfiguration(results.configuration, results.folder);
   for (const std::string& stage : stages) removeOutputs(stage, results);
-  writeRunRecord(results.record, results.folder.string());
+  writeRecord(results, line);
 }
 
 std::vector<std::string> namesOf(std::vector<Stage>::const_iterator begin, std::vector<Stage>::const_iterator end)
@@ -203,7 +209,7 @@ void runStages(const RunRequest& request, const std::string& configuration, cons
   requireWritable(outputs);
   Results results{ request.folder, given, configuration, readRunRecord(request.folder), false };
   results.hasEarlier = !results.record.empty();
-  removeEarlier(othersIn(results.record, stages), results);
+  removeEarlier(othersIn(results.record, stages), results, line);
   const double all = shareOf(stages) / 0.96; // the report takes the rest
   double done = 0;
   for (auto stage = stages.begin(); stage != stages.end(); ++stage)
@@ -217,13 +223,14 @@ void runStages(const RunRequest& request, const std::string& configuration, cons
       line.message(stage->name + ": nothing has changed since the last run, its results stay");
       continue;
     }
-    removeEarlier(namesOf(stage, stages.end()), results);
+    removeEarlier(namesOf(stage, stages.end()), results, line);
     const auto start = std::chrono::steady_clock::now();
     const std::vector<std::string> files = runStage(*stage, programs, line, subProgress(progress, begin, done));
     present.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (const std::string& file : files) line.tellWritten(file);
     present.outputs = writtenBy(*stage, files, request.folder);
     results.record[stage->name] = present;
-    writeRunRecord(results.record, request.folder);
+    writeRecord(results, line);
   }
 }
 
@@ -326,6 +333,7 @@ void meshCommand(CommandLine& line, const std::string& programs, const std::stri
   }
   report(progress, 0.96, "report");
   writeConfiguration(configuration, request.folder);
+  line.tellWritten(request.folder + "/run.toml");
   writeBytes(htmlReport(request.folder, configuration), line.outputPath(request.folder + "/report.html"));
   line.message("report: " + request.folder + "/report.html");
   report(progress, 1, "done");

@@ -22,6 +22,7 @@
 #include <fstream>
 #include <iostream>
 #include <new>
+#include <set>
 #include <stdexcept>
 
 namespace surgicalmesher
@@ -101,6 +102,7 @@ struct CommandLine::Private
   void prepareOutputs();
   void echo() const;
   void writeReturnParameterFile();
+  void tellOutputs() const;
 
   std::map<std::string, std::string> claims; ///< what writes a file, by its place
   struct ManyFiles
@@ -112,6 +114,7 @@ struct CommandLine::Private
   };
   std::vector<ManyFiles> manyFiles;
   std::vector<std::string> warnings;
+  std::set<std::string> toldWritten;
 };
 
 namespace
@@ -245,6 +248,12 @@ void CommandLine::Private::writeReturnParameterFile()
   if (returnValues.empty()) file << "\n";
 }
 
+void CommandLine::Private::tellOutputs() const
+{
+  for (const std::string& file : toldWritten) progress->output(file);
+  for (const std::string& file : outputs.committed()) progress->output(file);
+}
+
 CommandLine::CommandLine(std::unique_ptr<Private> data) : d(std::move(data)) {}
 CommandLine::~CommandLine() = default;
 
@@ -351,6 +360,8 @@ void CommandLine::discardOutput(const std::string& name)
 
 void CommandLine::commitPath(const std::string& finalPath) { d->outputs.commit(finalPath); }
 
+void CommandLine::tellWritten(const std::string& path) { d->toldWritten.insert(path); }
+
 void CommandLine::returnValue(const std::string& name, const std::string& value)
 {
   d->parameter(
@@ -446,7 +457,7 @@ int runModule(int argc, char** argv, const std::string& xml, const std::function
     line->d->writeReturnParameterFile();
     line->d->outputs.commit();
     line->d->progress->finish();
-    for (const std::string& file : line->d->outputs.committed()) line->d->progress->output(file);
+    line->d->tellOutputs();
   };
 
   try

@@ -71,6 +71,10 @@ public:
   /// A file of outputPath() that is of use while the run goes on: renamed into place at once.
   void commitPath(const std::string& finalPath);
 
+  /// A file that is in place without having been an output here, as one by a program that this one has run: --progress json
+  /// tells it at the end with the others.
+  void tellWritten(const std::string& path);
+
   /// A simple output parameter (channel output, no flag): written to --returnparameterfile as `name = value`.
   void returnValue(const std::string& name, const std::string& value);
 

@@ -187,6 +187,14 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 2), done.stderr)
         self.assertNotEqual(bytes_of("again/mesh.vtu"), bytes_of("out/mesh.vtu"))
 
+    def test_json_tells_which_files_were_written(self):
+        command = self.command_into("told", "--progress", "json", "--export", "head.stl")
+        for anew in (True, False):
+            events = [json.loads(line) for line in surgicalmesher(*command).stdout.splitlines()]
+            told = [event["output"] for event in events if "output" in event]
+            names = os.listdir("told") if anew else ["report.html", "run.toml"]
+            self.assertEqual(sorted(told), sorted(os.path.abspath(f"told/{name}") for name in names))
+
     def command_into(self, folder, *more):
         return [word if word != "out" else folder for word in self.command[:-2]] + list(more)
 
