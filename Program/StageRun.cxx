@@ -15,6 +15,20 @@ namespace surgicalmesher
 namespace
 {
 
+/// The bytes of a path that a program has told. RapidJSON makes three bytes of a surrogate, \udcHH, as of any
+/// character: their last eight bits are the byte that it stands for (ProgressReport.h).
+std::string pathIn(const std::string& text)
+{
+  std::string path;
+  for (std::size_t at = 0; at < text.size(); ++at)
+  {
+    const bool isSurrogate = at + 2 < text.size() && text[at] == '\xed' && (text[at + 1] & 0xfe) == 0xb2;
+    path += isSurrogate ? char((text[at + 1] & 3) << 6 | (text[at + 2] & 0x3f)) : text[at];
+    if (isSurrogate) at += 2;
+  }
+  return path;
+}
+
 /// A line of a program's --progress json; what it has written is added to `files`.
 void handOn(const std::string& text, const Stage& stage, CommandLine& line, const Progress& progress,
             std::vector<std::string>& files)
@@ -26,7 +40,7 @@ void handOn(const std::string& text, const Stage& stage, CommandLine& line, cons
     report(progress, json["progress"].GetDouble(), stage.name + ": " + json["stage"].GetString());
   if (json.HasMember("message")) line.message(stage.name + ": " + json["message"].GetString());
   if (json.HasMember("warning")) line.warning(json["warning"].GetString());
-  if (json.HasMember("output")) files.emplace_back(json["output"].GetString());
+  if (json.HasMember("output")) files.push_back(pathIn(json["output"].GetString()));
 }
 
 /// The last line that is no warning, without the program's name.

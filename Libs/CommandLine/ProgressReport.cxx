@@ -33,6 +33,23 @@ std::string unbroken(std::string text)
   return text;
 }
 
+/// A path as a string of JSON.
+std::string quotedPath(const std::string& path)
+{
+  const char* const digits = "0123456789abcdef";
+  std::string result = "\"";
+  for (std::size_t at = 0; at < path.size();)
+  {
+    const std::size_t length = utf8Length(path, at);
+    const auto byte = static_cast<unsigned char>(path[at]);
+    if (length == 0) result += { '\\', 'u', 'd', 'c', digits[byte >> 4], digits[byte & 15] };
+    const std::string character = quoted(path.substr(at, length));
+    result.append(character, 1, character.size() - 2);
+    at += std::max<std::size_t>(length, 1);
+  }
+  return result + "\"";
+}
+
 std::string percent(double fraction)
 {
   const std::string number = std::to_string(std::lround(fraction * 100));
@@ -120,7 +137,7 @@ void ProgressReport::warning(const std::string& line)
 void ProgressReport::output(const std::string& path)
 {
   const std::lock_guard<std::mutex> lock(m_Mutex);
-  if (m_Format == ProgressFormat::Json) m_Stream << "{\"output\": " << quoted(path) << "}\n" << std::flush;
+  if (m_Format == ProgressFormat::Json) m_Stream << "{\"output\": " << quotedPath(path) << "}\n" << std::flush;
 }
 
 void ProgressReport::finish()

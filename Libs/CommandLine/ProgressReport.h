@@ -33,7 +33,8 @@ public:
   void message(const std::string& line);
   void warning(const std::string& line);
 
-  /// A file that is in place: programs that run others have to know. Other formats don't tell.
+  /// A file that is in place, told in JSON only: programs that run others have to know. A byte of its path that is no
+  /// UTF-8 is a surrogate, \udcHH, as Python has it in paths.
   void output(const std::string& path);
 
   void finish(); ///< ends the stage, or the bar's line

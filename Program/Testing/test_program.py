@@ -194,6 +194,20 @@ class ProgramTest(unittest.TestCase):
             told = [event["output"] for event in events if "output" in event]
             names = os.listdir("told") if anew else ["report.html", "run.toml"]
             self.assertEqual(sorted(told), sorted(os.path.abspath(f"told/{name}") for name in names))
+        piece = (set(glob.glob("told/head*.stl")) - {"told/head.stl"}).pop()
+        self.files_that_are_not_utf8_are_found(os.path.basename(piece))
+
+    def files_that_are_not_utf8_are_found(self, piece):
+        os.makedirs("linked")
+        latin = os.fsdecode(b"linked/m\xfcller.stl")
+        os.symlink(os.path.basename(latin), f"linked/{piece}")
+        command = self.command_into("linked", "--progress", "json", "--export", "head.stl")
+        events = [json.loads(line) for line in surgicalmesher(*command).stdout.splitlines()]
+        self.assertIn(os.path.abspath(latin), [event.get("output") for event in events])
+        with open(latin, "ab") as file:
+            file.write(b"more")
+        self.assertEqual(surgicalmesher(*command).stdout.count("nothing has changed"), 2)
+        self.assertFalse(bytes_of(latin).endswith(b"more"))
 
     def command_into(self, folder, *more):
         return [word if word != "out" else folder for word in self.command[:-2]] + list(more)

@@ -103,6 +103,14 @@ TEST(ProgressReport, tellsTheTimeLeftOnceItIsKnown)
   EXPECT_EQ(timeLeft(0.1, 850), "2 h 8 min");
 }
 
+TEST(ProgressReport, pathsOfAnyBytesAreJson)
+{
+  std::ostringstream stream;
+  ProgressReport progress(stream, ProgressFormat::Json, "Module");
+  progress.output("/a \"b\"/m\xfcller\xc3\xbc\n.vtp\xe2\x80");
+  EXPECT_EQ(stream.str(), "{\"output\": \"/a \\\"b\\\"/m\\udcfcller\xc3\xbc\\u000a.vtp\\udce2\\udc80\"}\n");
+}
+
 TEST(ProgressReport, plainLinesComeOncePerStageAndSeldomWithin)
 {
   std::ostringstream stream;

@@ -127,6 +127,9 @@ class Runtime(unittest.TestCase):
         self.assertIn({"warning": "something \\x1b odd"}, lines)
         self.assertEqual(self.act("warn", "--progress", "none").stdout, 'a "message"\n')
         self.assertEqual(self.act("warn", "--quiet").stdout, "")
+        latin = os.path.join(self.folder, os.fsdecode(b"m\xfcller.vtp"))
+        lines = [json.loads(line) for line in self.run_module("--progress", "json", "in", latin).stdout.splitlines()]
+        self.assertIn({"output": latin}, lines)
         self.assert_failure_of_usage("--progress: 'bars' found, one of xml, bar, plain, json, none expected",
                                      "--progress", "bars")
 
