@@ -57,7 +57,7 @@ std::string manualPage(const Page& page)
     if (!entries.empty()) text += ".SH \"" + roff(group.label) + "\"\n" + roff(group.description) + ".\n" + entries;
   }
   return text + ".SH \"EXIT STATUS\"\n0 done, 1 the input is at fault, 2 the command line is at fault, 3 the engine "
-                "failed.\n";
+                "failed, memory ran out, or what was printed on stdout could not be written.\n";
 }
 
 /// Of surgicalmesher itself: where its commands are told of.

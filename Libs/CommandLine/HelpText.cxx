@@ -83,7 +83,8 @@ Every module
   --processinformationaddress ADDRESS
       Accepted and not used.
 
-Exit status: 0 done, 1 the input is at fault, 2 the command line is at fault, 3 the engine failed.
+Exit status: 0 done, 1 the input is at fault, 2 the command line is at fault, 3 the engine failed, memory
+ran out, or what was printed on stdout could not be written.
 )";
 
 } // namespace
