@@ -89,7 +89,8 @@ void requireAccepted(const Parameter& parameter, const std::vector<std::string>&
   }
 }
 
-/// Absolute, but for what lies in the folder of the results: that may be moved and copied, and the configuration with it.
+/// Absolute, but for what lies in the folder of the results: that may be moved and copied, and the configuration with
+/// it.
 std::string pathFrom(const std::string& resultFolder, const std::string& file)
 {
   const std::filesystem::path path = absolutePath(file);

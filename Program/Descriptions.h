@@ -32,8 +32,8 @@ enum class Outputs
   LeftOut
 };
 
-/// `command` with the options of `programs` behind its own, by mergedName(), each once, as the first program that has it
-/// describes it, without stageOptions().
+/// `command` with the options of `programs` behind its own, by mergedName(), each once, as the first program that has
+/// it describes it, without stageOptions().
 std::string mergedDescription(const std::string& command, const std::vector<std::string>& programs,
                               Outputs outputs = Outputs::AsTexts);
 

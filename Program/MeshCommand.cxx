@@ -82,7 +82,7 @@ void requireReadable(const std::vector<std::string>& files)
   for (const std::string& file : files) text::requireReadableFile(file);
 }
 
-/// Of a whole run.
+/// Files that a whole run writes.
 std::vector<std::string> allOutputs(const std::vector<Stage>& stages, const fs::path& folder)
 {
   std::vector<std::string> files;
@@ -91,10 +91,10 @@ std::vector<std::string> allOutputs(const std::vector<Stage>& stages, const fs::
   return files;
 }
 
-/// Throws if a folder stands there, say, before hours have gone into what comes earlier.
+/// Throws if a file can't be written, as where a folder has its name: the last of them would show it after hours.
 void requireWritable(const std::vector<std::string>& outputs)
 {
-  OutputFiles attempt; // leaves nothing
+  OutputFiles attempt; // without commit() it leaves nothing
   for (const std::string& output : outputs) attempt.temporary(output);
 }
 
@@ -112,7 +112,7 @@ void requireInputsKept(const std::vector<std::string>& outputs, const std::vecto
 
 void writeConfiguration(const std::string& configuration, const fs::path& folder)
 {
-  OutputFiles file; // that may be an input of this very run, too
+  OutputFiles file; // none of the command line's outputs: the run may have been called by this very file
   writeBytes(configuration, file.temporary((folder / "run.toml").string()));
   file.commit();
 }
@@ -133,8 +133,8 @@ void writeRecord(const Results& results, CommandLine& line)
   line.tellWritten((results.folder / "stages.json").string());
 }
 
-/// What a stage has written goes, and what the record says of it. Files that lie elsewhere stay: exports that were asked
-/// for there, and whatever a record from another folder names.
+/// What a stage has written goes, and what the record says of it. Files that lie elsewhere stay: exports that were
+/// asked for there, and whatever a record from another folder names.
 void removeOutputs(const std::string& stage, Results& results)
 {
   for (const auto& output : results.record[stage].outputs)
@@ -149,8 +149,8 @@ void removeOutputs(const std::string& stage, Results& results)
 }
 
 /// What was made of results that are about to change goes, so that the folder never holds what does not fit together:
-/// outputs of stages, and the page. The options become those of the run at work, but don't go: it may have been called by
-/// that very file, and may have to be called by it again.
+/// outputs of stages, and the page. The options become those of the run at work, but don't go: it may have been called
+/// by that very file, and may have to be called by it again.
 void removeEarlier(const std::vector<std::string>& stages, Results& results, CommandLine& line)
 {
   if (stages.empty() || !results.hasEarlier) return;

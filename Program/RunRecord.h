@@ -26,8 +26,8 @@ void writeRunRecord(const RunRecord& record, const std::string& folder);
 /// MD5 of a file's bytes, in hexadecimal; empty if it can't be read.
 std::string fingerprint(const std::string& file);
 
-/// What a stage is about to be run with. Beside a file outside of `folder`, all that shares its name up to the first dot
-/// counts, too, as it may hold its data, but for what the last extension says is none, as a log.
+/// What a stage is about to be run with. Beside a file outside of `folder`, all that shares its name up to the first
+/// dot counts, too, as it may hold its data, but for what the last extension says is none, as a log.
 StageRecord recordOf(const Stage& stage, const std::string& program, const std::string& folder);
 
 /// Whether `earlier` was run with the same as `present`, and all that it wrote is as it was.

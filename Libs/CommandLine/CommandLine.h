@@ -10,8 +10,8 @@
 ///
 /// runModule answers --xml, --help and --version, parses and checks the options, hands them to the function, renames
 /// the outputs into place when it returns, and turns what it throws into one line on stderr and an exit status: 0 done,
-/// 1 InputError, 2 UsageError, 3 EngineError or anything else, stdout that could not be written to among it. Outputs appear whole or not at all, and never in place
-/// of an input.
+/// 1 InputError, 2 UsageError, 3 EngineError or anything else, a stdout that could not be written to among it. Outputs
+/// appear whole or not at all, and never in place of an input.
 ///
 /// While the function runs, what libraries write to stderr is discarded, unless the environment variable
 /// SURGICALMESHER_DEBUG is set.
@@ -71,8 +71,8 @@ public:
   /// A file of outputPath() that is of use while the run goes on: renamed into place at once.
   void commitPath(const std::string& finalPath);
 
-  /// A file that is in place without having been an output here, as one by a program that this one has run: --progress json
-  /// tells it at the end with the others.
+  /// A file that is in place without having been an output here, as one by a program that this one has run:
+  /// --progress json tells it at the end with the others.
   void tellWritten(const std::string& path);
 
   /// A simple output parameter (channel output, no flag): written to --returnparameterfile as `name = value`.

@@ -136,7 +136,8 @@ void outputIsInPlace() { outputsFate.store(", outputs that were complete stay\n"
 void returnFreedMemory()
 {
 #ifdef __GLIBC__
-  // Left alone, glibc raises both to as much as 64 MB after the first large array is freed, and what is freed later stays.
+  // Left alone, glibc raises both to as much as 64 MB after the first large array is freed, and what is freed later
+  // stays.
   constexpr int most = 16 << 20; // bytes; smaller arrays come and go too often to be asked for each time
   mallopt(M_MMAP_THRESHOLD, most);
   mallopt(M_TRIM_THRESHOLD, most);

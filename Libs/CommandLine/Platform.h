@@ -9,8 +9,8 @@ namespace surgicalmesher
 
 bool stdoutIsTerminal();
 
-/// Those of stdin, stdout and stderr that whoever started the process has closed lead nowhere from now on: what is opened
-/// later would take their place, and what is printed would go there.
+/// Those of stdin, stdout and stderr that whoever started the process has closed lead nowhere from now on: what is
+/// opened later would take their place, and what is printed would go there.
 void openStandardStreams();
 
 /// From now on, large arrays go back to the system as soon as they are freed, where the system's allocator would keep
@@ -18,9 +18,9 @@ void openStandardStreams();
 void returnFreedMemory();
 
 /// From then on memory comes in large pages, where the system has them for those who ask (transparent huge pages: Linux
-/// with glibc 2.35 or later): most arrays are walked through once, and small pages one by one take longer than that. The C
-/// library must be told before it starts: the program starts itself again, in the same process, once, and nothing may have
-/// happened before that it could not do twice. Where GLIBC_TUNABLES is set, nothing is done.
+/// with glibc 2.35 or later): most arrays are walked through once, and small pages one by one take longer than that.
+/// The C library must be told before it starts: the program starts itself again, in the same process, once, and nothing
+/// may have happened before that it could not do twice. Where GLIBC_TUNABLES is set, nothing is done.
 void useLargePages();
 
 /// Throws EngineError if something that was printed on stdout has not got there, for want of room, say. A reader that

@@ -16,7 +16,7 @@ int byteAt(const std::string& text, std::size_t at)
 }
 
 /// Of ASCII: what strings of JSON or TOML don't hold as it is.
-bool isControl(unsigned char letter) { return letter < 0x20 || letter == 0x7f; }
+bool isASCIIControl(unsigned char letter) { return letter < 0x20 || letter == 0x7f; }
 
 std::string numbered(unsigned char letter)
 {
@@ -95,7 +95,7 @@ std::string quoted(const std::string& text)
   for (const char letter : text)
   {
     if (letter == '"' || letter == '\\') result += '\\';
-    result += isControl(letter) ? numbered(letter) : std::string(1, letter);
+    result += isASCIIControl(letter) ? numbered(letter) : std::string(1, letter);
   }
   return result + "\"";
 }
