@@ -2,7 +2,7 @@
 """Graded finite element meshes of all tissues of a label map.
 
     import surgicalmesher
-    mesh = surgicalmesher.mesh(labels, spacing=(1, 1, 1.5), targets=[(0, 0, -10)])
+    mesh = surgicalmesher.mesh(labels, spacing=(1, 1, 1.5), origin=(-90, -126, -72), targets=[(0, 0, -10)])
 
 Lengths are in mm, points in LPS (x to the patient's left, y to the back, z to the head), as in all of the project's files.
 """
