@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -18,7 +19,9 @@ from cohorts import ROOT, all_files, assert_one_refused, read_config, read_summa
 sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
 sys.path.insert(0, os.path.join(ROOT, "workflow", "scripts"))
 from cohort import Cohort  # noqa: E402
+import stage  # noqa: E402
 from configuration import ConfigurationError, read_configuration  # noqa: E402
+from maps import write_nrrd  # noqa: E402
 from measures import dihedral_angles, signed_volumes  # noqa: E402
 from meshfiles import read_mesh, read_nrrd  # noqa: E402
 
@@ -91,7 +94,7 @@ class CohortTest(unittest.TestCase):
 
     @staticmethod
     def write_failing_mesher():
-        """Modules of which the mesher fails three patients as machines do, and refuses one."""
+        """Modules of which the mesher fails three patients as machines do, and refuses two."""
         os.makedirs("bin", exist_ok=True)
         for name in os.listdir(BIN):
             if "CLI" in name and not os.path.exists(os.path.join("bin", name)):
@@ -104,22 +107,25 @@ class CohortTest(unittest.TestCase):
                        '*p2.nrrd*) echo "SimplexMesherCLI: out of memory" >&2; exit 3;;\n'
                        '*p4.nrrd*) trap "" XFSZ; ulimit -f 8;;\n'  # all room that there is for a file
                        '*p6.nrrd*) echo "SimplexMesherCLI: p6.nrrd: cannot be read to its end" >&2; exit 1;;\n'
+                       '*p0.nrrd*) echo "SimplexMesherCLI: surface: tissue 5 changed its topology" >&2; exit 3;;\n'
                        f'esac\nexec {BIN}/SimplexMesherCLI "$@"\n')
         os.chmod(mesher, 0o755)
 
     def test_5_lost_job_is_reported_and_tried_again(self):
         self.write_failing_mesher()
         lost = {"p1": "signal 9", "p2": "out of memory", "p4": "written"}
-        for patient in (*lost, "p6", "p7"):
+        for patient in (*lost, "p0", "p6", "p7"):
             shutil.rmtree(os.path.join("out", patient))
         self.assert_done(run(os.path.abspath("bin")), status=1)
         rows = read_summary()
         for patient, words in lost.items():
             self.assertEqual(rows[patient]["state"], "lost at surface", rows[patient])
             self.assertIn(words, rows[patient]["error"])
-        self.assertEqual((rows["p6"]["state"], rows["p7"]["state"]), ("refused by surface", "meshed"))
+        self.assertEqual([rows[patient]["state"] for patient in ("p0", "p6", "p7")],
+                         ["refused by surface", "refused by surface", "meshed"])
         self.assert_done(run())
-        self.assertEqual({patient for patient, row in read_summary().items() if row["state"] != "meshed"}, {"p3", "p6"})
+        rows = read_summary()
+        self.assertEqual({patient for patient in rows if rows[patient]["state"] != "meshed"}, {"p0", "p3", "p6"})
 
     def test_6_every_patient_has_options_of_its_own(self):
         clear_folder()
@@ -297,35 +303,119 @@ class StageTest(unittest.TestCase):
     def setUp(self):
         clear_folder()
 
-    def status_after(self, status, line):
-        script = f"echo {shlex.quote(line)} >&2; exit {status}"
-        stage = [sys.executable, os.path.join(ROOT, "workflow", "scripts", "stage.py"), "surface", "out", "out.log", "--",
-                 "sh", "-c", script]
+    def status_of(self, *command, name="surface"):
+        """Of the stage's script."""
+        stage = [sys.executable, os.path.join(ROOT, "workflow", "scripts", "stage.py"), name, f"out/p/{name}",
+                 f"out/p/{name}.log", "--", *command]
         shutil.rmtree("out", ignore_errors=True)
+        os.makedirs("out/p")
         done = subprocess.run(stage, check=False).returncode
-        self.assertEqual(os.path.exists("out/run.json"), done == 0, line)
+        self.assertEqual(os.path.exists(f"out/p/{name}/run.json"), done == 0, command)
         return done
+
+    def status_after(self, status, line):
+        return self.status_of("sh", "-c", f"echo {shlex.quote(line)} >&2; exit {status}")
+
+    def assert_is_said(self, words, file):
+        """By the module's source."""
+        self.assertIn(words, re.sub(r'"\s*"', "", text_of(os.path.join(ROOT, file))))
 
     def test_results(self):
         for status, line in ((0, ""), (2, "X: --edgeLength: '-1' found, a number expected"),
-                             (1, "X: p0.nrrd: cannot be opened for reading"), (1, "X: p0.nrrd: cannot be read to its end"),
-                             (1, "X: out/a.xyz: cannot be written as an image, expected the extension of NRRD"),
-                             (1, "X: out/a.msh: label 120 found, SimNIBS's tissues are 1 to 99")):
+                             (1, "X: p0.nrrd: cannot be opened for reading"),
+                             (1, "X: p0.nrrd: cannot be read to its end"),
+                             (1, "X: out/a.msh: label 120 found, SimNIBS's tissues are 1 to 99"),
+                             (3, "X: out of memory/a.vtp: tissue 5 got lost"), (3, "")):
             self.assertEqual(self.status_after(status, line), 0, line)
 
+    def test_results_in_the_modules_words(self):
+        for status, line, words, file in (
+                (1, "out/a.xyz: cannot be written as an image, expected the extension of NRRD",
+                 ": cannot be written as an image, expected the extension of ", "Libs/TissueMap/TissueMapIO.cxx"),
+                (3, "constrained Delaunay: TetGen gave up with it found triangles that cut each other",
+                 "constrained Delaunay: TetGen gave up with ", "Libs/Delaunay/SurfaceTetrahedralization.cxx"),
+                (3, "surface: tissue 5 changed its topology", " changed its topology",
+                 "SimplexMesher/CLI/SimplexMesherCLI.cxx"),
+                (3, "map preparation: a tissue got lost in simplification",
+                 "map preparation: a tissue got lost in simplification", "Libs/MapPreparation/ScaledPreparation.cxx")):
+            self.assertIn(words, line)
+            self.assert_is_said(words, file)
+            self.assertEqual(self.status_after(status, f"X: {line}"), 0, line)
+
     def test_lost(self):
-        for status, line in ((3, "X: out of memory"), (139, ""), (3, ""),
-                             (1, "X: out/a.vtu: can't be written to its end (No space left on device)"),
-                             (1, "X: out/a.vtu: can't be opened for writing (Permission denied)"),
-                             (1, "X: out/a.nrrd: cannot be written whole, expected room for it on the disk"),
-                             (1, "X: out/a.vtp: disk full or failing, room for the file expected"),
-                             (1, "X: out/a.vtp: can't be replaced, a writable file expected"),
-                             (1, "X: out/a.vtp: can't create a file in out, a writable folder expected"),
-                             (1, "X: p0.nrrd: meshing this map at this scale takes about 9 GB of memory, found 4 GB "
-                                 "available, expected more, or larger voxels or minimum edge length")):
-            self.assertEqual(self.status_after(status, line), 1, line)
-            with open("out.log", encoding="utf-8") as log:
-                self.assertEqual(log.read().strip(), line or f"sh ended by status {status}")
+        for status, line, words, file in (
+                (3, "out of memory", "out of memory", "Libs/CommandLine/CommandLine.cxx"),
+                (3, "constrained Delaunay: TetGen gave up with out of memory", "out of memory",
+                 "Libs/Delaunay/SurfaceTetrahedralization.cxx"),
+                (3, "HDF5: no memory for the exported mesh", "HDF5: no memory for the exported mesh",
+                 "Libs/FiniteElements/Export/XdmfExport.cxx"),
+                (3, "no process of its own can be started for a library (Resource temporarily unavailable)",
+                 "no process of its own can be started for a library (", "Libs/Foundation/SeparateProcess.cxx"),
+                (3, "stdout: not all that was printed could be written, a place with room for it expected",
+                 "stdout: not all that was printed could be written", "Libs/CommandLine/Platform.cxx"),
+                (3, "out/a.vtp: output was not written", ": output was not written",
+                 "Libs/CommandLine/OutputFiles.cxx"),
+                (1, "out/a.vtu: can't be written to its end (No space left on device)", "written to its end",
+                 "Libs/Foundation/TextFile.cxx"),
+                (1, "out/a.vtu: can't be opened for writing (Permission denied)", "opened for writing",
+                 "Libs/Foundation/TextFile.cxx"),
+                (1, "out/a.nrrd: cannot be written whole, expected room for it on the disk",
+                 ": cannot be written whole", "Libs/TissueMap/TissueMapIO.cxx"),
+                (1, "out/a.nrrd: cannot be written (Broken pipe)", ": cannot be written (",
+                 "Libs/TissueMap/TissueMapIO.cxx"),
+                (1, "out/a.vtp: disk full or failing, room for the file expected", ": disk full or failing",
+                 "Libs/CommandLine/OutputFiles.cxx"),
+                (1, "out/a.vtp: can't be replaced, a writable file expected", ": can't be replaced",
+                 "Libs/CommandLine/OutputFiles.cxx"),
+                (1, "out/a.vtp: can't create a file in out, a writable folder expected", ": can't create a file in ",
+                 "Libs/CommandLine/OutputFiles.cxx")):
+            self.assertIn(words, line)
+            self.assert_is_said(words, file)
+            self.assertEqual(self.status_after(status, f"X: {line}"), 1, line)
+            self.assertEqual(text_of("out/p/surface.log").strip(), f"X: {line}")
+        self.assertEqual(self.status_after(139, ""), 1)
+        self.assertEqual(text_of("out/p/surface.log").strip(), "sh ended by status 139")
+
+    @staticmethod
+    def write_cube(size):
+        write_nrrd("cube.nrrd", np.ones((size,) * 3, np.uint16), np.eye(4))
+
+    def mesher(self, *options, limit="true"):
+        """The status of the surface's stage for the cube."""
+        words = shlex.join([os.path.join(BIN, "SimplexMesherCLI"), *options, "cube.nrrd", "out/surface.vtp"])
+        return self.status_of("sh", "-c", f"{limit}; exec {words}")
+
+    def test_limits_of_memory(self):
+        self.write_cube(60)
+        said = set()
+        for kilobytes in range(60_000, 140_001, 20_000):
+            if self.mesher("--edgeLength", "1.5", limit=f"ulimit -v {kilobytes}"):
+                said.add(text_of("out/p/surface.log").strip().split("\n")[-1])
+            else:
+                with open("out/p/surface/run.json", encoding="utf-8") as file:
+                    self.assertEqual(json.load(file)["status"], 0)
+        self.assertIn("SimplexMesherCLI: out of memory", said)
+
+    def test_full_disks(self):
+        self.write_cube(9)
+        self.assertEqual(self.mesher("--edgeLength", "2", limit="exec >/dev/full"), 1)
+        self.assertIn("SimplexMesherCLI: stdout: ", text_of("out/p/surface.log"))
+        self.assertEqual(self.mesher("--edgeLength", "2", "--quiet", limit="trap '' XFSZ; ulimit -f 1"), 1)
+        self.assertIn("surface.vtp: ", text_of("out/p/surface.log"))
+
+    def test_memory_that_no_machine_has(self):
+        self.write_cube(200)
+        self.assertEqual(self.mesher("--edgeLength", "0.25"), 0)
+        with open("out/p/surface/run.json", encoding="utf-8") as file:
+            run = json.load(file)
+        self.assertEqual(run["status"], 1)
+        self.assertRegex(run["error"], "[0-9]{4}.[0-9] GB of memory, found .* available")
+        for line in (run["error"], "X: a.vtp: at these edge lengths it takes about 9e+03 million tetrahedra and 2e+03 "
+                                   "GB of memory, found 9.1 GB available, expected longer edges"):
+            for memory, is_result in ((1e9, True), (1e13, False)):
+                with unittest.mock.patch("stage.memory_of_machine", return_value=memory):
+                    self.assertEqual(stage.is_result(1, line), is_result, line)
+        self.assert_is_said(" GB of memory, found ", "FuchsTetrahedralizer/Core/SurfacePreparation.cxx")
 
 
 class RefusalTest(unittest.TestCase):

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """Runs one stage for one patient. usage: stage.py STAGE FOLDER LOG [--after FOLDER] -- COMMAND...
 
-Leaves run.json in FOLDER: stage, exit status, error line, seconds and peak memory (bytes). The exit statuses 1 and 2,
-by which the programs refuse their input and their options, are results like others; if the stage before ended with one,
-it is handed on and nothing runs. Whatever else goes wrong may go well another time and ends this script with status 1:
-signals, status 3, by which the programs tell of a failure of their own as for want of memory, and status 1 where it is
-the room for the outputs or the memory that is not there.
+Leaves run.json in FOLDER: stage, exit status, error line, seconds and peak memory (bytes). A program that refuses its
+input (exit status 1) or its options (2), or whose engine gives up on them (3), ends so whenever it is run: a result
+like others. If the stage before ended with one, it is handed on and nothing runs. What may go well another time ends
+this script with status 1: signals, and errors that tell of room for outputs, of memory that this machine has, or of
+processes and threads.
 """
 import argparse
 import json
@@ -17,9 +17,13 @@ import sys
 import time
 
 DONE, BAD_INPUT, BAD_OPTION, FAILURE = range(4)
-# What the programs say, with the status of bad input, when the input is not at fault.
+# What the programs say where neither the input nor the engine is at fault.
 WANTING = re.compile(r": (can't|cannot) (be (opened for writing|replaced|written(?! as an image))|create a file)"
-                     r"|: disk full|, a writable (file|folder) expected| of memory, found .* available")
+                     r"|: disk full|, a writable (file|folder) expected|: output was not written$"
+                     r"|: not all that was printed could be written"
+                     r"|(:| gave up with) out of memory$|: no memory for the exported mesh$"
+                     r"|: no process of its own can be started|: Resource temporarily unavailable$")
+ESTIMATE = re.compile(r" ([0-9][0-9.e+]*) GB of memory, found .* available")
 LONGEST = 500  # characters of a line for a table
 
 
@@ -57,9 +61,19 @@ def shortened(line):
     return line if len(line) <= LONGEST else line[:LONGEST] + " ..."
 
 
+def memory_of_machine():
+    """Bytes, whether free or not."""
+    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+
+
 def is_result(status, error):
-    """Whether the same files and options would end so on any machine."""
-    return status in (DONE, BAD_OPTION) or (status == BAD_INPUT and not WANTING.search(error))
+    """Whether the same files and options end so on this machine whatever else it does."""
+    if status in (DONE, BAD_OPTION):
+        return True
+    estimate = ESTIMATE.search(error)
+    if estimate and float(estimate[1]) * 1e9 <= memory_of_machine():
+        return False
+    return status in (BAD_INPUT, FAILURE) and not WANTING.search(error)
 
 
 def run(arguments):
@@ -71,7 +85,7 @@ def run(arguments):
         log.write("\n".join(printable(line) for line in said.split("\n")))
         error = last_line(said)
         if not is_result(process.returncode, error):
-            if process.returncode not in (BAD_INPUT, FAILURE) or not said.strip():  # it could not tell why
+            if process.returncode not in (BAD_INPUT, FAILURE):  # it could not tell why
                 end = f"signal {-process.returncode}" if process.returncode < 0 else f"status {process.returncode}"
                 log.write(f"{arguments.command[0]} ended by {end}\n")
             sys.exit(1)
