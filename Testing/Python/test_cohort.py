@@ -417,6 +417,17 @@ class StageTest(unittest.TestCase):
                     self.assertEqual(stage.is_result(1, line), is_result, line)
         self.assert_is_said(" GB of memory, found ", "FuchsTetrahedralizer/Core/SurfacePreparation.cxx")
 
+    def test_long_lines_are_shortened_in_the_table(self):
+        for status in (1, 9):
+            self.status_of("sh", "-c", f"printf 'X: %05000d' 7 >&2; exit {status}", name="scale")
+            if status == 9:
+                write_text("X: " + "7" * 5000, "out/p/scale.log")
+            summary = [sys.executable, os.path.join(ROOT, "workflow", "scripts", "summary.py"), "out", "p"]
+            subprocess.run(summary, stdout=subprocess.DEVNULL, check=True)
+            row = read_summary()["p"]
+            self.assertEqual((row["state"], len(row["error"])),
+                             ("lost at scale" if status == 9 else "refused by scale", stage.LONGEST + len(" ...")))
+
 
 class RefusalTest(unittest.TestCase):
     def setUp(self):

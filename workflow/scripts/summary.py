@@ -12,6 +12,7 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "workflow", "example"))
 from report import wrong_tissues  # noqa: E402
+from stage import printable, shortened  # noqa: E402
 
 STAGES = ("scale", "surface", "mesh")
 COLUMNS = ("patient", "state", "error", "warnings", "tissues", "islandsRemoved", "mapVolumeMm3", "meshVolumeMm3",
@@ -26,10 +27,9 @@ def read_json(*path):
         return json.load(file)
 
 
-def printable(value):
+def legible(value):
     """On one line, and without what a terminal or a table would obey."""
-    text = str(value).encode("utf-8", "backslashreplace").decode()
-    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    return printable(str(value).encode("utf-8", "backslashreplace").decode())
 
 
 def last_line(file):
@@ -37,7 +37,7 @@ def last_line(file):
         return "not begun"
     with open(file, encoding="utf-8", errors="backslashreplace") as log:
         lines = log.read().split("\n")
-    return next((line for line in reversed(lines) if line.strip()), "interrupted")
+    return shortened(next((line for line in reversed(lines) if line.strip()), "interrupted"))
 
 
 def voxel_volume(file):
@@ -115,11 +115,11 @@ def write_csv(file, columns, rows):
     with open(file, "w", encoding="utf-8", newline="") as stream:
         writer = csv.DictWriter(stream, columns, restval="", lineterminator="\n")
         writer.writeheader()
-        writer.writerows({name: printable(value) for name, value in row.items()} for row in rows)
+        writer.writerows({name: legible(value) for name, value in row.items()} for row in rows)
 
 
 def markdown(name, row):
-    cell = printable(row.get(name, "")).replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
+    cell = legible(row.get(name, "")).replace("\\", "\\\\").replace("|", "\\|").replace("<", "&lt;")
     if cell and name in ("picture", "log"):
         return f"[![]({cell})]({cell})" if name == "picture" else f"[log]({cell})"
     return cell
@@ -142,7 +142,7 @@ def main():
     failed = [row for row in rows if row["state"] != "meshed"]
     print(f"{len(rows) - len(failed)} of {len(rows)} patients meshed, see {os.path.join(folder, 'summary.md')}")
     for row in failed:
-        print(printable(f"{row['patient']}: {row['state']}: {row['error']}"))
+        print(legible(f"{row['patient']}: {row['state']}: {row['error']}"))
 
 
 if __name__ == "__main__":
