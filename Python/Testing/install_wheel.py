@@ -12,8 +12,8 @@ SOURCE, BUILD, OUTDIR = sys.argv[1:4]
 
 
 def run(*command, **environment):
-    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                          env={**os.environ, **environment}, check=False)
+    done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          text=True, env={**os.environ, **environment}, check=False)
     assert done.returncode == 0, done.stdout
 
 

@@ -4,7 +4,8 @@
     import surgicalmesher
     mesh = surgicalmesher.mesh(labels, spacing=(1, 1, 1.5), origin=(-90, -126, -72), targets=[(0, 0, -10)])
 
-Lengths are in mm, points in LPS (x to the patient's left, y to the back, z to the head), as in all of the project's files.
+Lengths are in mm, points in LPS (x to the patient's left, y to the back, z to the head), as in all of the project's
+files.
 """
 from ._meshing import estimate, mesh
 from ._programs import MeshingError, MeshingWarning

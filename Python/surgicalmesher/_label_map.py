@@ -9,8 +9,8 @@ import numpy.typing as npt
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
 ARRAYS_ONLY = "expected with numpy arrays only (the voxels of the scale volume have scaleSpacing)"
 # What a NIfTI header, 1 or 2, says of the places of its voxels.
-NIFTI_PLACEMENT = ("pixdim", "xyzt_units", "qform_code", "quatern_b", "quatern_c", "quatern_d", "qoffset_x", "qoffset_y",
-                   "qoffset_z", "sform_code", "srow_x", "srow_y", "srow_z")
+NIFTI_PLACEMENT = ("pixdim", "xyzt_units", "qform_code", "quatern_b", "quatern_c", "quatern_d", "qoffset_x",
+                   "qoffset_y", "qoffset_z", "sform_code", "srow_x", "srow_y", "srow_z")
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,8 @@ from ._programs import Progress, output_flags, run, vector_flags
 from ._tetrahedra import Mesh, read_mesh
 
 
-QUESTIONS = {"help", "version", "xml", "echo", "progress"}  # about a program, which answers in other lines than are read
+# Flags that make a program describe itself, or report in another way than `run` reads.
+QUESTIONS = {"help", "version", "xml", "echo", "progress"}
 
 
 def _plain(value: Any) -> Any:
@@ -96,8 +97,8 @@ def _require_kept(options: Mapping[str, Any]) -> None:
     outputs = output_flags() if names else ()
     for name in names:
         if name in outputs:
-            raise ValueError(f"{name}: {options[name]!r} would lie in the folder of the results, expected with folder=, or "
-                             "with a folder of its own")
+            raise ValueError(f"{name}: {options[name]!r} would lie in the folder of the results, expected with folder=, "
+                             "or with a folder of its own")
 
 
 def _is_source(image: Any, file: str) -> bool:
@@ -144,7 +145,8 @@ def _as_before(file: str, write: Optional[Callable[[str], None]] = None) -> Iter
     it fails, by the next call if this one is killed. A link stays one."""
     folder, name = os.path.split(os.path.realpath(file))
     _tidy(os.path.join(folder, name))
-    file, aside, new = (os.path.join(folder, begin + name) for begin in ("", f".{os.getpid()}.", f".{os.getpid()}.new."))
+    own = f".{os.getpid()}."
+    file, aside, new = (os.path.join(folder, begin + name) for begin in ("", own, own + "new."))
     was_there = os.path.isfile(file)
     try:
         if was_there:

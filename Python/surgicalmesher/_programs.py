@@ -89,8 +89,8 @@ def _hand_on(line: bytes, progress: Optional[Progress]) -> None:
 
 
 def run(command: str, arguments: Sequence[str], progress: Optional[Progress] = None) -> None:
-    """Runs `surgicalmesher command arguments...`. Ctrl-C and whatever `progress` raises end the program, which takes its
-    half-written files with it. Raises MeshingError."""
+    """Runs `surgicalmesher command arguments...`. Ctrl-C and whatever `progress` raises end the program, which takes
+    its half-written files with it. Raises MeshingError."""
     words = [program(), command, "--progress=json", *arguments]
     with tempfile.TemporaryFile() as errors:
         try:

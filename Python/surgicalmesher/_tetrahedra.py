@@ -89,8 +89,8 @@ class Mesh:
 
 
 def read_mesh(file: "str | os.PathLike[str]") -> Mesh:
-    """A mesh.vtu that Fuchs Tetrahedralizer or `surgicalmesher mesh` wrote. Raises MeshingError for others, as `convert`
-    writes them: they have no names and colours of tissues."""
+    """A mesh.vtu that Fuchs Tetrahedralizer or `surgicalmesher mesh` wrote. Raises MeshingError for others, as
+    `convert` writes them: they have no names and colours of tissues."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonDataModel import VTK_TETRA
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader

@@ -108,7 +108,8 @@ class Cohort:
                     yield from ["--" + name, os.path.join(folder, value) if flag.is_output else value]
 
     def has_null_displacement(self, patient):
-        return any(name in self.patients[patient] for name in ("nullDisplacementRadius", "nullDisplacementPathDistance"))
+        return any(name in self.patients[patient]
+                   for name in ("nullDisplacementRadius", "nullDisplacementPathDistance"))
 
     def command(self, stage, patient, folder):
         """The stage's command but for --threads; it writes into `folder`, whose neighbours are the earlier stages'."""
