@@ -32,8 +32,20 @@ std::vector<vtkXMLDataElement*> childrenOf(vtkXMLDataElement* element)
   return children;
 }
 
+/// A text is taken as it is: several need the flag once each.
+void tellOfNoList(vtkXMLDataElement* description)
+{
+  const std::string ofFiles = " or separate files by commas";
+  std::string text = description ? description->GetCharacterData() : "";
+  const std::size_t at = text.find(ofFiles);
+  if (at == std::string::npos) return;
+  text.erase(at, ofFiles.size());
+  description->SetCharacterData(text.c_str(), int(text.size()));
+}
+
 void makeText(vtkXMLDataElement* output)
 {
+  tellOfNoList(output->FindNestedElementWithName("description"));
   output->SetName("string");
   output->RemoveAttribute("fileExtensions");
   output->RemoveNestedElement(output->FindNestedElementWithName("channel"));

@@ -264,6 +264,13 @@ class ProgramTest(unittest.TestCase):
             names = {os.path.basename(path) for path in json.load(file)["scale"]["inputs"]}
         self.assertEqual(names, {"pat.hdr", "pat.img"})
 
+    def test_help_promises_lists_of_files_where_there_are_some(self):
+        text = " ".join(surgicalmesher("mesh", "--help").stdout.split())
+        targets = text[text.index("--targets "):text.index("--path ")]
+        export = text[text.index("--export "):text.index("--elementOrder ")]
+        self.assertIn("separate files by commas for several", targets)
+        self.assertIn("repeat the flag for several", export)
+
     def test_data_of_a_header_may_have_any_name(self):
         labels = np.asarray(cut_out(np.s_[58:90, 84:116, 30:56])[0]).astype(np.uint8)
         for data in ("pat.01.raw", "pat.001"):
