@@ -36,7 +36,8 @@ std::vector<vtkXMLDataElement*> childrenOf(vtkXMLDataElement* element)
 void tellOfNoList(vtkXMLDataElement* description)
 {
   const std::string ofFiles = " or separate files by commas";
-  std::string text = description ? description->GetCharacterData() : "";
+  if (!description || !description->GetCharacterData()) return;
+  std::string text = description->GetCharacterData();
   const std::size_t at = text.find(ofFiles);
   if (at == std::string::npos) return;
   text.erase(at, ofFiles.size());
