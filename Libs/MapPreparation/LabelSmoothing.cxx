@@ -262,8 +262,8 @@ private:
   /// Finds the constants with which tissues keep their volumes; the background's stays 0. Each goes up or down by a step
   /// of its own, which grows while that helps and halves when the tissue has come to have too much of what it lacked
   /// (Riedmiller and Braun 1993): how many voxels a constant moves differs by orders of magnitude between tissues. A
-  /// strand of one voxel gains none by any constant, as all beside it are in walls; it has to be able to keep its own,
-  /// against a neighbour that has a constant, too.
+  /// strand one voxel wide can gain no voxel, as all beside it are in walls. `most` is large enough for it to lose none
+  /// either, to a neighbour that has a constant of its own.
   void balance()
   {
     constexpr int rounds = 60;

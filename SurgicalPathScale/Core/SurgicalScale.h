@@ -84,8 +84,7 @@ void checkScaleOptions(const SurgicalScaleOptions& options, const Grid& map, con
                        const std::vector<Path>& paths);
 
 /// The grid of a scale volume: the axes of the map's grid, cubic voxels of `spacing`, centred on the map, which it
-/// covers to the outer faces of its voxels with at least one scale voxel and a fifth of the map's to
-/// spare on every side.
+/// covers to the outer faces of its voxels with at least one scale voxel and a fifth of the map's to spare on every side.
 Grid scaleGrid(const Grid& map, double spacing);
 
 /// L at the voxel centres of scaleGrid(map.grid, options.spacing); `targets` and `paths` in the world of map.grid.

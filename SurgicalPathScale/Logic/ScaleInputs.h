@@ -16,8 +16,7 @@ Focus focusOf(vtkMRMLSurgicalPathScaleNode* parameters);
 /// Throws InputError if the table of lengths by tissue cannot be used with the tissues' `names`.
 SurgicalScaleOptions scaleOptions(vtkMRMLSurgicalPathScaleNode* parameters, const TissueTable& names);
 
-/// Throws InputError for a tissue that is neither a label nor a name, or a name that several
-/// tissues have.
+/// Throws InputError for a tissue that is neither a label nor a name, or a name that several tissues have.
 NullDisplacementOptions nullDisplacementOptions(vtkMRMLSurgicalPathScaleNode* parameters, const TissueTable& names);
 
 } // namespace surgicalmesher
