@@ -229,6 +229,11 @@ VertexPlacement readPlacement(const CommandLine& line)
   return name == "all" ? VertexPlacement::All : VertexPlacement::Lattice;
 }
 
+void warnUnlessEmpty(CommandLine& line, const std::string& warning)
+{
+  if (!warning.empty()) line.warning(warning);
+}
+
 void mesh(CommandLine& line)
 {
   vtkSMPTools::Initialize(line.integer("threads"));
@@ -247,14 +252,14 @@ void mesh(CommandLine& line)
   options.curves = readCurveNetwork(line, lengths.inWorld);
   TetrahedralizerInput input = readInput(line, std::move(content), readAmbient, lengths.inWorld);
   for (const std::string& warning : warningsOfPlaces(options.constitutive, input.surface)) line.warning(warning);
+  warnUnlessEmpty(line, warningOfLengths(input.surface, lengths.inWorld));
   const FiniteElementOptions model = readFiniteElementOptions(line, input);
 
   const bool fromBackground = input.background.has_value();
   const FiniteElementMesh result =
     tetrahedralizeTissues(std::move(input), lengths, options, subProgress(progress, 0.1, 0.95));
 
-  const std::string stillness = warningOfStillness(result.content.constitutive);
-  if (!stillness.empty()) line.warning(stillness);
+  warnUnlessEmpty(line, warningOfStillness(result.content.constitutive));
   MeshQuality quality;
   std::map<Label, ExplicitStep> steps;
   std::map<Label, Betti> topology;

@@ -3,6 +3,7 @@
 
 #include "Place.h"
 #include "SurfacePreparation.h"
+#include "Text.h"
 
 #include <algorithm>
 
@@ -24,6 +25,24 @@ std::vector<std::string> warningsOfPlaces(const ConstitutiveRule& rule, const Su
       warnings.push_back("the path from " + place(path.front(), 3) + " LPS lies outside the surface");
   }
   return warnings;
+}
+
+std::string warningOfLengths(const SurfaceComplex& surface, const SizingFunction& length)
+{
+  constexpr double most = 2; // off by more than gradation and thin tissues bring about
+  std::vector<double> ratios;
+  for (const auto& corners : surface.triangles)
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 &p = surface.points[corners[k]], &q = surface.points[corners[(k + 1) % 3]];
+      ratios.push_back(norm(q - p) / length(0.5 * (p + q)));
+    }
+  if (ratios.empty()) return {};
+  const auto middle = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  if (*middle <= most && *middle >= 1 / most) return {};
+  return "edges of the surface are " + text::rounded(*middle, 2) +
+         " times as long as their target (median), and tetrahedra beside it follow them; was it made for other lengths?";
 }
 
 std::string warningOfStillness(const std::vector<std::int32_t>& constitutive)

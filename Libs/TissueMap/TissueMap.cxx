@@ -19,6 +19,19 @@ std::vector<Label> presentLabels(const TissueMap& map)
   return labels;
 }
 
+std::vector<Label> freeLabels(const TissueMap& map, std::size_t count, const std::set<Label>& named)
+{
+  std::set<Label> taken = named;
+  taken.insert(0);
+  for (const Label label : presentLabels(map)) taken.insert(label);
+  for (const auto& entry : map.table) taken.insert(entry.first);
+  const std::size_t next = std::size_t(*taken.rbegin()) + 1;
+  std::vector<Label> labels;
+  for (std::size_t label = next + count > labelCount ? 1 : next; label < labelCount && labels.size() < count; ++label)
+    if (taken.count(Label(label)) == 0) labels.push_back(Label(label));
+  return labels;
+}
+
 bool fillBackground(TissueMap& map, Label label)
 {
   if (std::find(map.labels.begin(), map.labels.end(), label) != map.labels.end()) return false;

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,10 @@ inline double shortestLatticeLength(const Grid& grid) { return grid.smallestSpac
 
 /// Labels present in the map, ascending, without background.
 std::vector<Label> presentLabels(const TissueMap& map);
+
+/// `count` labels, ascending, that neither a voxel of the map, nor its table, nor `named` has: the next after all of
+/// these, or where that would end above 65535 the smallest. Fewer if fewer are free.
+std::vector<Label> freeLabels(const TissueMap& map, std::size_t count, const std::set<Label>& named = {});
 
 /// Makes the background, all of it, a tissue of that label, which is called "surroundings" if the table has no name for
 /// it. False, and no change, if a voxel has the label already.

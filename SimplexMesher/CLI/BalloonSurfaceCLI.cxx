@@ -73,25 +73,14 @@ std::set<Label> readStops(const CommandLine& line, const TissueMap& map)
   return stops;
 }
 
-/// After those of the map; where they run out, the smallest that are free.
-std::vector<Label> freeLabels(const TissueMap& map, std::size_t count)
-{
-  const std::vector<Label> present = presentLabels(map);
-  std::size_t label = present.empty() ? 1 : std::size_t(present.back()) + 1;
-  if (label + count > labelCount) label = 1;
-  std::vector<Label> labels;
-  for (; label < labelCount && labels.size() < count; ++label)
-    if (!std::binary_search(present.begin(), present.end(), Label(label))) labels.push_back(Label(label));
-  if (labels.size() == count) return labels;
-  throw InputError("the label map leaves " + std::to_string(labels.size()) + " labels, expected one for each of " +
-                   std::to_string(count) + " balloons");
-}
-
 /// Seeds in the grid frame, with labels of their own, which `map.table` gets names for.
 std::vector<BalloonSeed> placeSeeds(const std::vector<Seed>& seeds, const std::string& file,
                                     const std::set<Label>& stops, TissueMap& map)
 {
   const std::vector<Label> labels = freeLabels(map, seeds.size());
+  if (labels.size() < seeds.size())
+    throw InputError("the label map leaves " + std::to_string(labels.size()) + " labels, expected one for each of " +
+                     std::to_string(seeds.size()) + " balloons");
   std::vector<BalloonSeed> placed;
   for (const Seed& seed : seeds)
   {

@@ -34,32 +34,6 @@ void checkOptions(const NullDisplacementOptions& options, const std::vector<Vec3
     throw UsageError("a null-displacement path distance is given, but no path");
 }
 
-/// After all that are taken, else the smallest that is not; 0 if there is none.
-Label freeLabel(const std::set<Label>& taken)
-{
-  const Label largest = taken.empty() ? Label(0) : *taken.rbegin();
-  if (largest < 65535) return Label(largest + 1);
-  Label free = 1;
-  for (const Label label : taken)
-  {
-    if (label == free) ++free; // of 65535 comes 0
-  }
-  return free;
-}
-
-Label freeLabel(const TissueMap& map, const std::set<Label>& named)
-{
-  const std::vector<Label> present = presentLabels(map);
-  std::set<Label> taken(present.begin(), present.end());
-  const Label notInMap = freeLabel(taken);
-  if (notInMap == 0) throw InputError("the label map uses all labels to 65535, none is left for null displacement");
-  taken.insert(named.begin(), named.end());
-  for (const auto& entry : map.table) taken.insert(entry.first);
-  taken.erase(0);
-  const Label notNamed = freeLabel(taken);
-  return notNamed != 0 ? notNamed : notInMap;
-}
-
 /// Which points of the grid frame are near a target or path.
 class Neighbourhood
 {
@@ -110,7 +84,9 @@ NullDisplacement markNullDisplacement(TissueMap& map, const std::vector<Vec3>& t
   for (const Label label : options.tissues) takesPart[label] = true;
 
   NullDisplacement result;
-  result.label = freeLabel(map, options.named);
+  const std::vector<Label> free = freeLabels(map, 1, options.named);
+  if (free.empty()) throw InputError("all labels to 65535 are taken, none is left for null displacement");
+  result.label = free.front();
   std::vector<std::size_t> changed(grid.size[2], 0); // by slice
   vtkSMPTools::For(0, grid.size[2],
                    [&](vtkIdType begin, vtkIdType end)

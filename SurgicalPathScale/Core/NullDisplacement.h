@@ -32,9 +32,8 @@ struct NullDisplacement
 
 /// Gives one label, marked and named as null displacement in map.table, to all voxels of the tissues that take part
 /// whose centres are farther than the radius from every target AND outside the tube around every path (see
-/// distanceToTube). The label is the largest of the map and of those named plus one, or the smallest free one if that
-/// would be above 65535. Throws UsageError if neither criterion is used, one is used without a target or path, or a
-/// distance is negative or not finite; InputError if the map uses all labels.
+/// distanceToTube). The label is a free one (see freeLabels). Throws UsageError if neither criterion is used, one
+/// is used without a target or path, or a distance is negative or not finite; InputError if no label is free.
 NullDisplacement markNullDisplacement(TissueMap& map, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
                                       const NullDisplacementOptions& options);
 

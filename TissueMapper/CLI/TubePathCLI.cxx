@@ -15,9 +15,7 @@
 #include "TubePathIO.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
-#include <set>
 
 using namespace surgicalmesher;
 
@@ -104,17 +102,6 @@ TissueMap readMap(const CommandLine& line, const Grid& grid)
   return map;
 }
 
-/// Of the map's tissues none has it, in voxels or by name.
-Label freeLabel(const TissueMap& map, const std::string& file)
-{
-  std::set<Label> taken;
-  for (const Label present : presentLabels(map)) taken.insert(present);
-  for (const auto& entry : map.table) taken.insert(entry.first);
-  for (int label = 1; label <= std::numeric_limits<Label>::max(); ++label)
-    if (taken.count(Label(label)) == 0) return Label(label);
-  throw InputError(file + ": all labels from 1 to 65535 are taken, expected one that is free for the tube");
-}
-
 /// The tissue's name and colour, which one that is there keeps.
 void nameTissue(const CommandLine& line, const TubePath& tube, TissueMap& map, Results& results)
 {
@@ -137,7 +124,12 @@ void writeLabelMap(CommandLine& line, const TubePath& tube, const Grid& grid, Re
   if (file.empty()) return;
   TissueMap map = readMap(line, grid);
   const bool isFree = !line.text("addTo").empty() && !line.given("label");
-  if (isFree) results.label = freeLabel(map, line.text("addTo"));
+  if (isFree)
+  {
+    const std::vector<Label> free = freeLabels(map, 1);
+    if (free.empty()) throw InputError(line.text("addTo") + ": all labels to 65535 are taken, expected a free one");
+    results.label = free.front();
+  }
   nameTissue(line, tube, map, results);
   const std::vector<std::size_t> voxels = tubeVoxels(map.grid, tube);
   if (voxels.empty()) throw InputError(line.text("addTo") + ": the path lies outside the label map");

@@ -69,3 +69,23 @@ TEST(EveryNth, BeginsAndEndsWhereItIsTold)
   EXPECT_EQ(thin.labels.back(), labelAt(map, { 5, 2, 2 }));
   expectLabelsOf(map, thin);
 }
+
+TEST(FreeLabels, FollowAllThatAreTaken)
+{
+  TissueMap map = numberedMap({ 3, 1, 1 });
+  EXPECT_EQ(freeLabels(map, 2), (std::vector<Label>{ 4, 5 }));
+  map.table[8].name = "named, without a voxel";
+  EXPECT_EQ(freeLabels(map, 1), (std::vector<Label>{ 9 }));
+  EXPECT_EQ(freeLabels(map, 1, { 20 }), (std::vector<Label>{ 21 }));
+  map.labels[0] = 65534;
+  EXPECT_EQ(freeLabels(map, 1), (std::vector<Label>{ 65535 }));
+  EXPECT_EQ(freeLabels(map, 4), (std::vector<Label>{ 1, 4, 5, 6 })); // 2, 3, 8 and 65534 are taken
+}
+
+TEST(FreeLabels, AreFewerWhereFewerAreFree)
+{
+  TissueMap map = numberedMap({ 65535, 1, 1 });
+  EXPECT_TRUE(freeLabels(map, 1).empty());
+  map.labels[6] = 0;
+  EXPECT_EQ(freeLabels(map, 2), std::vector<Label>{ 7 });
+}
