@@ -249,10 +249,10 @@ void mesh(CommandLine& line)
   const bool isOfMap = !content.boundaryDistance.empty(); // folded where the map has cracks, which are no edges to keep
   options.featureAngle = isOfMap ? 0 : line.number("featureAngle");
   const TargetLengths lengths = readLengths(line, content);
+  warnUnlessEmpty(line, warningOfLengths(content, lengths.inWorld));
   options.curves = readCurveNetwork(line, lengths.inWorld);
   TetrahedralizerInput input = readInput(line, std::move(content), readAmbient, lengths.inWorld);
   for (const std::string& warning : warningsOfPlaces(options.constitutive, input.surface)) line.warning(warning);
-  warnUnlessEmpty(line, warningOfLengths(input.surface, lengths.inWorld));
   const FiniteElementOptions model = readFiniteElementOptions(line, input);
 
   const bool fromBackground = input.background.has_value();

@@ -27,22 +27,19 @@ std::vector<std::string> warningsOfPlaces(const ConstitutiveRule& rule, const Su
   return warnings;
 }
 
-std::string warningOfLengths(const SurfaceComplex& surface, const SizingFunction& length)
+std::string warningOfLengths(const SurfaceFile& surface, const SizingFunction& length)
 {
-  constexpr double most = 2; // off by more than gradation and thin tissues bring about
+  constexpr double most = 2; // lengths that followed single tissues are shorter than the scale, but only there
   std::vector<double> ratios;
-  for (const auto& corners : surface.triangles)
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vec3 &p = surface.points[corners[k]], &q = surface.points[corners[(k + 1) % 3]];
-      ratios.push_back(norm(q - p) / length(0.5 * (p + q)));
-    }
+  for (std::size_t p = 0; p < surface.targetEdgeLength.size(); ++p)
+    ratios.push_back(surface.targetEdgeLength[p] / length(surface.surface.points[p]));
   if (ratios.empty()) return {};
-  const auto middle = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
-  std::nth_element(ratios.begin(), middle, ratios.end());
-  if (*middle <= most && *middle >= 1 / most) return {};
-  return "edges of the surface are " + text::rounded(*middle, 2) +
-         " times as long as their target (median), and tetrahedra beside it follow them; was it made for other lengths?";
+  const auto median = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
+  std::nth_element(ratios.begin(), median, ratios.end());
+  if (*median <= most && *median >= 1 / most) return {};
+  return "the surface was made for edges " + text::rounded(*median, 2) +
+         " times as long as those asked for here (median), and keeps them; expected the scale or edge length that it "
+         "was made with";
 }
 
 std::string warningOfStillness(const std::vector<std::int32_t>& constitutive)

@@ -3,8 +3,8 @@
 /// What a run of the volume stage warns of: sentences for the user.
 
 #include "ConstitutiveTags.h"
+#include "MeshIO.h"
 #include "SizingFunction.h"
-#include "TetMesh.h"
 
 #include <cstdint>
 #include <string>
@@ -16,8 +16,9 @@ namespace surgicalmesher
 /// Targets and paths of which every point lies outside the box around the surface.
 std::vector<std::string> warningsOfPlaces(const ConstitutiveRule& rule, const SurfaceComplex& surface);
 
-/// That the median edge of the surface is less than half or more than twice as long (mm) as asked for; empty if not.
-std::string warningOfLengths(const SurfaceComplex& surface, const SizingFunction& length);
+/// That the surface's own target edge lengths are less than half or more than twice `length`, in the median; empty if
+/// they are not, or if the surface has none.
+std::string warningOfLengths(const SurfaceFile& surface, const SizingFunction& length);
 
 /// That all tetrahedra of a mesh are null displacement; empty if they are not.
 std::string warningOfStillness(const std::vector<std::int32_t>& constitutive);

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 
 namespace surgicalmesher
@@ -174,6 +175,39 @@ TEST(CurveInsertion, ABranchOnALine)
   const auto chains = insertCurves(mesh, curveNetwork({ branch(), straight() }, length), length);
   const auto& host = chains[1].points;
   EXPECT_EQ(std::count(host.begin(), host.end(), chains[0].points.front()), 1);
+}
+
+/// Curves from one place, in random directions a third of a circle apart, written from either end.
+std::vector<Curve> fork(std::mt19937& random)
+{
+  std::uniform_real_distribution<double> place(-1, 1);
+  const Vec3 from{ place(random), place(random), place(random) };
+  const double turn = 3 * place(random), tilt = place(random);
+  std::vector<Curve> curves;
+  for (int n = 0; n < 3; ++n)
+  {
+    const double angle = turn + n * 2 * std::acos(-1.0) / 3;
+    const Vec3 to =
+      from + 6 * Vec3{ std::cos(angle), std::sin(angle) * std::cos(tilt), std::sin(angle) * std::sin(tilt) };
+    Curve curve{ "fork", "fork.vtp", { from, to }, {} };
+    if (place(random) < 0) std::swap(curve.points[0], curve.points[1]);
+    curves.push_back(curve);
+  }
+  return curves;
+}
+
+TEST(CurveInsertion, AForkIsOneNode)
+{
+  const SizingFunction length = [](const Vec3&) { return ballLength; };
+  std::mt19937 random(1);
+  for (int round = 0; round < 100; ++round)
+  {
+    const CurveNetwork network = curveNetwork(fork(random), length);
+    EXPECT_EQ(network.nodes.size(), 4u);
+    ASSERT_EQ(network.arcs.size(), 3u);
+    for (const CurveArc& arc : network.arcs) EXPECT_NEAR(arc.length(), 6, 1e-9);
+  }
+  expectInserted(nestedBalls(), fork(random), ballLength);
 }
 
 TEST(CurveInsertion, ACurveAlongAnInterface) { expectInserted(nestedBalls(), { alongInterface() }, ballLength); }

@@ -94,7 +94,18 @@ public:
   }
 
 private:
-  /// Ends are joined to nodes that are there, then to the inside of curves.
+  /// Where p joins the host: at an end within reach, else at the nearest place inside it, if that is within reach. Not
+  /// inside it beside an end: the end would be joined to the same node, by an arc from that to itself.
+  static std::optional<double> jointOn(const CurveArc& host, const Vec3& p, double reach)
+  {
+    for (const double end : { 0., host.length() })
+      if (norm(host.pointAt(end) - p) <= reach) return end;
+    const double s = host.nearest(p, reach, std::max(reach, host.length() - reach));
+    if (norm(host.pointAt(s) - p) > reach) return std::nullopt;
+    return s;
+  }
+
+  /// Joins an end of a curve to a node that is there, else to another curve.
   void addEnd(std::size_t c, bool atEnd)
   {
     const CurveArc& whole = m_Wholes[c];
@@ -106,11 +117,10 @@ private:
     const int node = int(m_Network.nodes.size());
     for (std::size_t other = 0; other < m_Wholes.size(); ++other)
     {
-      const CurveArc& host = m_Wholes[other];
-      const double near = reach, s = host.nearest(p, near, std::max(near, host.length() - near));
-      if (other == c || norm(host.pointAt(s) - p) > reach) continue;
-      m_Network.nodes.push_back(host.pointAt(s));
-      m_Cuts[other].push_back({ s, node });
+      const std::optional<double> s = other == c ? std::nullopt : jointOn(m_Wholes[other], p, reach);
+      if (!s) continue;
+      m_Network.nodes.push_back(m_Wholes[other].pointAt(*s));
+      m_Cuts[other].push_back({ *s, node });
       return m_Cuts[c].push_back({ at, node });
     }
     m_Network.nodes.push_back(p);

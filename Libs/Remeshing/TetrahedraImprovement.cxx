@@ -8,6 +8,7 @@
 #include "VolumeBalance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -31,6 +32,20 @@ double smallestLength(const BackgroundMesh& background)
   return smallest;
 }
 
+/// A tissue smaller than the lengths asked for moves by a share of its own size, the cube root of its volume: by a
+/// share of theirs it could double its volume.
+void boundTolerances(BackgroundMesh& background, const std::map<Label, double>& volumes, double surfaceTolerance)
+{
+  const std::vector<Label>& labels = background.mesh.labels;
+  for (BackgroundMesh::Sample& sample : background.samples)
+  {
+    const std::int32_t beyond = background.neighbours[sample.tetrahedron][sample.face];
+    for (const Label label : { labels[sample.tetrahedron], labels[beyond] })
+      if (label != 0)
+        sample.tolerance = std::min(sample.tolerance, float(surfaceTolerance * std::cbrt(volumes.at(label))));
+  }
+}
+
 } // namespace
 
 void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const TetrahedraImprovementOptions& options,
@@ -42,6 +57,7 @@ void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const Tetrah
   addInterfaceSamples(background, options.surfaceTolerance);
   const double smallest = smallestLength(background);
   const std::map<Label, double> volumes = tissueVolumes(mesh);
+  if (!options.isImproved) boundTolerances(background, volumes, options.surfaceTolerance);
   std::vector<TetrahedralSweep> sweeps = options.isImproved ? sweepsForImprovedMesh(options.targetAngle, smallest)
                                                             : sweepsForRawMesh(options.targetAngle, smallest);
   if (options.isImproved)

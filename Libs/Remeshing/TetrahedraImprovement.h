@@ -13,8 +13,9 @@ namespace surgicalmesher
 
 struct TetrahedraImprovementOptions
 {
-  double surfaceTolerance = 0.017; ///< how far the surface may move from where it was, as a share of the target
-                                   ///< length; four times as far where nothing else mends an angle
+  /// How far the surface may move from where it was, as a share of the target length, and of the cube root of a tissue's
+  /// volume where that is less (not if isImproved); four times as far where nothing else mends an angle.
+  double surfaceTolerance = 0.017;
   double targetAngle = usualAngle; ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
   double featureAngle = 0; ///< degrees; edges of the surface sharper than that, corners and flat faces stay what they
                            ///< are. 0: none are watched
