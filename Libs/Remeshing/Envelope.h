@@ -26,9 +26,10 @@ struct EnvelopeBounds
   /// Factor on the quality of the interface triangles: 1 makes their angles count like dihedral angles, 0 ignores them.
   double triangleWeight = 0;
   /// Bound, in tolerances, on the distance to the nearest sample of its faces, for an interface vertex that moves and
-  /// for the middle of an interface edge longer than its target; a larger one is allowed if it does not grow. A vertex
-  /// inside a label does not become part of the interface beyond the bound. Prevents spikes, which no other bound does:
-  /// their angles are good, and their sides pass the samples at their foot, however long they grow. 0: no bound.
+  /// for the middle of an interface edge that a move or a collapse leaves longer than its target; a larger distance is
+  /// allowed if it does not grow. Relabelling puts no vertex from inside a label on the interface beyond the bound.
+  /// Prevents spikes, which pass the tests of angles and samples: their angles are good, and their sides stay near to
+  /// the samples at their foot, however long they grow. 0: no bound.
   double vertexDistance = 0;
   /// Bound, in tolerances, on the distance of an interface vertex that moves from the plane of the nearest sample of
   /// its faces, if that sample has a normal and the boundary is nearly plane as far as the vertex; a larger one is
