@@ -203,9 +203,9 @@ private:
 
   const TetMesh& m_Mesh;
   const std::vector<std::pair<std::int32_t, std::int32_t>>& m_Faces;
-  const Vec3 m_Side; ///< of a bin, mm
+  const Vec3 m_Side; ///< side lengths of a bin, mm
   Index m_Size;
-  Grouped<Entry> m_Entries; ///< by bin, x fastest
+  Grouped<Entry> m_Entries; ///< grouped by bin, x fastest
 };
 
 /// Returns the share of voxel faces to keep for `perTriangle` samples per triangle of edge length `length` (mm).

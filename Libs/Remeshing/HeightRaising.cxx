@@ -90,7 +90,7 @@ private:
 
   double heightOf(std::int32_t t) const { return heightWith(t, -1, {}); }
 
-  /// With vertex v at p.
+  /// Returns the least height of t with vertex v at p.
   double heightWith(std::int32_t t, std::int32_t v, const Vec3& p) const
   {
     const auto& x = m_Complex.tets[t];

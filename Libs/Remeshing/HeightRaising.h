@@ -15,11 +15,11 @@ struct HeightOptions
   double goodAngle = 28.6;   ///< degrees; no dihedral angle falls below this, or falls further if it is below already
   double longEdge = 1.4;     ///< a collapse creates no edge longer than this multiple of its target length
   int trials = 40;           ///< positions tried for each vertex
-  double worstShare = 0.005; ///< share of the block's tetrahedra processed in one pass, lowest first; at least 100
+  double worstShare = 0.005; ///< share of the tetrahedra processed in one pass, lowest first; at least 100 of them
   int passes = 16;
 };
 
-/// Processes low tetrahedra, lowest first: collapses an edge, removes an edge by swapping, or moves the vertices, where
+/// Processes low tetrahedra, lowest first: collapses an edge, removes an edge, or moves the vertices, where
 /// that raises the least height among the affected tetrahedra of tissues. Interface vertices move as far as the
 /// envelope allows; those with only three interface triangles do not move.
 void raiseHeightsOfBlock(GuardedOperations& operations, const HeightOptions& options);

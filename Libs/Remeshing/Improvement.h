@@ -21,9 +21,8 @@ struct ImprovementOptions
   int trials = 12;        ///< positions tried for each vertex
   int together = 0;       ///< rounds of moving a group of vertices together where all other operations fail; 0: never
   int patience = 3;       ///< rounds after which a group without any gain is given up; one in thirty would gain later
-  double worstShare = 1;  ///< share of the tetrahedra processed in one pass, worst first; at least 100
-  /// Largest number of tetrahedra for which groups of vertices move together in one pass, as a share of all; at least
-  /// 100.
+  double worstShare = 1;  ///< share of the tetrahedra processed in one pass, worst first; at least 100 tetrahedra
+  /// Share of the tetrahedra for which group moves are tried in one pass, worst first; at least 100 tetrahedra.
   double togetherShare = 0.001;
   int passes = 3; ///< later passes process only tetrahedra near a change
   /// Share of a block's tetrahedra (deleted ones count). If more than this share is bad, most of them have no room
@@ -33,8 +32,8 @@ struct ImprovementOptions
 };
 
 /// Processes the tetrahedra below the target angle, worst first, until nothing improves or the passes are used up.
-/// Tries in this order: edge removal, moves of single vertices, edge collapse, edge split, moves of several vertices
-/// together, and a split followed by such a move.
+/// Tries in this order: edge removal, moves of single vertices, edge collapse, edge split, group moves of several
+/// vertices together, and a split followed by a group move.
 void improveBlock(GuardedOperations& operations, const ImprovementOptions& options = {});
 
 } // namespace surgicalmesher

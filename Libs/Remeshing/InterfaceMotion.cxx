@@ -127,7 +127,7 @@ private:
     return forces;
   }
 
-  /// Returns the way, along the triangle's normal, from triangle t to the mean of its samples.
+  /// Returns the displacement, along the triangle's normal, from triangle t to the mean of its samples.
   Vec3 imageForce(std::size_t t) const
   {
     const SurfaceComplex& surface = m_Dual.surface;

@@ -8,8 +8,8 @@ namespace surgicalmesher
 {
 
 /// Fills `background.neighbours` and adds three samples to every interface triangle, or to each of its congruent parts
-/// where its edges are longer than twice the target length. Triangles of the target size so get samples half a target
-/// length apart. Each sample's tolerance is `tolerance` times the mean target length at the triangle's corners.
+/// where its edges are longer than twice the target length. Samples are thus half a target length apart on triangles of
+/// the target size. Each sample's tolerance is `tolerance` times the mean target length at the triangle's corners.
 void addInterfaceSamples(BackgroundMesh& background, double tolerance);
 
 } // namespace surgicalmesher

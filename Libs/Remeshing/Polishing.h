@@ -19,8 +19,8 @@ struct PolishingOptions
   double ease = 0.02;       ///< how easily a vertex leaves its samples for better angles: 0 not at all, 1 freely
 };
 
-/// Moves every unlocked interface vertex once to the least-squares fit of its faces to their samples. Then moves every
-/// unlocked vertex once uphill in the sum of the sines of the worst dihedral angles in its star; interface vertices
+/// Visits every unlocked vertex once. Moves an interface vertex to the least-squares fit of its faces to their samples.
+/// Then moves the vertex uphill in the sum of the sines of the worst dihedral angles in its star; interface vertices
 /// prefer directions along their sheets and curves.
 void polishBlock(GuardedOperations& operations, const PolishingOptions& options = {});
 

@@ -25,7 +25,7 @@ constexpr double planeDistance = 0.6;   // corresponds to 0.2 voxel where L is o
 constexpr double lengthTolerance = 1.5; // for even edge lengths
 constexpr double foldTolerance = 1.4;   // for the opening of folds
 constexpr double labelTolerance = 1.6;  // for relabelling
-constexpr double volumeTolerance = 1.3; // where a tissue's boundary has no room for the last of its volume
+constexpr double volumeTolerance = 1.3; // for boundaries without room for the last volume corrections
 constexpr double vertexDistance = 1.4;  // vertices farther from all samples are spikes
 constexpr double spikeTriangles = 1.6;  // as triangleWeight: triangles may lose some degrees where a spike is removed
 
@@ -84,7 +84,7 @@ Stage withoutSpikes(const MeshTargets& targets, const MeshSizes& sizes, double p
            { RelabelInterface{ targets.keptAngle, farNearer }, RemoveSpikes{ spikes } } };
 }
 
-/// Vertices where L is below two voxels do not move: accuracy matters more there.
+/// Vertices where L is below two voxels stay where the map places them.
 Stage evenLengths(const MeshTargets& targets, const MeshSizes& sizes, double goodAngle)
 {
   const EvenOut pass{ { .goodAngle = goodAngle, .from = 2 * sizes.voxel, .robust = 0.1 * sizes.voxel } };

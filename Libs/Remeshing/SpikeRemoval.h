@@ -14,8 +14,8 @@ struct SpikeOptions
   /// In tolerances; a vertex farther than this from all samples of its faces is the tip of a spike.
   double vertexDistance = 1.4;
   std::size_t few = 8; ///< largest number of tetrahedra that a spike consists of
-  /// Degrees; least dihedral angle of tetrahedra that are relabelled to a tissue. Background is held to a lower
-  /// quality.
+  /// Degrees; least dihedral angle of tetrahedra that are relabelled to a tissue. Relabelling to background has no such
+  /// bound.
   double keptAngle = usualAngle;
   /// Degrees; a spike that cannot be cut is pulled towards its samples as far as dihedral angles stay above this, for
   /// later repairs to raise again. 0: it is left as it is.

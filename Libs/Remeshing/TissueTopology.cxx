@@ -133,8 +133,10 @@ std::uint32_t CollapseTopology::compareEnds(std::int32_t u, std::int32_t v, cons
 ///   - The stars meet in the ring of uv. The vertices and edges of the ring at which both stars have the label must
 ///     form a path.
 ///   - The share is certainly a disc if the label is not at edge uv, or if it closes over no tetrahedron of the ring
-///     and meets the link condition on its own boundary; otherwise the share is examined. The link condition on the
-///     tetrahedra themselves follows from positive volumes: the cone from v tiles star(u) only if it holds.
+///     and meets the link condition on its own boundary; otherwise the share is examined.
+///
+/// The link condition on the tetrahedra themselves follows from positive volumes: the cone from v tiles star(u) only if
+/// it holds.
 bool CollapseTopology::keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& starOfU,
                                     const std::vector<std::int32_t>& starOfV, const std::vector<std::int32_t>& ring,
                                     const std::vector<std::int32_t>& ringVertices)

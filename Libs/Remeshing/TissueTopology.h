@@ -55,7 +55,7 @@ private:
 /// Returns whether t can lose `label`, or be given it, without a change of that label's topology, that is, whether t is
 /// a simple point: the other tetrahedra with the label, and likewise those without it, share one to three faces with t
 /// and meet t nowhere but in these faces. A single tetrahedron of background enclosed by tissues may also vanish.
-/// `starOf` returns the tetrahedra at a vertex.
+/// `starOf` returns the tetrahedra at a vertex. No face of t may lie on the border of the block.
 bool isSimple(const TetComplex& complex, std::int32_t t, Label label,
               const std::function<const std::vector<std::int32_t>&(std::int32_t)>& starOf);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Returns single vertices to the boundary that collapses and repairs have left off it and whose tetrahedra block a
-/// direct move.
+/// Return of single vertices to the boundary: of those that collapses and repairs have left off it, and whose
+/// tetrahedra prevent a direct move.
 
 #include "GuardedOperations.h"
 #include "TetQuality.h"
