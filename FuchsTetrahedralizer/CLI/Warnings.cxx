@@ -29,7 +29,7 @@ std::vector<std::string> warningsOfPlaces(const ConstitutiveRule& rule, const Su
 
 std::string warningOfLengths(const SurfaceComplex& surface, const SizingFunction& length)
 {
-  constexpr double most = 2; // off by more than gradation and thin tissues bring about
+  constexpr double most = 2; // gradation and thin tissues cause smaller deviations
   std::vector<double> ratios;
   for (const auto& corners : surface.triangles)
     for (int k = 0; k < 3; ++k)

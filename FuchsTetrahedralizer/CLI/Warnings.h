@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What a run of the volume stage warns of: sentences for the user.
+/// Warnings of the volume stage, as sentences for the user.
 
 #include "ConstitutiveTags.h"
 #include "SizingFunction.h"
@@ -13,13 +13,14 @@
 namespace surgicalmesher
 {
 
-/// Targets and paths of which every point lies outside the box around the surface.
+/// Warns of targets outside the bounding box of the surface, and of paths with all their points outside.
 std::vector<std::string> warningsOfPlaces(const ConstitutiveRule& rule, const SurfaceComplex& surface);
 
-/// That the median edge of the surface is less than half or more than twice as long (mm) as asked for; empty if not.
+/// Warns if the median edge of the surface is less than half or more than twice its target length (mm); empty
+/// otherwise.
 std::string warningOfLengths(const SurfaceComplex& surface, const SizingFunction& length);
 
-/// That all tetrahedra of a mesh are null displacement; empty if they are not.
+/// Warns if all tetrahedra of a mesh are null displacement; empty otherwise.
 std::string warningOfStillness(const std::vector<std::int32_t>& constitutive);
 
 } // namespace surgicalmesher

@@ -66,7 +66,7 @@ double weightNear(const std::vector<Octave>& octaves, double middle)
 /// Returns the place with the largest weight nearby; the first of several.
 double densestOctave(const std::vector<Octave>& octaves)
 {
-  constexpr int places = 40; // // each within reach of two others
+  constexpr int places = 40; // each within reach of two others
   double densest = 0, most = 0;
   for (int place = 0; place < places; ++place)
     if (const double weight = weightNear(octaves, double(place) / places); weight > most)
@@ -232,7 +232,7 @@ double scatter(const Places& place, int axis)
 template <class F>
 void forEachAlongWalks(std::size_t count, const SurfaceLocator& locator, const F& f)
 {
-  // // small enough to balance the threads, large enough for the first query of a walk not to matter
+  // Small enough to balance the threads, large enough for the first query of a walk not to matter.
   constexpr std::size_t ofPart = 400;
   parallelForEach((count + ofPart - 1) / ofPart,
                   [&](std::size_t part)
@@ -305,7 +305,7 @@ std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunct
     Vec3& p = points[i] = octree.positionOf(places[i]);
     const double length = edgeLength(p);
     const auto known = walk.known(p);
-    if (known && !isDense(i, length, *known)) return; // // no denser farther away
+    if (known && !isDense(i, length, *known)) return; // no denser farther away
     const SurfaceLocator::Answer answer = walk.ask(p);
     const bool dense = isDense(i, length, answer);
     keep[i] = dense && answer.distance >= clearance * length;

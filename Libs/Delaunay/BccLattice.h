@@ -22,6 +22,7 @@ constexpr double kLatticeMeanEdge = (8 * 0.86602540378443865 + 6) / 14;
 /// Returns lattice points in a box around the surface, including the corners of the box: with the density of L(x)
 /// inside the tissues, and increasingly sparse with the distance outside. All points are at least `clearance` * L(x)
 /// away from the surface: closer points would create flat elements, more distant ones long elements.
+///
 /// The result does not depend on the number of threads. Throws InputError unless L(x) is positive and finite.
 std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunction& edgeLength,
                                 double clearance = 0.4);
