@@ -344,7 +344,7 @@ void qSlicerSurgicalPathScaleModuleWidget::updateFromNode()
 void qSlicerSurgicalPathScaleModuleWidget::onInputChanged()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
-  if (!d->Parameters || !this->isEntered()) return; // enter() catches up
+  if (!d->Parameters || !this->isEntered()) return; // enter() updates the panel
   d->showObstacle(d->logic()->FindProblem(d->Parameters));
   d->scheduleUpdates();
 }

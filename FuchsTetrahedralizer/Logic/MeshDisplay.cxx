@@ -172,7 +172,7 @@ void removeEarlyLegend(vtkMRMLDisplayNode* display)
 void showLegend(vtkMRMLModelNode* mesh, const std::string& title, bool byName)
 {
   constexpr int legible = 12;
-  if (!mesh->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // the host's module is missing
+  if (!mesh->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // without Slicer's legends
   vtkMRMLDisplayNode* display = mesh->GetModelDisplayNode();
   auto* colors = vtkMRMLColorTableNode::SafeDownCast(display->GetColorNode());
   removeEarlyLegend(display);

@@ -6,7 +6,7 @@
 ///
 /// | operator | simplex mesh                                         | dual                     |
 /// |----------|------------------------------------------------------|--------------------------|
-/// | T1       | an edge goes, its two faces fuse: 5 edges become 2   | edge collapse            |
+/// | T1       | an edge is removed, its faces fuse: 5 edges become 2 | edge collapse            |
 /// | T2       | a face is cut in two by a new edge: 2 edges become 5 | vertex split, edge split |
 /// | T7       | an edge passes from two faces to the two at its ends | edge flip                |
 ///
@@ -94,7 +94,7 @@ public:
   int junctionOrder(std::int32_t a) const;
   bool isOnCrease(std::int32_t a) const;
   std::vector<Label> tissuesAt(std::int32_t a) const;              ///< ascending
-  std::vector<std::int32_t> curveNeighbours(std::int32_t a) const; ///< along such curves, ascending
+  std::vector<std::int32_t> curveNeighbours(std::int32_t a) const; ///< along curves and creases, ascending
   /// Returns the quality of the worst dual triangle at a, with a moved to p.
   double faceQuality(std::int32_t a, const Vec3& p) const;
   double edgeQuality(std::int32_t a, std::int32_t b) const; ///< of the worst dual triangle at edge ab

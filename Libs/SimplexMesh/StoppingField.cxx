@@ -117,7 +117,7 @@ bool StoppingField::stops(const Vec3& p) const
 
 double StoppingField::wayToTissue(const Vec3& p, const Vec3& n) const
 {
-  constexpr int samples = 8; // of a quarter of a voxel
+  constexpr int samples = 8; // in steps of a quarter of a voxel
   const double step = m_Reach / samples;
   double before = share(p) - 0.5;
   const double sign = before < 0 ? 1 : -1;

@@ -21,7 +21,7 @@ constexpr int smoothingSteps = 3;      ///< per round
 constexpr int finishingRounds = 6;     ///< improving the worst triangles
 constexpr int balancingRounds = 30;    ///< restoring the volumes
 constexpr double longestBalance = 0.1; ///< bound on the displacement of a point per round, relative to L
-constexpr double wantedQuality = 0.62; ///< of a triangle
+constexpr double wantedQuality = 0.62; ///< triangles below this quality are improved at the end
 constexpr double poorQuality = 0.56;   ///< triangles of at least this quality have no angle below 20 degrees
 
 double meanEdge(const SurfaceComplex& surface)

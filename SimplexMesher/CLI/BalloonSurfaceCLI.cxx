@@ -169,7 +169,7 @@ void writeTissue(JsonWriter& json, Label label, const BalloonHalt& halt, const B
   json.EndObject();
 }
 
-/// Lengths in mm, areas and volumes in mm^2 and mm^3.
+/// Returns the report: lengths in mm, areas in mm^2, volumes in mm^3.
 std::string reportJSON(const CommandLine& line, const BalloonResult& result, const std::map<Label, std::size_t>& voxels,
                        const TissueTable& table)
 {

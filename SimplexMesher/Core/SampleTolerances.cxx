@@ -48,7 +48,7 @@ std::size_t boundaryFaces(const TissueMap& map)
 double roomIn(const TissueMap& map)
 {
   constexpr std::size_t large = 600000; // faces between tissues
-  constexpr double usual = 3.0;         // voxels of tissue for each
+  constexpr double usual = 3.0;         // tissue voxels per face
   const std::size_t faces = boundaryFaces(map);
   if (faces < large) return 1;
   const auto tissue = std::count_if(map.labels.begin(), map.labels.end(), [](Label l) { return l != 0; });

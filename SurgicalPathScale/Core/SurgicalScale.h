@@ -73,7 +73,7 @@ struct SurgicalScaleOptions
   Falloff pathFalloff;
   RisingQuantity rising = RisingQuantity::Length; ///< for all ranges
   Combination combination = Combination::Smaller;
-  std::map<Label, TissueLength> tissues; ///< exceptions to `range`
+  std::map<Label, TissueLength> tissues; ///< lengths of single tissues, instead of `range`
   double gradation = 0;                  ///< limit on |grad L|, mm per mm; 0: none. See limitGradation
   double spacing = 2;                    ///< voxel size of the scale volume, mm
 };

@@ -148,7 +148,7 @@ void setScaleColors(vtkMRMLScalarVolumeNode* node, double shortest, double longe
   display->SetWindowLevelMinMax(lower, longest);
   display->SetInterpolate(true);
   display->EndModify(wasModifying);
-  if (!node->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // the host's module is missing
+  if (!node->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // without Slicer's legends
   vtkMRMLColorLegendDisplayNode* legend = vtkSlicerColorLogic::AddDefaultColorLegendDisplayNode(display);
   legend->SetTitleText(vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "Edge length (mm)"));
   legend->SetLabelFormat("%.1f");

@@ -61,7 +61,7 @@ vtkSlicerSurgicalPathScaleLogic::vtkSlicerSurgicalPathScaleLogic() : Preview(std
   this->RunEnded->SetClientData(this);
   this->RunEnded->SetCallback([](vtkObject*, unsigned long, void* self, void*)
                               { static_cast<vtkSlicerSurgicalPathScaleLogic*>(self)->FinishRun(); });
-  this->Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, this->RunEnded, 1); // before the panel
+  this->Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, this->RunEnded, 1); // before those of default priority
 }
 
 vtkSlicerSurgicalPathScaleLogic::~vtkSlicerSurgicalPathScaleLogic() { this->Run->RemoveObserver(this->RunEnded); }

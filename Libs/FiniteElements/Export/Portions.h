@@ -10,7 +10,7 @@ namespace surgicalmesher
 /// The elements of one shape in a set.
 struct Portion
 {
-  std::string name, shape; ///< tet4, tet10, penta6 or hex8
+  std::string name, shape; ///< shape: tet4, tet10, penta6 or hex8
   std::vector<std::int32_t> elements;
 };
 

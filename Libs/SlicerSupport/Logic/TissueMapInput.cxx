@@ -40,7 +40,7 @@ namespace
 
 constexpr int largestLabel = 65535;
 constexpr const char* heldLabels = "SurgicalMesher.NullDisplacementLabels"; // attribute of a label map
-constexpr const char* roleTag = "SurgicalMesher.Role";                      // of a segment
+constexpr const char* roleTag = "SurgicalMesher.Role";                      // tag of a segment
 
 //--- Segmentations ----------------------------------------------------------
 

@@ -29,7 +29,7 @@ enum class TissueMapProblem
   NoReferenceGeometry, ///< a segmentation whose voxel grid is unknown
   ShearingTransform,   ///< under a linear transform that shears its voxels
   NegativeLabels,      ///< voxels below 0, above 65535 or not integer
-  NotExported          ///< the host could not convert the segmentation
+  NotExported          ///< Slicer could not convert the segmentation
 };
 
 /// Returns why `input` cannot be meshed. Cheap enough for every change in a panel (the range of the voxels is computed
