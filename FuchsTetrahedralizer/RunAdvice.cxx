@@ -31,7 +31,7 @@ std::function<void(Node*)> leaveOut(const char* role, vtkMRMLNode* node)
   };
 }
 
-/// The first output that is this node.
+/// Clears the first output role that has this node.
 void forgetOutput(Node* parameters, vtkMRMLNode* node)
 {
   for (const char* role : { Node::ShellsRole(), Node::ChildMeshRole(), Node::ParentMeshRole(), Node::MeshRole() })

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the panel says of a problem that keeps it from being run, in the user's language.
+/// Messages of the panel about problems that prevent a run, in the user's language.
 
 #include "vtkSlicerFuchsTetrahedralizerLogic.h"
 
@@ -8,7 +8,7 @@
 
 #include <functional>
 
-/// A sentence, and what a button beside it does about the problem; without a text there is no button.
+/// A sentence, and the action of a button beside it that fixes the problem; without a text, there is no button.
 struct Advice
 {
   QString sentence;
@@ -16,5 +16,5 @@ struct Advice
   std::function<void(vtkMRMLFuchsTetrahedralizerNode*)> fix;
 };
 
-/// `check` has a problem. `logic` offers what else could be chosen.
+/// Returns the advice on a check that found a problem. `logic` offers alternatives to choose from.
 Advice adviceOn(const vtkSlicerFuchsTetrahedralizerLogic::Check& check, vtkSlicerFuchsTetrahedralizerLogic* logic);

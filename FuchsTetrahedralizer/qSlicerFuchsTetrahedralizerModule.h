@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Slicer's entry to Fuchs Tetrahedralizer: tetrahedra from a surface, to look at, to measure and to export.
+/// The loadable module Fuchs Tetrahedralizer: creates, displays, assesses and exports tetrahedra from a surface.
 
 #include "qSlicerFuchsTetrahedralizerModuleExport.h"
 

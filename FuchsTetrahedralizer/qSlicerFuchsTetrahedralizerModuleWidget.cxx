@@ -71,8 +71,8 @@ public:
   void say(const QString& sentence, bool isError = false);
 
   std::vector<vtkWeakPointer<vtkMRMLNode>> Inputs; ///< observed
-  vtkWeakPointer<vtkMRMLSliceNode> Slice;          ///< that the clip slider moves
-  bool IsMeshNew = false;                          ///< the run is to make it
+  vtkWeakPointer<vtkMRMLSliceNode> Slice;          ///< moved by the clip slider
+  bool IsMeshNew = false;                          ///< the run is to create it
 
 protected:
   qSlicerFuchsTetrahedralizerModuleWidget* const q_ptr;
@@ -147,7 +147,7 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindDisplay()
   this->bind(this->ShowEdgesCheckBox, &Node::GetShowEdges, &Node::SetShowEdges);
   this->bind(this->ClipPlaneComboBox, &Node::GetClipPlane, &Node::SetClipPlane);
   this->bind(this->ClipFlippedCheckBox, &Node::GetClipFlipped, &Node::SetClipFlipped);
-  // After the node has the values.
+  // Connected after bind(), so that the node already has the values.
   const auto update = [this] { this->updateDisplay(); };
   for (QComboBox* box : { this->ColorComboBox, this->ClipPlaneComboBox })
     QObject::connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), q_ptr, update);
@@ -172,7 +172,8 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::bindButtons()
   QObject::connect(this->RunWidget, &qSurgicalMesherRunWidget::runEnded, q, &Panel::onRunEnded);
 }
 
-/// Not by the node's references: the host warns when a node that it observes so has a second role, be it a wrong one.
+/// Inputs are not observed through the node's references: Slicer warns when a node observed in this way has a second
+/// role, even an unsuitable one.
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::observeInputs()
 {
   Q_Q(qSlicerFuchsTetrahedralizerModuleWidget);
@@ -229,7 +230,7 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateSurface()
     widget->setVisible(source == Node::Uniform);
 }
 
-/// A box without nodes would say that all of them are chosen.
+/// A box without nodes would claim that all of them are chosen.
 void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateMarkups()
 {
   const std::pair<qMRMLNodeComboBox*, QLabel*> boxes[] = { { this->TargetComboBox, this->NoTargetLabel },
@@ -274,7 +275,7 @@ void qSlicerFuchsTetrahedralizerModuleWidgetPrivate::updateProblem()
                               });
 }
 
-/// Its size and its worst angles, from the table of quality, whose first row is the whole mesh.
+/// Returns size and worst angles of the mesh, from the first row of the quality table, which is the whole mesh.
 QString qSlicerFuchsTetrahedralizerModuleWidgetPrivate::summaryOfMesh() const
 {
   Q_Q(const qSlicerFuchsTetrahedralizerModuleWidget);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The panel of Fuchs Tetrahedralizer. It follows the scene's parameter node, and the node follows it.
+/// The panel of Fuchs Tetrahedralizer. It shows the scene's parameter node and writes the user's input to it.
 
 #include "qSlicerFuchsTetrahedralizerModuleExport.h"
 
@@ -27,7 +27,7 @@ public:
 
   bool setEditedNode(vtkMRMLNode* node, QString role = QString(), QString context = QString()) override;
 
-  /// Exports the mesh without asking for the file, and says in the panel what came of it. False if it failed.
+  /// Exports the mesh without a file dialog, and shows the outcome in the panel. Returns false on failure.
   Q_INVOKABLE bool exportMesh(const QString& file);
 
 public slots:

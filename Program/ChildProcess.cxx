@@ -32,7 +32,7 @@ extern "C" void passOn(int signal)
   if (const pid_t child = runningChild; child > 0) kill(child, signal);
 }
 
-/// While it lives, signals go to the child. Those that whoever started this process ignores stay ignored.
+/// Forwards signals to the child during its lifetime. Signals that this process was started to ignore stay ignored.
 class PassedOnSignals
 {
 public:
@@ -61,7 +61,8 @@ private:
   std::array<struct sigaction, signals.size()> m_Before = {};
 };
 
-/// While it lives, signals wait: a new process has the handlers of this one, which would swallow them there.
+/// Blocks signals during its lifetime: a forked process inherits the handlers of this one, which would swallow signals
+/// there.
 class HeldSignals
 {
 public:
@@ -75,7 +76,7 @@ public:
   ~HeldSignals() { pthread_sigmask(SIG_SETMASK, &m_Before, nullptr); }
   HeldSignals(const HeldSignals&) = delete;
   HeldSignals& operator=(const HeldSignals&) = delete;
-  /// In a new process: those that come, and those that came, end it.
+  /// In the forked process: restores default handling, so that pending and later signals end it.
   void letGo() const
   {
     for (const int signal : signals)

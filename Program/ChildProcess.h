@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Another program run to its end. POSIX only.
+/// Runs another program to its end. POSIX only.
 
 #include <functional>
 #include <string>
@@ -9,7 +9,7 @@
 namespace surgicalmesher
 {
 
-/// This process was told to end (interrupt, hang-up, termination) while a child ran, which has ended since.
+/// Thrown when this process was told to end (interrupt, hang-up, termination) while a child ran; the child has ended.
 struct Interrupted
 {
   int signal;
@@ -17,13 +17,13 @@ struct Interrupted
 
 struct ChildOutcome
 {
-  int status = 0;     ///< exit status; 128 + n for an end by signal n
-  std::string errors; ///< what came on stderr
+  int status = 0;     ///< exit status; 128 + n if signal n ended the child
+  std::string errors; ///< output on stderr
 };
 
-/// Runs `program` with `arguments`, nothing on stdin, and hands each line of its stdout to `eachLine`. Signals that
-/// would end this process are passed on to the child, and thrown as Interrupted when it has ended; a child whose parent
-/// is killed is told to end, too (on Linux). Throws EngineError if the program can't be started.
+/// Runs `program` with `arguments` and empty stdin, and passes each line of its stdout to `eachLine`. Signals that
+/// would end this process are forwarded to the child; Interrupted is thrown when the child has ended. If this process
+/// is killed, the child is told to end (Linux only). Throws EngineError if the program cannot be started.
 ChildOutcome runChild(const std::string& program, const std::vector<std::string>& arguments,
                       const std::function<void(const std::string&)>& eachLine);
 

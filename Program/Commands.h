@@ -10,15 +10,15 @@
 namespace surgicalmesher
 {
 
-/// `programs` is the folder of the programs that stages are, `xml` the command's own description.
+/// `programs` is the folder with the programs of the stages, `xml` the description of the command.
 void meshCommand(CommandLine& line, const std::string& programs, const std::string& xml);
 void estimateCommand(CommandLine& line, const std::string& programs, const std::string& xml);
 void qualityCommand(CommandLine& line);
 void convertCommand(CommandLine& line);
 void viewCommand(CommandLine& line);
 
-/// `arguments` of the mesh command with the options of its --config before them, if there is one, but for those that
-/// the command line has. A single argument without a flag then is the folder.
+/// Returns `arguments` of the mesh command preceded by the options of the file given by --config, if any, except those
+/// that `arguments` contain. With --config, a single argument without a flag is the folder.
 std::vector<std::string> withConfiguration(const std::vector<std::string>& arguments, const std::string& xml);
 
 } // namespace surgicalmesher

@@ -19,7 +19,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Of a text, a number or a truth; empty for anything else.
+/// Returns the text of a string, number or boolean; empty for any other node.
 std::string scalarText(const toml::node& node)
 {
   if (const auto* text = node.as_string()) return text->get();
@@ -36,7 +36,7 @@ std::vector<std::string> scalarTexts(const toml::array& array)
   return texts;
 }
 
-/// One value, or as many as a list has.
+/// Returns one value, or the values of a list.
 std::vector<std::string> valuesOf(const toml::node& node, const Parameter& parameter)
 {
   const toml::array* array = node.as_array();
@@ -54,7 +54,8 @@ std::vector<std::string> valuesOf(const toml::node& node, const Parameter& param
   return values;
 }
 
-/// Whether a value is a path that means another file elsewhere: not what lies in the folder of the results by its name.
+/// Whether a value is a path that depends on a folder. An output file given by name only does not: it lies in the
+/// folder of the results.
 bool isPath(const Parameter& parameter, const std::string& value)
 {
   return parameter.isFile() || (isOutputFile(parameter.name) && std::filesystem::path(value).has_parent_path());
@@ -89,8 +90,8 @@ void requireAccepted(const Parameter& parameter, const std::vector<std::string>&
   }
 }
 
-/// Absolute, but for what lies in the folder of the results: that may be moved and copied, and the configuration with
-/// it.
+/// Returns an absolute path, except for files in the folder of the results, which may be moved and copied together with
+/// the configuration.
 std::string pathFrom(const std::string& resultFolder, const std::string& file)
 {
   const std::filesystem::path path = absolutePath(file);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// surgicalmesher convert: a mesh of tetrahedra in the formats of solvers.
+// surgicalmesher convert: exports a tetrahedral mesh in the formats of solvers.
 
 #include "Commands.h"
 #include "CurvedSides.h"

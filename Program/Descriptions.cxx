@@ -32,7 +32,7 @@ std::vector<vtkXMLDataElement*> childrenOf(vtkXMLDataElement* element)
   return children;
 }
 
-/// A text is taken as it is: several need the flag once each.
+/// Removes the hint that files can be separated by commas: a text is taken as it is, so several need the flag repeated.
 void tellOfNoList(vtkXMLDataElement* description)
 {
   const std::string ofFiles = " or separate files by commas";
@@ -57,7 +57,7 @@ void setText(vtkXMLDataElement* element, const std::string& text)
   element->SetCharacterData(text.c_str(), int(text.size()));
 }
 
-/// Whether it is the user's to give, and not among those of earlier programs.
+/// Whether users can give the option, and no earlier program has it.
 bool isKept(vtkXMLDataElement* parameter, const std::string& name, Outputs outputs, std::set<std::string>& seen)
 {
   if (!parameter->FindNestedElementWithName("longflag") || stageOptions().count(name)) return false;
@@ -65,7 +65,8 @@ bool isKept(vtkXMLDataElement* parameter, const std::string& name, Outputs outpu
   return seen.insert(name).second;
 }
 
-/// Takes away what is not to be given, and gives the rest its merged name; whether anything is left.
+/// Removes the options that users cannot give, and renames the others to their merged names; returns whether any is
+/// left.
 bool keepOptions(vtkXMLDataElement* group, const ModuleDescription& program, Outputs outputs,
                  std::set<std::string>& seen)
 {
@@ -87,7 +88,7 @@ bool keepOptions(vtkXMLDataElement* group, const ModuleDescription& program, Out
   return isUsed;
 }
 
-/// In the order of their options.
+/// The programs in the order of their options.
 const std::vector<ModuleDescription>& programs()
 {
   static const std::vector<ModuleDescription> all{
@@ -99,7 +100,7 @@ const std::vector<ModuleDescription>& programs()
   return all;
 }
 
-/// Simplex Mesher's gradation: simplexMesherGradation.
+/// Returns the name prefixed by the program's, such as simplexMesherGradation for Simplex Mesher's gradation.
 std::string nameBehindProgram(std::string name, const ModuleDescription& program)
 {
   std::string own = program.title;

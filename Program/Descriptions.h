@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The descriptions (XML) of the commands, put together of their own and those of the programs that they run.
+/// Descriptions (XML) of the commands, merged from their own options and those of the programs that they run.
 
 #include "ModuleDescription.h"
 
@@ -22,26 +22,26 @@ extern const char* const pathScaleXML;
 extern const char* const simplexMesherXML;
 extern const char* const tetrahedralizerXML;
 
-/// Options of the programs that join the stages or are for callers other than a user, and are not the user's to give.
+/// Options of the programs that connect the stages, or are meant for other callers; users cannot give them.
 const std::set<std::string>& stageOptions();
 
-/// Outputs of the programs, when their options are put together.
+/// How outputs of the programs are treated when their options are merged.
 enum class Outputs
 {
-  AsTexts, ///< where they go is not for the command line alone to say
+  AsTexts, ///< their place does not depend on the command line alone
   LeftOut
 };
 
-/// `command` with the options of `programs` behind its own, by mergedName(), each once, as the first program that has
-/// it describes it, without stageOptions().
+/// Returns `command` with the options of `programs` appended under their mergedName(). An option of several programs
+/// appears once, as described by the first of them; stageOptions() are left out.
 std::string mergedDescription(const std::string& command, const std::vector<std::string>& programs,
                               Outputs outputs = Outputs::AsTexts);
 
-/// The name of a program's option among those put together: its own, behind the program's if an earlier program has
-/// another default for it. So every default can be told and kept.
+/// Returns the name of a program's option among the merged ones: its own name, or, if an earlier program has an option
+/// of this name with another default, its name prefixed by the program's. So each program keeps its defaults.
 std::string mergedName(const std::string& name, const ModuleDescription& program);
 
-/// Whether an option among those put together, where outputs are texts, is an output file of a program.
+/// Whether a merged option (with Outputs::AsTexts) is an output file of a program.
 bool isOutputFile(const std::string& name);
 
 } // namespace surgicalmesher

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// surgicalmesher estimate: what a mesh will take, before anything is meshed.
+// surgicalmesher estimate: predicts size, memory and time of a mesh before anything is meshed.
 
 #include "ChildProcess.h"
 #include "Commands.h"
@@ -23,8 +23,8 @@ namespace surgicalmesher
 namespace
 {
 
-/// Processor seconds per sample of the boundary, per face that the complex begins with, per tetrahedron and per voxel:
-/// Docs/Benchmarks.md#estimates, within a factor of 2.
+/// Processor seconds per sample of the boundary, per initial face of the complex, per tetrahedron and per voxel;
+/// accurate within a factor of 2, see Docs/Benchmarks.md#estimates.
 constexpr double secondsPerSample = 50e-6, secondsPerStartingFace = 30e-6, secondsPerTetrahedron = 70e-6,
                  secondsPerVoxel = 0.5e-6;
 constexpr double samplesPerTriangle = 16;
@@ -33,10 +33,10 @@ struct Figures
 {
   double triangles = 0, tetrahedra = 0;
   double bytes = 0;
-  double seconds = 0; ///< of all processors together
+  double seconds = 0; ///< summed over all processors
 };
 
-/// A folder of its own, which goes with all that is in it.
+/// A temporary folder, removed with its contents at the end of its lifetime.
 class ScratchFolder
 {
 public:
@@ -70,7 +70,7 @@ void runStages(const RunRequest& request, const std::string& programs, CommandLi
   }
 }
 
-/// From the report of the scale's stage, which has seen the map.
+/// Reads the estimate from the report of the scale stage, which has read the map.
 Figures readFigures(const std::string& file)
 {
   rapidjson::Document json;

@@ -36,7 +36,7 @@ void parse(rapidjson::Document& json, const std::string& file)
   if (json.HasParseError() || !json.IsObject()) throw InputError(file + ": no JSON object, a stage's report expected");
 }
 
-/// NaN where a stage found none.
+/// Returns a number; NaN if the report has none.
 double number(const Json& value)
 {
   return value.IsNumber() ? value.GetDouble() : std::numeric_limits<double>::quiet_NaN();
@@ -84,7 +84,7 @@ std::string figure(const std::string& value, const std::string& what)
   return "<div><b>" + value + "</b><span class=soft>" + what + "</span></div>\n";
 }
 
-/// Tissues whose tetrahedra have other pieces, tunnels or cavities than the prepared map.
+/// Counts the tissues whose tetrahedra differ from the prepared map in the number of components, tunnels or cavities.
 std::size_t wrongTissues(const Results& results)
 {
   std::map<unsigned, const Json*> found;
@@ -132,7 +132,7 @@ std::string svgText(double x, double y, const std::string& anchor, int size, con
          std::to_string(size) + "'>" + text + "</text>";
 }
 
-/// Scale bar, the patient's sides, and a cross at the target.
+/// Draws scale bar, the patient's sides, and a cross at the target.
 std::string overlay(const Camera& camera, const Vec3* target)
 {
   const Annotations notes = annotationsOf(camera);
@@ -189,7 +189,7 @@ struct Axis
   double low, high, step;
 };
 
-/// Bars, ticks, and dashed lines where the ideal lies.
+/// Draws bars and ticks, and dashed lines at the ideal values.
 std::string histogram(const Json& data, const Axis& axis, const std::vector<double>& ideals, const std::string& caption)
 {
   constexpr double width = 460, height = 240, foot = 34;
@@ -304,7 +304,7 @@ std::string tissues(const Results& results)
 
 std::string kindsOfSimplification(const Results& results)
 {
-  std::map<std::string, std::array<double, 2>> kinds; // pieces and voxels
+  std::map<std::string, std::array<double, 2>> kinds; // number of places and of voxels
   for (const Json& change : results.surface["simplification"]["changes"].GetArray())
   {
     auto& sum = kinds[change["kind"].GetString()];

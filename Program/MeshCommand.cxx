@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// surgicalmesher mesh: the stages in a row, as far as they have not been run before.
+// surgicalmesher mesh: runs all stages, except those whose earlier results still hold.
 
 #include "Arguments.h"
 #include "ChildProcess.h"
@@ -27,7 +27,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// A folder that is there while it lives, and goes again if nothing came into it.
+/// Makes sure that a folder exists; at the end of its lifetime, removes it if it was new and is still empty.
 class ResultFolder
 {
 public:
@@ -62,7 +62,7 @@ RunRequest requestOf(const CommandLine& line, const ModuleDescription& descripti
   return request;
 }
 
-/// Files of the user's, not of earlier stages.
+/// Returns the input files that are the user's, not outputs of earlier stages.
 std::vector<std::string> givenFiles(const std::vector<Stage>& stages)
 {
   std::vector<std::string> written, given;
@@ -91,10 +91,11 @@ std::vector<std::string> allOutputs(const std::vector<Stage>& stages, const fs::
   return files;
 }
 
-/// Throws if a file can't be written, as where a folder has its name: the last of them would show it after hours.
+/// Throws if a file cannot be written, for example because a folder has its name. Otherwise this could show only after
+/// hours, at the last file.
 void requireWritable(const std::vector<std::string>& outputs)
 {
-  OutputFiles attempt; // without commit() it leaves nothing
+  OutputFiles attempt; // leaves nothing behind without commit()
   for (const std::string& output : outputs) attempt.temporary(output);
 }
 
@@ -112,19 +113,19 @@ void requireInputsKept(const std::vector<std::string>& outputs, const std::vecto
 
 void writeConfiguration(const std::string& configuration, const fs::path& folder)
 {
-  OutputFiles file; // none of the command line's outputs: the run may have been called by this very file
+  OutputFiles file; // not one of the command line's outputs: this file may be the --config of the run
   writeBytes(configuration, file.temporary((folder / "run.toml").string()));
   file.commit();
 }
 
-/// The folder of the results while stages run into it.
+/// State of the results folder while the stages run.
 struct Results
 {
   fs::path folder;
-  std::vector<std::string> given; ///< files of the user's, which may lie there, too
-  std::string configuration;      ///< of the run at work
+  std::vector<std::string> given; ///< the user's files, some of which may lie in the folder
+  std::string configuration;      ///< of the current run
   RunRecord record;
-  bool hasEarlier; ///< whether a run before this one has left anything: what this one has made is none of it
+  bool hasEarlier; ///< whether an earlier run left a record; results of the current run do not count
 };
 
 void writeRecord(const Results& results, CommandLine& line)
@@ -133,8 +134,8 @@ void writeRecord(const Results& results, CommandLine& line)
   line.tellWritten((results.folder / "stages.json").string());
 }
 
-/// What a stage has written goes, and what the record says of it. Files that lie elsewhere stay: exports that were
-/// asked for there, and whatever a record from another folder names.
+/// Removes the outputs of a stage and its record. Files outside the folder stay: exports to other places, and whatever
+/// a record from another folder names.
 void removeOutputs(const std::string& stage, Results& results)
 {
   for (const auto& output : results.record[stage].outputs)
@@ -148,9 +149,9 @@ void removeOutputs(const std::string& stage, Results& results)
   results.record.erase(stage);
 }
 
-/// What was made of results that are about to change goes, so that the folder never holds what does not fit together:
-/// outputs of stages, and the page. The options become those of the run at work, but don't go: it may have been called
-/// by that very file, and may have to be called by it again.
+/// Removes what was made from results that are about to change (outputs of stages, and the report), so that the folder
+/// never holds results that do not fit together. run.toml is not removed but replaced by the options of the current
+/// run: it may have been the --config of the run, and be needed for that again.
 void removeEarlier(const std::vector<std::string>& stages, Results& results, CommandLine& line)
 {
   if (stages.empty() || !results.hasEarlier) return;
@@ -168,7 +169,7 @@ std::vector<std::string> namesOf(std::vector<Stage>::const_iterator begin, std::
   return names;
 }
 
-/// Stages of an earlier run that this one does without.
+/// Returns the stages of an earlier run that this run does not have.
 std::vector<std::string> othersIn(const RunRecord& record, const std::vector<Stage>& stages)
 {
   std::vector<std::string> others;
@@ -180,8 +181,9 @@ std::vector<std::string> othersIn(const RunRecord& record, const std::vector<Sta
   return others;
 }
 
-/// Fingerprints of what a stage has written, and of nothing else that lies there: by name in the folder, by path from
-/// there below it, by path elsewhere. What a link stands for is told by the link.
+/// Returns the fingerprints of the files that a stage has written, and of no others. Keys are paths relative to the
+/// folder for files in it, and absolute paths for others. A file reached through a link is recorded under the link's
+/// path.
 std::map<std::string, std::string> writtenBy(const Stage& stage, const std::vector<std::string>& files,
                                              const fs::path& folder)
 {
@@ -197,7 +199,7 @@ std::map<std::string, std::string> writtenBy(const Stage& stage, const std::vect
   return written;
 }
 
-/// Runs what has to be run, and keeps the record.
+/// Runs the stages whose results do not hold any more, and updates the record.
 void runStages(const RunRequest& request, const std::string& configuration, const std::string& programs,
                CommandLine& line, const Progress& progress)
 {
@@ -234,7 +236,7 @@ void runStages(const RunRequest& request, const std::string& configuration, cons
   }
 }
 
-/// Ends this process as the signal would have.
+/// Ends this process by the signal.
 [[noreturn]] void endBy(int signal)
 {
   writeToStderr("surgicalmesher mesh: interrupted; stages that were complete are kept, and the same command goes on "
@@ -244,7 +246,7 @@ void runStages(const RunRequest& request, const std::string& configuration, cons
   throw EngineError("interrupted");
 }
 
-/// Whether `argument` takes the next one as its value.
+/// Whether `argument` is a flag whose value is the next argument.
 bool takesNext(const std::string& argument, const ModuleDescription& description)
 {
   if (argument.find('=') != std::string::npos || argument == "--quiet" || argument == "--echo") return false;
@@ -255,7 +257,7 @@ bool takesNext(const std::string& argument, const ModuleDescription& description
   return true;
 }
 
-/// The arguments without a flag.
+/// Returns the arguments that are neither flags nor their values.
 std::vector<std::string> positionalsIn(const std::vector<std::string>& arguments, const ModuleDescription& description)
 {
   std::vector<std::string> found;

@@ -13,7 +13,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// sRGB of an OKLCh colour (B. Ottosson, A perceptual color space for image processing, 2020); hue in turns.
+/// Converts an OKLCh colour to sRGB (B. Ottosson, A perceptual color space for image processing, 2020); hue in turns.
 Color fromOklch(double lightness, double chroma, double hue)
 {
   const double turn = 2 * 3.14159265358979323846 * hue;
@@ -32,7 +32,7 @@ Color fromOklch(double lightness, double chroma, double hue)
   return color;
 }
 
-/// Neighbours in the order have hues far apart: steps of the golden ratio, three lightnesses.
+/// Returns the n-th of a series of colours. Consecutive ones differ: hues by the golden ratio, in three lightnesses.
 Color distinctColor(std::size_t n)
 {
   return fromOklch(std::array<double, 3>{ 0.74, 0.62, 0.86 }[n % 3], 0.105,

@@ -15,12 +15,12 @@ namespace
 
 struct Page
 {
-  std::string name;    ///< of the file: surgicalmesher-mesh
-  std::string command; ///< as it is typed: surgicalmesher mesh
+  std::string name;    ///< file name, such as surgicalmesher-mesh
+  std::string command; ///< as typed, such as surgicalmesher mesh
   ModuleDescription description;
 };
 
-/// Dashes, backslashes and points at the beginning of a line mean something else to roff.
+/// Escapes what is special to roff: dashes, backslashes, and a point or an apostrophe at the start.
 std::string roff(const std::string& text)
 {
   std::string result;
@@ -60,7 +60,7 @@ std::string manualPage(const Page& page)
                 "failed, memory ran out, or what was printed on stdout could not be written.\n";
 }
 
-/// Of surgicalmesher itself: where its commands are told of.
+/// Returns the manual page of surgicalmesher itself, which refers to those of its commands.
 std::string overview(const std::vector<Page>& pages)
 {
   std::string text = ".TH surgicalmesher 1 \"\" \"SurgicalMesher " + pages.front().description.version +
@@ -79,7 +79,7 @@ std::string flagsOf(const ModuleDescription& description)
   return flags;
 }
 
-/// Of the choices behind a flag, one case each.
+/// Returns the shell cases that complete the choices of a flag, one case for each flag.
 std::string casesOf(const ModuleDescription& description)
 {
   std::string cases;
@@ -101,7 +101,7 @@ std::string caseOf(const Page& page, const std::string& pattern)
          "' -- \"$word\")); fi ;;\n";
 }
 
-/// Of a program, or of all commands of surgicalmesher; files where no word fits.
+/// Returns the completion of a program, or of all commands of surgicalmesher; where no word fits, files are completed.
 std::string completion(const std::string& program, const std::string& cases)
 {
   std::string function = "_" + program;

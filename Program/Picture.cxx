@@ -21,13 +21,13 @@ namespace
 {
 
 constexpr int samples = 3;        ///< along each side of a pixel
-constexpr double edgeWidth = 1.1; ///< samples, of the half that each of two triangles draws
-constexpr double margin = 0.05;   ///< of the picture's sides, around what is shown
+constexpr double edgeWidth = 1.1; ///< in samples, of the half of an edge that each of its two triangles draws
+constexpr double margin = 0.05;   ///< share of the picture's width and height left empty on each side
 constexpr double ambient = 0.4, diffuse = 0.6, edgeShade = 0.45;
 
 Vec3 unit(const Vec3& v) { return v / norm(v); }
 
-/// What the samples of a picture show.
+/// The samples of a picture.
 struct Samples
 {
   int width, height;
@@ -40,7 +40,7 @@ double sideOf(const Vec3& a, const Vec3& b, double x, double y)
   return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
 }
 
-/// A facet in samples, wound so that its area is positive.
+/// A facet in the coordinates of samples, oriented so that its area is positive.
 struct Projection
 {
   std::array<Vec3, 3> corners;
@@ -113,7 +113,7 @@ void drawFacet(Samples& picture, const Facet& facet, const Camera& camera, bool 
   }
 }
 
-/// One pixel: the mean colour of the samples that show something, and their share.
+/// Returns a pixel: the mean colour of the samples that show something, and their share as opacity.
 std::array<std::uint8_t, 4> averaged(const Samples& picture, int x, int y)
 {
   std::array<int, 3> sum{};
@@ -175,7 +175,7 @@ void drawLine(Image& image, std::array<double, 2> from, std::array<double, 2> to
   }
 }
 
-/// `unit` pixels are a step of the letters' grid; x and y are the upper left corner.
+/// Draws a text; `unit` is the size in pixels of a grid step of the letters, x and y the upper left corner.
 void drawText(Image& image, const std::string& text, double x, double y, double unit)
 {
   for (const char letter : text)
@@ -192,7 +192,7 @@ void drawText(Image& image, const std::string& text, double x, double y, double 
   }
 }
 
-/// The largest of 1, 2 and 5 times a power of ten that is no longer.
+/// Returns the largest number of the form 1, 2 or 5 times a power of ten that is at most `length`.
 double roundLength(double length)
 {
   const double power = std::pow(10.0, std::floor(std::log10(length)));
@@ -301,7 +301,7 @@ std::string pngOf(const Image& image)
   pixels->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
   auto* bytes = static_cast<std::uint8_t*>(pixels->GetScalarPointer());
   const std::size_t row = std::size_t(image.width) * 4;
-  for (int y = 0; y < image.height; ++y) // VTK's rows go upwards
+  for (int y = 0; y < image.height; ++y) // VTK stores rows from bottom to top
     std::copy_n(image.rgba.begin() + std::ptrdiff_t(y * row), row, bytes + (image.height - 1 - y) * row);
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(pixels);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Pictures of triangles without a display or a graphics library: parallel projection, z-buffer, flat shading by a
-/// light at the viewer, edges drawn in, anti-aliased by averaging nine samples a pixel.
+/// Renders triangles without a display or a graphics library: parallel projection, z-buffer, flat shading by a light at
+/// the viewer, edges, and anti-aliasing with nine samples per pixel.
 
 #include "Vec3.h"
 
@@ -21,7 +21,7 @@ struct Facet
   Color color;
 };
 
-/// Pixels, from the top left row by row, red, green, blue and opacity.
+/// Pixels row by row from the top left; four bytes each: red, green, blue, opacity.
 struct Image
 {
   int width = 0, height = 0;
@@ -31,7 +31,7 @@ struct Image
 /// A view along -towards; x to the right, y upwards in the picture.
 struct Camera
 {
-  Vec3 right, up, towards; ///< unit; towards the viewer
+  Vec3 right, up, towards; ///< unit vectors; `towards` points to the viewer
   Vec3 centre;             ///< mm; in the middle of the picture
   double mmPerPixel = 1;
   int width = 0, height = 0;
@@ -40,26 +40,27 @@ struct Camera
   Vec3 pixel(const Vec3& point) const;
 };
 
-/// A view from the direction `towards` in LPS, cranial side up as far as it can be, in which all facets just fit.
+/// Returns a view from the direction `towards` (LPS) that just fits all facets, with the cranial direction as far up as
+/// possible.
 Camera cameraOn(const std::vector<Facet>& facets, const Vec3& towards, int width, int height);
 
-/// The facets before a transparent background.
+/// Renders the facets on a transparent background.
 Image drawn(const std::vector<Facet>& facets, const Camera& camera, bool withEdges = true);
 
-/// What is written over a picture.
+/// Annotations of a picture.
 struct Annotations
 {
-  double barLength = 0;    ///< mm; a round number, about a fifth of the width
-  double barPixels = 0;    ///< the same in the picture
-  std::string left, right; ///< the patient's sides at these sides of the picture: L, R, A, P
+  double barLength = 0;    ///< mm; a round number, at most a fifth of the width
+  double barPixels = 0;    ///< length of the bar in pixels
+  std::string left, right; ///< the patient's sides at the left and right of the picture: L, R, A, P
 };
 
 Annotations annotationsOf(const Camera& camera);
 
-/// Before white, with scale bar and sides drawn into it.
+/// Returns the image on a white background, with scale bar and sides.
 Image annotated(const Image& image, const Camera& camera);
 
-/// The bytes of a PNG file. Throws EngineError if there is no memory for it.
+/// Returns the bytes of a PNG file. Throws EngineError if it cannot be encoded.
 std::string pngOf(const Image& image);
 
 } // namespace surgicalmesher

@@ -21,7 +21,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Cut or filled to so many letters, of which UTF-8 has some in several bytes.
+/// Cuts or pads a text to `width` characters, of which some have several bytes in UTF-8.
 std::string column(const std::string& text, int width)
 {
   std::size_t bytes = 0;
@@ -88,7 +88,7 @@ const char* nameOf(ElementShape shape)
   return shape == ElementShape::Wedge ? "wedges" : "hexahedra";
 }
 
-/// By tissue and shape, without those that there are none of.
+/// Measures the elements by tissue and shape; combinations without elements are left out.
 std::vector<ShapeOfTissue> measured(const ElementMeshFile& content, const SolidMesh& solid)
 {
   std::map<Label, ElementMesh> parts;

@@ -60,14 +60,14 @@ void writeTexts(JsonWriter& json, const char* key, const std::map<std::string, s
               });
 }
 
-/// Of "map.nii.gz", "map".
+/// Returns the name up to the first dot: "map" of "map.nii.gz".
 std::string stemOf(const fs::path& file)
 {
   const std::string name = file.filename().string();
   return name.substr(0, name.find('.', 1));
 }
 
-/// `text` without the folder's path.
+/// Returns `text` without the path of the folder.
 std::string insideFolder(std::string text, const std::string& folder)
 {
   const std::size_t at = text.find(folder + "/");
@@ -81,8 +81,9 @@ std::string kindOf(const fs::path& file)
   return last == ".gz" || last == ".bz2" ? text::lowerCase(file.stem().extension().string()) : last;
 }
 
-/// A header calls its data by any name, and a change of them that is missed is a mesh of an older image: only what is
-/// certainly none is left out. Text may be (ASCII data of NRRD); meshes are what --export may have put there.
+/// Whether a file certainly holds no image data. A header can refer to its data by any name, and a missed change of the
+/// data would leave a mesh of an older image. Text may be data (ASCII data of NRRD); mesh formats are listed because
+/// --export may have written them there.
 bool isNoData(const fs::path& file)
 {
   static const std::set<std::string> kinds{ ".log",  ".out",  ".err",  ".json",  ".toml", ".yaml", ".yml",

@@ -15,8 +15,8 @@ namespace surgicalmesher
 namespace
 {
 
-/// The bytes of a path that a program has told. RapidJSON makes three bytes of a surrogate, \udcHH, as of any
-/// character: their last eight bits are the byte that it stands for (ProgressReport.h).
+/// Restores the bytes of a path reported by a program. Bytes that are not UTF-8 are reported as surrogates \udcHH
+/// (ProgressReport.h), which RapidJSON converts to three bytes like any character: the last eight bits are the byte.
 std::string pathIn(const std::string& text)
 {
   std::string path;
@@ -29,7 +29,7 @@ std::string pathIn(const std::string& text)
   return path;
 }
 
-/// A line of a program's --progress json; what it has written is added to `files`.
+/// Handles a line of a program's --progress json. Files that it reports as written are added to `files`.
 void handOn(const std::string& text, const Stage& stage, CommandLine& line, const Progress& progress,
             std::vector<std::string>& files)
 {

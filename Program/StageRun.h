@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// One stage, run.
+/// Runs one stage.
 
 #include "CommandLine.h"
 #include "Stages.h"
@@ -8,9 +8,9 @@
 namespace surgicalmesher
 {
 
-/// Runs the stage's program, which lies in `programs`; its messages and warnings become those of `line`. Returns the
-/// absolute paths of all files that it wrote, also those that go with an output. Throws the error that the program
-/// ended with, and Interrupted (ChildProcess.h).
+/// Runs the stage's program, which lies in `programs`; its messages and warnings are passed to `line`. Returns the
+/// absolute paths of all files that it wrote, including those that accompany an output. Throws the error with which the
+/// program ended, or Interrupted (ChildProcess.h).
 std::vector<std::string> runStage(const Stage& stage, const std::string& programs, CommandLine& line,
                                   const Progress& progress);
 

@@ -20,7 +20,7 @@ std::string inFolder(const RunRequest& request, const std::string& name)
   return (std::filesystem::path(request.folder) / name).lexically_normal().string();
 }
 
-/// A name without a folder lies in that of the results.
+/// An output given by name only lies in the folder of the results.
 std::string placeOfOutput(const RunRequest& request, const std::string& value)
 {
   const std::filesystem::path path(value);
@@ -39,7 +39,7 @@ bool isTaken(const Stage& stage, const Parameter& parameter, const ModuleDescrip
   static const std::set<std::string> focus{ "targets", "path", "targetPoint", "pathPoint" };
   if (stageOptions().count(parameter.name) || parameter.longFlag.empty()) return false;
   if (!isGiven(parameter.name, program, options)) return false;
-  if (stage.name == "tissues") return parameter.name != "names"; // those that the other stages read
+  if (stage.name == "tissues") return parameter.name != "names"; // `names` is the table that the other stages read
   if (stage.name != "mesh") return true;
   if (parameter.name.rfind("nullDisplacement", 0) == 0) return false;
   return !focus.count(parameter.name) || isGiven("nonlinearDistance", program, options);
@@ -59,7 +59,7 @@ void addValue(Stage& stage, const RunRequest& request, const Parameter& paramete
   stage.arguments.push_back("--" + parameter.longFlag + "=" + text);
 }
 
-/// The options of a program, by its own names.
+/// Returns the options of a program under its own names.
 RunOptions optionsOf(const ModuleDescription& program, const RunOptions& merged)
 {
   RunOptions options;
@@ -110,7 +110,7 @@ bool isAnImage(const RunRequest& request)
   return isGiven("training", parseModuleDescription(tissueMapperXML), request.options);
 }
 
-/// Options of the classification alone say nothing of a label map.
+/// Options of the classification have no effect on a label map.
 void requireNoneOfAnImage(const RunRequest& request)
 {
   const ModuleDescription classification = parseModuleDescription(tissueMapperXML);
@@ -140,7 +140,7 @@ Stage tissuesStage(const RunRequest& request)
   return stage;
 }
 
-/// Of what the classification of an image gives.
+/// Returns the request for the stages after the classification of an image.
 RunRequest requestOfTissues(RunRequest request)
 {
   request.labelMap = labelMapOf(request);

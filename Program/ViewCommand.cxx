@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// surgicalmesher view: pictures without a display.
+// surgicalmesher view: draws a surface or a mesh without a display.
 
 #include "Commands.h"
 #include "Errors.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// surgicalmesher: one command from label map to finite elements, and what one does with the results.
+// surgicalmesher: the program that runs all stages from label map to finite elements, and commands to use the results.
 
 #include "Arguments.h"
 #include "Commands.h"
@@ -71,7 +71,7 @@ const Command& commandNamed(const std::string& name)
                    (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
 }
 
-/// The folder that the programs are installed to: that of this one.
+/// Returns the folder of this program, to which the other programs are installed as well.
 std::string folderOfPrograms(const char* self)
 {
   std::string path, error;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Balloons in the panel: the points they grow from, the tissues that stop them, their growth while a run is busy, and
-/// where the results go. Map and edge lengths are those chosen above.
+/// The balloon section of the panel: the seed points, the tissues that stop the balloons, their growth during a run,
+/// and the outputs. Map and edge lengths are those of the panel.
 
 #include "PanelObstacle.h"
 #include "TissueRows.h"
@@ -29,9 +29,9 @@ public:
   ~qSlicerSimplexMesherBalloonSection() override;
 
   void setLogic(vtkSlicerSimplexMesherLogic* logic);
-  void setParameterNode(vtkMRMLSimplexMesherNode* node); ///< null shows nothing
+  void setParameterNode(vtkMRMLSimplexMesherNode* node); ///< null: shows nothing
   void setTissues(const std::vector<surgicalmesher::TissueRow>& tissues);
-  /// What is wrong with map or edge lengths, or that another run is busy; without a sentence, nothing.
+  /// Sets the problem with the map or the edge lengths, or that another run is busy; without a sentence, there is none.
   void setInputObstacle(const surgicalmesher::PanelObstacle& obstacle);
 
 public slots:

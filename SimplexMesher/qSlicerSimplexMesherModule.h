@@ -5,7 +5,7 @@
 
 #include <qSlicerLoadableModule.h>
 
-/// The module as the host knows it: its texts, its logic, its panel.
+/// The loadable module: its texts, logic and panel.
 class Q_SLICER_QTMODULES_SIMPLEXMESHER_EXPORT qSlicerSimplexMesherModule : public qSlicerLoadableModule
 {
   Q_OBJECT

@@ -40,7 +40,7 @@ public:
 
   vtkSlicerSimplexMesherLogic* logic() const { return vtkSlicerSimplexMesherLogic::SafeDownCast(q_ptr->logic()); }
 
-  vtkWeakPointer<vtkMRMLNode> TissueMap; ///< whose tissues are listed
+  vtkWeakPointer<vtkMRMLNode> TissueMap; ///< the node whose tissues are listed
   vtkWeakPointer<vtkMRMLNode> Scale;     ///< observed
   QTimer ListTimer;
 
@@ -134,7 +134,7 @@ void qSlicerSimplexMesherModuleWidgetPrivate::bindControls()
     });
 }
 
-/// The tables and plots that there are.
+/// Shows the available tables and plots.
 void qSlicerSimplexMesherModuleWidgetPrivate::showReports()
 {
   Q_Q(qSlicerSimplexMesherModuleWidget);
@@ -335,7 +335,7 @@ void qSlicerSimplexMesherModuleWidget::onSceneChanged()
   Q_D(qSlicerSimplexMesherModuleWidget);
   if (d->Parameters && !d->Parameters->GetScene()) this->onSceneReplaced();
   if (d->Parameters && !d->Parameters->GetNodeReference(Node::TissueMapRole()))
-    d->ListTimer.start(); // there may be one to choose now
+    d->ListTimer.start(); // a map may be available now
 }
 
 void qSlicerSimplexMesherModuleWidget::updateFromNode()
@@ -354,7 +354,7 @@ void qSlicerSimplexMesherModuleWidget::updateFromNode()
     d->observeScale(d->Parameters->GetScalarVolumeNode(Node::ScaleRole()));
   vtkMRMLNode* map = d->Parameters->GetNodeReference(Node::TissueMapRole());
   if (map != d->TissueMap) d->observeTissueMap(map);
-  else if (!map) this->listTissues(); // the map itself may have been deleted
+  else if (!map) this->listTissues(); // the map may have been deleted
   else d->showObstacle();
 }
 
@@ -373,7 +373,7 @@ void qSlicerSimplexMesherModuleWidget::onObstacleChanged()
 void qSlicerSimplexMesherModuleWidget::listTissues()
 {
   Q_D(qSlicerSimplexMesherModuleWidget);
-  if (!d->Parameters || !this->isEntered()) return; // the voxels are looked at when the panel is opened
+  if (!d->Parameters || !this->isEntered()) return; // enter() lists the tissues
   d->TissueTable->setTissues(surgicalmesher::listTissues(d->TissueMap));
   d->BalloonSection->setTissues(d->TissueTable->tissues());
   d->showObstacle();
@@ -384,7 +384,7 @@ void qSlicerSimplexMesherModuleWidget::apply()
   Q_D(qSlicerSimplexMesherModuleWidget);
   if (!d->Parameters) return;
   d->ListTimer.stop();
-  this->listTissues(); // what was painted a moment ago
+  this->listTissues(); // includes the latest edits
   if (d->RunWidget->problem().isEmpty() && d->logic()->Start(d->Parameters)) d->showObstacle();
 }
 

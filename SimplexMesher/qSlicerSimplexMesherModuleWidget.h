@@ -8,7 +8,7 @@
 class qSlicerSimplexMesherModuleWidgetPrivate;
 class vtkMRMLNode;
 
-/// The panel. It shows the scene's parameter node, and writes to it what the user enters.
+/// The panel of the module. It shows the scene's parameter node and writes the user's input to it.
 class Q_SLICER_QTMODULES_SIMPLEXMESHER_EXPORT qSlicerSimplexMesherModuleWidget : public qSlicerAbstractModuleWidget
 {
   Q_OBJECT
@@ -20,20 +20,20 @@ public:
   ~qSlicerSimplexMesherModuleWidget() override;
 
   void enter() override;
-  /// A parameter node is shown; a segmentation, label map or scale volume becomes an input.
+  /// Shows a parameter node; a segmentation or label map becomes the input.
   bool setEditedNode(vtkMRMLNode* node, QString role = QString(), QString context = QString()) override;
 
 public slots:
   void setMRMLScene(vtkMRMLScene* scene) override;
 
 protected slots:
-  /// Shows what the parameter node says, and what keeps it from being run.
+  /// Shows the values of the parameter node, and the problem that prevents a run, if any.
   void updateFromNode();
   void onSceneReplaced();
   void onSceneChanged();
-  /// The map or its voxels changed: its tissues are listed again, once it is quiet.
+  /// The map or its voxels changed: lists its tissues again after a pause.
   void onTissueMapChanged();
-  /// Scale or runs changed: what is in the way is said again.
+  /// The scale or a run changed: updates the displayed problem.
   void onObstacleChanged();
   void listTissues();
   void apply();

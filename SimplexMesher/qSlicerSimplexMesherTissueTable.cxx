@@ -32,7 +32,7 @@ using Table = qSlicerSimplexMesherTissueTable;
 namespace
 {
 
-constexpr int SortRole = Qt::UserRole; // numbers as numbers
+constexpr int SortRole = Qt::UserRole; // sorts numbers by value
 
 QString roleName(TissueRole role)
 {
@@ -64,7 +64,7 @@ void setRoleText(TissueSetting& setting, const QString& text)
   if (!text.simplified().isEmpty()) setRole(setting, TissueRole::Group, text);
 }
 
-/// A reference to the number of a column that holds one, and the value that means none.
+/// Returns a reference to the value of a numeric column.
 double& numberAt(TissueSetting& setting, int column)
 {
   if (column == Table::MinimumColumn) return setting.minimumEdgeLength;
@@ -175,7 +175,7 @@ public:
     return this->Node ? this->Node->GetTissueSetting(this->Tissues[row].id) : TissueSetting();
   }
 
-  /// One change of the node for all rows.
+  /// Changes the settings of all rows in a single modification of the node.
   void change(const std::set<int>& rows, const std::function<void(TissueSetting&)>& change)
   {
     if (!this->Node) return;
@@ -259,7 +259,7 @@ QVariant TissueModel::headerData(int section, Qt::Orientation orientation, int r
   return role == Qt::DisplayRole ? QVariant(text.title) : role == Qt::ToolTipRole ? QVariant(text.tip) : QVariant();
 }
 
-/// Filters by name, and passes an edit on to all selected rows.
+/// Filters by name, and applies an edit to all selected rows.
 class TissueFilter : public QSortFilterProxyModel
 {
 public:
@@ -330,7 +330,7 @@ private:
     auto* box = new QComboBox(parent);
     box->setEditable(true);
     box->setInsertPolicy(QComboBox::NoInsert);
-    box->setMinimumWidth(box->fontMetrics().averageCharWidth() * 24); // cells may be narrower than names of groups
+    box->setMinimumWidth(box->fontMetrics().averageCharWidth() * 24); // cells may be narrower than the names of groups
     for (const TissueRole role : { TissueRole::Mesh, TissueRole::Shell, TissueRole::Leave })
       box->addItem(roleName(role));
     QSet<QString> groups;
@@ -359,8 +359,8 @@ private:
   const TissueModel* Model;
 };
 
-/// A click into a cell that can be edited leaves the selection as it is. Names have the room that the other columns
-/// leave, but never too little to be read.
+/// A click into an editable cell leaves the selection unchanged. The name column gets the width that the other columns
+/// leave, with a legible minimum.
 class TissueView : public QTableView
 {
 public:
@@ -422,12 +422,12 @@ void qSlicerSimplexMesherTissueTablePrivate::makeView(QWidget* parent)
   this->View->setSelectionBehavior(QAbstractItemView::SelectRows);
   this->View->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::SelectedClicked |
                               QAbstractItemView::EditKeyPressed | QAbstractItemView::AnyKeyPressed);
-  this->View->setTabKeyNavigation(false); // Tab leads on through the panel
+  this->View->setTabKeyNavigation(false); // Tab moves on through the panel
   this->View->setAlternatingRowColors(true);
   this->View->setShowGrid(false);
   this->View->setWordWrap(false);
   this->View->setSortingEnabled(true);
-  this->View->sortByColumn(-1, Qt::AscendingOrder); // as listed
+  this->View->sortByColumn(-1, Qt::AscendingOrder); // the order of the list
   this->View->verticalHeader()->hide();
   this->View->verticalHeader()->setDefaultSectionSize(this->View->fontMetrics().height() + 6);
   this->View->setMinimumHeight(160);
@@ -446,7 +446,7 @@ void qSlicerSimplexMesherTissueTablePrivate::makeView(QWidget* parent)
   this->addColumnActions();
 }
 
-/// Right click on the header: which columns are shown.
+/// Adds a context menu to the header that selects the visible columns.
 void qSlicerSimplexMesherTissueTablePrivate::addColumnActions()
 {
   QHeaderView* header = this->View->horizontalHeader();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The tissues of a map, and what is asked of each: a filter, a table, and buttons for the selected rows. What the user
-/// enters goes to the parameter node, and what the node says is shown.
+/// The tissues of a map and their settings: a filter, a table, and buttons for the selected rows. User input is written
+/// to the parameter node, and changes of the node are shown.
 
 #include "TissueRows.h"
 #include "qSlicerSimplexMesherModuleExport.h"
@@ -28,7 +28,7 @@ public:
     NameColumn,
     LabelColumn,
     VolumeColumn,
-    RoleColumn, ///< edited as text: the name of a role in the user's language, or that of a group
+    RoleColumn, ///< edited as text: the name of a role in the user's language, or of a group
     MinimumColumn,
     MaximumColumn,
     ProtectedColumn, ///< a check box
@@ -45,11 +45,11 @@ public:
   void setTissues(const std::vector<surgicalmesher::TissueRow>& tissues);
   const std::vector<surgicalmesher::TissueRow>& tissues() const;
 
-  /// Its model is filtered and sorted; an edit of a cell in a selected row is one of all selected rows.
+  /// The view has a filtered and sorted model; editing a cell in a selected row edits all selected rows.
   QTableView* view() const;
 
 public slots:
-  /// For the selected rows.
+  /// These apply to the selected rows.
   void meshSelected();
   void makeSelectedShells();
   void leaveOutSelected();

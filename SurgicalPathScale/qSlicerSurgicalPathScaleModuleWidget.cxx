@@ -44,8 +44,8 @@ public:
 
   Logic* logic() const { return Logic::SafeDownCast(q_ptr->logic()); }
 
-  QTimer PreviewTimer;  ///< a slider being dragged asks for one preview, not for hundreds
-  QTimer EstimateTimer; ///< the estimate takes longer, and waits until the sliders rest
+  QTimer PreviewTimer;  ///< limits the preview to one per pause while a slider is dragged
+  QTimer EstimateTimer; ///< the estimate takes longer and waits until the sliders rest
 
   void setParameterNode(vtkMRMLSurgicalPathScaleNode* node);
   void setupPlacing(qSlicerMarkupsPlaceWidget* place, qMRMLNodeComboBox* selector);
@@ -62,7 +62,7 @@ public:
 namespace
 {
 
-/// To three significant digits.
+/// Returns the count rounded to three significant digits.
 QString roundedCount(double count)
 {
   const double unit = count < 1000 ? 1 : std::pow(10.0, std::floor(std::log10(count)) - 2);
@@ -86,7 +86,7 @@ void qSlicerSurgicalPathScaleModuleWidgetPrivate::setParameterNode(vtkMRMLSurgic
   q->updateFromNode();
 }
 
-/// Only what placing needs; colours and the like are the business of Markups.
+/// Shows only the controls for placing points; colours and the like are edited in Markups.
 void qSlicerSurgicalPathScaleModuleWidgetPrivate::setupPlacing(qSlicerMarkupsPlaceWidget* place,
                                                                qMRMLNodeComboBox* selector)
 {
@@ -257,7 +257,7 @@ void qSlicerSurgicalPathScaleModuleWidget::setup()
   connect(&d->PreviewTimer, SIGNAL(timeout()), this, SLOT(updatePreview()));
   connect(&d->EstimateTimer, SIGNAL(timeout()), this, SLOT(updateEstimate()));
   d->bindControls();
-  // What there is to choose from is part of what is missing; known once the scene has changed.
+  // The problem shown depends on the available nodes, which are known only after the scene has changed.
   connect(d->TissueMapSelector, SIGNAL(nodeAdded(vtkMRMLNode*)), this, SLOT(onInputChanged()), Qt::QueuedConnection);
   connect(d->TissueMapSelector, SIGNAL(nodeAboutToBeRemoved(vtkMRMLNode*)), this, SLOT(onInputChanged()),
           Qt::QueuedConnection);
@@ -283,7 +283,7 @@ void qSlicerSurgicalPathScaleModuleWidget::exit()
   d->TargetsPlaceWidget->setPlaceModeEnabled(false);
   d->PathPlaceWidget->setPlaceModeEnabled(false);
   this->Superclass::exit();
-  this->updatePreview(); // hides it, as soon as no run is starting
+  this->updatePreview(); // hides it, unless a run is just starting
 }
 
 bool qSlicerSurgicalPathScaleModuleWidget::setEditedNode(vtkMRMLNode* node, QString role, QString context)
@@ -334,7 +334,7 @@ void qSlicerSurgicalPathScaleModuleWidget::updateFromNode()
   this->setEnabled(d->Parameters != nullptr);
   if (!d->Parameters) return;
   d->show();
-  // While a scene is being read, a part of the plot may be there without the others.
+  // While a scene is being read, the plot may be incomplete.
   const bool isReading = this->mrmlScene()->IsBatchProcessing();
   if (d->Parameters->GetPlotChartNode(Node::ProfileChartRole()) && !isReading)
     surgicalmesher::plotProfile(d->Parameters);
@@ -344,7 +344,7 @@ void qSlicerSurgicalPathScaleModuleWidget::updateFromNode()
 void qSlicerSurgicalPathScaleModuleWidget::onInputChanged()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
-  if (!d->Parameters || !this->isEntered()) return; // enter() catches up
+  if (!d->Parameters || !this->isEntered()) return; // enter() updates the panel
   d->showObstacle(d->logic()->FindProblem(d->Parameters));
   d->scheduleUpdates();
 }
@@ -353,7 +353,7 @@ void qSlicerSurgicalPathScaleModuleWidget::updatePreview()
 {
   Q_D(qSlicerSurgicalPathScaleModuleWidget);
   d->PreviewTimer.stop();
-  if (d->logic()->GetRun()->IsStarting()) // the host's thread looks for the run's nodes; none may come or go
+  if (d->logic()->GetRun()->IsStarting()) // Slicer's thread looks up the run's nodes; the scene must not change
   {
     d->PreviewTimer.start();
     return;
@@ -370,7 +370,7 @@ void qSlicerSurgicalPathScaleModuleWidget::updateEstimate()
   timer.start();
   const Logic::Estimate estimate = d->logic()->EstimateMesh(d->Parameters);
   d->EstimateTimer.setInterval(
-    qMax(500, 3 * int(timer.elapsed()))); // a large map's waits longer for the sliders to rest
+    qMax(500, 3 * int(timer.elapsed()))); // for large maps, wait longer for the sliders to rest
   d->EstimateLabel->setText(estimate.triangles < 0 ? tr("not known yet") : sizeSentence(estimate));
 }
 
@@ -397,7 +397,7 @@ void qSlicerSurgicalPathScaleModuleWidget::onRunEnded()
   vtkSurgicalMesherRun* run = d->logic()->GetRun();
   vtkMRMLScalarVolumeNode* scale = d->Parameters ? d->Parameters->GetScalarVolumeNode(Node::ScaleRole()) : nullptr;
   if (run->GetStatus() != vtkSurgicalMesherRun::Completed || !scale || !scale->GetImageData()) return;
-  d->PreviewCheckBox->setChecked(false); // the result takes its place
+  d->PreviewCheckBox->setChecked(false); // replaced by the result
   d->logic()->ShowResult(d->Parameters);
   double range[2];
   scale->GetImageData()->GetScalarRange(range);

@@ -8,8 +8,8 @@
 class qSlicerSurgicalPathScaleModuleWidgetPrivate;
 class vtkMRMLNode;
 
-/// The panel. It shows the scene's parameter node, and writes to it what the user enters. The preview is the panel's
-/// own: it is there while the panel is open.
+/// The panel of the module. It shows the scene's parameter node and writes the user's input to it. The preview is shown
+/// only while the panel is open.
 class Q_SLICER_QTMODULES_SURGICALPATHSCALE_EXPORT qSlicerSurgicalPathScaleModuleWidget
   : public qSlicerAbstractModuleWidget
 {
@@ -23,14 +23,14 @@ public:
 
   void enter() override;
   void exit() override;
-  /// A parameter node is shown; segmentations, label maps and markups become inputs.
+  /// Shows a parameter node; segmentations, label maps and markups become inputs.
   bool setEditedNode(vtkMRMLNode* node, QString role = QString(), QString context = QString()) override;
 
 public slots:
   void setMRMLScene(vtkMRMLScene* scene) override;
 
 protected slots:
-  /// Shows what the parameter node says, and what keeps it from being run.
+  /// Shows the values of the parameter node, and the problem that prevents a run, if any.
   void updateFromNode();
   void onInputChanged();
   void onSceneReplaced();

@@ -44,8 +44,10 @@ class qSlicerTemplateHexMesherModuleWidgetPrivate : public Ui_qSlicerTemplateHex
 public:
   explicit qSlicerTemplateHexMesherModuleWidgetPrivate(qSlicerTemplateHexMesherModuleWidget& object) : q_ptr(&object) {}
 
-  QTimer DisplayTimer; ///< a landmark being dragged asks for a preview now and then, not for hundreds
-  qSlicerMarkupsPlaceWidget* Placing = nullptr; ///< of the list whose turn it is; null: pairs aren't being placed
+  /// Delays the preview, so that dragging a landmark updates it now and then, not hundreds of times.
+  QTimer DisplayTimer;
+  /// Widget of the list that gets the next point; null: no pairs are being placed.
+  qSlicerMarkupsPlaceWidget* Placing = nullptr;
 
   Logic* logic() const { return Logic::SafeDownCast(q_ptr->logic()); }
   vtkMRMLMarkupsNode* onTemplate() const { return this->Parameters->GetMarkupsNode(Node::TemplateLandmarksRole()); }
@@ -102,14 +104,14 @@ void qSlicerTemplateHexMesherModuleWidgetPrivate::bindControls()
 void qSlicerTemplateHexMesherModuleWidgetPrivate::connectControls()
 {
   Q_Q(qSlicerTemplateHexMesherModuleWidget);
-  // What there is to choose from is part of what is missing; known once the scene has changed.
+  // The obstacle depends on which models exist; queued, because they are known only after the scene has changed.
   for (qMRMLNodeComboBox* selector : { this->TemplateSelector, this->TargetSelector })
   {
     QObject::connect(selector, SIGNAL(nodeAdded(vtkMRMLNode*)), q, SLOT(onInputChanged()), Qt::QueuedConnection);
     QObject::connect(selector, SIGNAL(nodeAboutToBeRemoved(vtkMRMLNode*)), q, SLOT(onInputChanged()),
                      Qt::QueuedConnection);
   }
-  // The place mode is not to be changed while the host handles the click that placed a point.
+  // The place mode must not change while Slicer handles the click that placed a point.
   for (qSlicerMarkupsPlaceWidget* place : { this->TemplatePlaceWidget, this->TargetPlaceWidget })
     QObject::connect(place, SIGNAL(activeMarkupsPlaceModeChanged(bool)), q, SLOT(followPlacing()),
                      Qt::QueuedConnection);
@@ -299,7 +301,7 @@ void qSlicerTemplateHexMesherModuleWidget::updateDisplay()
 {
   Q_D(qSlicerTemplateHexMesherModuleWidget);
   if (!d->Parameters || !this->isEntered()) return;
-  if (d->logic()->GetRun()->IsStarting()) return d->DisplayTimer.start(); // after it
+  if (d->logic()->GetRun()->IsStarting()) return d->DisplayTimer.start(); // retries after the start
   d->logic()->UpdateDisplay(d->Parameters);
 }
 
@@ -317,7 +319,7 @@ void qSlicerTemplateHexMesherModuleWidget::placePairs(bool isOn)
   {
     if (!selector->currentNode()) selector->addNode();
   }
-  d->Placing = d->TargetPlaceWidget; // not the one that begins
+  d->Placing = d->TargetPlaceWidget; // the opposite of the list that starts: followPlacing() switches
   if (surgicalmesher::isTurnOfTarget(d->onTemplate(), d->onTarget())) d->Placing = d->TemplatePlaceWidget;
   this->followPlacing();
 }
@@ -330,7 +332,7 @@ void qSlicerTemplateHexMesherModuleWidget::followPlacing()
   qSlicerMarkupsPlaceWidget* next = isTarget ? d->TargetPlaceWidget : d->TemplatePlaceWidget;
   if (next == d->Placing)
   {
-    if (!next->placeModeEnabled()) d->PlacePairsButton->setChecked(false); // the user has had enough
+    if (!next->placeModeEnabled()) d->PlacePairsButton->setChecked(false); // the user has ended the placing
     return;
   }
   qSlicerMarkupsPlaceWidget* before = d->Placing;

@@ -8,7 +8,7 @@
 class qSlicerTemplateHexMesherModuleWidgetPrivate;
 class vtkMRMLNode;
 
-/// The panel. It shows the scene's parameter node, and writes to it what the user enters.
+/// The module panel. It shows the scene's parameter node and writes user input to it.
 class Q_SLICER_QTMODULES_TEMPLATEHEXMESHER_EXPORT qSlicerTemplateHexMesherModuleWidget
   : public qSlicerAbstractModuleWidget
 {
@@ -22,20 +22,20 @@ public:
 
   void enter() override;
   void exit() override;
-  /// A parameter node is shown; models become the template, points its landmarks.
+  /// Shows a parameter node; a model becomes the template, and markups its landmarks.
   bool setEditedNode(vtkMRMLNode* node, QString role = QString(), QString context = QString()) override;
 
 public slots:
   void setMRMLScene(vtkMRMLScene* scene) override;
 
 protected slots:
-  /// Shows what the parameter node says, and what keeps it from being run.
+  /// Shows the values of the parameter node, and the reason why it cannot be run.
   void updateFromNode();
   void onInputChanged();
   void onSceneReplaced();
-  /// Preview and views, once for many changes.
+  /// Updates preview and views; called once for several changes.
   void updateDisplay();
-  /// Pairs are placed one point on the template, one on the patient.
+  /// Starts or ends the placing of pairs: alternately a point on the template and one on the patient.
   void placePairs(bool isOn);
   void followPlacing();
   void removeLandmark();

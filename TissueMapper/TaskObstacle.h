@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What keeps a task of the panel from being run, in the user's language.
+/// Messages for the reasons why a task of the panel cannot be started, in the user's language.
 
 #include "PanelObstacle.h"
 #include "PanelTask.h"
@@ -10,8 +10,8 @@ class qMRMLNodeComboBox;
 namespace surgicalmesher
 {
 
-/// The obstacles that all tasks have in common; `imageSelector` is where the user chooses the image, and outlives the
-/// obstacle.
+/// Returns the message for the reasons that all tasks share. `imageSelector` is the widget in which the user chooses
+/// the image; it must outlive the obstacle.
 PanelObstacle taskObstacle(const TaskCheck& check, qMRMLNodeComboBox* imageSelector);
 
 } // namespace surgicalmesher

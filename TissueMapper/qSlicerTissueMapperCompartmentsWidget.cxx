@@ -24,7 +24,7 @@ using Logic = vtkSlicerTissueMapperLogic;
 namespace
 {
 
-/// What compartments are found from.
+/// Inputs of the compartments.
 struct CompartmentInputs
 {
   std::vector<std::string> images; ///< node IDs
@@ -58,8 +58,9 @@ class qSlicerTissueMapperCompartmentsWidgetPrivate : public Ui_qSlicerTissueMapp
 public:
   vtkWeakPointer<Logic> TheLogic;
   bool IsActive = false;
-  QTimer Timer;                     ///< a point being dragged asks for one run, not for hundreds
-  CompartmentInputs FollowedInputs; ///< that a run was asked for at once
+  /// Delays the run, so that dragging a point starts one run, not hundreds.
+  QTimer Timer;
+  CompartmentInputs FollowedInputs; ///< inputs of the last run
 
   void showObstacle(const TaskCheck& check);
 };
@@ -136,7 +137,7 @@ void qSlicerTissueMapperCompartmentsWidget::followInputs()
 {
   Q_D(qSlicerTissueMapperCompartmentsWidget);
   if (!d->Parameters || !d->TheLogic || !d->IsActive || !d->CompartmentsRunWidget->problem().isEmpty()) return;
-  if (d->TheLogic->GetRun(Logic::FindCompartments)->IsBusy()) return d->Timer.start(); // after it
+  if (d->TheLogic->GetRun(Logic::FindCompartments)->IsBusy()) return d->Timer.start(); // retries after the current run
   this->find();
 }
 

@@ -10,7 +10,7 @@ class qSlicerTissueMapperCompartmentsWidgetPrivate;
 class vtkMRMLTissueMapperNode;
 class vtkSlicerTissueMapperLogic;
 
-/// The part of the panel that shows, in coarse voxels, where the classes may be.
+/// Section of the panel that shows a preview of the compartments in coarse voxels.
 class Q_SLICER_QTMODULES_TISSUEMAPPER_EXPORT qSlicerTissueMapperCompartmentsWidget : public qSlicerWidget
 {
   Q_OBJECT
@@ -24,7 +24,7 @@ public:
 
   void setLogic(vtkSlicerTissueMapperLogic* logic);
   void setParameterNode(vtkMRMLTissueMapperNode* node);
-  /// Whether the panel is open; compartments follow points and options only while it is.
+  /// Sets whether the panel is open; compartments are updated automatically only while it is.
   void setActive(bool isActive);
 
 protected slots:

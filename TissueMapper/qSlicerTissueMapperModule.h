@@ -5,7 +5,7 @@
 
 #include <qSlicerLoadableModule.h>
 
-/// The module as the host knows it: its texts, its logic, its panel.
+/// Registers the module with Slicer: its texts, its logic and its panel.
 class Q_SLICER_QTMODULES_TISSUEMAPPER_EXPORT qSlicerTissueMapperModule : public qSlicerLoadableModule
 {
   Q_OBJECT

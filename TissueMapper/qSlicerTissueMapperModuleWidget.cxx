@@ -98,7 +98,7 @@ void qSlicerTissueMapperModuleWidgetPrivate::bindControls()
     });
 }
 
-/// The points so far by class, and the classes to choose from.
+/// Shows the number of points by class, and the classes to choose from.
 void qSlicerTissueMapperModuleWidgetPrivate::showClasses()
 {
   const std::vector<TrainedClass> classes = surgicalmesher::countTrainingPoints(this->training());
@@ -112,7 +112,7 @@ void qSlicerTissueMapperModuleWidgetPrivate::showClasses()
     this->ClassTable->setItem(row, 1, new QTableWidgetItem(QString::number(classes[row].pointCount)));
     if (!name.isEmpty() && !names.contains(name, Qt::CaseInsensitive)) names << name;
   }
-  if (this->ClassComboBox->count() == names.size()) return; // classes come and go, but are not renamed
+  if (this->ClassComboBox->count() == names.size()) return; // classes are added and removed, but not renamed
   const QSignalBlocker blocker(this->ClassComboBox->lineEdit());
   const QString text = this->ClassComboBox->currentText();
   this->ClassComboBox->clear();
@@ -178,7 +178,7 @@ void qSlicerTissueMapperModuleWidget::setup()
   this->Superclass::setup();
   d->setupPlacing();
   d->bindControls();
-  // What there is to choose from is part of what is missing; known once the scene has changed.
+  // The obstacle depends on which images exist; queued, because they are known only after the scene has changed.
   connect(d->ImageSelector, SIGNAL(nodeAdded(vtkMRMLNode*)), this, SLOT(onInputChanged()), Qt::QueuedConnection);
   connect(d->ImageSelector, SIGNAL(nodeAboutToBeRemoved(vtkMRMLNode*)), this, SLOT(onInputChanged()),
           Qt::QueuedConnection);

@@ -8,7 +8,7 @@
 class qSlicerTissueMapperModuleWidgetPrivate;
 class vtkMRMLNode;
 
-/// The panel. It shows the scene's parameter node, and writes to it what the user enters.
+/// The module panel. It shows the scene's parameter node and writes user input to it.
 class Q_SLICER_QTMODULES_TISSUEMAPPER_EXPORT qSlicerTissueMapperModuleWidget : public qSlicerAbstractModuleWidget
 {
   Q_OBJECT
@@ -21,14 +21,15 @@ public:
 
   void enter() override;
   void exit() override;
-  /// A parameter node is shown; volumes become the image, points those of training.
+  /// Shows a parameter node; a scalar volume becomes the image, a label map the tissues, and markups the training
+  /// points.
   bool setEditedNode(vtkMRMLNode* node, QString role = QString(), QString context = QString()) override;
 
 public slots:
   void setMRMLScene(vtkMRMLScene* scene) override;
 
 protected slots:
-  /// Shows what the parameter node says, and what keeps it from being run.
+  /// Shows the values of the parameter node, and the reason why it cannot be run.
   void updateFromNode();
   void onInputChanged();
   void onSceneReplaced();

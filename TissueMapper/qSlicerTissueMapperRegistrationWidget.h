@@ -10,7 +10,7 @@ class qSlicerTissueMapperRegistrationWidgetPrivate;
 class vtkMRMLTissueMapperNode;
 class vtkSlicerTissueMapperLogic;
 
-/// The part of the panel that brings one image onto another.
+/// Section of the panel that registers one image to another.
 class Q_SLICER_QTMODULES_TISSUEMAPPER_EXPORT qSlicerTissueMapperRegistrationWidget : public qSlicerWidget
 {
   Q_OBJECT
@@ -24,7 +24,7 @@ public:
 
   void setLogic(vtkSlicerTissueMapperLogic* logic);
   void setParameterNode(vtkMRMLTissueMapperNode* node);
-  /// Whether the panel is open.
+  /// Sets whether the panel is open.
   void setActive(bool isActive);
 
 protected slots:

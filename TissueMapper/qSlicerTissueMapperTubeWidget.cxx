@@ -29,8 +29,9 @@ class qSlicerTissueMapperTubeWidgetPrivate : public Ui_qSlicerTissueMapperTubeWi
 public:
   vtkWeakPointer<Logic> TheLogic;
   bool IsActive = false;
-  QTimer Timer;                     ///< a point being dragged asks for one path, not for hundreds
-  std::vector<Vec3> FollowedPoints; ///< that a path was asked for at once
+  /// Delays the run, so that dragging a point starts one run, not hundreds.
+  QTimer Timer;
+  std::vector<Vec3> FollowedPoints; ///< points of the last automatic run
 
   std::vector<Vec3> points() const
   {
@@ -58,7 +59,7 @@ void qSlicerTissueMapperTubeWidgetPrivate::bindControls()
   this->bind(this->TraceAtOnceCheckBox, &Node::GetTraceAtOnce, &Node::SetTraceAtOnce);
 }
 
-/// The foot shows the run that was started last.
+/// Starts a task unless one is running; the foot of the panel shows its run.
 void qSlicerTissueMapperTubeWidgetPrivate::start(Logic::Task task)
 {
   if (!this->Parameters || !this->TheLogic) return;
@@ -149,7 +150,7 @@ void qSlicerTissueMapperTubeWidget::setParameterNode(vtkMRMLTissueMapperNode* no
   this->qvtkReconnect(d->Parameters, node, vtkCommand::ModifiedEvent, this, SLOT(updateFromNode()));
   this->qvtkReconnect(d->Parameters, node, Node::InputModifiedEvent, this, SLOT(onInputChanged()));
   d->Parameters = node;
-  if (node) d->FollowedPoints = d->points(); // a path that was there stays as it is
+  if (node) d->FollowedPoints = d->points(); // keeps a path that exists already
   this->updateFromNode();
 }
 
@@ -187,7 +188,7 @@ void qSlicerTissueMapperTubeWidget::followPoints()
   if (!d->Parameters || !d->TheLogic || !d->IsActive || !d->TubeRunWidget->problem().isEmpty()) return;
   for (const Logic::Task task : { Logic::Classify, Logic::TraceTube, Logic::AddTube })
   {
-    if (d->TheLogic->GetRun(task)->IsBusy()) return d->Timer.start(); // after it
+    if (d->TheLogic->GetRun(task)->IsBusy()) return d->Timer.start(); // retries after the current run
   }
   d->FollowedPoints = d->points();
   this->trace();

@@ -10,7 +10,7 @@ class qSlicerTissueMapperTubeWidgetPrivate;
 class vtkMRMLTissueMapperNode;
 class vtkSlicerTissueMapperLogic;
 
-/// The part of the panel that follows vessels and nerves: points on one, its path, the tube as a tissue.
+/// Section of the panel that traces vessels and nerves: points, path, and the tube as a tissue.
 class Q_SLICER_QTMODULES_TISSUEMAPPER_EXPORT qSlicerTissueMapperTubeWidget : public qSlicerWidget
 {
   Q_OBJECT
@@ -24,7 +24,7 @@ public:
 
   void setLogic(vtkSlicerTissueMapperLogic* logic);
   void setParameterNode(vtkMRMLTissueMapperNode* node);
-  /// Whether the panel is open; paths follow their points only while it is.
+  /// Sets whether the panel is open; paths are updated automatically only while it is.
   void setActive(bool isActive);
 
 protected slots:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// FuchsTetrahedralizerCLI: multi-tissue surface (and its ambient tetrahedra) in; labelled tetrahedra, their quality
-// out.
+// FuchsTetrahedralizerCLI reads a multi-tissue surface (and its ambient tetrahedra) and writes labelled tetrahedra and
+// their quality.
 
 #include "AmbientMatch.h"
 #include "CommandLine.h"
@@ -56,7 +56,7 @@ TargetLengths readLengths(const CommandLine& line, const SurfaceFile& content)
   return lengthsOf(edgeLengthFromPoints(content.surface.points, content.targetEdgeLength));
 }
 
-/// The surface and, if there are, its background tetrahedra.
+/// Returns the surface and, if given, its background tetrahedra.
 TetrahedralizerInput readInput(CommandLine& line, SurfaceFile&& content, const std::function<MeshFile()>& readAmbient,
                                const SizingFunction& edgeLength)
 {
@@ -84,7 +84,7 @@ TetrahedralizerInput readInput(CommandLine& line, SurfaceFile&& content, const s
   return input;
 }
 
-/// A refusal's triangles go to the file that is named for them, or else beside the mesh that was to be.
+/// Writes the triangles at fault to the file given for them, or beside the mesh output, and reports the refusal.
 [[noreturn]] void refuseWithTriangles(CommandLine& line, const SurfaceRefused& refusal)
 {
   const std::filesystem::path folder = std::filesystem::path(line.outputFile("mesh")).parent_path();
@@ -119,7 +119,7 @@ ConstitutiveRule readConstitutiveRule(const CommandLine& line)
   return rule;
 }
 
-/// Without --shell, the tissues that the surface stage was asked to mesh as shells.
+/// Without --shell, returns the tissues that were meshed as shells in the surface stage.
 std::vector<ShellChoice> readShells(const CommandLine& line, const TissueTable& names, const std::set<Label>& present)
 {
   std::vector<ShellChoice> choices = shellChoices(line.texts("shell"), names, present, line.number("shellThickness"));
@@ -136,7 +136,7 @@ CurveNetwork readCurveNetwork(const CommandLine& line, const SizingFunction& edg
   return curveNetwork(curves, edgeLength);
 }
 
-/// What the command line alone can tell.
+/// Checks what the command line alone determines.
 void requireUsableOptions(CommandLine& line)
 {
   if (line.given("scale") && line.number("edgeLength") > 0)
@@ -243,10 +243,10 @@ void mesh(CommandLine& line)
   TetrahedralizerOptions options;
   options.constitutive = readConstitutiveRule(line);
   options.placement = readPlacement(line);
-  std::function<MeshFile()> readAmbient; // its reader runs while the surface is read, and ends if that is refused
+  std::function<MeshFile()> readAmbient; // reads in parallel to the surface; the reading ends if that is refused
   if (const std::string ambient = line.text("ambient"); !ambient.empty()) readAmbient = beginReadingMesh(ambient);
   SurfaceFile content = readSurface(line.text("surface"));
-  const bool isOfMap = !content.boundaryDistance.empty(); // folded where the map has cracks, which are no edges to keep
+  const bool isOfMap = !content.boundaryDistance.empty(); // folded at cracks of the map, which are no edges to preserve
   options.featureAngle = isOfMap ? 0 : line.number("featureAngle");
   const TargetLengths lengths = readLengths(line, content);
   warnUnlessEmpty(line, warningOfLengths(content, lengths.inWorld));

@@ -38,7 +38,7 @@ void writeTopology(JsonWriter& json, const std::map<Label, Betti>& topology)
                });
 }
 
-/// The JSON object `text` as a member.
+/// Adds the JSON object `text` as a member.
 void addMember(rapidjson::Document& object, const char* key, const std::string& text)
 {
   rapidjson::Document member(&object.GetAllocator());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What a run of the volume stage made: JSON, and a line for the terminal.
+/// Report of a run of the volume stage: JSON, and a line for the terminal.
 
 #include "ExplicitStep.h"
 #include "MeshChecks.h"
@@ -22,14 +22,14 @@ struct MeshReport
   const MeshQuality& quality;
   const std::map<Label, ExplicitStep>& steps;
   const std::map<Label, Betti>& topology;
-  std::optional<StiffnessConditioning> conditioning; ///< it takes its time
-  bool fromBackground;                               ///< tetrahedra, not from the surface alone
+  std::optional<StiffnessConditioning> conditioning; ///< only on request, since it takes time
+  bool fromBackground;                               ///< started from background tetrahedra, not from the surface alone
   std::vector<std::string> warnings;
 };
 
 std::string reportJson(const MeshReport& report);
 
-/// Tetrahedra, points, angles, lengths and what solvers feel in one sentence.
+/// Returns a sentence with the numbers of tetrahedra and points, angles, lengths, and measures that matter to solvers.
 std::string summaryOf(const MeshReport& report);
 
 } // namespace surgicalmesher

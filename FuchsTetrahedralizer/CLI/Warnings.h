@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What a run of the volume stage warns of: sentences for the user.
+/// Warnings of the volume stage, as sentences for the user.
 
 #include "ConstitutiveTags.h"
 #include "MeshIO.h"
@@ -13,14 +13,14 @@
 namespace surgicalmesher
 {
 
-/// Targets and paths of which every point lies outside the box around the surface.
+/// Warns of targets outside the bounding box of the surface, and of paths with all their points outside.
 std::vector<std::string> warningsOfPlaces(const ConstitutiveRule& rule, const SurfaceComplex& surface);
 
-/// That the surface's own target edge lengths are less than half or more than twice `length`, in the median; empty if
-/// they are not, or if the surface has none.
+/// Warns if the target edge lengths that the surface carries are less than half or more than twice `length`, in the
+/// median; empty otherwise, or if it carries none.
 std::string warningOfLengths(const SurfaceFile& surface, const SizingFunction& length);
 
-/// That all tetrahedra of a mesh are null displacement; empty if they are not.
+/// Warns if all tetrahedra of a mesh are null displacement; empty otherwise.
 std::string warningOfStillness(const std::vector<std::int32_t>& constitutive);
 
 } // namespace surgicalmesher

@@ -12,8 +12,8 @@ namespace surgicalmesher
 namespace
 {
 
-/// By its positions, smallest first and wound with the higher label behind, and its labels, higher first: equal
-/// triangles are equal wherever their numbering began.
+/// A triangle by its positions, the smallest first and oriented with the higher label behind, and its labels, the
+/// higher first. Equal triangles compare equal whatever their numbering.
 using PlacedTriangle = std::pair<std::array<std::array<double, 3>, 3>, std::array<Label, 2>>;
 
 std::vector<PlacedTriangle> placedTriangles(const SurfaceComplex& surface)

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Curves as people draw and trace them.
+/// Input of curves, as drawn or traced by users.
 
 #include "CurveNetwork.h"
 
 namespace surgicalmesher
 {
 
-/// Every markup of a .mrk.json or .fcsv, through its control points, with the measurement "Radius" of TubePathCLI; or
-/// every line of a .vtp or .vtk, with the point array Radius. Names are the file's, numbered where there are several;
-/// points without a radius get `missingRadius` (mm). Throws InputError as readMarkups() and readPolylines() do.
+/// Reads every markup of a .mrk.json or .fcsv file as a curve through its control points, with the measurement "Radius"
+/// of TubePathCLI, or every line of a .vtp or .vtk file, with the point array Radius. Curves are named after the file,
+/// and numbered if there are several. Points without a positive radius get `missingRadius` (mm). Throws InputError as
+/// readMarkups() and readPolylines() do.
 std::vector<Curve> readCurves(const std::string& file, double missingRadius);
 
 } // namespace surgicalmesher

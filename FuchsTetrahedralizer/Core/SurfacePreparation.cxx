@@ -19,11 +19,12 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double tetrahedronVolume = 0.11785; ///< of a regular one with edge 1
-constexpr double bytesPerTetrahedron = 700;   ///< spheres of 10^4 to 10^5 take 570 and 40 MB; the rest is margin
+constexpr double tetrahedronVolume = 0.11785; ///< volume of a regular tetrahedron with edge length 1
+/// Spheres of 10^4 to 10^5 tetrahedra take 570 bytes each, plus 40 MB; the rest is margin.
+constexpr double bytesPerTetrahedron = 700;
 
-/// Throws InputError if the surface is smaller than one of its edges is to be: its coordinates are hardly millimetres,
-/// and the mesh would be a flat tetrahedron.
+/// Throws InputError if the surface is smaller than one of its target edges: its coordinates are then hardly
+/// millimetres, and the mesh would be a flat tetrahedron.
 void requireMillimetres(const SurfaceComplex& surface, const SizingFunction& edgeLength, const std::string& name)
 {
   if (surface.points.empty()) return;
@@ -37,7 +38,7 @@ void requireMillimetres(const SurfaceComplex& surface, const SizingFunction& edg
                    (diagonal < 2 ? ", found what look like metres" : ""));
 }
 
-/// Enclosed by all tissues together: faces between two of them cancel out.
+/// Returns the volume enclosed by all tissues together: faces between two of them cancel out.
 double enclosedVolume(const SurfaceComplex& surface)
 {
   double volume = 0;
@@ -50,8 +51,8 @@ double enclosedVolume(const SurfaceComplex& surface)
   return std::abs(volume);
 }
 
-/// Tetrahedra that fill the surfaces of all tissues: a regular tetrahedron's worth of volume each, with the edge lengths
-/// asked for over the bounding box.
+/// Returns the number of tetrahedra that fill the surfaces of all tissues, as the volume over that of regular
+/// tetrahedra with the target edge lengths, sampled in the bounding box.
 double estimateTetrahedra(const SurfaceComplex& surface, const SizingFunction& edgeLength)
 {
   if (surface.points.empty()) return 0;
@@ -69,7 +70,7 @@ double estimateTetrahedra(const SurfaceComplex& surface, const SizingFunction& e
   return enclosedVolume(surface) * perVolume / (samples * samples * samples);
 }
 
-/// Throws InputError, with both estimates, if that many tetrahedra do not fit into the memory available.
+/// Throws InputError, with both figures, if that many tetrahedra do not fit into the available memory.
 void requireMemoryFor(double tetrahedra, const std::string& name)
 {
   const std::optional<std::uint64_t> available = availableMemory();

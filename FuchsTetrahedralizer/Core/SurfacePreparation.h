@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Surfaces without background tetrahedra, made ready to be filled.
+/// Preparation of surfaces without background tetrahedra, so that they can be filled.
 
 #include "SizingFunction.h"
 #include "TetMesh.h"
@@ -13,19 +13,21 @@
 namespace surgicalmesher
 {
 
-/// The box around all points.
+/// Returns the bounding box of all points.
 vtkBoundingBox boxAround(const SurfaceComplex& surface);
 
 struct FillableSurface
 {
-  SurfaceComplex surface;         ///< labelled, closed around every tissue, without edges far longer than L
-  std::optional<Label> soleLabel; ///< it was the surface of this tissue alone: its neighbours have become outside
+  SurfaceComplex surface; ///< labelled, closed around every tissue, without edges far longer than L
+  /// Set if it was the surface of this tissue alone: its neighbours have become outside.
+  std::optional<Label> soleLabel;
 };
 
-/// `surface` ready for tetrahedralizeTissues(): points that coincide are merged; without labels, every closed shell is
-/// a tissue (closedShellsToTissues); edges over 1.8 L are divided. `name` stands for it in messages. Throws
-/// SurfaceRefused where requireFillable() and closedShellsToTissues() do, and InputError if the surface is smaller than
-/// one edge (its coordinates are hardly millimetres) or takes more tetrahedra than fit into the memory available.
+/// Prepares `surface` for tetrahedralizeTissues(): merges coincident points, makes every closed shell a tissue if there
+/// are no labels (closedShellsToTissues), and splits edges longer than 1.8 L. `name` identifies the surface in
+/// messages. Throws SurfaceRefused as requireFillable() and closedShellsToTissues() do, and InputError if the surface
+/// is smaller than one edge (its coordinates are then hardly millimetres) or requires more tetrahedra than fit into the
+/// available memory.
 FillableSurface fillableSurface(const SurfaceComplex& surface, const SizingFunction& edgeLength,
                                 const std::string& name);
 

@@ -39,7 +39,7 @@ void improveInFrame(TetMesh& mesh, const TargetLengths& lengths, const Tetrahedr
   for (Vec3& p : mesh.points) p = frame ? frame->gridToWorld(p) : p;
 }
 
-/// Of the tissues' tetrahedra.
+/// Returns the worst quality (squared sine) of the tissues' tetrahedra.
 double worstOf(const TetMesh& mesh)
 {
   double worst = 1;
@@ -48,7 +48,7 @@ double worstOf(const TetMesh& mesh)
   return worst;
 }
 
-/// The labels of the tissues' tetrahedra worse than `least`, and of all around their vertices.
+/// Returns the labels of tissue tetrahedra worse than `least`, and of all tetrahedra around their vertices.
 std::set<Label> labelsAroundBad(const TetMesh& mesh, double least)
 {
   std::vector<char> touchesBad(mesh.points.size(), 0);
@@ -62,7 +62,7 @@ std::set<Label> labelsAroundBad(const TetMesh& mesh, double least)
   return labels;
 }
 
-/// The background tetrahedra with the lattice inside `tissues`, improved.
+/// Returns the background tetrahedra with the lattice inside `tissues`, improved.
 TetMesh withImprovedLattice(const TetrahedralizerInput& input, const std::set<Label>& tissues,
                             const TargetLengths& lengths, const TetrahedralizerOptions& options,
                             const Progress& progress)
@@ -72,12 +72,12 @@ TetMesh withImprovedLattice(const TetrahedralizerInput& input, const std::set<La
   return mesh;
 }
 
-/// The lattice can leave angles that no repair mends where the background tetrahedra had none: tissues keep these there.
+/// The lattice can leave bad angles that cannot be repaired; affected tissues then keep their background tetrahedra.
 TetMesh fromBackground(const TetrahedralizerInput& input, const TargetLengths& lengths,
                        const TetrahedralizerOptions& options, const Progress& progress)
 {
-  constexpr double leastShare = 0.95; // of the angle aimed at: another run is not worth a degree
-  constexpr double firstRun = 0.95;   // of the progress: there is hardly ever another
+  constexpr double leastShare = 0.95; // of the target angle: another run is not worth a degree
+  constexpr double firstRun = 0.95;   // of the progress: a second run is rare
   const double least = sine2OfDegrees(leastShare * improvementOptions(input, options).targetAngle);
   const std::set<Label> roomy = tissuesWithRoom(input.background->mesh, lengths.inWorld);
   TetMesh mesh = withImprovedLattice(input, roomy, lengths, options, subProgress(progress, 0, firstRun));
@@ -89,7 +89,7 @@ TetMesh fromBackground(const TetrahedralizerInput& input, const TargetLengths& l
   return mesh;
 }
 
-/// The lattice inside the surface, improved.
+/// Returns the lattice inside the surface, improved.
 TetMesh fromSurface(const TetrahedralizerInput& input, const TargetLengths& lengths,
                     const TetrahedralizerOptions& options, const Progress& progress)
 {
@@ -98,7 +98,7 @@ TetMesh fromSurface(const TetrahedralizerInput& input, const TargetLengths& leng
   return mesh;
 }
 
-/// `mesh`, divided into child and parent, with the classes of all its tetrahedra.
+/// Divides `mesh` into child and parent, and sets the constitutive classes of its tetrahedra.
 FiniteElementMesh finiteElementMesh(TetMesh mesh, const SizingFunction& length, TissueTable tissues,
                                     const ConstitutiveRule& rule)
 {
@@ -141,7 +141,7 @@ FiniteElementMesh tetrahedralizeTissues(TetrahedralizerInput input, const Target
   report(progress, 0, "tetrahedra");
   const auto fill = input.background ? fromBackground : fromSurface;
   TetMesh mesh = fill(input, lengths, options, subProgress(progress, 0.25, 0.8));
-  input.background.reset(); // its memory is needed
+  input.background.reset(); // frees memory
   report(progress, 0.8, "curves");
   std::vector<CurveChain> curves = insertedCurves(mesh, length, options.curves, improvement);
   report(progress, 0.85, "sub-meshes");

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// From the surface of all tissues to a finite-element mesh of near-regular tetrahedra: Fuchs's lattice between the
-/// surface's triangles by constrained Delaunay, improvement, child and parent, constitutive classes (Audette et al.,
-/// Computer Aided Surgery 12(1), 2007).
+/// Finite-element mesh of near-regular tetrahedra from the surface of all tissues: Fuchs's lattice between the
+/// triangles of the surface by constrained Delaunay tetrahedralization, improvement, division into child and parent,
+/// constitutive classes (Audette et al., Computer Aided Surgery 12(1), 2007).
 
 #include "ConstitutiveTags.h"
 #include "CurveNetwork.h"
@@ -19,45 +19,47 @@
 namespace surgicalmesher
 {
 
-/// L(x), mm. A scale volume also gives the frame to improve the mesh in: its own, in which copies of all inputs that
-/// lie elsewhere in the world have the same numbers.
+/// Target edge length L(x), mm. A scale volume also gives the frame in which the mesh is improved: its own, in which
+/// inputs that differ only by their position in the world have the same coordinates.
 struct TargetLengths
 {
   SizingFunction inWorld;
-  SizingFunction inFrame; ///< the same as inWorld without a frame
+  SizingFunction inFrame; ///< L in coordinates of `frame`; the same as inWorld without a frame
   std::optional<Grid> frame;
 };
 
 TargetLengths lengthsOf(const SizingFunction& inWorld);
 TargetLengths lengthsOf(const ScaleField& scale);
 
-/// What is to be filled, in world coordinates.
+/// The tissues to be filled, in world coordinates.
 struct TetrahedralizerInput
 {
-  SurfaceComplex surface; ///< as fillableSurface() returns it; with background tetrahedra, exactly their interface
+  /// As returned by fillableSurface(); with background tetrahedra, exactly their interface.
+  SurfaceComplex surface;
   TissueTable tissues;
-  std::string name;                   ///< of its file, for messages
-  std::optional<MeshFile> background; ///< tetrahedra on both sides of the surface, as the surface stage leaves them
+  std::string name;                   ///< of the surface's file, for messages
+  std::optional<MeshFile> background; ///< tetrahedra on both sides of the surface, from the surface stage
 };
 
 struct TetrahedralizerOptions
 {
   double featureAngle = 0; ///< degrees, see TetrahedraImprovementOptions; not used with background tetrahedra
-  VertexPlacement placement = VertexPlacement::Lattice; ///< of what is laid inside the surface
+  VertexPlacement placement = VertexPlacement::Lattice; ///< of the lattice points inside the surface
   ConstitutiveRule constitutive;
-  CurveNetwork curves; ///< to be chains of edges, see insertCurves
+  CurveNetwork curves; ///< to be inserted as chains of edges, see insertCurves
 };
 
 struct FiniteElementMesh
 {
-  MeshFile content;   ///< tetrahedra of tissues alone, with every array but those of parts, and the curves
+  MeshFile content;   ///< tetrahedra of tissues only, with all arrays except those of parts, and the curves
   SubMeshes division; ///< into child and parent
 };
 
-/// Fills the surface: with the lattice and constrained Delaunay, or with the background tetrahedra and the lattice
-/// inside the tissues that have room for it, unless that leaves bad angles there; then improves all of them towards the
-/// target lengths. Every tissue keeps its topology. Deterministic, whatever the number of threads. Throws SurfaceRefused
-/// (see tetrahedralize), InputError where a curve leaves the tissues, EngineError.
+/// Fills the surface with the lattice by constrained Delaunay tetrahedralization. With background tetrahedra, starts
+/// from these and puts the lattice only into tissues that have room for it, unless this leaves bad angles there. Then
+/// improves all tetrahedra towards the target lengths. Every tissue keeps its topology. The result does not depend on
+/// the number of threads. Throws SurfaceRefused (see tetrahedralize), InputError where a curve leaves the tissues, and
+/// EngineError.
 FiniteElementMesh tetrahedralizeTissues(TetrahedralizerInput input, const TargetLengths& lengths,
                                         const TetrahedralizerOptions& options, const Progress& progress = {});
 

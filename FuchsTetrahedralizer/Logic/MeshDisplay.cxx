@@ -15,7 +15,7 @@
 #include <vtkMRMLSliceNode.h>
 #include <vtkSlicerColorLogic.h>
 
-// Since Slicer 5.8 every display node has a clip node of its own; before, one node clips all models that let it.
+// Since Slicer 5.8, every display node has a clip node of its own; before, one node clips all models that permit it.
 #if __has_include(<vtkMRMLClipNode.h>)
 #include <vtkMRMLClipNode.h>
 #else
@@ -44,8 +44,8 @@ namespace
 using Parameters = vtkMRMLFuchsTetrahedralizerNode;
 using Color = std::array<double, 3>;
 
-/// The mesh refers to it by a role of the scalars' name, so that it is found again whatever colours are shown
-/// meanwhile.
+/// Returns the colour table for an array. The mesh references it by a role named after the array, so that it is found
+/// again even while other colours are shown.
 vtkMRMLColorTableNode* colorsFor(vtkMRMLModelNode* mesh, const char* scalars)
 {
   const std::string role = std::string("colors") + scalars;
@@ -57,17 +57,17 @@ vtkMRMLColorTableNode* colorsFor(vtkMRMLModelNode* mesh, const char* scalars)
   return colors;
 }
 
-/// Numbers from 0 up, each with a name and a colour of its own.
+/// Fills a colour table with categories numbered from 0, each with its name and colour.
 void fillCategories(vtkMRMLColorTableNode* colors, const std::vector<Tissue>& categories)
 {
   TissueTable table;
   for (std::size_t i = 0; i < categories.size(); ++i) table[Label(i)] = categories[i];
   fillColorTable(table, colors);
-  const Tissue& first = categories.front(); // which a tissue table takes for transparent background
+  const Tissue& first = categories.front(); // which fillColorTable() makes transparent background
   colors->SetColor(0, first.name.c_str(), first.color[0], first.color[1], first.color[2], 1);
 }
 
-/// From red over yellow to blue, which colour-blind eyes tell apart too: bad to good.
+/// Fills a ramp from red (bad) over yellow to blue (good), which is distinguishable with colour blindness.
 void fillRamp(vtkMRMLColorTableNode* colors, double highest)
 {
   constexpr int count = 256;
@@ -159,19 +159,20 @@ bool comesBefore(vtkMRMLNode* a, vtkMRMLNode* b)
   return scene->GetNthNode(i) == a;
 }
 
-/// The host asks for a legend's colours as soon as it loads the legend, so it has to come after them in the scene.
+/// Slicer accesses the colours of a legend as soon as it loads the legend, which must therefore follow them in the
+/// scene.
 void removeEarlyLegend(vtkMRMLDisplayNode* display)
 {
   vtkMRMLNode* legend = vtkSlicerColorLogic::GetColorLegendDisplayNode(display);
   if (legend && comesBefore(legend, display->GetColorNode())) display->GetScene()->RemoveNode(legend);
 }
 
-/// Beside the mesh: colours with their names, or a scale of numbers. Many names could not be read, so there are none
-/// then.
+/// Shows a legend beside the mesh: colours with their names, or a scale of numbers. With too many names to be legible,
+/// the legend is hidden.
 void showLegend(vtkMRMLModelNode* mesh, const std::string& title, bool byName)
 {
   constexpr int legible = 12;
-  if (!mesh->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // the host's module is missing
+  if (!mesh->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // without Slicer's legends
   vtkMRMLDisplayNode* display = mesh->GetModelDisplayNode();
   auto* colors = vtkMRMLColorTableNode::SafeDownCast(display->GetColorNode());
   removeEarlyLegend(display);
@@ -189,7 +190,7 @@ void showLegend(vtkMRMLModelNode* mesh, const std::string& title, bool byName)
   legend->EndModify(wasModifying);
 }
 
-constexpr double regularAngle = 70.53; // of a regular tetrahedron, degrees
+constexpr double regularAngle = 70.53; // dihedral angle of a regular tetrahedron, degrees
 
 bool colorByMeasure(vtkMRMLModelNode* mesh, int colorBy)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// How tetrahedra of a model node are looked at: their colours, and a slice's plane that cuts them open between cells.
+/// Display of the tetrahedra of a model node: colours, and clipping by whole cells at the plane of a slice.
 
 class vtkMRMLModelNode;
 class vtkMRMLScene;
@@ -9,16 +9,16 @@ class vtkMRMLSliceNode;
 namespace surgicalmesher
 {
 
-/// Colours by one of vtkMRMLFuchsTetrahedralizerNode::ColorByType, with a colour table that is the mesh's own. Angles
-/// and ratios become cell arrays of the mesh ("MinimumDihedralAngle", degrees; "RadiusRatio") when they are first asked
-/// for. False if the mesh lacks what the colours tell.
+/// Colours the mesh by one of vtkMRMLFuchsTetrahedralizerNode::ColorByType, with a colour table that belongs to the
+/// mesh. Angles and ratios are added to the mesh as cell arrays on first use ("MinimumDihedralAngle", degrees;
+/// "RadiusRatio"). Returns false if the mesh lacks the data to colour by.
 bool colorMesh(vtkMRMLModelNode* mesh, int colorBy);
 
-/// Keeps whole cells on one side of the plane of a slice view (vtkMRMLFuchsTetrahedralizerNode::ClipPlaneType): below,
-/// left or behind, or on the other side if flipped.
+/// Shows only whole cells on one side of the plane of a slice view (vtkMRMLFuchsTetrahedralizerNode::ClipPlaneType):
+/// below, left or behind; on the other side if flipped.
 void clipMesh(vtkMRMLModelNode* mesh, int plane, bool flipped);
 
-/// The slice view of a plane; null for none, and where the scene has no such view.
+/// Returns the slice view of a plane; null for no plane or if the scene has no such view.
 vtkMRMLSliceNode* sliceOfPlane(vtkMRMLScene* scene, int plane);
 
 } // namespace surgicalmesher

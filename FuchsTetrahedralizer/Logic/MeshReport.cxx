@@ -37,7 +37,7 @@ using Parameters = vtkMRMLFuchsTetrahedralizerNode;
 
 // ---- nodes of a mesh ------------------------------------------------------------------------------------------------
 
-/// Subject hierarchies show it below the mesh.
+/// Places the node below the mesh in the subject hierarchy.
 void putBelow(vtkMRMLNode* node, vtkMRMLModelNode* mesh)
 {
   vtkMRMLSubjectHierarchyNode* hierarchy = vtkMRMLSubjectHierarchyNode::GetSubjectHierarchyNode(mesh->GetScene());
@@ -47,7 +47,7 @@ void putBelow(vtkMRMLNode* node, vtkMRMLModelNode* mesh)
     hierarchy->SetItemParent(item, parent);
 }
 
-/// A new node, named after the mesh and shown below it.
+/// Adds a node that is named after the mesh and shown below it.
 template <class Node>
 Node* addNode(vtkMRMLModelNode* mesh, const char* className, const std::string& title)
 {
@@ -57,7 +57,7 @@ Node* addNode(vtkMRMLModelNode* mesh, const char* className, const std::string& 
   return node;
 }
 
-/// The nth node that the mesh refers to in `role`, made if there is none.
+/// Returns the nth node that the mesh references in `role`, created if there is none.
 template <class Node>
 Node* nodeOf(vtkMRMLModelNode* mesh, const char* role, int n, const char* className, const std::string& title)
 {
@@ -81,7 +81,7 @@ double numberAt(const Json& group, const char* member, const char* ofDistributio
 
 struct Column
 {
-  const char* name; ///< by which others may look it up, so it isn't translated
+  const char* name; ///< not translated, since others may look columns up by it
   const char* member;
   const char* ofDistribution;
   double factor;
@@ -152,7 +152,7 @@ void fillTable(vtkMRMLTableNode* table, const Json& quality)
   table->SetLocked(true);
 }
 
-/// One line for the conditioning, where it was asked for.
+/// Adds the columns of the conditioning, if the report has it.
 void addConditioning(vtkMRMLTableNode* table, const Json& quality)
 {
   const auto stiffness = quality.FindMember("stiffness");
@@ -161,7 +161,7 @@ void addConditioning(vtkMRMLTableNode* table, const Json& quality)
                                                           { "CG iterations", "iterations" } };
   for (const auto& [name, member] : columns)
   {
-    vtkNew<vtkStringArray> values; // of the whole mesh only: the other fields stay empty
+    vtkNew<vtkStringArray> values; // for the whole mesh only; the other rows stay empty
     values->SetName(name);
     values->SetNumberOfValues(table->GetNumberOfRows());
     values->SetValue(0, std::to_string(std::int64_t(numberAt(stiffness->value, member))));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The quality of a mesh as nodes of the scene: a table, and histograms as plots. The mesh node refers to them by the
-/// roles of vtkMRMLFuchsTetrahedralizerNode; nodes that it already refers to are filled anew.
+/// The quality of a mesh as nodes of the scene: a table, and histograms as plots. The mesh node references them by the
+/// roles of vtkMRMLFuchsTetrahedralizerNode; nodes that it already references are refilled.
 
 #include <string>
 
@@ -10,11 +10,11 @@ class vtkMRMLModelNode;
 namespace surgicalmesher
 {
 
-/// From the report that FuchsTetrahedralizerCLI wrote. Throws InputError if the text isn't one.
+/// Shows the report written by FuchsTetrahedralizerCLI. Throws InputError if the text is not such a report.
 void showReport(vtkMRMLModelNode* mesh, const std::string& reportJSON);
 
-/// The same for tetrahedra from elsewhere, assessed here and now; the lengths asked for are those of the points' array
-/// TargetEdgeLength, if there is one. Throws InputError for anything that meshOfModel refuses.
+/// The same for tetrahedra from other sources, which are assessed here; target lengths are those of the point array
+/// TargetEdgeLength, if present. Throws InputError for a model that meshOfModel refuses.
 void assessMesh(vtkMRMLModelNode* mesh);
 
 } // namespace surgicalmesher

@@ -43,7 +43,8 @@ vtkSmartPointer<vtkGeneralTransform> toWorld(vtkMRMLTransformableNode* node)
   return transform;
 }
 
-/// Moves the points of a shallow copy; its arrays stay shared with the original. True if the move mirrors.
+/// Moves the points of a shallow copy, which shares its arrays with the original. Returns true if the transform
+/// mirrors.
 bool movePoints(vtkPointSet* mesh, vtkGeneralTransform* transform)
 {
   vtkNew<vtkPoints> points;
@@ -71,7 +72,7 @@ vtkSmartPointer<vtkPolyData> polyDataInWorld(vtkMRMLModelNode* model)
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   surface->ShallowCopy(model->GetPolyData());
   if (!model->GetParentTransformNode() || !movePoints(surface, toWorld(model))) return surface;
-  vtkNew<vtkReverseSense> reverse; // what was behind a triangle's normal is so again
+  vtkNew<vtkReverseSense> reverse; // restores what is behind the triangles' normals
   reverse->SetInputData(surface);
   reverse->ReverseCellsOn();
   reverse->Update();
@@ -83,7 +84,7 @@ vtkSmartPointer<vtkUnstructuredGrid> gridInWorld(vtkMRMLModelNode* model, vtkMRM
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   grid->ShallowCopy(model->GetUnstructuredGrid());
   if (!placed->GetParentTransformNode() || !movePoints(grid, toWorld(placed))) return grid;
-  vtkNew<vtkCellArray> cells; // positively wound again
+  vtkNew<vtkCellArray> cells; // restores the positive orientation
   for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i)
   {
     vtkNew<vtkIdList> ids;
@@ -112,7 +113,7 @@ vtkSmartPointer<vtkPolyData> trianglesOf(vtkPolyData* surface)
   return filter->GetOutput();
 }
 
-/// Triangles joined through edges are one shell, as the command-line module has it.
+/// Returns the number of shells, triangles joined through edges, as the command-line module counts them.
 std::size_t countShells(vtkPolyData* triangles)
 {
   vtkNew<vtkCleanPolyData> merge;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Model nodes of the scene as the module and its command-line part take them: in world coordinates, with parent
-/// transforms applied. Nothing here changes a node.
+/// Conversion of model nodes for the module and its command-line module: to world coordinates, with parent transforms
+/// applied. No node is changed.
 
 #include "MeshIO.h"
 
@@ -19,23 +19,26 @@ namespace surgicalmesher
 /// Whether the model has the cell array BoundaryLabels.
 bool isLabelledSurface(vtkMRMLModelNode* model);
 
-/// The labels on either side of a labelled surface's triangles, without 0, and what is known of them.
+/// Returns the labels on either side of the triangles of a labelled surface, without 0, with their names and colours if
+/// known.
 TissueTable tissuesOfSurface(vtkMRMLModelNode* model);
 
-/// One labelled surface as it is, or closed surfaces appended in their order, whose shells get the models' names and
-/// colours. In RAS, mm, without SPACE in its field data: the host complains when it finds that there while it writes.
+/// Returns one labelled surface as it is, or closed surfaces appended in their order, whose shells get the names and
+/// colours of the models. In RAS, mm, without SPACE in the field data, about which Slicer complains on writing.
 vtkSmartPointer<vtkPolyData> surfaceInWorld(const std::vector<vtkMRMLModelNode*>& models);
 
-/// Triangles in LPS as polydata in RAS.
+/// Converts triangles from LPS to polydata in RAS.
 vtkSmartPointer<vtkPolyData> polyDataOf(const SurfaceComplex& surface);
 
-/// Ambient tetrahedra, which go where their surface goes: they are under the transform of `surface`. As above.
+/// Returns the ambient tetrahedra, under the transform of `surface`, so that they follow it. In RAS, mm, without SPACE
+/// as above.
 vtkSmartPointer<vtkUnstructuredGrid> ambientInWorld(vtkMRMLModelNode* ambient, vtkMRMLModelNode* surface);
 
-/// Whether every point of the surface is one of the ambient tetrahedra's. If one was edited since, it isn't.
+/// Whether every point of the surface is a point of the ambient tetrahedra; false if one of them was edited since.
 bool belongTogether(vtkMRMLModelNode* surface, vtkMRMLModelNode* ambient);
 
-/// The tetrahedra of a model in LPS. Throws InputError, with the model's name, for anything that readMesh refuses.
+/// Returns the tetrahedra of a model in LPS. Throws InputError, with the model's name, for meshes that readMesh
+/// refuses.
 MeshFile meshOfModel(vtkMRMLModelNode* model);
 
 } // namespace surgicalmesher

@@ -89,7 +89,7 @@ Check checkConstitutiveClasses(Parameters* parameters)
   return {};
 }
 
-/// Only a labelled surface tells its tissues before it is meshed.
+/// The tissues of other than labelled surfaces are known only after meshing.
 Check checkFiniteElements(Parameters* parameters, const std::vector<vtkMRMLModelNode*>& surfaces)
 {
   if (!isLabelledSurface(surfaces.front())) return {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Can a run be started from a parameter node? Cheap enough for every change in a panel.
+/// Check whether a run can be started from a parameter node; cheap enough for every change in a panel.
 
 #include "vtkSlicerFuchsTetrahedralizerLogic.h"
 
@@ -9,8 +9,8 @@
 namespace surgicalmesher
 {
 
-/// The first problem of the parameter node, of those that don't depend on what the host has installed. `belong` tells
-/// whether a surface and its ambient tetrahedra still belong together.
+/// Returns the first problem of the parameter node, except problems that depend on the installed modules. `belong`
+/// returns whether a surface and its ambient tetrahedra still belong together.
 vtkSlicerFuchsTetrahedralizerLogic::Check
 findProblem(vtkMRMLFuchsTetrahedralizerNode* parameters,
             const std::function<bool(vtkMRMLModelNode* surface, vtkMRMLModelNode* ambient)>& belong);

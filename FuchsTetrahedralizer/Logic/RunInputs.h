@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What a parameter node of Fuchs Tetrahedralizer names and tells, in the forms that a run and an export take.
+/// Inputs given by a parameter node of Fuchs Tetrahedralizer, in the forms required by runs and exports.
 
 #include "ConstitutiveTags.h"
 #include "TissueMap.h"
@@ -16,23 +16,23 @@ class vtkMRMLScalarVolumeNode;
 namespace surgicalmesher
 {
 
-/// Roles of the outputs, which are also the names of the command-line module's parameters.
+/// Roles of the outputs, which are also parameter names of the command-line module.
 constexpr const char* outputRoles[] = { "mesh", "parentMesh", "childMesh", "shells" };
 
 std::vector<vtkMRMLModelNode*> surfacesOf(vtkMRMLFuchsTetrahedralizerNode* parameters);
 
-/// The tetrahedra that a single labelled surface refers to; null if there are none.
+/// Returns the tetrahedra referenced by a single labelled surface; null if there are none.
 vtkMRMLModelNode* ambientOf(const std::vector<vtkMRMLModelNode*>& surfaces);
 
 vtkMRMLScalarVolumeNode* scaleOf(vtkMRMLFuchsTetrahedralizerNode* parameters);
 
-/// Whether lengths can be the surface's own.
+/// Whether the surface has edge lengths of its own.
 bool hasTargetLengths(const std::vector<vtkMRMLModelNode*>& surfaces);
 
-/// Points and paths in LPS, as they are seen.
+/// Returns the rule with points and paths in LPS at their world positions.
 ConstitutiveRule ruleOf(vtkMRMLFuchsTetrahedralizerNode* parameters);
 
-/// For shellChoices().
+/// Returns the texts for shellChoices().
 std::vector<std::string> shellTextsOf(vtkMRMLFuchsTetrahedralizerNode* parameters);
 
 std::set<Label> labelsOf(const TissueTable& tissues);

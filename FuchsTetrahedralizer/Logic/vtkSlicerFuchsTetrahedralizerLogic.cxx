@@ -59,7 +59,7 @@ FiniteElementOptions optionsOf(Parameters* parameters, const TissueTable& tissue
   return options;
 }
 
-/// With the elements and in the units that the parameters ask for.
+/// Returns the model with the elements and units chosen for export.
 FiniteElementModel asExported(FiniteElementModel model, Parameters* parameters)
 {
   const int elements = parameters->GetExportElements();
@@ -86,7 +86,7 @@ std::string contentOf(const std::string& file)
   return content.str();
 }
 
-/// A sentence on what went wrong in `action`; empty if nothing did.
+/// Returns the error thrown by `action`; empty if there was none.
 std::string failureOf(const std::function<void()>& action)
 {
   try
@@ -273,7 +273,7 @@ void vtkSlicerFuchsTetrahedralizerLogic::PrepareConstitutiveClasses(vtkMRMLFuchs
   this->Run->SetParameter("nullDisplacementPathDistanceAtTarget", rule.nullPathDistanceAtTarget);
 }
 
-/// The host fills nodes of our own, so that whatever becomes of the run, the user's have all of its results or none.
+/// Slicer fills separate nodes, so that the user's nodes get all results of a run or none.
 void vtkSlicerFuchsTetrahedralizerLogic::PrepareOutputs(vtkMRMLFuchsTetrahedralizerNode* parameters)
 {
   this->Results.clear();
@@ -300,7 +300,7 @@ void vtkSlicerFuchsTetrahedralizerLogic::OnRunEvent(unsigned long event)
   if (event == vtkSurgicalMesherRun::CompletedEvent && status == vtkSurgicalMesherRun::Completed) this->FinishRun();
 }
 
-/// What the surface was refused for, if the module failed because of some of its triangles.
+/// Shows the triangles for which the surface was refused, if that is why the module failed.
 void vtkSlicerFuchsTetrahedralizerLogic::ShowTrianglesAtFault()
 {
   if (!this->GetMRMLScene() || vtksys::SystemTools::FileLength(this->OffendingTrianglesFile) == 0) return;
@@ -328,14 +328,14 @@ void vtkSlicerFuchsTetrahedralizerLogic::FinishRun()
   {
     vtkMRMLModelNode* part = this->TakeResult(role);
     if (!part) continue;
-    part->GetDisplayNode()->SetVisibility(false); // it is part of the mesh, at the same place
+    part->GetDisplayNode()->SetVisibility(false); // it is part of the mesh, at the same position
     part->GetDisplayNode()->SetEdgeVisibility(true);
   }
   if (vtkMRMLModelNode* mesh = this->TakeResult(Parameters::MeshRole())) this->FinishMesh(mesh);
   this->Results.clear();
 }
 
-/// Null if the run had no such result, or nobody wants it any more.
+/// Returns the output node with the result, or null if the run has no such result or its node is gone.
 vtkMRMLModelNode* vtkSlicerFuchsTetrahedralizerLogic::TakeResult(const std::string& role)
 {
   const auto result = this->Results.find(role);
@@ -353,7 +353,7 @@ vtkMRMLModelNode* vtkSlicerFuchsTetrahedralizerLogic::TakeResult(const std::stri
   }
   if (!output) return nullptr;
   vtkPointSet* mesh = result->second->GetMesh();
-  mesh->GetFieldData()->RemoveArray("SPACE");    // it told of the file, and the host adds it to the next
+  mesh->GetFieldData()->RemoveArray("SPACE");    // it described the file; Slicer adds it again on writing
   output->SetAndObserveTransformNodeID(nullptr); // results are in world coordinates
   output->SetAndObserveMesh(mesh);
   output->CreateDefaultDisplayNodes();
@@ -395,7 +395,7 @@ bool vtkSlicerFuchsTetrahedralizerLogic::UpdateDisplay(vtkMRMLFuchsTetrahedraliz
   display->SetEdgeVisibility(parameters->GetShowEdges());
   display->SetEdgeColor(0.15, 0.15, 0.15);
   display->SetInterpolation(vtkMRMLDisplayNode::FlatInterpolation);
-  display->SetBackfaceCulling(false); // where it is cut, one looks into it
+  display->SetBackfaceCulling(false); // the inside is visible where the mesh is clipped
   clipMesh(mesh, parameters->GetClipPlane(), parameters->GetClipFlipped());
   const bool isColored = colorMesh(mesh, parameters->GetColorBy());
   display->EndModify(wasModifying);
@@ -419,7 +419,7 @@ bool vtkSlicerFuchsTetrahedralizerLogic::GetClipRange(vtkMRMLFuchsTetrahedralize
   range[1] = -VTK_DOUBLE_MAX;
   for (int corner = 0; corner < 8; ++corner)
   {
-    double offset = 0; // along the slice's normal, as the slice's own
+    double offset = 0; // along the normal of the slice, like its own offset
     for (int axis = 0; axis < 3; ++axis)
       offset += toWorld->GetElement(axis, 2) * bounds[2 * axis + (corner >> axis & 1)];
     range[0] = std::min(range[0], offset);

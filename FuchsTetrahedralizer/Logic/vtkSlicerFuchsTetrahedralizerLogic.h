@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Runs FuchsTetrahedralizerCLI for a parameter node; shows, measures and exports the tetrahedra that it leaves, and
-/// those of any other model node.
+/// Runs FuchsTetrahedralizerCLI for a parameter node; displays, assesses and exports the resulting tetrahedra and those
+/// of any other model node.
 
 #include "vtkSlicerFuchsTetrahedralizerModuleLogicExport.h"
 
@@ -32,35 +32,35 @@ public:
   vtkTypeMacro(vtkSlicerFuchsTetrahedralizerLogic, vtkSlicerModuleLogic);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The scene's first parameter node, made if there is none; null without a scene.
+  /// Returns the first parameter node of the scene, created if there is none; null without a scene.
   vtkMRMLFuchsTetrahedralizerNode* ParameterNode();
 
   // ---- before a run -------------------------------------------------------------------------------------------------
 
-  /// What keeps a parameter node from being run.
+  /// Reasons why a parameter node cannot be run.
   enum class Problem
   {
     None,
-    NoModule,            ///< FuchsTetrahedralizerCLI isn't loaded
+    NoModule,            ///< FuchsTetrahedralizerCLI is not loaded
     NoSurface,           ///< no model is chosen
-    NotASurface,         ///< `node` holds no triangles: it is empty, or a volume mesh
-    LabelledAmongOthers, ///< `node` has labels on both sides of its triangles, so it has to be alone
-    NoTargetLengths,     ///< the lengths are to be the surface's own, and it has none
+    NotASurface,         ///< `node` has no triangles: it is empty, or a volume mesh
+    LabelledAmongOthers, ///< `node` has labels on both sides of its triangles and must be the only surface
+    NoTargetLengths,     ///< lengths are to come from the surface, which has none
     NoScale,             ///< no scale volume with voxels is chosen
-    ScaleWarped,         ///< the scale volume is under a transform that isn't linear
-    NoEdgeLength,        ///< the one length isn't positive
-    AmbientChanged,      ///< the surface was edited since its ambient tetrahedra were made
-    OutputIsInput,       ///< `node` is both, or two outputs at once
+    ScaleWarped,         ///< the scale volume is under a nonlinear transform
+    NoEdgeLength,        ///< the uniform edge length is not positive
+    AmbientChanged,      ///< the surface was edited after its ambient tetrahedra were made
+    OutputIsInput,       ///< `node` is both input and output, or two outputs
     NotAPath,            ///< `node`, chosen as a path, has fewer than two points
-    NoTargets,           ///< a distance from targets is asked for, but no target has a point
-    NoPaths,             ///< a distance from paths is asked for, but no path is chosen
-    NoPlaces,            ///< a nonlinear distance is asked for, but neither target nor path is chosen
+    NoTargets,           ///< a distance from targets is given, but no target has a point
+    NoPaths,             ///< a distance from paths is given, but no path is chosen
+    NoPlaces,            ///< a nonlinear distance is given, but neither target nor path is chosen
     NoDistance,          ///< targets or paths are chosen, but no distance from them
-    NoEntryDistance,     ///< a distance at the target end of paths is asked for, but none at the entry
-    NoNonlinearEntry,    ///< the same of the nonlinear distance, or without a path
-    UnknownShell,        ///< `text` is no tissue of the surface
-    ShellsUnused,        ///< a model of shells is asked for, but no tissue becomes one
-    BadMaterials         ///< `text` says what is wrong with the materials file
+    NoEntryDistance,     ///< a distance at the target end of paths is given, but none at the entry
+    NoNonlinearEntry,    ///< the same for the nonlinear distance, or it is given without a path
+    UnknownShell,        ///< `text` does not name tissues of the surface
+    ShellsUnused,        ///< an output for shells is chosen, but no tissue becomes a shell
+    BadMaterials         ///< `text` is the error in the materials file
   };
   struct Check
   {
@@ -70,44 +70,46 @@ public:
   };
   Check FindProblem(vtkMRMLFuchsTetrahedralizerNode* parameters);
 
-  /// What is chosen as surface.
+  /// Description of the chosen surface.
   struct Surface
   {
     bool isLabelled = false;
     bool hasTargetLengths = false;
     int tissues = 0; ///< of a labelled surface
     vtkIdType triangles = 0;
-    vtkMRMLModelNode* ambient = nullptr; ///< tetrahedra that Simplex Mesher left with it, or null
+    vtkMRMLModelNode* ambient = nullptr; ///< tetrahedra that Simplex Mesher made with it, or null
   };
   Surface DescribeSurface(vtkMRMLFuchsTetrahedralizerNode* parameters);
 
-  /// Models of the scene that could be meshed: labelled surfaces, the latest last.
+  /// Returns the labelled surfaces of the scene, which could be meshed, the latest last.
   std::vector<vtkMRMLModelNode*> LabelledSurfaces();
 
   // ---- runs ---------------------------------------------------------------------------------------------------------
 
-  /// Starts a run, unless there is a problem or a run is busy. Its results go to the chosen models when it has
-  /// completed, and only then; a model for the mesh is made if none is chosen. False if it could not be started:
-  /// GetRun()->GetErrorText() has the reason.
+  /// Starts a run, unless there is a problem or a run is busy. The results are moved to the chosen models only when the
+  /// run has completed; a model for the mesh is created if none is chosen. Returns false if the run could not be
+  /// started: FindProblem() or GetRun()->GetErrorText() has the reason.
   bool Start(vtkMRMLFuchsTetrahedralizerNode* parameters);
-  /// The same, waiting for its end in this thread.
+  /// The same, but waits in this thread for the end of the run.
   bool StartAndWait(vtkMRMLFuchsTetrahedralizerNode* parameters);
 
-  /// The one run of this logic: its status, its error, its end. By the time that others see its CompletedEvent, if they
-  /// observe it with the default priority, the results have been finished: coloured, cut open, measured. Where a
-  /// surface was refused for some of its triangles, a new model shows these.
+  /// The only run of this logic, with its status, error and end. Observers of its CompletedEvent with the default
+  /// priority see finished results: coloured, clipped, assessed. If a surface was refused because of some of its
+  /// triangles, a new model shows these.
   vtkSurgicalMesherRun* GetRun() const { return this->Run; }
 
   // ---- any tetrahedra -----------------------------------------------------------------------------------------------
 
-  /// Whether the model holds an unstructured grid.
+  /// Whether the model holds an unstructured grid with cells.
   static bool IsMesh(vtkMRMLModelNode* mesh);
 
-  /// Colours, plane and edges of the mesh follow the parameter node. False if the mesh lacks what the colours tell.
+  /// Applies colours, clip plane and edges of the parameter node to the mesh. Returns false if the mesh lacks the data
+  /// to colour by.
   bool UpdateDisplay(vtkMRMLFuchsTetrahedralizerNode* parameters);
-  /// The slice that cuts the mesh; null for none.
+  /// Returns the slice that clips the mesh; null if there is none.
   vtkMRMLSliceNode* GetClipSlice(vtkMRMLFuchsTetrahedralizerNode* parameters);
-  /// Least and greatest offset of the clip slice that meet the mesh, mm. False if there is nothing to cut.
+  /// Returns in `range` the smallest and largest offset of the clip slice that intersect the mesh, mm. False if there
+  /// is nothing to clip.
   bool GetClipRange(vtkMRMLFuchsTetrahedralizerNode* parameters, double range[2]);
 
   enum Histogram
@@ -120,19 +122,19 @@ public:
   };
   static vtkMRMLPlotChartNode* GetHistogram(vtkMRMLModelNode* mesh, int histogram);
   static vtkMRMLTableNode* GetQualityTable(vtkMRMLModelNode* mesh);
-  /// Makes table and histograms of a mesh from elsewhere. Empty, or a sentence on what is wrong with it.
+  /// Creates table and histograms for a mesh from another source. Returns an empty text, or the error.
   std::string Assess(vtkMRMLModelNode* mesh);
 
-  /// File endings with their dots and what reads them, in the order of a file dialog.
+  /// File extensions with their dots and the programs that read them, in the order of the file dialog.
   struct Format
   {
     std::string extension;
     std::string description;
   };
   static std::vector<Format> GetExportFormats();
-  /// Writes the parameter node's mesh, in world coordinates, with its materials and shells, in the format that the
-  /// file's ending says: the file that FuchsTetrahedralizerCLI --export writes. Empty, or a sentence on what went
-  /// wrong; files appear whole or not at all.
+  /// Writes the parameter node's mesh in world coordinates, with its materials and shells, in the format given by the
+  /// file extension: the same file as that of FuchsTetrahedralizerCLI --export. Returns an empty text, or the error;
+  /// files appear completely or not at all.
   std::string Export(vtkMRMLFuchsTetrahedralizerNode* parameters, const std::string& file);
 
 protected:
@@ -157,10 +159,11 @@ private:
 
   vtkNew<vtkSurgicalMesherRun> Run;
   vtkNew<vtkCallbackCommand> RunEvents;
-  vtkWeakPointer<vtkMRMLFuchsTetrahedralizerNode> Parameters;       ///< of the run
-  std::map<std::string, vtkSmartPointer<vtkMRMLModelNode>> Results; ///< of the run, by output role
-  std::string ReportFile;                                           ///< of the run
-  std::string OffendingTrianglesFile;                               ///< of the run; empty unless the surface is refused
-  struct AmbientCheck; ///< the last answer of belongTogether(), which takes its time
+  vtkWeakPointer<vtkMRMLFuchsTetrahedralizerNode> Parameters;       ///< of the current run
+  std::map<std::string, vtkSmartPointer<vtkMRMLModelNode>> Results; ///< of the current run, by output role
+  std::string ReportFile;                                           ///< of the current run
+  /// Of the current run; the file is empty unless the surface is refused.
+  std::string OffendingTrianglesFile;
+  struct AmbientCheck; ///< caches the last result of belongTogether(), which takes time
   AmbientCheck* const LastAmbientCheck;
 };

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the panel of Fuchs Tetrahedralizer shows: the surface, the lengths, what is wanted of the mesh and how it is
-/// looked at. It lives in the scene and is saved with it. Lengths are in mm; 0 means what it means to
-/// FuchsTetrahedralizerCLI.
+/// Parameter node of Fuchs Tetrahedralizer, saved with the scene: the surface, the edge lengths, the wanted outputs,
+/// and the display of the mesh. Lengths in mm; 0 has the same meaning as in FuchsTetrahedralizerCLI.
 
 #include "vtkMRMLSurgicalMesherParameterNode.h"
 #include "vtkSlicerFuchsTetrahedralizerModuleMRMLExport.h"
@@ -20,7 +19,7 @@ public:
   vtkMRMLNode* CreateNodeInstance() override;
   const char* GetNodeTagName() override { return "FuchsTetrahedralizer"; }
 
-  /// Where edge lengths come from.
+  /// Source of the edge lengths.
   enum EdgeLengthSourceType
   {
     FromSurface, ///< the surface's own TargetEdgeLength
@@ -29,7 +28,7 @@ public:
     EdgeLengthSource_Last
   };
 
-  /// What the mesh's colours tell.
+  /// Property of the mesh shown by its colours.
   enum ColorByType
   {
     Tissue,
@@ -40,7 +39,7 @@ public:
     ColorBy_Last
   };
 
-  /// The slice that the mesh is cut at.
+  /// The slice at which the mesh is clipped.
   enum ClipPlaneType
   {
     NoPlane,
@@ -50,12 +49,12 @@ public:
     ClipPlane_Last
   };
 
-  /// Tetrahedra in exports.
+  /// Type of tetrahedra in exports.
   enum ExportElementsType
   {
     FourNodes,
-    TenNodes,       ///< with straight sides
-    TenNodesCurved, ///< that follow the boundaries of tissues
+    TenNodes,       ///< straight sides
+    TenNodesCurved, ///< sides that follow the boundaries of tissues
     ExportElements_Last
   };
 
@@ -67,19 +66,20 @@ public:
     ExportUnits_Last
   };
 
-  /// Roles of the nodes referred to. Inputs:
-  static const char* SurfaceRole() { return "surface"; } ///< a model with BoundaryLabels, or closed ones, in this order
-  static const char* ScaleRole() { return "scale"; }     ///< scalar volume of edge lengths
-  static const char* TargetRole() { return "target"; }   ///< markups; their points are targets of constitutive classes
-  static const char* PathRole() { return "path"; }       ///< markups; each is a path from entry to target
-  /// Outputs; models.
-  static const char* MeshRole() { return "mesh"; }             ///< a new one where there is none
-  static const char* ParentMeshRole() { return "parentMesh"; } ///< none: not wanted, as below
+  /// Roles of the referenced nodes. Inputs:
+  /// A model with BoundaryLabels, or closed models, in this order.
+  static const char* SurfaceRole() { return "surface"; }
+  static const char* ScaleRole() { return "scale"; }   ///< scalar volume of edge lengths
+  static const char* TargetRole() { return "target"; } ///< markups; their points are targets of constitutive classes
+  static const char* PathRole() { return "path"; }     ///< markups; each is a path from entry to target
+  /// Outputs, all models:
+  static const char* MeshRole() { return "mesh"; }             ///< created if there is none
+  static const char* ParentMeshRole() { return "parentMesh"; } ///< none: not wanted; likewise the following
   static const char* ChildMeshRole() { return "childMesh"; }
   static const char* ShellsRole() { return "shells"; }
-  /// Of the *surface* node: model of the tetrahedra around it, a head start.
+  /// Role on the *surface* node: model of the tetrahedra around it, from which meshing can start.
   static const char* AmbientTetrahedraRole() { return "ambientTetrahedra"; }
-  /// Of the *mesh* node.
+  /// Roles on the *mesh* node:
   static const char* QualityTableRole() { return "qualityTable"; } ///< table, one row per group of tetrahedra
   /// Plot charts, in the order of vtkSlicerFuchsTetrahedralizerLogic::Histogram.
   static const char* HistogramRole() { return "histogram"; }
@@ -88,12 +88,12 @@ public:
   void SetEdgeLengthSource(int source);
   vtkGetMacro(EdgeLength, double);
   vtkSetMacro(EdgeLength, double);
-  /// Whether the surface's ambient tetrahedra are begun from where there are such.
+  /// Whether to start from the surface's ambient tetrahedra, if there are any.
   vtkGetMacro(UseAmbient, bool);
   vtkSetMacro(UseAmbient, bool);
   vtkBooleanMacro(UseAmbient, bool);
 
-  /// Tissues whose boundaries become shells, as --shell takes them, separated by commas.
+  /// Tissues whose boundaries become shells, in the format of --shell, separated by commas.
   vtkGetMacro(ShellTissues, std::string);
   vtkSetMacro(ShellTissues, std::string);
   vtkGetMacro(ShellThickness, double);
@@ -104,7 +104,7 @@ public:
 
   vtkGetMacro(NonlinearDistance, double);
   vtkSetMacro(NonlinearDistance, double);
-  /// At the target end of paths; 0: as at their entry.
+  /// At the target end of paths; 0: the same as at the entry.
   vtkGetMacro(NonlinearDistanceAtTarget, double);
   vtkSetMacro(NonlinearDistanceAtTarget, double);
   vtkGetMacro(NullDisplacementRadius, double);
@@ -114,11 +114,11 @@ public:
   vtkGetMacro(NullDisplacementPathDistanceAtTarget, double);
   vtkSetMacro(NullDisplacementPathDistanceAtTarget, double);
 
-  /// Whether the table of quality also tells the stiffness matrix's conditioning.
+  /// Whether the quality table includes the conditioning of the stiffness matrix.
   vtkGetMacro(Conditioning, bool);
   vtkSetMacro(Conditioning, bool);
   vtkBooleanMacro(Conditioning, bool);
-  /// Degrees; of surfaces from elsewhere.
+  /// Degrees; for surfaces not made by Simplex Mesher.
   vtkGetMacro(FeatureAngle, double);
   vtkSetMacro(FeatureAngle, double);
   vtkGetMacro(Threads, int);
@@ -133,7 +133,7 @@ public:
   void SetColorBy(int colorBy);
   vtkGetMacro(ClipPlane, int);
   void SetClipPlane(int plane);
-  /// Whether the other side of the plane is shown.
+  /// Whether to show the other side of the plane.
   vtkGetMacro(ClipFlipped, bool);
   vtkSetMacro(ClipFlipped, bool);
   vtkBooleanMacro(ClipFlipped, bool);
@@ -166,7 +166,7 @@ protected:
   int ExportElements = FourNodes;
   int ExportUnits = Millimetres;
   int ColorBy = Tissue;
-  int ClipPlane = Coronal; // seen from in front, as by default, it shows the inside
+  int ClipPlane = Coronal; // seen from the front, the default view, it shows the inside
   bool ClipFlipped = false;
   bool ShowEdges = true;
 };

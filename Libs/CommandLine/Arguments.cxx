@@ -29,8 +29,8 @@ std::string withoutDashes(const std::string& flag)
   return start == std::string::npos ? std::string() : flag.substr(start);
 }
 
-/// Letters to insert, delete or replace (Levenshtein, Soviet Physics Doklady 10(8), 1966); letters appended to either
-/// count as one.
+/// Number of letters to insert, delete or replace (Levenshtein, Soviet Physics Doklady 10(8), 1966). If one word of at
+/// least three letters begins the other, the rest counts as one change.
 std::size_t changesBetween(const std::string& a, const std::string& b)
 {
   const std::size_t common = std::min(a.size(), b.size());
@@ -121,7 +121,7 @@ private:
     m_Result.progress = found->second;
   }
 
-  /// ", did you mean --targets?" of the known flag that takes the fewest changes, if these are few.
+  /// Returns "; did you mean --targets?" for the nearest known flag; empty if none is near.
   std::string nearestFlag(const std::string& flag) const
   {
     std::vector<std::string> known{ "help", "version", "xml", "returnparameterfile", "echo", "quiet", "progress" };

@@ -31,7 +31,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// On Windows VTK's own would open a window and wait for the user.
+/// Replaces VTK's output window, which on Windows would open and wait for the user.
 class SilentOutputWindow : public vtkOutputWindow
 {
 public:
@@ -48,7 +48,7 @@ void silenceVTK()
   vtkOutputWindow::SetInstance(window);
 }
 
-/// Of a text that has been found to be one.
+/// The number in a text that has been checked already.
 double numberIn(const std::string& text)
 {
   double number = 0;
@@ -104,12 +104,12 @@ struct CommandLine::Private
   void writeReturnParameterFile();
   void tellOutputs() const;
 
-  std::map<std::string, std::string> claims; ///< what writes a file, by its place
+  std::map<std::string, std::string> claims; ///< the parameter that writes a file, by the file's place
   struct ManyFiles
   {
     std::string who;
     std::filesystem::path folder;
-    std::string before, after; ///< of the name
+    std::string before, after; ///< parts of the file name
     bool include(const std::string& place) const;
   };
   std::vector<ManyFiles> manyFiles;
@@ -126,7 +126,7 @@ bool areTheSame(const std::string& a, const std::string& b)
   return std::filesystem::equivalent(a, b, error) || placeOf(a) == placeOf(b);
 }
 
-/// Folders don't count: outputs may go into them.
+/// The input files on the command line. Input folders are left out, since outputs may go into them.
 std::vector<std::string> inputFiles(const ModuleDescription& description, const Arguments& arguments)
 {
   std::vector<std::string> files;
@@ -205,7 +205,7 @@ void CommandLine::Private::claimMany(const std::string& who, const std::string& 
   manyFiles.push_back(many);
 }
 
-/// Creates the temporaries before the work begins, so that a place that can't be written to shows at once.
+/// Creates the temporary files before the work begins, so that a place that cannot be written to is reported at once.
 void CommandLine::Private::prepareOutputs()
 {
   std::vector<std::string> files;
@@ -244,7 +244,7 @@ void CommandLine::Private::writeReturnParameterFile()
     if (returned == returnValues.end()) throw EngineError("no value for " + parameter->name + " was returned");
     file << parameter->name << " = " << returned->second << "\n";
   }
-  // Without a return value the file has to be there all the same, and an empty one counts as not written.
+  // The file must exist even without return values, and an empty file counts as not written.
   if (returnValues.empty()) file << "\n";
 }
 
@@ -395,7 +395,7 @@ ProgressFormat progressFormat(const Arguments& arguments)
   return hasHost ? ProgressFormat::Xml : ProgressFormat::Plain;
 }
 
-/// Answers --xml, --help and --version. Returns false if none of them is there.
+/// Answers --xml, --help and --version. Returns false if none of them is given.
 bool answerQuestion(const std::vector<std::string>& arguments, const std::string& xml, const std::string& executable)
 {
   for (const std::string& argument : arguments)

@@ -9,9 +9,9 @@
 ///     }
 ///
 /// runModule answers --xml, --help and --version, parses and checks the options, hands them to the function, renames
-/// the outputs into place when it returns, and turns what it throws into one line on stderr and an exit status: 0 done,
-/// 1 InputError, 2 UsageError, 3 EngineError or anything else, a stdout that could not be written to among it. Outputs
-/// appear whole or not at all, and never in place of an input.
+/// the outputs into place when it returns, and turns exceptions into one line on stderr and an exit status: 0 done,
+/// 1 InputError, 2 UsageError, 3 EngineError or any other failure, such as a stdout that could not be written to.
+/// Outputs appear whole or not at all, and never in place of an input.
 ///
 /// While the function runs, what libraries write to stderr is discarded, unless the environment variable
 /// SURGICALMESHER_DEBUG is set.
@@ -31,14 +31,14 @@ namespace surgicalmesher
 class CommandLine
 {
 public:
-  /// Parameters are named as in the XML's <name>. Asking for a parameter the XML lacks, or for another type than it
-  /// declares, is a programming error (std::logic_error). Without a value on the command line the XML's default is
+  /// Parameters are named as in the XML's <name>. Asking for a parameter that the XML lacks, or for another type than
+  /// it declares, is a programming error (std::logic_error). Without a value on the command line the XML's default is
   /// returned.
   ///
-  /// Slicer passes every number and choice, also those the user left alone: for them `given` tells nothing, and a value
-  /// of their range has to mean "not used".
+  /// Whether the parameter is on the command line. Slicer passes every number and choice, including those that the user
+  /// left alone: for these, the result is meaningless, and one value in their range has to mean "not used".
   bool given(const std::string& name) const;
-  /// All that was given, as it was typed, by parameter: for programs that hand options on.
+  /// All values on the command line as typed, by parameter name: for programs that pass options on.
   const std::map<std::string, std::vector<std::string>>& givenValues() const;
   bool flag(const std::string& name) const;
   int integer(const std::string& name) const;
@@ -48,46 +48,46 @@ public:
   std::vector<double> numbers(const std::string& name) const;    ///< integer and double vectors
   std::vector<Vec3> points(const std::string& name) const;       ///< type point, in the XML's coordinateSystem, mm
 
-  /// Where to write output `name` now: a temporary file in its final folder, with its final extension, renamed into
-  /// place after the module function has returned. Empty if the output was not asked for. That the place can be written
-  /// to has been checked before the function was called; an output that was asked for has to be written.
+  /// Returns the path to write output `name` to: a temporary file in the final folder, with the final extension, which
+  /// is renamed into place after the module function has returned. Empty if the output was not requested. An output
+  /// that was requested must be written; that its place is writable was checked before the function was called.
   std::string outputFile(const std::string& name);
-  /// The final names of the same files, one or many: to write by outputPath(), with sidecars named after them.
+  /// Returns the final names of the files of output `name`, to write by outputPath() or to name sidecars after.
   std::vector<std::string> outputNames(const std::string& name) const;
-  /// The same for a file the XML doesn't list (a sidecar next to an output). Throws InputError if it can't be created,
-  /// UsageError if it is an input or another output: announce sidecars before anything is read, so that this shows in
-  /// time.
+  /// Returns the temporary path for a file that the XML does not list, such as a sidecar next to an output; renamed
+  /// like outputFile(). Throws InputError if it cannot be created, UsageError if it is an input. alsoWrites() finds
+  /// such conflicts, and those with other outputs, before anything is read.
   std::string outputPath(const std::string& finalPath);
 
   /// Announces a sidecar of output `name`. Throws UsageError if it is an input, another output or another sidecar.
   void alsoWrites(const std::string& name, const std::string& finalPath);
-  /// Announces any number of sidecars of output `name`, called `before`, some letters, digits or underscores, and
-  /// `after`.
+  /// Announces any number of sidecars of output `name`, whose paths are `before`, one or more letters, digits or
+  /// underscores, and `after`. Throws UsageError if an input or another output has such a path.
   void alsoWritesMany(const std::string& name, const std::string& before, const std::string& after);
 
-  /// An output that only a refusal has, to show what is at fault: renamed into place at once, or not to be written.
+  /// For an output that is written only when the input is refused, to show what is at fault: commitOutput() renames it
+  /// into place at once, discardOutput() removes it.
   void commitOutput(const std::string& name);
   void discardOutput(const std::string& name);
-  /// A file of outputPath() that is of use while the run goes on: renamed into place at once.
+  /// Renames a file of outputPath() into place at once, for files that are useful while the run goes on.
   void commitPath(const std::string& finalPath);
 
-  /// A file that is in place without having been an output here, as one by a program that this one has run:
-  /// --progress json tells it at the end with the others.
+  /// Reports a file that is in place but is no output of this program, such as one of a program that this one has run:
+  /// --progress json lists it at the end with the outputs.
   void tellWritten(const std::string& path);
 
-  /// A simple output parameter (channel output, no flag): written to --returnparameterfile as `name = value`.
+  /// Sets a simple output parameter (channel output, no flag), which --returnparameterfile receives as `name = value`.
   void returnValue(const std::string& name, const std::string& value);
 
-  /// A progress bar on a terminal; elsewhere tags as Slicer reads them if a host runs the module, which passes
-  /// --returnparameterfile or lives in an environment with SLICER_HOME, else lines with the time left; or what
-  /// --progress asks for. Valid as long as this object.
+  /// Returns the progress callback, valid as long as this object. It writes what --progress asks for; by default a bar
+  /// on a terminal, else XML tags if a host such as Slicer runs the module (a flag that only hosts pass, or the
+  /// environment variable SLICER_HOME), else lines of text with the time left.
   Progress progress();
-  /// A line on stdout that keeps clear of the progress bar.
+  /// Writes a line to stdout, clear of the progress bar.
   void message(const std::string& line);
-  /// A line on stderr, "<program>: warning: <line>". Hosts take what comes on stderr for errors: for them it goes to
-  /// stdout.
+  /// Writes "<program>: warning: <line>" to stderr, or to stdout for hosts, which take everything on stderr for errors.
   void warning(const std::string& line);
-  const std::vector<std::string>& warnings() const; ///< so far
+  const std::vector<std::string>& warnings() const; ///< all so far
 
   ~CommandLine();
 

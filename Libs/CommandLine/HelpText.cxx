@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The answer to --help, made from nothing but the description.
+// The answer to --help, made from the description alone.
 #include "ModuleDescription.h"
 
 #include <sstream>

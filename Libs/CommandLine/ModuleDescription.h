@@ -19,10 +19,10 @@ struct Parameter
   int index = -1;       ///< place among the positional arguments; -1 if it is an option
   std::string label;
   std::string description;
-  bool output = false; ///< channel
+  bool output = false; ///< whether the channel is output
   bool multiple = false;
   std::string defaultValue;
-  std::vector<std::string> choices; ///< of an enumeration
+  std::vector<std::string> choices; ///< values of an enumeration
   std::optional<double> minimum, maximum;
   std::vector<std::string> extensions; ///< with their dot, lower case; the first is the usual one
 
@@ -31,7 +31,7 @@ struct Parameter
   bool isEnumeration() const;
   bool isVector() const;        ///< a comma separated list: integer-vector, double-vector, float-vector, string-vector
   bool isPoint() const;         ///< point (x,y,z) and region (x,y,z,rx,ry,rz)
-  bool isFile() const;          ///< whatever is passed as the name of a file or folder
+  bool isFile() const;          ///< any type that is passed as the name of a file or folder
   bool isReturnValue() const;   ///< a simple output, not on the command line but in the return parameter file
   std::string spelling() const; ///< how the user writes it: `--name`, or `name` for a positional argument
 };
@@ -54,17 +54,18 @@ struct ModuleDescription
   std::vector<const Parameter*> positionals() const;    ///< by index
 };
 
-/// Throws std::logic_error, with the parameter's name, for XML that is not a valid description: that is part of the
+/// Throws std::logic_error, with the parameter's name, for XML that is not a valid description: the XML is part of the
 /// program.
 ModuleDescription parseModuleDescription(const std::string& xml);
 
-/// What a parameter accepts, in words: "a number from 0 to 500", "one of smaller, targets, path".
+/// Returns in words what a parameter accepts: "a number from 0 to 500", "one of smaller, targets, path".
 std::string expectation(const Parameter& parameter);
 
-/// Throws UsageError unless `value` is one the parameter accepts. Whether an input file exists, its reader finds out.
+/// Throws UsageError unless the parameter accepts `value`. Does not check whether an input file exists; its reader
+/// does.
 void checkValue(const Parameter& parameter, const std::string& value);
 
-/// The answer to --help.
+/// Returns the text that --help prints.
 std::string helpText(const ModuleDescription& description, const std::string& executable);
 
 } // namespace surgicalmesher

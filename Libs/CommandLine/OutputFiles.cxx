@@ -25,12 +25,12 @@ namespace
 
 const char* const partialMark = ".partial";
 
-/// The file a final path stands for: a symbolic link keeps pointing to it.
+/// The file that a final path refers to. Symbolic links are followed, so that they remain and their target is replaced.
 fs::path resolved(const std::string& finalPath)
 {
   std::error_code error;
   fs::path path = fs::absolute(finalPath, error);
-  // The limit ends a circle of links; its file can't be created, and that is said then.
+  // The limit ends cycles of links; creating their file fails, which is reported then.
   for (int links = 0; links < 40 && fs::is_symlink(path, error); ++links)
   {
     path = path.parent_path() / fs::read_symlink(path, error);
@@ -53,7 +53,7 @@ void requireWritablePlace(const fs::path& path, const std::string& finalPath)
   }
 }
 
-constexpr std::size_t longestName = 255; ///< bytes: what nearly every file system takes
+constexpr std::size_t longestName = 255; ///< bytes; accepted by nearly every file system
 
 /// FNV-1a, 64 bit.
 std::string hashOf(const std::string& text)
@@ -72,12 +72,12 @@ std::string temporaryName(const std::string& name)
   if (1 + name.size() + end.size() <= longestName) return "." + name + end;
   const std::string hash = hashOf(name);
   std::size_t kept = longestName - std::min(longestName, 2 + hash.size() + end.size());
-  while (kept > 0 && (static_cast<unsigned char>(name[kept]) & 0xc0) == 0x80) --kept; // no half of a character
+  while (kept > 0 && (static_cast<unsigned char>(name[kept]) & 0xc0) == 0x80) --kept; // not within a UTF-8 character
   return "." + name.substr(0, kept) + "." + hash + end;
 }
 
-/// The process that a temporary file on this host belongs to; 0 for any other file. `.<name>.<host>-<process>.partial`
-/// and an extension, which the name has, too, unless it was cut.
+/// The process that a temporary file of this host belongs to; 0 for any other file. Temporary files are named
+/// `.<name>.<host>-<process>.partial<extension>`, with the extension of the name unless the name was cut.
 int ownerOfTemporary(const std::string& candidate)
 {
   const std::size_t mark = candidate.rfind(partialMark);
@@ -86,7 +86,7 @@ int ownerOfTemporary(const std::string& candidate)
   if (at == std::string::npos || at < 2 || candidate[0] != '.') return 0;
   const std::string name = candidate.substr(1, at - 1);
   const std::string extension = candidate.substr(mark + std::strlen(partialMark));
-  const bool isCut = candidate.size() + 3 >= longestName; // up to three bytes short, where a character would be halved
+  const bool isCut = candidate.size() + 3 >= longestName; // up to three bytes shorter to keep a character whole
   if (!isCut && extension != fullExtension(name)) return 0;
   const std::size_t number = at + host.size();
   long owner = 0;
@@ -176,7 +176,7 @@ std::string OutputFiles::withFinalNames(std::string message) const
 {
   for (const auto& [path, temporary] : m_TemporaryByFinal)
   {
-    const std::string found = printable(temporary); // as Error has it
+    const std::string found = printable(temporary); // as in the messages of Error
     for (std::size_t at; (at = message.find(found)) != message.npos;) message.replace(at, found.size(), path);
   }
   return message;

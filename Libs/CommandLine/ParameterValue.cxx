@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a parameter accepts: in words, and as a check.
+// The values that a parameter accepts: in words, and as a check.
 #include "Errors.h"
 #include "ModuleDescription.h"
 #include "Text.h"
@@ -29,7 +29,7 @@ bool inRange(const Parameter& parameter, double value)
   return (!parameter.minimum || value >= *parameter.minimum) && (!parameter.maximum || value <= *parameter.maximum);
 }
 
-/// Digits alone: tables have 3.0 for 3, command lines do not.
+/// Accepts digits only: unlike tables, command lines do not write 3.0 for 3.
 bool isInteger(const Parameter& parameter, const std::string& text)
 {
   using Limits = std::numeric_limits<int>;

@@ -39,7 +39,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// A list that the signal handler can walk while the program adds to it: nodes are only ever put in front, and
+/// A list that the signal handler can traverse while the program adds to it: nodes are only added at the front, and
 /// none is freed.
 struct Doomed
 {
@@ -48,10 +48,10 @@ struct Doomed
 };
 std::atomic<const Doomed*> doomedFiles{ nullptr };
 
-/// Where the user's stderr is: 2, or what QuietStderr has put aside.
+/// Descriptor of the original stderr: 2, or the copy that QuietStderr keeps.
 std::atomic<int> stderrDescriptor{ 2 };
 
-/// How a signal's line ends.
+/// The end of the line that a signal handler writes.
 std::atomic<const char*> outputsFate{ ", no output was written\n" };
 
 void writeAll(int descriptor, const char* text, std::size_t length)
@@ -61,10 +61,10 @@ void writeAll(int descriptor, const char* text, std::size_t length)
 #else
   const auto written = write(descriptor, text, length);
 #endif
-  (void)written; // there is nobody left to tell
+  (void)written; // a failure cannot be reported anywhere
 }
 
-/// In memory that no other part of the program frees.
+/// The beginning of the line that a signal handler writes; never freed.
 const std::string* lastWords = nullptr;
 int handlersProcess = 0;
 
@@ -136,13 +136,13 @@ void outputIsInPlace() { outputsFate.store(", outputs that were complete stay\n"
 void returnFreedMemory()
 {
 #ifdef __GLIBC__
-  // Left alone, glibc raises both to as much as 64 MB after the first large array is freed, and what is freed later
-  // stays.
-  constexpr int most = 16 << 20; // bytes; smaller arrays come and go too often to be asked for each time
+  // By default, glibc raises both thresholds to as much as 64 MB after the first large array is freed, and keeps what
+  // is freed later.
+  constexpr int most = 16 << 20; // bytes; smaller arrays are allocated too often for a system call each time
   mallopt(M_MMAP_THRESHOLD, most);
   mallopt(M_TRIM_THRESHOLD, most);
-  // Between sweeps over a mesh the heap would shrink to its last byte and grow again, page by page: that was a sixth of
-  // the tetrahedral stage's time.
+  // Otherwise the heap would shrink completely between sweeps over a mesh and grow again page by page, which took a
+  // sixth of the tetrahedral stage's time.
   mallopt(M_TOP_PAD, 2 * most);
 #endif
 }
@@ -152,7 +152,7 @@ void returnFreedMemory()
 namespace
 {
 
-/// What the process was started with, whatever has become of main()'s arguments.
+/// The command line that the process was started with, even if main()'s arguments have been modified.
 std::vector<std::string> ownCommandLine()
 {
   std::vector<std::string> words;
@@ -166,7 +166,7 @@ std::vector<std::string> ownCommandLine()
 void useLargePages()
 {
   constexpr const char* tunables = "GLIBC_TUNABLES";
-  if (std::getenv(tunables)) return; // which ends it, the second time
+  if (std::getenv(tunables)) return; // set by the user, or by this function before it executed the program again
   std::error_code failure;
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failure);
   std::vector<std::string> words = ownCommandLine();
@@ -175,7 +175,7 @@ void useLargePages()
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   setenv(tunables, "glibc.malloc.hugetlb=1", 1);
-  execv(self.c_str(), arguments.data()); // comes back only if it fails
+  execv(self.c_str(), arguments.data()); // returns only if it fails
   unsetenv(tunables);
 }
 
@@ -203,8 +203,8 @@ void openStandardStreams() {}
 namespace
 {
 
-/// Also where there never was one: a program without a console has no stdout, and its descriptor is negative. A reader
-/// is asked for by a write of nothing, since the write that was refused may be long ago.
+/// True also if there never was a reader: a program without a console has no stdout, and its descriptor is negative.
+/// Tests for a reader by an empty write, since the write that failed may be long ago.
 bool readerOfStdoutIsGone()
 {
   const int descriptor = _fileno(stdout);
@@ -266,7 +266,7 @@ QuietStderr::~QuietStderr()
 namespace
 {
 
-/// A crash may be that of a stack used up: handlers run on one of their own.
+/// Gives handlers a stack of their own, since a crash may be a stack overflow.
 void useOtherStackForHandlers()
 {
   constexpr std::size_t size = 1 << 16;
@@ -277,7 +277,7 @@ void useOtherStackForHandlers()
   sigaltstack(&stack, nullptr);
 }
 
-/// Leaves alone what is ignored (nohup), and the handlers of sanitizers and debuggers.
+/// Installs the handler, unless the signal is ignored (nohup) or has a handler already (sanitizers, debuggers).
 void handle(int signal)
 {
   struct sigaction present
@@ -321,7 +321,7 @@ void openStandardStreams()
   for (const int descriptor : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO })
   {
     const bool isClosed = fcntl(descriptor, F_GETFD) < 0;
-    if (isClosed && open("/dev/null", O_RDWR) < 0) return; // it takes the lowest that is free, which is this one
+    if (isClosed && open("/dev/null", O_RDWR) < 0) return; // takes the lowest free descriptor, which is this one
   }
 }
 
@@ -339,7 +339,7 @@ bool syncToDevice(const std::string& file)
 {
   const int descriptor = open(file.c_str(), O_RDONLY);
   if (descriptor < 0) return false;
-  // EINVAL: a file system that has nothing to synchronise.
+  // EINVAL: the file system does not support synchronisation.
   const bool stored = fsync(descriptor) == 0 || errno == EINVAL;
   return close(descriptor) == 0 && stored;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the operating systems do differently.
+/// Functions whose implementation depends on the operating system.
 
 #include <string>
 
@@ -9,46 +9,46 @@ namespace surgicalmesher
 
 bool stdoutIsTerminal();
 
-/// Those of stdin, stdout and stderr that whoever started the process has closed lead nowhere from now on: what is
-/// opened later would take their place, and what is printed would go there.
+/// Opens the null device in place of stdin, stdout and stderr where the process was started without them: otherwise the
+/// next file opened would take their descriptor and receive what is printed. Does nothing on Windows.
 void openStandardStreams();
 
-/// From now on, large arrays go back to the system as soon as they are freed, where the system's allocator would keep
-/// them; some tens of megabytes stay for those that come next.
+/// From now on, large arrays are returned to the system as soon as they are freed, where the C library (glibc) would
+/// keep them; some tens of megabytes stay for the next allocations.
 void returnFreedMemory();
 
-/// From then on memory comes in large pages, where the system has them for those who ask (transparent huge pages: Linux
-/// with glibc 2.35 or later): most arrays are walked through once, and small pages one by one take longer than that.
-/// The C library must be told before it starts: the program starts itself again, in the same process, once, and nothing
-/// may have happened before that it could not do twice. Where GLIBC_TUNABLES is set, nothing is done.
+/// Makes the C library allocate large pages where the system offers them on request (transparent huge pages: Linux with
+/// glibc 2.35 or later): most arrays are traversed once, which takes less time than mapping small pages one by one. The
+/// library reads this setting only at start-up, so the program executes itself again, once, in the same process;
+/// nothing that cannot be repeated may have happened before. Does nothing if GLIBC_TUNABLES is set.
 void useLargePages();
 
-/// Throws EngineError if something that was printed on stdout has not got there, for want of room, say. A reader that
-/// has gone away wants no more of it.
+/// Throws EngineError if something printed on stdout could not be written, for example on a full disk. A pipe whose
+/// reader has closed it is no error.
 void requireStdoutWritten();
 
 std::string hostName();
 int processId();
-bool processIsAlive(int id); ///< on this host; true in doubt
+bool processIsAlive(int id); ///< on this host; true if that cannot be determined
 
-/// Hands the file's bytes to the device. Returns false if they can't be stored (a full disk shows here at the latest).
+/// Flushes the file to the device. Returns false if it cannot be stored (a full disk is detected here at the latest).
 bool syncToDevice(const std::string& file);
 
-/// From now on a signal that ends the process (an interrupt, a hang-up, a closed pipe, a crash with its stack used up)
-/// removes the files of removeOnSignal(), says so in a line on stderr that begins with `program`, and ends the process
-/// as usual. Signals that whoever started the process ignores stay ignored. A file that may not grow any more is no
-/// signal but a write that fails. Processes forked off later keep their hands off the files.
+/// From now on, a signal that ends the process (an interrupt, a hang-up, a closed pipe, a crash, even by stack
+/// overflow) removes the files of removeOnSignal(), writes a line to stderr that begins with `program` (not for a
+/// closed pipe), and ends the process as usual. Signals that are ignored when the process starts stay ignored. A file
+/// that reaches its size limit makes a write fail, without a signal. Processes forked later leave the files alone.
 void installSignalHandlers(const std::string& program);
-/// `file` must be absolute. Safe against a signal at any moment.
+/// `file` must be an absolute path. A signal may arrive at any moment during the call.
 void removeOnSignal(const std::string& file);
-void keepOnSignal();    ///< forgets all files
-void outputIsInPlace(); ///< from now on the line on stderr says that what is complete stays
+void keepOnSignal();    ///< forgets all files of removeOnSignal()
+void outputIsInPlace(); ///< from now on, a signal's line says that complete outputs stay
 
-/// Writes to what stderr was before a QuietStderr.
+/// Writes to the original stderr, even while a QuietStderr exists.
 void writeToStderr(const std::string& text);
 
-/// While it lives, what libraries write to stderr is discarded: the host logs all of it as errors, and the module's one
-/// line would drown. The environment variable SURGICALMESHER_DEBUG lets it through.
+/// Discards what libraries write to stderr during its lifetime: a host logs all of it as errors, and the module's own
+/// line would get lost among it. Does nothing if the environment variable SURGICALMESHER_DEBUG is set.
 class QuietStderr
 {
 public:

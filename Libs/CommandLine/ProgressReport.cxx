@@ -25,7 +25,7 @@ std::string escaped(const std::string& text)
   return result;
 }
 
-/// Without line ends; blanks stay, as columns of tables need them.
+/// Replaces line ends and tabs by blanks; keeps runs of blanks, which align the columns of tables.
 std::string unbroken(std::string text)
 {
   std::replace_if(
@@ -33,7 +33,7 @@ std::string unbroken(std::string text)
   return text;
 }
 
-/// A path as a string of JSON.
+/// Returns a path as a JSON string; see ProgressReport::output().
 std::string quotedPath(const std::string& path)
 {
   const char* const digits = "0123456789abcdef";
@@ -195,7 +195,7 @@ void ProgressReport::drawBar(double fraction)
   std::string line = "[" + std::string(full, '#') + std::string(cells - full, '.') + "] " + percent(fraction) + " " +
                      m_Stage.substr(0, 40) + (rest.empty() ? "" : ", about " + rest + " left");
   const std::size_t width = line.size();
-  // Blanks wipe what is left of a longer stage name.
+  // Blanks erase the rest of a longer line.
   if (width < m_BarWidth) line += std::string(m_BarWidth - width, ' ');
   m_BarWidth = width;
   m_Stream << "\r" << line << std::flush;

@@ -13,28 +13,28 @@
 namespace surgicalmesher
 {
 
-/// "40 s", "3 min", "2 h 10 min": how long a work goes on of which `fraction` took `seconds`; empty while too little of
-/// it is done to tell.
+/// Returns the estimated remaining time, such as "40 s", "3 min" or "2 h 10 min", of work of which `fraction` took
+/// `seconds`; empty while too little is done for an estimate.
 std::string timeLeft(double fraction, double seconds);
 
 class ProgressReport
 {
 public:
-  /// Warnings go to `warn`, but in XML, whose reader takes all that comes elsewhere for errors. Quiet: nothing is
-  /// written but warnings.
+  /// Warnings go to `warn`, except in XML, whose reader takes other output for errors; there they go to `stream`.
+  /// `quiet`: only warnings are written.
   ProgressReport(std::ostream& stream, ProgressFormat format, const std::string& title, bool quiet = false,
                  std::function<void(const std::string&)> warn = {});
 
-  /// May be called from several threads, as often as they like: at most ten updates a second are written (as lines: one
-  /// in five seconds), besides the beginning of each stage.
+  /// May be called from several threads, at any rate: besides the beginning of each stage, at most ten updates per
+  /// second are written (as lines of text: one in five seconds).
   void update(double fraction, const std::string& stage);
 
   /// A line of text between updates.
   void message(const std::string& line);
   void warning(const std::string& line);
 
-  /// A file that is in place, told in JSON only: programs that run others have to know. A byte of its path that is no
-  /// UTF-8 is a surrogate, \udcHH, as Python has it in paths.
+  /// Reports a file that is in place, in JSON only, for programs that run this one. A byte of the path that is not
+  /// UTF-8 becomes a surrogate, \udcHH, as in Python's file names.
   void output(const std::string& path);
 
   void finish(); ///< ends the stage, or the bar's line

@@ -26,11 +26,11 @@ double checkedLength(const SizingFunction& edgeLength, const Vec3& p)
   return length;
 }
 
-/// Places on the lattice, counted in halves of the finest cube there can be.
+/// Coordinates of lattice points, in halves of the finest possible cube.
 using Place = std::int64_t;
 using Places = std::array<Place, 3>;
 
-/// Is the place a vertex of the lattice of cubes of this size: a corner of a cube or its centre?
+/// Whether the place is a vertex of the lattice with cubes of this size: a corner of a cube or its centre.
 bool onLattice(const Places& place, Place size)
 {
   const auto remainder = [&](int axis) { return ((place[axis] % size) + size) % size; };
@@ -38,17 +38,18 @@ bool onLattice(const Places& place, Place size)
   return (first == 0 || 2 * first == size) && remainder(1) == first && remainder(2) == first;
 }
 
-/// The lattice's mean edge over L(x) is between half of this and this: every cube belongs to the nearest octave. Finer
-/// octaves alone would leave edges between L/2 and L, and the collapses that mend these destroy the lattice.
+/// The mean edge of the lattice over L(x) is between half of this value and this value: every cube belongs to the
+/// nearest octave. Rounding to the finer octave instead would leave edges between L/2 and L, and the edge collapses
+/// that mend these destroy the lattice.
 constexpr double kCoarsest = 1.41421356237309505;
 
-/// Octaves; places of log2 L that are no farther apart are near each other.
+/// In octaves: values of log2 L within this distance count as near each other.
 constexpr double kNearOctave = 0.05;
 
-/// From one to the other, on the circle of an octave: at most a half.
+/// Returns the signed distance from one place to the other on the circle of an octave, at most a half in magnitude.
 double circularStep(double from, double to) { return to - from - std::round(to - from); }
 
-/// A place of log2 L on the circle of an octave, and how many vertices of a lattice that fits L there it stands for.
+/// A value of log2 L on the circle of an octave, weighted by the number of vertices of a lattice that fits L there.
 struct Octave
 {
   double place, weight;
@@ -62,10 +63,10 @@ double weightNear(const std::vector<Octave>& octaves, double middle)
   return sum;
 }
 
-/// Where most of the octaves are near; the first of several places.
+/// Returns the place with the largest weight nearby; the first of several.
 double densestOctave(const std::vector<Octave>& octaves)
 {
-  constexpr int places = 40; // each near two others
+  constexpr int places = 40; // each within reach of two others
   double densest = 0, most = 0;
   for (int place = 0; place < places; ++place)
     if (const double weight = weightNear(octaves, double(place) / places); weight > most)
@@ -73,7 +74,7 @@ double densestOctave(const std::vector<Octave>& octaves)
   return densest;
 }
 
-/// Mean of the octaves near this one.
+/// Returns the mean of the octaves near `middle`.
 double meanNear(const std::vector<Octave>& octaves, double middle)
 {
   double sum = 0, weight = 0;
@@ -87,7 +88,7 @@ double meanNear(const std::vector<Octave>& octaves, double middle)
   return weight > 0 ? middle + sum / weight : middle;
 }
 
-/// Of the points that octaves are on a circle.
+/// Returns the direction of the mean of the octaves as points on a circle.
 double meanOnCircle(const std::vector<Octave>& octaves)
 {
   double x = 0, y = 0;
@@ -99,9 +100,9 @@ double meanOnCircle(const std::vector<Octave>& octaves)
   return std::atan2(y, x) / (2 * M_PI);
 }
 
-/// The cube's edge, within half an octave of the finest L(x), that makes the lattice's mean edge fit L(x) at as many of
-/// its vertices as can be, of those around the places `lengths` are from: by mean shift from the mean of log2 L, to the
-/// dense place beside it; where L(x) has few values, none may be near the mean.
+/// Returns the edge of the cube, within half an octave of the finest L(x), for which the lattice's mean edge fits L(x)
+/// at as many of its vertices as possible; `lengths` are samples of L(x). It is found by mean shift from the circular
+/// mean of log2 L; if no value is near that mean, as where L(x) has few values, from the densest place.
 double fittingCube(const std::vector<double>& lengths, double finest)
 {
   std::vector<Octave> octaves;
@@ -112,7 +113,8 @@ double fittingCube(const std::vector<double>& lengths, double finest)
   return finest * std::exp2(circularStep(0, octave)) / kLatticeMeanEdge;
 }
 
-/// An octree of lattice cubes in a box around the surface, `cube` times a power of 2 large, as L(x) allows.
+/// An octree of lattice cubes in a box around the surface. The edges of its cubes are `cube` times powers of 2, as L(x)
+/// requires.
 class LatticeOctree
 {
 public:
@@ -145,7 +147,8 @@ public:
     return m_Origin + m_Unit * Vec3{ double(place[0]), double(place[1]), double(place[2]) };
   }
 
-  /// Does the place belong to the lattice with mean edge `length`, or with the box's own blocks if these are smaller?
+  /// Whether the place belongs to the lattice with mean edge `length`, or to that of the blocks of the box if these are
+  /// smaller.
   bool hasPlaceAt(const Places& place, double length) const
   {
     Place size = m_Block;
@@ -156,7 +159,7 @@ public:
 private:
   static constexpr int kMaximumDepth = 20;
 
-  /// Too coarse at the cube's centre, or by more than half an octave at a corner.
+  /// Whether a cube is too coarse at its centre, or by more than half an octave at a corner.
   bool tooCoarse(const Places& corner, Place size) const
   {
     const double meanEdge = m_Unit * double(size) * kLatticeMeanEdge;
@@ -206,13 +209,12 @@ private:
   std::vector<Places> m_Places;
 };
 
-/// Points nearer to the surface than this many L(x) are moved off the lattice, by this share of L(x) at most. Shapes
-/// made by symmetry otherwise have places in common with the lattice's planes and spheres, and TetGen stumbles over
-/// coincidences.
+/// Points nearer to the surface than kNear L(x) are moved off the lattice by up to kOffLattice L(x). Symmetric shapes
+/// otherwise share positions with the planes and spheres of the lattice, and TetGen can fail on such coincidences.
 constexpr double kNear = 1.5;
 constexpr double kOffLattice = 0.01;
 
-/// A number in [-1, 1) that depends on the place and the axis alone, scattered by the finalizer of MurmurHash3.
+/// Returns a number in [-1, 1) that depends on the place and the axis alone, scattered by the finalizer of MurmurHash3.
 double scatter(const Places& place, int axis)
 {
   auto bits = static_cast<std::uint64_t>(axis);
@@ -225,12 +227,13 @@ double scatter(const Places& place, int axis)
   return double(bits >> 11) / double(std::uint64_t(1) << 52) - 1;
 }
 
-/// Calls f(i, walk) for every i below `count`, those of a fixed part in their order along a walk of its own: what it
-/// finds does not depend on the number of threads.
+/// Calls f(i, walk) for every i below `count`. Indices are divided into parts of fixed size, each with a walk of its
+/// own, so that the results do not depend on the number of threads.
 template <class F>
 void forEachAlongWalks(std::size_t count, const SurfaceLocator& locator, const F& f)
 {
-  constexpr std::size_t ofPart = 400; // few enough for all threads to share, and one in hundreds begins anew
+  // Small enough to balance the threads, large enough for the first query of a walk not to matter.
+  constexpr std::size_t ofPart = 400;
   parallelForEach((count + ofPart - 1) / ofPart,
                   [&](std::size_t part)
                   {
@@ -239,7 +242,7 @@ void forEachAlongWalks(std::size_t count, const SurfaceLocator& locator, const F
                   });
 }
 
-/// L(x) at the points of a grid that lie in tissues; at the surface's own if none does.
+/// Returns L(x) at the points of a grid that lie in tissues, or at the points of the surface if none does.
 std::vector<double> lengthsInside(const SurfaceComplex& surface, const SurfaceLocator& locator, const Vec3& low,
                                   const Vec3& high, const SizingFunction& edgeLength)
 {
@@ -268,7 +271,7 @@ std::vector<double> lengthsInside(const SurfaceComplex& surface, const SurfaceLo
   return found;
 }
 
-/// Outside the tissues the lattice's edges grow by this much per distance from the surface.
+/// Growth of the lattice's edge length outside the tissues per distance from the surface.
 constexpr double kOutsideGrowth = 0.5;
 
 } // namespace
@@ -302,7 +305,7 @@ std::vector<Vec3> latticePoints(const SurfaceComplex& surface, const SizingFunct
     Vec3& p = points[i] = octree.positionOf(places[i]);
     const double length = edgeLength(p);
     const auto known = walk.known(p);
-    if (known && !isDense(i, length, *known)) return; // even less so farther away
+    if (known && !isDense(i, length, *known)) return; // no denser farther away
     const SurfaceLocator::Answer answer = walk.ask(p);
     const bool dense = isDense(i, length, answer);
     keep[i] = dense && answer.distance >= clearance * length;

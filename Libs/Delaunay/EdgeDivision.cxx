@@ -12,7 +12,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double kLongest = 1.8; ///< of the length wanted: halves are then no shorter than 0.9 of it
+constexpr double kLongest = 1.8; ///< relative to the target length: the halves are then no shorter than 0.9 of it
 
 using Edge = std::pair<std::int32_t, std::int32_t>; ///< ascending
 
@@ -49,14 +49,14 @@ private:
     return std::minmax(ids[side], ids[(side + 1) % 3]);
   }
 
-  /// Equal lengths by the edges' ids.
+  /// Returns the squared length and the edge, so that ids break ties.
   std::pair<double, Edge> lengthOf(const Edge& edge) const
   {
     return { squaredNorm(m_Surface.points[edge.first] - m_Surface.points[edge.second]), edge };
   }
 
-  /// From an edge to the longest side of its triangles, and on from there while there is a longer one. Halving anything
-  /// else would not end where the lengths wanted change faster than triangles can.
+  /// Follows the longest side of the triangles at an edge until no longer side is found. Splitting any other edge first
+  /// might not terminate where the target length changes faster than triangles can.
   Edge longestOnPathFrom(Edge edge) const
   {
     for (auto longest = lengthOf(edge);; edge = longest.second)
@@ -109,7 +109,7 @@ private:
   SurfaceComplex m_Surface;
   const SizingFunction& m_EdgeLength;
   std::map<Edge, std::vector<std::int32_t>> m_TrianglesAt;
-  std::priority_queue<std::pair<double, Edge>> m_Queue; ///< equal lengths by the edges' ids
+  std::priority_queue<std::pair<double, Edge>> m_Queue; ///< ids break ties
 };
 
 } // namespace

@@ -14,7 +14,8 @@ namespace surgicalmesher
 namespace
 {
 
-/// Volumes below this share of a cube over the longest edge count as flat: what rounding can make of nothing.
+/// Tetrahedra whose volume is below this share of the cube of their longest edge count as flat; rounding alone reaches
+/// that order.
 constexpr double kFlat = 1e-11;
 
 using Tetrahedron = std::array<std::int32_t, 4>;
@@ -69,11 +70,11 @@ public:
   }
 
 private:
-  /// The tetrahedra around an edge, or none if it lies on an interface or on the hull of the mesh.
+  /// Returns the tetrahedra around an edge, or none if the edge lies on an interface or on the hull of the mesh.
   std::vector<std::int32_t> closedRing(std::int32_t p, std::int32_t q) const
   {
     std::vector<std::int32_t> ring;
-    std::vector<std::int32_t> link; // both others of each tetrahedron: every one twice if the ring is closed
+    std::vector<std::int32_t> link; // the other two points of each tetrahedron; in a closed ring each occurs twice
     for (const std::int32_t t : m_Stars[p])
     {
       if (!has(m_Mesh.tetrahedra[t], q)) continue;
@@ -92,7 +93,7 @@ private:
     return ring;
   }
 
-  /// Points from the edge's middle towards the rest of its ring, at several distances.
+  /// Returns points between the midpoint of the edge and the centre of the rest of its ring, at several distances.
   std::vector<Vec3> candidates(std::int32_t p, std::int32_t q, const std::vector<std::int32_t>& ring,
                                std::int32_t flat) const
   {

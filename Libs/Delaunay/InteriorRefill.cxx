@@ -15,14 +15,14 @@ namespace surgicalmesher
 namespace
 {
 
-/// Share of a tissue's tetrahedra that touch no boundary, from which on it has room.
+/// A tissue has room if at least this share of its tetrahedra touches no boundary.
 constexpr double kInnerShare = 0.1;
 
-/// Tetrahedra that the lattice would have in its volume, over those it has: less means that the tissue's own shape
-/// needs tetrahedra smaller than L, and the lattice's would not fit it.
+/// Lower bound on the number of lattice tetrahedra that fit the tissue's volume over the number that it has. Below, the
+/// shape of the tissue requires tetrahedra smaller than L, and the lattice's would not fit.
 constexpr double kLeastDensity = 0.5;
 
-/// How many tetrahedra of the lattice with mean edge `length` fill the volume: 12 to a cube.
+/// Returns the number of tetrahedra of the lattice with mean edge `length` that fill the volume: 12 per cube.
 double latticeTetrahedra(double volume, double length)
 {
   const double cube = length / kLatticeMeanEdge;
@@ -80,7 +80,7 @@ TetMesh withLatticeInside(const TetMesh& ambient, const std::set<Label>& tissues
   if (tissues.empty()) return ambient;
   TetMesh masked = ambient;
   for (Label& label : masked.labels) label = tissues.count(label) > 0 ? label : Label(0);
-  std::vector<std::int32_t> ambientId; // of the surface's points, then of the new ones
+  std::vector<std::int32_t> ambientId; // of the surface's points, then of the new points
   const SurfaceComplex surface = interfaceOf(masked, &ambientId);
   const std::optional<TetMesh> inside = filled(surface, edgeLength, name, placement);
   if (!inside) return ambient;

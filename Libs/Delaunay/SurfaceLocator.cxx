@@ -31,8 +31,9 @@ SurfaceLocator::Answer SurfaceLocator::ask(const Vec3& p, std::optional<bool> in
   return { std::sqrt(squared), inside ? *inside : labelTowards(p, primitive) != 0 };
 }
 
-/// The label at p: on the near side of the first triangle on the way to the middle of the closest one. (The closest
-/// triangle itself can't be asked: where it is closest with an edge, p may lie on either side of its plane.)
+/// Returns the label at p: that on the near side of the first triangle on the ray to the centroid of the closest one.
+/// The closest triangle itself is ambiguous: where the closest point is on its edge, p may lie on either side of its
+/// plane.
 Label SurfaceLocator::labelTowards(const Vec3& p, Iterator closest) const
 {
   const Kernel::Ray_3 ray(cgal(p), CGAL::centroid(*closest));

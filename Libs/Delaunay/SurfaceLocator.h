@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Where points lie with respect to a labelled surface.
+/// Position of points relative to a labelled surface.
 
 #include "TetMesh.h"
 
@@ -14,8 +14,8 @@
 namespace surgicalmesher
 {
 
-/// Safe to ask from several threads. Approximate arithmetic is good enough: a wrong answer costs a point, nothing else.
-/// Keeps a reference to the surface.
+/// Returns the distance of points to the surface and whether they are inside a tissue. Thread-safe. Approximate
+/// arithmetic suffices: a wrong answer costs one lattice point. Keeps a reference to the surface.
 class SurfaceLocator
 {
 public:
@@ -24,7 +24,7 @@ public:
   struct Answer
   {
     double distance; ///< to the surface, mm
-    bool inside;     ///< of some tissue
+    bool inside;     ///< whether the point is inside a tissue
   };
 
   Answer ask(const Vec3& p) const { return ask(p, {}); }
@@ -36,7 +36,7 @@ private:
   using Iterator = Triangles::const_iterator;
   using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Iterator>>>;
 
-  /// `inside` where it is known.
+  /// `inside`, if given, is the known side of p.
   Answer ask(const Vec3& p, std::optional<bool> inside) const;
   Label labelTowards(const Vec3& p, Iterator closest) const;
 
@@ -45,15 +45,15 @@ private:
   Tree m_Tree;
 };
 
-/// Asks about points one after the other, each near the one before: within that one's distance there is no surface
-/// between them. Keeps a reference to the locator.
+/// Queries a sequence of points, each near the previous one: within the distance of the previous point from the
+/// surface, the side cannot change. Keeps a reference to the locator.
 class SurfaceWalk
 {
 public:
   explicit SurfaceWalk(const SurfaceLocator& locator) : m_Locator(locator) {}
 
-  /// What the last point that was asked about tells of p: its side, and a distance that it has at least; nothing where
-  /// p is too far from it.
+  /// Returns what follows for p from the last query: its side and a lower bound on its distance; nothing if p is too
+  /// far away.
   std::optional<SurfaceLocator::Answer> known(const Vec3& p) const;
 
   SurfaceLocator::Answer ask(const Vec3& p);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A surface that can't be meshed, and the triangles to look at.
+/// Error for a surface that cannot be meshed, with the triangles at fault.
 
 #include "Errors.h"
 #include "TetMesh.h"
@@ -11,10 +11,10 @@ namespace surgicalmesher
 class SurfaceRefused : public InputError
 {
 public:
-  /// `offending` are indices of triangles of `surface`; repeated ones count once.
+  /// `offending` are indices of triangles of `surface`; duplicates are ignored.
   SurfaceRefused(const std::string& message, const SurfaceComplex& surface, std::vector<std::int32_t> offending);
 
-  /// The triangles at fault, with the points of the surface they use.
+  /// Returns the triangles at fault, with the points of the surface that they use.
   const SurfaceComplex& offending() const { return m_Offending; }
 
 private:

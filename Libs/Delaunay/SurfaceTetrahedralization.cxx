@@ -27,7 +27,7 @@ Triangle ascending(Triangle t)
 
 // ---- TetGen ---------------------------------------------------------------------------------------------------------
 
-/// tetgenio frees with delete[] what it is given.
+/// tetgenio frees its arrays with delete[].
 double* ownedCoordinates(const std::vector<Vec3>& points)
 {
   double* list = new double[3 * points.size()];
@@ -81,7 +81,7 @@ TetMesh meshOf(const tetgenio& output)
     mesh.tetrahedra.push_back({ ids[0], ids[1], ids[2], ids[3] });
     volume += orient(mesh.points[ids[0]], mesh.points[ids[1]], mesh.points[ids[2]], mesh.points[ids[3]]);
   }
-  // TetGen winds all alike; a nearly flat one must not be asked by itself.
+  // TetGen orients all tetrahedra alike; the sign of a single, nearly flat one is unreliable.
   for (auto& tetrahedron : mesh.tetrahedra)
   {
     if (volume < 0) std::swap(tetrahedron[0], tetrahedron[1]);
@@ -89,7 +89,7 @@ TetMesh meshOf(const tetgenio& output)
   return mesh;
 }
 
-// The answer of the process TetGen runs in: its code (0: done), then the arrays.
+// Result of the process that runs TetGen: its code (0: success), then the arrays.
 
 template <class Item>
 void append(std::string& bytes, const std::vector<Item>& items)
@@ -117,8 +117,8 @@ std::string runTetGen(const SurfaceComplex& surface, const std::vector<Vec3>& po
   input.numberofpoints = static_cast<int>(all.size());
   input.pointlist = ownedCoordinates(all);
   fillFacets(input, surface.triangles);
-  // Piecewise linear complex, no points added on it (Y), hull kept (c), neither facets nor points merged (M),
-  // numbering kept (J), no other output than tetrahedra (B), quiet (Q).
+  // p: piecewise linear complex, Y: no points added on it, c: convex hull kept, M: neither facets nor points merged, J:
+  // numbering kept, B: no output of boundary faces, Q: quiet.
   std::string switches = "pYcMJBQ";
   try
   {
@@ -135,7 +135,7 @@ std::string runTetGen(const SurfaceComplex& surface, const std::vector<Vec3>& po
   return answer;
 }
 
-/// The convex hull of all points, tetrahedralized; labels are still missing.
+/// Returns the tetrahedralized convex hull of all points, without labels.
 TetMesh constrainedDelaunay(const SurfaceComplex& surface, const std::vector<Vec3>& points)
 {
   const auto answer = runInSeparateProcess([&] { return runTetGen(surface, points); });
@@ -144,14 +144,14 @@ TetMesh constrainedDelaunay(const SurfaceComplex& surface, const std::vector<Vec
   if (code != 0) throw EngineError("constrained Delaunay: TetGen gave up with " + reasonOf(code));
   TetMesh mesh;
   take(*answer, take(*answer, 1, mesh.points), mesh.tetrahedra);
-  // Points TetGen tried and gave up go; the surface's keep their ids in any case.
+  // Points that TetGen tried and abandoned are removed; those of the surface always keep their ids.
   mesh.points = valuesAt(mesh.points, compactPoints(mesh.tetrahedra, mesh.points.size(), surface.points.size()));
   return mesh;
 }
 
 // ---- labels ---------------------------------------------------------------------------------------------------------
 
-/// Triangle of the surface by its ascending points.
+/// Looks up triangles of the surface by their sorted points.
 class TriangleIndex
 {
 public:
@@ -162,7 +162,7 @@ public:
     std::sort(m_Sorted.begin(), m_Sorted.end());
   }
 
-  /// -1 if these points are no triangle of the surface.
+  /// Returns -1 if these points form no triangle of the surface.
   std::int32_t find(const Triangle& points) const
   {
     const auto key = std::make_pair(ascending(points), std::int32_t(0));
@@ -174,7 +174,7 @@ private:
   std::vector<std::pair<Triangle, std::int32_t>> m_Sorted;
 };
 
-/// For every tetrahedron and face, the surface triangle there, or -1.
+/// Returns for every face of every tetrahedron the surface triangle there, or -1.
 std::vector<std::array<std::int32_t, 4>> trianglesAtFaces(const SurfaceComplex& surface, const TetMesh& mesh)
 {
   const TriangleIndex index(surface.triangles);
@@ -209,7 +209,8 @@ void requireEveryTriangle(const SurfaceComplex& surface, const std::vector<std::
                     " triangles are missing from TetGen's mesh, the first at " + place(surface.points[ids[0]]));
 }
 
-/// The label that the surface triangle asks for on the side of a tetrahedron with the face `outward`, wound outward.
+/// Returns the label of the surface triangle on the side of a tetrahedron; `outward` is the tetrahedron's face, wound
+/// outward.
 Label labelInside(const SurfaceComplex& surface, std::int32_t triangle, const Triangle& outward)
 {
   const Triangle& t = surface.triangles[triangle];
@@ -218,7 +219,7 @@ Label labelInside(const SurfaceComplex& surface, std::int32_t triangle, const Tr
   return surface.labels[triangle][normalPointsOut ? 0 : 1];
 }
 
-/// One label per region between triangles, from the label pairs of all of them, and 0 where the hull is.
+/// Returns one label per region between triangles, from the label pairs of all of them, and 0 at the hull.
 std::vector<Label> regionLabels(const SurfaceComplex& surface, const TetMesh& mesh, const std::string& name)
 {
   const FaceAdjacency neighbours = faceAdjacency(mesh);
@@ -283,7 +284,7 @@ TetMesh fillWithTetrahedra(const SurfaceComplex& surface, const SizingFunction& 
     }
     catch (const EngineError&)
     {
-      // Other points, other coincidences.
+      // The next clearance gives other points, free of this coincidence.
     }
   }
   return filled(0.75);

@@ -28,7 +28,7 @@ Kernel::Triangle_3 exact(const SurfaceComplex& surface, const Triangle& t)
   return { exact(surface.points[t[0]]), exact(surface.points[t[1]]), exact(surface.points[t[2]]) };
 }
 
-/// The corner order of `t` that begins with its points shared with `other`; and how many those are.
+/// Returns the corners of `t`, those shared with `other` first, and the number of shared corners.
 std::pair<Triangle, int> sharedFirst(const Triangle& t, const Triangle& other)
 {
   Triangle sorted = t;
@@ -44,7 +44,7 @@ bool oppositeEdgeMeets(const SurfaceComplex& surface, const Triangle& from, cons
   return CGAL::do_intersect(edge, exact(surface, to));
 }
 
-/// Triangles with a common edge overlap only if they lie in one plane on the same side of it.
+/// Triangles with a common edge overlap only if they are coplanar and on the same side of it.
 bool overlapAcrossEdge(const SurfaceComplex& surface, const Triangle& a, std::int32_t apex)
 {
   const auto p = exact(surface.points[a[0]]), q = exact(surface.points[a[1]]);
@@ -130,8 +130,9 @@ std::vector<EdgeUse> edgeUses(const SurfaceComplex& surface)
   return uses;
 }
 
-/// Triangles at the edges of a tissue's boundary that are at fault: those where the sides on which it lies don't
-/// alternate as they must around a closed boundary, or, with `overused`, those of more than two triangles.
+/// Returns the triangles at fault at the edges of a tissue's boundary: without `overused`, those at edges where the
+/// sides on which the tissue lies do not balance as around a closed boundary; with `overused`, those at edges of more
+/// than two triangles.
 std::vector<std::int32_t> faultyTriangles(const SurfaceComplex& surface, Label tissue, bool overused)
 {
   std::vector<std::int32_t> result;
@@ -239,7 +240,7 @@ bool runsAlong(const Triangle& t, std::int32_t from, std::int32_t to)
   return (t[0] == from && t[1] == to) || (t[1] == from && t[2] == to) || (t[2] == from && t[0] == to);
 }
 
-/// Shell of each triangle; turns triangles until all of a shell agree.
+/// Returns the shell of each triangle, after flipping triangles so that all of a shell are oriented alike.
 std::vector<std::int32_t> orientShells(SurfaceComplex& surface, const Neighbours& across, const std::string& name)
 {
   std::vector<std::int32_t> shell(surface.triangles.size(), -1);
@@ -282,11 +283,12 @@ std::vector<std::int32_t> orientShells(SurfaceComplex& surface, const Neighbours
 
 // ---- points ---------------------------------------------------------------------------------------------------------
 
-/// Points of a foreign surface closer than this share of its diagonal are one: seams of revolved shapes, whose sines
+/// Points of a foreign surface closer than this share of its diagonal are merged: seams of revolved shapes, whose sines
 /// differ in the last digits, and coordinates in single precision.
 constexpr double kSamePlace = 1e-6;
 
-/// Gives points their ids; one within the tolerance of an earlier one, or in the same cube of that width, gets its id.
+/// Assigns ids to points. A point within the tolerance of an earlier one, or in the same cube of that width, gets its
+/// id.
 class PointMerger
 {
 public:
@@ -374,8 +376,8 @@ std::vector<Shell> collectShells(const SurfaceComplex& surface, const std::vecto
   return shells;
 }
 
-/// Times the shell winds around p, by the sum of its solid angles (van Oosterom and Strackee 1983): 1 inside, 0
-/// outside.
+/// Returns how often the shell winds around p, from the sum of its solid angles (van Oosterom and Strackee 1983): 1
+/// inside, 0 outside.
 double windingNumber(const SurfaceComplex& surface, const Shell& shell, const Vec3& p)
 {
   double sum = 0;

@@ -21,25 +21,25 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double kReach = 1.5;    // of the force, times l
-constexpr double kSeen = 2.2;     // of the pairs kept for a round, in which points move
-constexpr double kTooClose = 0.5; // times l: one of the two goes
+constexpr double kReach = 1.5;    // range of the force, over l
+constexpr double kSeen = 2.2;     // range of the pairs kept for a round, during which points move, over l
+constexpr double kTooClose = 0.5; // over l: one of the two points is removed
 constexpr std::size_t kFewNeighbours = 11;
-constexpr double kRoomForOne = 0.75; // times L: no point within that of a new one
-constexpr double kAtRest = 0.01;     // times L
+constexpr double kRoomForOne = 0.75; // over L: no point may be within this distance of a new one
+constexpr double kAtRest = 0.01;     // over L
 constexpr int kRounds = 2;
 constexpr int kEvaluations = 10;
 
 double force(double s) { return s < kReach ? (1.25 * s - 2.375) * s * s + 1.125 : 0; }
 
-/// The force's integral from s to its end.
+/// Integral of the force from s to the end of its range.
 double potential(double s)
 {
   const auto integral = [](double u) { return ((0.3125 * u - 19.0 / 24) * u * u + 1.125) * u; };
   return s < kReach ? integral(kReach) - integral(s) : 0;
 }
 
-/// The points of a round: the surface's, which stay, then those that were placed.
+/// The points of a round: the fixed ones of the surface, then the placed ones.
 struct Cloud
 {
   std::vector<Vec3> points;
@@ -62,7 +62,7 @@ public:
     m_Locator->BuildLocator();
   }
 
-  /// Ascending; safe to ask from several threads.
+  /// Returns point ids, ascending. Thread-safe.
   std::vector<std::int32_t> within(double radius, const Vec3& p) const
   {
     const double x[3] = { p.x, p.y, p.z };
@@ -78,7 +78,7 @@ private:
   vtkNew<vtkStaticPointLocator> m_Locator;
 };
 
-/// Of the points that move: all within `reach` times the mean of both lengths.
+/// Returns, for the moving points, all points within `reach` times the mean of both target lengths.
 Neighbours neighboursOf(const Cloud& cloud, const PointSearch& search, double reach)
 {
   Neighbours neighbours(cloud.points.size());
@@ -96,7 +96,7 @@ Neighbours neighboursOf(const Cloud& cloud, const PointSearch& search, double re
   return neighbours;
 }
 
-/// F as a function of the points that move, for L-BFGS.
+/// F as a function of the moving points, for L-BFGS.
 class Penalty : public vnl_cost_function
 {
 public:
@@ -159,7 +159,7 @@ private:
   std::vector<double> m_Energies;
 };
 
-/// Whether a point has the fourteen neighbours of one lattice, the first shell at d and the second at 2 / sqrt(3) d.
+/// Whether a point has the fourteen neighbours of a regular lattice: the first shell at d, the second at 2 / sqrt(3) d.
 bool isWhole(const Cloud& cloud, const std::vector<std::int32_t>& neighbours, std::size_t i)
 {
   constexpr double second = 1.15470053837925153, slack = 0.04;
@@ -218,7 +218,7 @@ private:
     return answer.inside && answer.distance >= m_Clearance * m_EdgeLength(p);
   }
 
-  /// Returns the longest way that a point went, over L. One that came too near to the surface stays where it was.
+  /// Returns the longest displacement, over L. Points that would come too near to the surface stay where they are.
   double minimise()
   {
     const Neighbours neighbours = neighboursOf(m_Cloud, PointSearch(m_Cloud.points), kSeen);
@@ -243,7 +243,7 @@ private:
     return *std::max_element(moved.begin(), moved.end());
   }
 
-  /// Of two that are too close the later goes, if it moves.
+  /// Of two points that are too close, removes the later one, if it moves.
   std::size_t removeCrowded()
   {
     const Neighbours neighbours = neighboursOf(m_Cloud, PointSearch(m_Cloud.points), kTooClose);

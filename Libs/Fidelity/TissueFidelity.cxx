@@ -43,7 +43,7 @@ void add(Distances& all, const Distances& more)
 
 void finish(Distances& all) { all.mean = all.samples ? all.mean / double(all.samples) : 0; }
 
-/// Distances by tissue, each number of `parts` with sums of its own, so that they can be filled by any thread.
+/// Distances by tissue, with separate sums for each part of the work, so that any thread can add to a part.
 class Sums
 {
 public:
@@ -72,7 +72,7 @@ private:
   std::vector<std::vector<Distances>> m_Sums;
 };
 
-/// The triangles by the cells of a regular grid that their boxes touch.
+/// The triangles, listed in the cells of a regular grid that their bounding boxes touch.
 class TriangleGrid
 {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -94,7 +94,7 @@ public:
       extent += norm(to - from);
     }
     m_Origin = low;
-    constexpr double ofBox = 0.5; // smaller cells hold fewer triangles, of which most are in more of them
+    constexpr double ofBox = 0.5; // smaller cells hold fewer triangles each, but triangles are in more cells
     m_Size = std::max(ofBox * extent / double(surface.triangles.size()), 1e-9);
     const auto cells = [&]
     {
@@ -167,7 +167,7 @@ private:
         for (int i = from[0]; i <= to[0]; ++i) visit(cell(i, j, k));
   }
 
-  /// A bound from below that rounding spares.
+  /// A lower bound on the squared distance, safe against rounding.
   double squaredDistanceToCell(const Vec3& p, const Voxel& at) const
   {
     const double rounding = 1e-9 * m_Size;
@@ -204,7 +204,7 @@ private:
     }
   }
 
-  /// For the triangles nearest to a place.
+  /// The state of a search for the triangles nearest to p.
   struct Search
   {
     const Vec3& p;
@@ -212,12 +212,12 @@ private:
     std::array<double, 2> best{ infinity, infinity };     ///< squared distances
     std::array<double, 2> distance{ infinity, infinity }; ///< their roots
 
-    /// How far a nearer triangle of one of the tissues can be.
+    /// The distance beyond which no triangle can improve the result.
     double reach() const { return std::max(tissues[0] ? distance[0] : 0, tissues[1] ? distance[1] : 0); }
   };
 
-  /// Ring by ring, until there is a triangle of each tissue, or nothing left to look at. Returns a cell that was looked
-  /// at.
+  /// Searches the cells ring by ring until a triangle of each tissue is found or no cell is left. Returns a cell that
+  /// was searched.
   Voxel findAny(Search& search) const
   {
     Voxel centre;
@@ -237,7 +237,7 @@ private:
     for (const std::int32_t* t = m_Triangles.begin(at); t != m_Triangles.end(at); ++t) improve(search, *t);
   }
 
-  /// The cells that a box touches which reaches so far from p.
+  /// Calls visit(i, j, k) for the cells that the box of half-width `reach` around p touches.
   template <class Visit>
   void visitAround(const Vec3& p, double reach, const Visit& visit) const
   {
@@ -262,7 +262,7 @@ private:
     const std::array<bool, 2> isBound{ bounds(search.tissues[0]), bounds(search.tissues[1]) };
     if (!isBound[0] && !isBound[1]) return;
     const auto& [centre, radius] = m_Spheres[t];
-    const double farthest = // of a centre whose triangle can be nearer
+    const double farthest = // distance of a centre whose triangle can still be nearer
       radius + std::max(isBound[0] ? search.distance[0] : 0, isBound[1] ? search.distance[1] : 0);
     if (squaredNorm(search.p - centre) > farthest * farthest) return;
     const auto& [a, b, c] = m_Surface.triangles[t];
@@ -281,10 +281,10 @@ private:
     Vec3 centre;
     double radius;
   };
-  std::vector<Sphere> m_Spheres; ///< around the triangles: spare most of them the full distance
+  std::vector<Sphere> m_Spheres; ///< around the triangles, by which most are rejected without the full distance
 };
 
-/// `sums` has a part for each slice that has faces' lower voxels.
+/// `sums` has one part for each slice of forEachBoundaryFace().
 void measureFromMap(const SurfaceComplex& surface, const TissueMap& map, double bound, Sums& sums)
 {
   const TriangleGrid grid(surface);
@@ -303,7 +303,7 @@ void measureFromMap(const SurfaceComplex& surface, const TissueMap& map, double 
                   });
 }
 
-/// From p to the nearest face around the tissue in the map, at most eight of the smallest voxel sides.
+/// Distance from p to the nearest voxel face around the tissue in the map, limited to eight times the smallest spacing.
 double distanceToFaces(const TissueMap& map, const Vec3& p, Label tissue)
 {
   constexpr int mostReach = 8;
@@ -314,7 +314,7 @@ double distanceToFaces(const TissueMap& map, const Vec3& p, Label tissue)
   double best = mostReach * least * mostReach * least;
   for (int reach = 0; reach <= mostReach; ++reach)
   {
-    const double nearest = (reach - 1) * least; // of the faces of this shell
+    const double nearest = (reach - 1) * least; // lower bound for the faces of this shell
     if (reach > 0 && best <= nearest * nearest) break;
     for (int k = -reach; k <= reach; ++k)
     {
@@ -339,7 +339,7 @@ double distanceToFaces(const TissueMap& map, const Vec3& p, Label tissue)
   return std::sqrt(best);
 }
 
-/// Every vertex once for each tissue that it bounds, and every triangle's centroid.
+/// A sample of a tissue's surface: a vertex, once for each tissue that it bounds, or the centroid of a triangle.
 struct SurfaceSample
 {
   Vec3 place;

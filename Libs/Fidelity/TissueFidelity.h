@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// How far a surface is from the map that it was made of, seen from both sides, and tissue by tissue.
+/// Distances between a surface and the map that it was made from, in both directions and tissue by tissue.
 ///
-/// The distance from one side alone sees only half: a vertex deep inside a flat wall, or a bump on it, is near the
-/// boundary of nothing and far from no sample of the map (Aspert, Santa-Cruz and Ebrahimi, ICME 2002, section 2).
+/// One direction alone is not enough: where the surface has a stray vertex or a bump at a flat wall, it is far from
+/// every boundary of the map, although all samples of the map are near the surface (Aspert, Santa-Cruz and Ebrahimi,
+/// ICME 2002, section 2).
 
 #include "TetMesh.h"
 #include "TissueMap.h"
@@ -21,7 +22,7 @@ struct Distances
   std::size_t beyond = 0; ///< samples farther than the bound
   double mean = 0;        ///< mm
   double maximum = 0;     ///< mm
-  Vec3 farthest;          ///< the sample that is farthest, in the frame of the surface
+  Vec3 farthest;          ///< the farthest sample, in the frame of the surface
 };
 
 struct TissueFidelity
@@ -32,13 +33,15 @@ struct TissueFidelity
   Distances meshToMap;   ///< from the vertices and centroids of the tissue's surface to the voxel faces around it
 };
 
-/// Of every tissue of `map`, whose surface is `surface` (in the grid frame of the map, mm). Distances from the surface
-/// that are over eight voxels count as eight, and from the map to a tissue without a triangle as infinite. `bound`:
-/// what `beyond` counts against, mm. The same result whatever the number of threads.
+/// Assesses every tissue of `map` against `surface` (in the grid frame of the map, mm). Distances from the surface to
+/// the map are limited to eight times the smallest voxel spacing; distances from the map to a tissue without triangles
+/// are infinite. `bound`: distance (mm) above which samples count as `beyond`. The result does not depend on the number
+/// of threads.
 std::map<Label, TissueFidelity> assessFidelity(const SurfaceComplex& surface, const TissueMap& map,
                                                double bound = std::numeric_limits<double>::infinity());
 
-/// Both sides of all tissues taken together.
+/// Returns the distances of all tissues together, for one side: &TissueFidelity::mapToMesh or
+/// &TissueFidelity::meshToMap.
 Distances allDistances(const std::map<Label, TissueFidelity>& tissues, Distances TissueFidelity::*side);
 
 } // namespace surgicalmesher

@@ -10,7 +10,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr int kNone = -1; ///< in place of a triangle's fourth corner
+constexpr int kNone = -1; ///< in place of the fourth corner of a triangle
 
 constexpr int kWedgeFaces[5][4] = {
   { 0, 2, 1, kNone }, { 3, 4, 5, kNone }, { 0, 1, 4, 3 }, { 1, 2, 5, 4 }, { 2, 0, 3, 5 }

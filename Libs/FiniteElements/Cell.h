@@ -12,9 +12,10 @@
 namespace surgicalmesher
 {
 
-/// Node ids. An element of four is a tetrahedron, of six a wedge, of eight a hexahedron: the base counter-clockwise seen
-/// from inside, then the opposite side (or corner) in the same order, as in Abaqus; ten are a tetrahedron of second order
-/// (see SecondOrder.h). A face of three or four is counter-clockwise seen from outside; six are a triangle of second order.
+/// Node ids of an element or a face. An element of four nodes is a tetrahedron, of six a wedge, of eight a hexahedron:
+/// the base counter-clockwise as seen from inside, then the opposite side (or corner) in the same order, as in Abaqus.
+/// Ten nodes are a tetrahedron of second order (see SecondOrder.h). A face of three or four nodes is counter-clockwise
+/// as seen from outside; six nodes are a triangle of second order.
 class Cell
 {
 public:
@@ -48,8 +49,8 @@ private:
   std::size_t m_Size = 0;
 };
 
-/// A face of an element. Of a tetrahedron, `face` is the number of the corner opposite to it (see kFaceCorners); of
-/// wedges and hexahedra, 0 to 4 or 5 in Abaqus's order (S1 and up).
+/// A face of an element. For a tetrahedron, `face` is the number of the opposite corner (see kFaceCorners); for wedges
+/// and hexahedra, it is 0 to 4 or 5 in the order of Abaqus (S1 and up).
 struct ElementFace
 {
   std::int32_t element;
@@ -59,19 +60,21 @@ struct ElementFace
 int faceCount(const Cell& element);
 Cell faceOf(const Cell& element, int face);
 
-/// The same face seen from its other side, with the same first node.
+/// Returns the same face with the opposite orientation and the same first node.
 Cell turnedRound(const Cell& face);
 
-/// VTK numbers a wedge's triangles the other way round; other cells stay as they are.
+/// Returns the cell with VTK's node numbering, in which the triangles of a wedge have the opposite orientation; other
+/// cells are unchanged.
 Cell inOrderOfVtk(const Cell& cell);
 
-/// Ids in ascending order: equal for all windings.
+/// Returns the cell with its ids ascending, a key that is independent of the orientation.
 Cell sorted(Cell cell);
 
-/// Nodes of cells, ascending.
+/// Returns the nodes of the cells, ascending.
 std::vector<std::int32_t> nodesOf(const std::vector<Cell>& cells);
 
-/// Nodes, of `count`, where cells of several groups meet, ascending.
+/// Returns the nodes, out of `count`, at which cells of several groups meet, ascending. `group` holds the group of each
+/// cell.
 std::vector<std::int32_t> nodesOfSeveral(const std::vector<Cell>& cells, std::size_t count,
                                          const std::vector<std::int32_t>& group);
 

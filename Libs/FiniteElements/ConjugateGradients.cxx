@@ -41,7 +41,7 @@ NodalVector inverseDiagonal(const BlockMatrix& matrix)
   return result;
 }
 
-/// Eigenvalues of a Lanczos matrix below x, by Sturm's sequence.
+/// Returns the number of eigenvalues of a Lanczos matrix below x, by Sturm's sequence.
 int countBelow(const LanczosMatrix& lanczos, double x)
 {
   int count = 0;
@@ -56,11 +56,11 @@ int countBelow(const LanczosMatrix& lanczos, double x)
   return count;
 }
 
-/// An eigenpair of the Lanczos matrix that is one of the whole matrix as well.
+/// An eigenpair of the Lanczos matrix that is also one of the whole matrix, up to a small residual.
 struct RitzPair
 {
   double value;
-  std::vector<double> weights; ///< of the Lanczos vectors
+  std::vector<double> weights; ///< coefficients of the Lanczos vectors
 };
 
 std::vector<RitzPair> lowestRitzPairs(const LanczosMatrix& lanczos, int most)
@@ -109,7 +109,7 @@ std::vector<double> LanczosMatrix::eigenvector(double eigenvalue) const
 {
   const int n = size();
   const auto notZero = [](double pivot) { return pivot == 0 ? 1e-300 : pivot; };
-  std::vector<double> down(n), up(n); // pivots of elimination from either end
+  std::vector<double> down(n), up(n); // pivots of the eliminations from the two ends
   for (int i = 0; i < n; ++i)
     down[i] = notZero(diagonal[i] - eigenvalue - (i > 0 ? beside[i - 1] * beside[i - 1] / down[i - 1] : 0));
   for (int i = n - 1; i >= 0; --i)
@@ -143,7 +143,7 @@ Solution solve(const BlockMatrix& matrix, const NodalVector& load, double tolera
   precondition(r, z);
   NodalVector direction = z;
   const double enough = tolerance * tolerance * dot(load, load);
-  const int most = 1000 + static_cast<int>(3 * load.size()); // rounding delays what n steps would end
+  const int most = 1000 + static_cast<int>(3 * load.size()); // more than n steps, since rounding delays convergence
   double rz = dot(r, z), turnBefore = 0, stepBefore = 1;
   for (; solution.iterations < most && dot(r, r) > enough; ++solution.iterations)
   {
@@ -178,7 +178,7 @@ std::vector<ScaledMode> lowestModes(const BlockMatrix& matrix, const NodalVector
   for (Vec3& s : scale) s = { std::sqrt(s.x), std::sqrt(s.y), std::sqrt(s.z) };
   const auto add = [&](int iteration, const NodalVector& r, double product)
   {
-    const double sign = iteration % 2 == 0 ? 1 : -1; // of the Lanczos vectors
+    const double sign = iteration % 2 == 0 ? 1 : -1; // the Lanczos vectors alternate in sign
     parallelForEach(modes.size(),
                     [&](std::size_t m)
                     {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Conjugate gradients, preconditioned by the diagonal, and what they tell of a matrix: its eigenvalues and modes.
+/// Conjugate gradients with Jacobi preconditioning, and the eigenvalues and modes of the matrix that they yield.
 
 #include "StiffnessMatrix.h"
 
@@ -10,29 +10,30 @@
 namespace surgicalmesher
 {
 
-/// One value or force per row.
+/// One vector (displacement or force) per block row.
 using NodalVector = std::vector<Vec3>;
 
 double dot(const NodalVector& a, const NodalVector& b);
 
-/// Symmetric tridiagonal: the preconditioned matrix as seen in the space that conjugate gradients search (Golub, Van
-/// Loan, Matrix Computations, 10.2). Its eigenvalues lie within those of the matrix, the outer ones soon at them; in
-/// finite precision there are copies of those that were found early.
+/// Symmetric tridiagonal matrix: the projection of the preconditioned matrix onto the Krylov space of conjugate
+/// gradients (Golub, Van Loan, Matrix Computations, 10.2). Its eigenvalues lie within the range of those of the matrix,
+/// and the outer ones converge first; in finite precision, copies of eigenvalues found early appear.
 struct LanczosMatrix
 {
   std::vector<double> diagonal, beside;
-  double next = 0; ///< what would stand beside the last diagonal
+  double next = 0; ///< the next off-diagonal entry, beside the last diagonal one
 
   int size() const { return static_cast<int>(diagonal.size()); }
 
-  /// The eigenvalue that `below` others are smaller than, by bisection with Sturm's sequence. All are positive and at
-  /// most 12: an element's matrix has at most the trace of its own diagonal's.
+  /// Returns the eigenvalue that exactly `below` others are smaller than, by bisection with Sturm's sequence. All
+  /// eigenvalues are positive and at most 12, since those of an element's matrix preconditioned by its own diagonal are
+  /// at most its trace.
   double eigenvalue(int below) const;
   double smallest() const { return eigenvalue(0); }
   double largest() const { return eigenvalue(size() - 1); }
 
-  /// The eigenvector of an eigenvalue, of length 1, by twisted factorisation (Dhillon, Parlett, SIAM Journal on Matrix
-  /// Analysis and Applications 25(3), 2004).
+  /// Returns the eigenvector of an eigenvalue, of length 1, by twisted factorisation (Dhillon, Parlett, SIAM Journal on
+  /// Matrix Analysis and Applications 25(3), 2004).
   std::vector<double> eigenvector(double eigenvalue) const;
 };
 
@@ -43,24 +44,25 @@ struct Solution
   bool converged = false;
 };
 
-/// Is told before every iteration the residual, and the preconditioned one's product with it.
+/// Called before every iteration with the residual and its product with the preconditioned residual.
 using ResidualObserver = std::function<void(int iteration, const NodalVector& residual, double product)>;
 
-/// Until the residual is `tolerance` of the load; that is the one that iterations carry on, which can fall as far as one
-/// likes: eigenvalues come out the better for it. Deterministic, whatever the number of threads.
+/// Solves until the residual norm is at most `tolerance` times that of the load. This is the recursively updated
+/// residual, which can fall arbitrarily far; a small tolerance improves the eigenvalues. The result does not depend on
+/// the number of threads.
 Solution solve(const BlockMatrix& matrix, const NodalVector& load, double tolerance,
                const ResidualObserver& observer = {});
 
-/// A mode of the matrix after division by its diagonal.
+/// An eigenmode of the matrix scaled symmetrically by its diagonal.
 struct ScaledMode
 {
   double eigenvalue = 0;
-  NodalVector shape; ///< in the scaled unknowns; of length 1
+  NodalVector shape; ///< in the scaled unknowns, of length 1
 };
 
-/// The modes of the lowest eigenvalues that the solution of solve(matrix, load, tolerance) has found, with a residual of
-/// less than a hundredth of them; `most` of them at most, ascending, each once. Solves again, as the vectors that they
-/// are sums of are too many to be kept.
+/// Returns the modes of the lowest eigenvalues that the solution of solve(matrix, load, tolerance) contains with a
+/// residual below a hundredth of the eigenvalue: at most `most`, ascending, without copies. Solves the system again,
+/// since the vectors that the modes are combined from are too many to be kept.
 std::vector<ScaledMode> lowestModes(const BlockMatrix& matrix, const NodalVector& load, const Solution& solution,
                                     double tolerance, int most);
 

@@ -10,7 +10,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// `atTarget` 0 is `atEntry`.
+/// `atTarget` 0 stands for `atEntry`.
 bool isInTube(const Vec3& x, const std::vector<Path>& paths, double atEntry, double atTarget)
 {
   return std::any_of(paths.begin(), paths.end(),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Constitutive classes by distance from the surgery: where tissue deforms most it is worth a nonlinear law, farther
-/// away a linear one, and farthest it is held still (Audette et al., Computer Aided Surgery 12(1), 2007).
+/// Constitutive classes by distance from the surgery: a nonlinear law where tissue deforms most, a linear one farther
+/// away, and null displacement farthest away (Audette et al., Computer Aided Surgery 12(1), 2007).
 
 #include "Distance.h"
 #include "TetMesh.h"
@@ -11,29 +11,29 @@
 namespace surgicalmesher
 {
 
-/// Constitutive classes, as MeshFile::constitutive has them.
+/// Constitutive classes, as stored in MeshFile::constitutive.
 constexpr std::int32_t kLinear = 0, kNonlinear = 1, kNullDisplacement = 2;
 
 struct ConstitutiveRule : Focus
 {
-  double nonlinearDistance = 0; ///< mm from a target or path; 0: classes stay as they are
-  /// mm; the distance from paths goes linearly with arc length from nonlinearDistance at the entry to this at the target
-  /// end; 0: it is the same all along.
+  double nonlinearDistance = 0; ///< mm from a target or path; 0: classes are unchanged
+  /// Nonlinear distance at the target end of paths, mm; along a path, the distance varies linearly with arc length from
+  /// nonlinearDistance at the entry to this value. 0: constant along the path.
   double nonlinearDistanceAtTarget = 0;
-  // Null displacement, with the meaning that NullDisplacementOptions gives to the same names.
+  // Null displacement; the members have the same meaning as in NullDisplacementOptions.
   double nullTargetRadius = 0;
   double nullPathDistance = 0;
   double nullPathDistanceAtTarget = 0;
 };
 
-/// Throws UsageError if a distance is negative or not finite, or has no target or path to be measured from, or a target
-/// or path has no distance to go with it.
+/// Throws UsageError if a distance is negative or not finite, if there is no target or path to measure a distance from,
+/// or if there is a target or path but no distance.
 void checkConstitutiveRule(const ConstitutiveRule& rule);
 
-/// Changes the classes (0 linear, 1 nonlinear, 2 null displacement) of tetrahedra by where their centroids lie:
-/// nonlinear up to the nonlinear distance from the nearest target or path and linear beyond; null displacement where a
-/// centroid is both beyond the radius of every target and outside the tube around every path. What is null displacement
-/// already stays so. Tetrahedra and rule in the same frame; throws as checkConstitutiveRule does.
+/// Sets the classes (0 linear, 1 nonlinear, 2 null displacement) of tetrahedra by the positions of their centroids:
+/// nonlinear up to the nonlinear distance from the nearest target or path, linear beyond; null displacement where a
+/// centroid is both beyond the radius of every target and outside the tube around every path. Tetrahedra of class 2
+/// keep it. Tetrahedra and rule must be in the same frame. Throws as checkConstitutiveRule does.
 void tagByDistance(const TetMesh& mesh, const ConstitutiveRule& rule, std::vector<std::int32_t>& constitutive);
 
 } // namespace surgicalmesher

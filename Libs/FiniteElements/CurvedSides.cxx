@@ -14,16 +14,17 @@ namespace
 {
 
 constexpr double kLeastJacobian = 0.3;
-constexpr double kFarthest = 0.15;            ///< of an edge's length
+constexpr double kFarthest = 0.15;            ///< relative to the length of the edge
 constexpr double kSharpCosine = 0.7660444431; ///< of 40 degrees
 
-/// The corners of each middle node of a tetrahedron, from the fifth node on; of a triangle the first three.
+/// The corners at the ends of each mid-side node of a tetrahedron, from the fifth node on; the first three also apply
+/// to triangles.
 constexpr int kEnds[6][2] = { { 0, 1 }, { 1, 2 }, { 0, 2 }, { 0, 3 }, { 1, 3 }, { 2, 3 } };
 
-/// The place of the middle node between two corners of a tetrahedron among its nodes.
+/// Index, among the nodes of a tetrahedron, of the mid-side node between two corners.
 constexpr int kMiddle[4][4] = { { -1, 4, 6, 7 }, { 4, -1, 5, 8 }, { 6, 5, -1, 9 }, { 7, 8, 9, -1 } };
 
-/// An edge of a boundary: its middle node, its ends and its triangles there.
+/// An edge of a boundary: its ends and the boundary's triangles there.
 struct BoundaryEdge
 {
   std::int32_t ends[2];
@@ -51,10 +52,10 @@ public:
     }
   }
 
-  /// By middle node.
+  /// Returns the edges by their mid-side nodes.
   const std::map<std::int32_t, BoundaryEdge>& edges() const { return m_Edges; }
 
-  /// How far the middle of an edge of this boundary alone goes out.
+  /// Returns the displacement of the midpoint of an edge; zero if the edge is to stay straight.
   Vec3 offset(const BoundaryEdge& edge) const
   {
     if (edge.triangles.size() != 2) return {};
@@ -68,7 +69,7 @@ public:
   }
 
 private:
-  /// Of the triangles about a point that face the way `across` does.
+  /// Returns the unit normal at a point from the triangles around it whose normals are close to `across`.
   Vec3 normalAt(std::int32_t point, const Vec3& across) const
   {
     Vec3 sum;
@@ -81,12 +82,12 @@ private:
   }
 
   const std::vector<Vec3>& m_Points;
-  std::vector<Vec3> m_Normals; ///< twice the areas
+  std::vector<Vec3> m_Normals; ///< length: twice the area
   std::map<std::int32_t, std::vector<std::size_t>> m_About;
   std::map<std::int32_t, BoundaryEdge> m_Edges;
 };
 
-/// New places of middle nodes.
+/// Returns the new positions of mid-side nodes.
 std::map<std::int32_t, Vec3> curvedPlaces(const FiniteElementModel& model)
 {
   const std::vector<Vec3>& points = model.content.mesh.points;
@@ -94,18 +95,19 @@ std::map<std::int32_t, Vec3> curvedPlaces(const FiniteElementModel& model)
   std::set<std::int32_t> seen;
   for (const SurfaceSet& surface : model.surfaces)
   {
-    if (surface.kind != SetKind::TissueInterface || surface.ids[0] < surface.ids[1]) continue; // one of two sides
+    if (surface.kind != SetKind::TissueInterface || surface.ids[0] < surface.ids[1]) continue; // one of the two sides
     const Boundary boundary(surface.cells, points);
     for (const auto& [middle, edge] : boundary.edges())
     {
-      if (!seen.insert(middle).second) places.erase(middle); // boundaries meet there
+      if (!seen.insert(middle).second) places.erase(middle); // several boundaries meet here
       else if (const Vec3 offset = boundary.offset(edge); norm(offset) > 0) places[middle] = points[middle] + offset;
     }
   }
   return places;
 }
 
-/// Derivatives of the place at a corner by the second to fourth barycentric coordinate, the first giving way.
+/// Returns the derivatives of the position at a corner with respect to the second to fourth barycentric coordinates;
+/// the first is eliminated.
 std::array<Vec3, 3> derivativesAt(int corner, const Cell& nodes, const std::vector<Vec3>& points)
 {
   const auto by = [&](int i)
@@ -125,8 +127,9 @@ double leastJacobian(const Cell& tetrahedron, const std::vector<Vec3>& points)
 {
   std::array<std::array<Vec3, 3>, 4> at;
   for (int corner = 0; corner < 4; ++corner) at[corner] = derivativesAt(corner, tetrahedron, points);
-  // Derivatives are linear, so that the determinant is the sum over i, j and k of the product of their barycentric
-  // coordinates and of this determinant; a coefficient is the mean of those with the same three in any order.
+  // The derivatives are linear in the barycentric coordinates, so that the determinant is the sum over i, j and k of
+  // the product of these coordinates and this determinant. A Bernstein coefficient is the mean over the permutations of
+  // three indices.
   std::map<std::array<int, 3>, std::pair<double, int>> sums;
   for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j)
@@ -149,7 +152,7 @@ double leastJacobian(const Cell& tetrahedron, const std::vector<Vec3>& points)
 FiniteElementModel withCurvedSides(FiniteElementModel model)
 {
   std::vector<Vec3>& points = model.content.mesh.points;
-  std::map<std::int32_t, Vec3> straight; // of nodes that are off it now
+  std::map<std::int32_t, Vec3> straight; // straight positions of the nodes moved so far
   for (const auto& [middle, place] : curvedPlaces(model)) straight[middle] = std::exchange(points[middle], place);
   for (bool changed = true; changed;)
   {

@@ -15,7 +15,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Of a symmetric matrix, descending.
+/// Returns the eigenvalues of a symmetric matrix, descending.
 std::array<double, 3> eigenvalues(double (&matrix)[3][3])
 {
   double vectors[3][3];
@@ -25,7 +25,7 @@ std::array<double, 3> eigenvalues(double (&matrix)[3][3])
   return values;
 }
 
-/// sum of g g^T over the corners.
+/// Returns the eigenvalues of the sum of g g^T over the corners.
 std::array<double, 3> principalGradients(const LinearTetrahedron& element)
 {
   double gram[3][3] = {};
@@ -35,8 +35,9 @@ std::array<double, 3> principalGradients(const LinearTetrahedron& element)
   return eigenvalues(gram);
 }
 
-/// The largest eigenvalue of D^1/2 B B^T D^1/2, in the frame where sum g g^T is diagonal: there the six strains fall
-/// apart into three shears, mu (c_i + c_j), and the normal ones, sqrt(c) (lambda 1 1^T + 2 mu I) sqrt(c).
+/// Returns the largest eigenvalue of D^1/2 B B^T D^1/2. In the frame where the sum of g g^T is diagonal, the six
+/// strains decouple into three shear strains, mu (c_i + c_j), and the normal strains, sqrt(c) (lambda 1 1^T + 2 mu I)
+/// sqrt(c).
 double largestStiffness(const std::array<double, 3>& c, const LameConstants& lame)
 {
   double normal[3][3];

@@ -17,11 +17,11 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr std::size_t kHalfName = 34; ///< of two names joined into one
+constexpr std::size_t kHalfName = 34; ///< for each of two names joined into one
 
 using Ids = std::vector<std::int32_t>;
 
-/// The face beyond each face of each element; its element is -1 at the mesh's boundary.
+/// The neighbouring face of each face of each element; its element is -1 at the boundary of the mesh.
 using Neighbours = std::vector<std::array<ElementFace, 6>>;
 
 Neighbours neighboursOf(const std::vector<Cell>& elements)
@@ -47,13 +47,14 @@ Neighbours neighboursOf(const std::vector<Cell>& elements)
   return result;
 }
 
-/// The two sides of an interface: faces of the group with the higher id, and of the other.
+/// The two sides of an interface: faces of elements of the group with the higher id, and of the other group.
 struct Interface
 {
-  std::vector<ElementFace> high, low; ///< `low` is empty at the mesh's own boundary
+  std::vector<ElementFace> high, low; ///< `low` is empty at the boundary of the mesh
 };
 
-/// Interfaces between groups of elements by [higher, lower] group; `outside` is the group beyond the mesh.
+/// Interfaces between groups of elements by [higher, lower] group; the space beyond the mesh counts as a group of its
+/// own.
 using Interfaces = std::map<std::array<std::int32_t, 2>, Interface>;
 
 template <class Group>
@@ -135,7 +136,7 @@ public:
   }
 
 private:
-  /// Names that mean the same in every file come first: no tissue may take them.
+  /// Reserves the names that have the same meaning in every file first, so that no tissue takes them.
   void reserveNames()
   {
     for (const char* name : { "all_nodes", "all_elements", "outer_boundary", "outer_boundary_nodes",
@@ -187,7 +188,8 @@ private:
     }
   }
 
-  /// The faces of `like`, turned round, if it is given: both sides list them alike.
+  /// Adds a surface. If `like` is given, its faces are used with opposite orientation, so that both sides list them in
+  /// the same order.
   void addSurface(SetInfo info, const std::vector<ElementFace>& faces, const std::string& nodeSet,
                   const SurfaceSet* like = nullptr)
   {
@@ -218,7 +220,7 @@ private:
                nodesOf(m_Model.surfaces.back().cells));
   }
 
-  /// Two surfaces and the set of the nodes that both have.
+  /// Adds two surfaces and the set of their common nodes.
   void addInterface(const std::array<std::int32_t, 2>& ids, const Interface& interface, SetKind kind,
                     std::map<std::int32_t, std::string>& names, const std::string& original)
   {
@@ -282,7 +284,7 @@ private:
     addNodeSet(info(nodes, name, SetKind::Named, {}), points);
   }
 
-  /// Index of the material of a tissue under `law`; made when first asked for.
+  /// Returns the index of the material of a tissue under `law`, creating it on first use.
   std::int32_t materialOf(std::int32_t label, MaterialLaw law)
   {
     const auto row = m_Options.materials.find(static_cast<Label>(label));
@@ -376,8 +378,8 @@ private:
     return m_BeamMaterial = static_cast<std::int32_t>(m_Model.materials.size() - 1);
   }
 
-  /// A curve's edges by radius: sections of a model are constant, so that those within 5 % share one, of the same area
-  /// together.
+  /// Divides the edges of a curve by radius, since the section of a beam is constant: edges with radii within about 5 %
+  /// share one section, whose area is the mean of theirs.
   void addBeams(std::size_t number)
   {
     const CurveChain& curve = m_Model.content.curves[number];
@@ -411,7 +413,8 @@ private:
   Neighbours m_Neighbours;
   SetNames m_Names;
   std::map<std::int32_t, std::string> m_TissueName, m_SubMeshName, m_ClassName;
-  std::map<std::pair<std::int32_t, MaterialLaw>, std::int32_t> m_MaterialIndex; ///< label, -1 for the default
+  /// By label (-1 for the default material) and law.
+  std::map<std::pair<std::int32_t, MaterialLaw>, std::int32_t> m_MaterialIndex;
   std::set<Cell> m_ShellFaces;
   std::int32_t m_BeamMaterial = -1;
 };

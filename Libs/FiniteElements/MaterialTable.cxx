@@ -15,7 +15,8 @@ namespace surgicalmesher
 namespace
 {
 
-// Divisors, not factors: a power of ten is a number of the machine, its inverse is not, and 9 kPa is to be 0.009 MPa.
+// Divisors rather than factors: powers of ten are exact in binary floating point, their inverses are not, and 9 kPa
+// must become 0.009 MPa.
 constexpr double kKiloPascal = 1e3;     ///< per MPa
 constexpr double kKilogramPerM3 = 1e12; ///< per tonne/mm^3
 constexpr const char* kColumnNames[] = { "tissue", "model", "youngsModulus", "poissonsRatio", "density" };

@@ -57,7 +57,8 @@ std::optional<NodeChoice> findChoice(const std::string& text)
   return {};
 }
 
-/// Throws for a point that is farther from its node than the mesh is large: it is another mesh's, or in other units.
+/// Throws InputError for a point farther from the mesh than the mesh is large: it belongs to another mesh or has other
+/// units.
 std::int32_t nearestNode(const NodeChoice& choice, const std::vector<Vec3>& points)
 {
   const Vec3& place = choice.a;

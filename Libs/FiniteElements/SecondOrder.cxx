@@ -27,7 +27,7 @@ std::vector<Edge> edgesOf(const std::vector<Cell>& elements)
   return edges;
 }
 
-/// Adds the middle nodes of edges to cells.
+/// Appends mid-side nodes to cells.
 class MidSideNodes
 {
 public:
@@ -38,7 +38,7 @@ public:
 
   const std::vector<Edge>& edges() const { return m_Edges; }
 
-  /// Tetrahedra, or triangles.
+  /// Appends to tetrahedra or triangles.
   void addTo(std::vector<Cell>& cells) const
   {
     for (Cell& cell : cells)
@@ -49,7 +49,7 @@ public:
     }
   }
 
-  /// The middle nodes of edges whose ends are both among `corners`, which is ascending.
+  /// Returns the mid-side nodes of edges whose two ends are in `corners`, which must be ascending.
   std::vector<std::int32_t> among(const std::vector<std::int32_t>& corners) const
   {
     const auto isIn = [&](std::int32_t id) { return std::binary_search(corners.begin(), corners.end(), id); };
@@ -87,7 +87,7 @@ void addPoints(MeshFile& content, const std::vector<Edge>& edges)
   content.interfaceId.clear();
 }
 
-/// What the set is of a model whose elements and surfaces have their middle nodes.
+/// Returns the members of a set for a model whose elements and surfaces already have their mid-side nodes.
 std::vector<std::int32_t> membersOf(const NodeSet& set, const FiniteElementModel& model, const MidSideNodes& nodes)
 {
   if (set.kind == SetKind::Named)

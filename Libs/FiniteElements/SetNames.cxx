@@ -9,12 +9,12 @@ namespace surgicalmesher
 namespace
 {
 
-/// Letters without their accents: U+00C0 to U+017F; _ where there is no single one.
+/// U+00C0 to U+017F without accents; _ where no single letter corresponds.
 constexpr const char* kLatin = "AAAAAAACEEEEIIIIDNOOOOO_OUUUUYTsaaaaaaaceeeeiiiidnooooo_ouuuuyty"
                                "AaAaAaCcCcCcCcDdDdEeEeEeEeEeGgGgGgGgHhHhIiIiIiIiIiIiJjKkkLlLlLlL"
                                "lLlNnNnNnnNnOoOoOoOoRrRrRrSsSsSsSsTtTtTtUuUuUuUuUuUuWwYyYZzZzZzs";
 
-/// Bytes of the UTF-8 character at `at`, 1 for a byte that begins none.
+/// Returns the number of bytes of the UTF-8 character at `at`, 1 for an invalid byte.
 std::size_t bytesAt(const std::string& text, std::size_t at)
 {
   const auto lead = static_cast<unsigned char>(text[at]);
@@ -27,7 +27,8 @@ std::size_t bytesAt(const std::string& text, std::size_t at)
   return count;
 }
 
-/// The character at `at` as an ASCII letter or digit, or an underscore. Single bytes above ASCII are Latin-1.
+/// Returns the character at `at` as an ASCII letter or digit, or an underscore. Single bytes above ASCII are taken as
+/// Latin-1.
 char asciiAt(const std::string& text, std::size_t at, std::size_t bytes)
 {
   const auto lead = static_cast<unsigned char>(text[at]);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Names that every format accepts.
+/// Set names that every export format accepts.
 ///
-/// One grammar for all: an ASCII letter, then letters, digits and underscores (no two in a row, none at the end), at
-/// most 80 characters (CalculiX), different from all others in upper case, too (Abaqus and CalculiX fold).
+/// All formats use one grammar: an ASCII letter, then letters, digits and underscores (no two in a row, none at the
+/// end), at most 80 characters (CalculiX). Names are distinct even without regard to case (Abaqus and CalculiX fold
+/// case).
 
 #include <cstddef>
 #include <set>
@@ -14,21 +15,22 @@ namespace surgicalmesher
 
 constexpr std::size_t kLongestName = 80;
 
-/// `text` (UTF-8) in that grammar: Latin letters lose their accents, anything else becomes an underscore, leading
-/// digits get an `n` before them; a text longer than `length` keeps its head and its tail, where left and right differ.
-/// Empty if no letter or digit is left.
+/// Returns `text` (UTF-8) converted to this grammar: Latin letters lose their accents, other characters become
+/// underscores, and leading digits get the prefix `n`. A text longer than `length` keeps its head and its tail, since
+/// names of left and right structures often differ there. Returns an empty string if no letter or digit is left.
 std::string validName(const std::string& text, std::size_t length = kLongestName);
 
-/// `text` with bytes that are no UTF-8 taken as Latin-1: what JSON and XML can carry.
+/// Returns `text` as valid UTF-8 for JSON and XML; bytes that are not UTF-8 are taken as Latin-1.
 std::string validUtf8(const std::string& text);
 
-/// Names given out so far.
+/// Generator of distinct names.
 class SetNames
 {
 public:
   explicit SetNames(std::size_t longest = kLongestName) : m_Longest(longest) {}
 
-  /// The valid name of `text`, or of `fallback` if none is left, with _2, _3 ... at its end if it is taken.
+  /// Returns the valid name of `text`, or of `fallback` if that is empty, with the suffix _2, _3 ... if it is already
+  /// taken.
   std::string unique(const std::string& text, const std::string& fallback = "unnamed");
 
 private:

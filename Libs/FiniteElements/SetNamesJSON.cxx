@@ -11,7 +11,7 @@ namespace
 
 void write(JsonWriter& json, const char* key, const std::string& value) { writeMember(json, key, validUtf8(value)); }
 
-/// Begins the set's object; the caller ends it.
+/// Begins the object of a set; the caller ends it.
 void writeSet(JsonWriter& json, const SetInfo& set, const std::string& type, std::size_t size)
 {
   json.StartObject();
@@ -26,7 +26,7 @@ void writeSet(JsonWriter& json, const SetInfo& set, const std::string& type, std
   writeMember(json, "size", size);
 }
 
-/// And the tags of the disjoint pieces that formats with one number per face know.
+/// Writes the tag of a face set and the tags of its disjoint pieces, for formats with one number per face.
 void writeFaceTags(JsonWriter& json, const SetTags& tags, std::int32_t tag)
 {
   writeMember(json, "tag", tag);

@@ -98,7 +98,7 @@ private:
     for (const std::size_t s : sets)
     {
       const FaceSet& set = m_Tags.faceSets[s];
-      if (set.info->kind == SetKind::OuterBoundary) continue; // always a tissue's interface as well
+      if (set.info->kind == SetKind::OuterBoundary) continue; // its faces always belong to a tissue interface as well
       piece.tag = piece.name.empty() ? set.tag : 0;
       piece.name += (piece.name.empty() ? "" : "__") + set.info->name;
     }

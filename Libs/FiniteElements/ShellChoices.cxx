@@ -12,7 +12,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Nothing if the text isn't one shell. Names may have colons themselves.
+/// Parses one shell; returns nothing if the text is no shell. Names may contain colons.
 std::optional<ShellChoice> findShell(const std::string& text, const TissueTable& names, const std::set<Label>& present)
 {
   ShellChoice choice;

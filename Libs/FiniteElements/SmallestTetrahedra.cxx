@@ -31,7 +31,7 @@ std::vector<std::int32_t> byHeight(const TetMesh& mesh, std::size_t count)
   return result;
 }
 
-/// The labels at each point, 0 where it is on the hull.
+/// Returns the labels at each point, including 0 on the hull.
 std::vector<std::set<Label>> labelsAtPoints(const TetMesh& mesh, const FaceAdjacency& neighbours)
 {
   std::vector<std::set<Label>> labels(mesh.points.size());
@@ -45,7 +45,7 @@ std::vector<std::set<Label>> labelsAtPoints(const TetMesh& mesh, const FaceAdjac
   return labels;
 }
 
-/// How far it is from the centre of tetrahedron t along a direction of length 1 to the end of its tissue.
+/// Returns the distance from the centroid of tetrahedron t along a unit vector to the end of its tissue.
 double distanceToBoundary(const TetMesh& mesh, const FaceAdjacency& neighbours, std::int32_t t, const Vec3& direction)
 {
   const Label label = mesh.labels[t];
@@ -56,7 +56,7 @@ double distanceToBoundary(const TetMesh& mesh, const FaceAdjacency& neighbours, 
   };
   const Vec3 from = centre(t);
   double reached = 0;
-  // Rounding could send the walk in circles at an edge that it meets; every tetrahedron once is enough.
+  // Rounding could make the walk cycle at an edge; visiting as many tetrahedra as there are is enough.
   for (std::size_t steps = 0; steps < mesh.tetrahedra.size(); ++steps)
   {
     const LinearTetrahedron element = linearTetrahedron(cornersOf(mesh, std::size_t(t)));
@@ -64,7 +64,7 @@ double distanceToBoundary(const TetMesh& mesh, const FaceAdjacency& neighbours, 
     int through = 0;
     for (int f = 0; f < 4; ++f)
     {
-      const double slope = dot(element.gradients[f], direction); // of the coordinate that is 0 on face f
+      const double slope = dot(element.gradients[f], direction); // of the barycentric coordinate that is 0 on face f
       if (!(slope < 0)) continue;
       const double at = -(0.25 + dot(element.gradients[f], from - centre(t))) / slope;
       if (at < leave) leave = at, through = f;
@@ -76,7 +76,8 @@ double distanceToBoundary(const TetMesh& mesh, const FaceAdjacency& neighbours, 
   return reached;
 }
 
-/// In the direction of the least height, which is that of the steepest barycentric coordinate.
+/// Returns the thickness of the tissue in the direction of the least height, which is that of the steepest barycentric
+/// coordinate.
 double thicknessAt(const TetMesh& mesh, const FaceAdjacency& neighbours, std::int32_t t)
 {
   const auto gradients = linearTetrahedron(cornersOf(mesh, std::size_t(t))).gradients;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What solvers feel of a mesh, as JSON objects for reports. Their members are explained in
+/// Measures of a mesh that matter to solvers, as JSON objects for reports. Their members are described in
 /// Docs/FuchsTetrahedralizer.md.
 
 #include "ExplicitStep.h"
@@ -9,12 +9,13 @@
 namespace surgicalmesher
 {
 
-/// Explicit steps by tissue, and the smallest tetrahedra with their reasons. `content` as smallestTetrahedra() has it.
+/// Returns the explicit steps by tissue and the smallest tetrahedra with their reasons. `content` as for
+/// smallestTetrahedra().
 std::string explicitJSON(const MeshFile& content, const std::map<Label, ExplicitStep>& steps);
 
 std::string stiffnessJSON(const StiffnessConditioning& conditioning, const TissueTable& tissues);
 
-/// In one line, for people.
+/// Returns a one-line summary for display.
 std::string summaryOf(const StiffnessConditioning& conditioning);
 
 } // namespace surgicalmesher

@@ -13,12 +13,12 @@ namespace
 
 constexpr double kPoissonsRatio = 0.4;
 constexpr double kTolerance = 1e-8;
-constexpr double kModesTolerance = 1e-22; // leaves twenty modes
+constexpr double kModesTolerance = 1e-22; // small enough for twenty modes to converge
 constexpr int kModes = 20;
 
 // ---- loads ----------------------------------------------------------------------------------------------------------
 
-/// A quarter of each tetrahedron's weight, at density 1, at each of its corners.
+/// Returns a load of a quarter of the weight of each tetrahedron, at density 1, at each of its corners.
 NodalVector ownWeight(const TetMesh& mesh, const std::vector<std::int32_t>& number, std::int32_t count)
 {
   NodalVector load(count);
@@ -34,7 +34,7 @@ NodalVector ownWeight(const TetMesh& mesh, const std::vector<std::int32_t>& numb
   return load;
 }
 
-/// Forces that excite every mode: numbers in [-1, 1) from a linear congruential generator (Knuth's MMIX).
+/// Returns forces that excite every mode: numbers in [-1, 1) from a linear congruential generator (Knuth's MMIX).
 NodalVector scatteredForces(std::int32_t count)
 {
   std::uint64_t state = 1;
@@ -53,8 +53,8 @@ NodalVector scatteredForces(std::int32_t count)
 
 // ---- modes ----------------------------------------------------------------------------------------------------------
 
-/// Share of the nodes that a mode lives on, if all had the same part in it: one over the sum of the squares of their
-/// parts (participation ratio, Bell, Dean, Discussions of the Faraday Society 50, 1970).
+/// Returns the effective share of the nodes that take part in a mode: the inverse of the number of nodes times the sum
+/// of the squares of their parts (participation ratio, Bell, Dean, Discussions of the Faraday Society 50, 1970).
 double participation(const NodalVector& shape)
 {
   double sum = 0;

@@ -13,7 +13,7 @@ namespace
 
 constexpr double kHeldShare = 0.05;
 
-/// One list of points per piece of the mesh, ascending.
+/// Returns the points of each piece of the mesh, ascending.
 std::vector<std::vector<std::int32_t>> pointsOfPieces(const TetMesh& mesh)
 {
   const auto region = faceRegions(faceAdjacency(mesh), [](std::int32_t, int) { return true; });
@@ -28,7 +28,7 @@ std::vector<std::vector<std::int32_t>> pointsOfPieces(const TetMesh& mesh)
   return pieces;
 }
 
-/// Room for every pair of free points that share a tetrahedron.
+/// Returns a zero matrix with a block for every pair of free points that share a tetrahedron.
 BlockMatrix emptyMatrix(const TetMesh& mesh, const std::vector<std::int32_t>& number, std::int32_t rows)
 {
   std::vector<std::pair<std::int32_t, std::int32_t>> pairs;

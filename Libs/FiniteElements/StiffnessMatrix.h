@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The stiffness matrix of a mesh that is held at its bottom.
+/// The stiffness matrix of a mesh that is held fixed at its bottom.
 
 #include "TetMesh.h"
 
@@ -10,12 +10,12 @@
 namespace surgicalmesher
 {
 
-/// Number of each point among those that are free, or -1; `count`: how many are. Of each piece (tetrahedra joined
-/// through faces) the outermost points towards -z are held: the lowest twentieth, three at least, and all that are as
-/// low.
+/// Returns the index of each point among the free ones, or -1 for held points; `count` receives the number of free
+/// points. In each piece of the mesh (tetrahedra joined through faces), the points farthest towards -z are held: the
+/// lowest twentieth, at least three, and all others at the same height.
 std::vector<std::int32_t> numberFreePoints(const TetMesh& mesh, std::int32_t& count);
 
-/// Compressed rows of 3 x 3 blocks.
+/// Matrix of 3 x 3 blocks in compressed-row storage.
 struct BlockMatrix
 {
   using Block = std::array<double, 9>;
@@ -28,7 +28,8 @@ struct BlockMatrix
   std::int64_t indexOf(std::int32_t row, std::int32_t column) const;
 };
 
-/// Linear elasticity of linear tetrahedra, Young's modulus 1. `number` as numberFreePoints() has it, for `rows` points.
+/// Returns the stiffness matrix for linear elasticity on linear tetrahedra with Young's modulus 1. `number` is the
+/// result of numberFreePoints(), `rows` its count of free points.
 BlockMatrix stiffnessMatrix(const TetMesh& mesh, const std::vector<std::int32_t>& number, std::int32_t rows,
                             double poissonsRatio);
 

@@ -36,7 +36,7 @@ std::vector<std::int32_t> sizesOf(const std::vector<std::int32_t>& region)
   return sizes;
 }
 
-/// The largest fine regions as children 1..n, everything else 0.
+/// Returns the largest fine regions as children 1..n, everything else as 0.
 std::vector<std::int32_t> largeFineRegions(const FaceAdjacency& neighbours, const std::vector<bool>& fine,
                                            double speckFraction)
 {
@@ -61,7 +61,7 @@ std::vector<std::int32_t> largeFineRegions(const FaceAdjacency& neighbours, cons
   return result;
 }
 
-/// Gives the parent's cut-off pieces to the child they touch most, where that child is larger.
+/// Assigns the separated pieces of the parent to the child with which they share most faces, if that child is larger.
 void absorbPieces(const FaceAdjacency& neighbours, std::vector<std::int32_t>& subMesh)
 {
   const std::vector<std::int32_t> body = faceRegions(neighbours, [](std::int32_t, int) { return true; });

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The units of models for solvers.
+/// Units of models for solvers.
 
 #include "FiniteElementModel.h"
 
 namespace surgicalmesher
 {
 
-/// "mm" or "si".
+/// Returns the units named "mm" or "si".
 Units unitsNamed(const std::string& name);
 
-/// A model in mm, N, MPa, tonne and s in other units: points, edge lengths, thicknesses, radii and materials.
+/// Converts a model in mm, N, MPa, tonne and s to other units: points, edge lengths, thicknesses, radii and materials.
 FiniteElementModel inUnits(FiniteElementModel model, Units units);
 
-/// What files say of frame and units: "LPS; mm, N, MPa, tonne, s".
+/// Returns the description of frame and units for files, e.g. "LPS; mm, N, MPa, tonne, s".
 std::string frameAndUnits(const FiniteElementModel& model);
 
 } // namespace surgicalmesher

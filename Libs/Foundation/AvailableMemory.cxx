@@ -22,7 +22,7 @@ Bytes numberIn(const std::string& file)
   return stream >> number ? Bytes(number) : Bytes();
 }
 
-/// The number that follows a name in a file of such lines.
+/// The number on the line that begins with `name`, in a file of lines "name number".
 Bytes numberAfter(const std::string& name, const std::string& file)
 {
   std::ifstream stream(file);
@@ -40,7 +40,7 @@ Bytes least(const Bytes& a, const Bytes& b) { return !a ? b : !b ? a : std::min(
 
 std::uint64_t difference(std::uint64_t a, std::uint64_t b) { return a > b ? a - b : 0; }
 
-/// Names of what a version of control groups keeps in a group's folder.
+/// Names of the files in a control group's folder, which depend on the version of control groups.
 struct GroupFiles
 {
   std::string limit, usage, inactive;
@@ -55,8 +55,8 @@ Bytes leftInGroup(const std::string& folder, const GroupFiles& files)
   return difference(*limit, difference(*usage, cached));
 }
 
-/// The least of what a group and those above it leave. Inside a container, the group's path may be that of the host and
-/// lead nowhere; the folders above it then still hold the container's own.
+/// The minimum of what a group and its ancestors leave. Inside a container, the group's path may be that of the host
+/// and not exist; the folders above it then still hold the container's own limits.
 Bytes leftInGroups(const std::string& mount, std::string path, const GroupFiles& files)
 {
   Bytes result;
@@ -68,7 +68,7 @@ Bytes leftInGroups(const std::string& mount, std::string path, const GroupFiles&
   return least(result, leftInGroup(mount, files));
 }
 
-/// Lines of /proc/self/cgroup: hierarchy:controllers:path; version 2 has no controllers there.
+/// Reads the lines of /proc/self/cgroup, hierarchy:controllers:path; the line of version 2 names no controllers.
 Bytes leftByControlGroups(const std::string& root)
 {
   std::ifstream stream(root + "/proc/self/cgroup");
@@ -101,7 +101,7 @@ std::optional<std::uint64_t> availableMemory(const std::string& root)
 
 void requireMemory(std::uint64_t bytes)
 {
-  void* volatile attempt = std::malloc(bytes); // volatile: a compiler may leave out what is of no use
+  void* volatile attempt = std::malloc(bytes); // volatile: otherwise a compiler may remove the unused allocation
   if (!attempt) throw std::bad_alloc();
   std::free(attempt);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Distance to surgical targets and paths. Everything in mm, in one frame of the caller's choice.
+/// Distances to surgical targets and paths. All coordinates are in mm, in one frame of the caller's choice.
 
 #include "Vec3.h"
 
@@ -31,7 +31,7 @@ double distanceToPaths(const Vec3& x, const std::vector<Path>& paths);
 
 double pathLength(const Path& path);
 
-/// Distance from x to the tube around `path` whose radius goes linearly with arc length from `atEntry` to `atTarget`:
+/// Distance from x to the tube around `path` whose radius varies linearly with arc length from `atEntry` to `atTarget`:
 /// the minimum over all points p of the path of |x - p| - radius(p). Negative inside, zero on its wall.
 double distanceToTube(const Vec3& x, const Path& path, double atEntry, double atTarget);
 

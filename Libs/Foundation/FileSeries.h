@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Files of VTK that follow one another in time.
+/// Time series of VTK files.
 
 #include <string>
 #include <vector>
@@ -10,11 +10,12 @@ namespace surgicalmesher
 
 struct SeriesFile
 {
-  std::string time; ///< a number, as it is to stand in the file
+  std::string time; ///< a number, written to the file as it is
   std::string name; ///< relative to the collection's folder
 };
 
-/// Writes a collection (.pvd), which ParaView plays. Throws InputError unless all of it arrived.
+/// Writes a collection file (.pvd), which ParaView plays as an animation. Throws InputError if the file cannot be
+/// written completely.
 void writeFileSeries(const std::vector<SeriesFile>& files, const std::string& collection);
 
 } // namespace surgicalmesher

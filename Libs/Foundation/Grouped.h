@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Values sorted into groups by counting: those of a group lie together, in the order in which they came.
+/// Values sorted into groups by counting sort: the values of a group are contiguous, in the order of insertion.
 
 #include "Parallel.h"
 
@@ -19,8 +19,8 @@ class Grouped
 public:
   Grouped() = default;
 
-  /// `forEach(visit)` calls visit(group, value) for every value; it is called twice, and has to do the same both times.
-  /// Groups are numbered from 0 up to `groups`, which is not one of them.
+  /// `forEach(visit)` calls visit(group, value) for every value; it is called twice and must make the same calls both
+  /// times. Groups are numbered from 0 to groups - 1.
   template <class ForEach>
   Grouped(std::size_t groups, const ForEach& forEach) : m_Start(groups + 1, 0)
   {
@@ -31,14 +31,14 @@ public:
     forEach([&](std::size_t group, const Value& value) { m_Values[next[group]++] = value; });
   }
 
-  /// Of the values of `count` things, looked at on several threads: `forEachOf(first, last, visit)` calls visit(group,
-  /// value) for those of the things from `first` up to `last`, which is not one of them. It is called twice for each,
-  /// on any thread, has to do the same both times, and must not throw.
+  /// The same on several threads, for the values of `count` items: `forEachOf(first, last, visit)` calls visit(group,
+  /// value) for the values of the items in [first, last). It is called twice for each range, on any thread, must make
+  /// the same calls both times, and must not throw.
   template <class ForEachOf>
   Grouped(std::size_t groups, std::size_t count, const ForEachOf& forEachOf) : m_Start(groups + 1)
   {
-    constexpr std::size_t parts = 4; // more would take more memory, a number for each group, than they save time
-    std::array<std::vector<std::size_t>, parts> next; // of each group's values in a part: how many, then where
+    constexpr std::size_t parts = 4; // each needs a counter per group: more cost more memory than they save time
+    std::array<std::vector<std::size_t>, parts> next; // per part and group: number of values, then next place
     const auto inParts = [&](auto&& visitorOf)
     {
       parallelForEach(parts, [&](std::size_t p)
@@ -67,7 +67,7 @@ public:
   Value* end(std::size_t group) { return m_Values.data() + m_Start[group + 1]; }
 
 private:
-  std::vector<std::size_t> m_Start{ 0 }; ///< of each group in m_Values, and the end
+  std::vector<std::size_t> m_Start{ 0 }; ///< first value of each group in m_Values; the last entry is the end
   std::vector<Value> m_Values;
 };
 

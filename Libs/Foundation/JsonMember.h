@@ -11,8 +11,8 @@
 namespace surgicalmesher
 {
 
-/// `value` is a bool, an integer, a floating-point number, a text, a point, or a range of such values: an array. JSON has
-/// no NaN and no infinity: they become null.
+/// Writes a bool, an integer, a floating-point number, a text, a point, or a range of such values. Points and ranges
+/// become arrays; NaN and infinity, which JSON does not have, become null.
 template <class Writer, class Value>
 void writeValue(Writer& json, const Value& value)
 {
@@ -43,7 +43,7 @@ void writeValue(Writer& json, const Value& value)
   }
 }
 
-/// "key": value, see writeValue().
+/// Writes "key": value; for the types see writeValue().
 template <class Writer, class Value>
 void writeMember(Writer& json, const char* key, const Value& value)
 {
@@ -51,7 +51,7 @@ void writeMember(Writer& json, const char* key, const Value& value)
   writeValue(json, value);
 }
 
-/// "key": an object, whose members writeMembers() writes.
+/// Writes "key": an object, whose members writeMembers() writes.
 template <class Writer, class WriteMembers>
 void writeObject(Writer& json, const char* key, const WriteMembers& writeMembers)
 {
@@ -61,7 +61,7 @@ void writeObject(Writer& json, const char* key, const WriteMembers& writeMembers
   json.EndObject();
 }
 
-/// "key": an array of one object per item, whose members writeItem(item) writes.
+/// Writes "key": an array with one object per item, whose members writeItem(item) writes.
 template <class Writer, class Items, class WriteItem>
 void writeObjects(Writer& json, const char* key, const Items& items, const WriteItem& writeItem)
 {

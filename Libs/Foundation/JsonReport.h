@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The reports that programs write, as JSON text: what they have in common.
+/// Shared parts of the JSON reports that the programs write.
 
 #include "JsonMember.h"
 #include "PrintableText.h"
@@ -18,11 +18,11 @@ using JsonWriter = rapidjson::PrettyWriter<rapidjson::StringBuffer>;
 
 struct JsonStyle
 {
-  int decimals = JsonWriter::kDefaultMaxDecimalPlaces; ///< places of numbers behind the point, at most
+  int decimals = JsonWriter::kDefaultMaxDecimalPlaces; ///< most digits after the decimal point
   bool arraysInOneLine = false;
 };
 
-/// The text of one object, whose members writeMembers(json) writes, and the end of its last line.
+/// Returns the text of one JSON object, whose members writeMembers(json) writes, with a line end.
 template <class WriteMembers>
 std::string jsonText(const WriteMembers& writeMembers, const JsonStyle& style = {})
 {
@@ -36,7 +36,7 @@ std::string jsonText(const WriteMembers& writeMembers, const JsonStyle& style = 
   return std::string(buffer.GetString(), buffer.GetSize()) + "\n";
 }
 
-/// "warnings", as the terminal had them.
+/// Writes the member "warnings": the texts as the terminal shows them.
 inline void writeWarnings(JsonWriter& json, const std::vector<std::string>& warnings)
 {
   json.Key("warnings");

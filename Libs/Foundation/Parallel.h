@@ -12,8 +12,8 @@
 namespace surgicalmesher
 {
 
-/// Calls f(i) for every i below `count`, in no particular order; neighbouring ones mostly on one thread. f must not
-/// throw.
+/// Calls f(i) for every i in [0, count), in no particular order; consecutive i mostly run on the same thread. f must
+/// not throw.
 template <class F>
 void parallelFor(std::size_t count, F&& f)
 {
@@ -24,8 +24,8 @@ void parallelFor(std::size_t count, F&& f)
                    });
 }
 
-/// The same on threads that have nothing else to do: within another of these loops, one after the other. A single call
-/// is no loop.
+/// The same, but one call after the other if called from within another of these loops, whose threads are busy already.
+/// parallelForEach() with a single item does not count as such a loop.
 template <class F>
 void parallelForIfIdle(std::size_t count, F&& f)
 {
@@ -33,7 +33,7 @@ void parallelForIfIdle(std::size_t count, F&& f)
   for (std::size_t i = 0; i < count; ++i) f(i);
 }
 
-/// parallelFor() for few and long calls: handed out one by one.
+/// parallelFor() for few, long calls: the threads take them one at a time.
 template <class F>
 void parallelForEach(std::size_t count, F&& f)
 {
@@ -45,8 +45,8 @@ void parallelForEach(std::size_t count, F&& f)
                    });
 }
 
-/// Runs all of them, in no particular order but begun in theirs. What the first of those that fail throws goes on, once
-/// all have ended.
+/// Runs all tasks in parallel, starting them in their order. Once all have ended, rethrows the exception of the first
+/// task that failed, by their order.
 inline void runInParallel(const std::vector<std::function<void()>>& tasks)
 {
   std::vector<std::exception_ptr> failures(tasks.size()); // an exception must not leave a worker thread

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A point as messages name it.
+/// Points in messages.
 
 #include "Text.h"
 #include "Vec3.h"
@@ -8,7 +8,7 @@
 namespace surgicalmesher
 {
 
-/// "(1.5, -2, 30) mm".
+/// Returns "(1.5, -2, 30) mm", with `digits` significant digits.
 inline std::string place(const Vec3& point, int digits = 6)
 {
   const auto number = [&](double value) { return text::rounded(value, digits); };

@@ -5,8 +5,8 @@
 namespace surgicalmesher
 {
 
-/// Begins to fetch what will be read soon. Pays where addresses are known some steps before, but the loads that follow
-/// depend on one another or on branches that are hard to foresee.
+/// Starts to load the cache line at an address that will be read soon. Pays off where addresses are known some steps
+/// ahead, but the loads depend on one another or on branches that are hard to predict.
 inline void prefetch([[maybe_unused]] const void* address)
 {
 #if defined(__GNUC__)

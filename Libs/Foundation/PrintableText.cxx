@@ -15,7 +15,7 @@ int byteAt(const std::string& text, std::size_t at)
   return at < text.size() ? static_cast<unsigned char>(text[at]) : 0;
 }
 
-/// Of ASCII: what strings of JSON or TOML don't hold as it is.
+/// ASCII characters that must be escaped in strings of JSON or TOML.
 bool isASCIIControl(unsigned char letter) { return letter < 0x20 || letter == 0x7f; }
 
 std::string numbered(unsigned char letter)

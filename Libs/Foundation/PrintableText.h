@@ -8,16 +8,16 @@
 namespace surgicalmesher
 {
 
-/// Bytes of the UTF-8 character that begins at byte `at` (Unicode 15, table 3-7); 0 if none does.
+/// Length in bytes of the UTF-8 character that begins at byte `at` (Unicode 15, table 3-7); 0 if none begins there.
 std::size_t utf8Length(const std::string& text, std::size_t at);
 
 bool isUTF8(const std::string& text);
 
-/// `text` as UTF-8 that a terminal, a log and a program can take: control characters other than white space (C0, DEL,
-/// C1), characters that turn the direction of what follows, and bytes that are no UTF-8 become \xHH, byte by byte.
+/// Returns `text` as UTF-8 that is safe for terminals, logs and programs: control characters other than white space
+/// (C0, DEL, C1), characters that change the writing direction, and bytes that are not UTF-8 become \xHH, byte by byte.
 std::string printable(const std::string& text);
 
-/// UTF-8 as a string of JSON or TOML, its quotes included.
+/// Returns UTF-8 text as a JSON or TOML string, including the quotes.
 std::string quoted(const std::string& text);
 
 } // namespace surgicalmesher

@@ -26,7 +26,8 @@ namespace
 
 constexpr int kFailed = 1;
 
-/// A process that works may have to share its core; one that waits for what never comes uses no processor time.
+/// Limit by the clock over the limit of processor time. A working process may have to share its core; one that waits in
+/// vain uses no processor time.
 constexpr int kClockPerProcessorTime = 10;
 
 bool sendAll(int descriptor, const char* bytes, std::size_t size)
@@ -51,7 +52,7 @@ bool receiveAll(int descriptor, char* bytes, std::size_t size)
   return true;
 }
 
-/// Its size first, so that it is received where it stays.
+/// Sends the size first, so that the receiver reads the answer into its final place.
 bool sendAnswer(int descriptor, const std::string& answer)
 {
   const std::size_t size = answer.size();
@@ -68,7 +69,7 @@ std::optional<std::string> receiveAnswer(int descriptor)
   return answer;
 }
 
-/// A crash here is foreseen, and leaves no core file.
+/// Sets the time limits of the child, and no core file, since crashes are expected.
 void setLimits(int mostSeconds)
 {
   const rlimit noCore{ 0, 0 };
@@ -76,7 +77,7 @@ void setLimits(int mostSeconds)
   if (mostSeconds == 0) return;
   const rlimit seconds{ rlim_t(mostSeconds), rlim_t(mostSeconds) };
   setrlimit(RLIMIT_CPU, &seconds);
-  std::signal(SIGALRM, SIG_DFL); // whoever started the program may have it ignored or blocked
+  std::signal(SIGALRM, SIG_DFL); // it may be ignored or blocked, inherited from the caller
   sigset_t alarms;
   sigemptyset(&alarms);
   sigaddset(&alarms, SIGALRM);
@@ -84,18 +85,18 @@ void setLimits(int mostSeconds)
   alarm(unsigned(mostSeconds) * kClockPerProcessorTime);
 }
 
-/// Ends without flushing or destroying anything: all of that is the parent's.
+/// Ends without flushing buffers or destroying objects: they belong to the parent.
 [[noreturn]] void runAsChild(int descriptor, const std::function<std::string()>& work)
 {
   const int nowhere = open("/dev/null", O_WRONLY);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
-  // A fork has the thread that made it and no other: loops handed to a pool's threads would wait for them for ever.
+  // A forked process has only the thread that forked: a loop on a thread pool would wait forever.
   vtkSMPTools::SetBackend("Sequential");
   try
   {
     const std::string answer = work();
-    alarm(0); // the parent may have other things to do first
+    alarm(0); // the parent may not read the answer at once
     _exit(sendAnswer(descriptor, answer) ? 0 : kFailed);
   }
   catch (...)
@@ -104,7 +105,7 @@ void setLimits(int mostSeconds)
   }
 }
 
-/// The status it exits with, once it does; kFailed if a signal ends it.
+/// Waits for the child to end; returns its exit status, or kFailed if a signal ended it.
 int endOf(pid_t child)
 {
   int status = 0;
@@ -132,7 +133,7 @@ SeparateProcess::SeparateProcess(const std::function<std::string()>& work, int m
   {
 #ifdef __linux__
     prctl(PR_SET_PDEATHSIG, SIGKILL);        // a cancelled run takes its child along
-    if (getppid() != parent) _exit(kFailed); // cancelled before that
+    if (getppid() != parent) _exit(kFailed); // the parent ended before that
 #endif
     close(ends[0]);
     setLimits(mostSeconds);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// For code that ends the process when it fails, or never ends: failed assertions, exit() and crashes then end another
-/// one.
+/// Isolation of code that may crash, call exit(), fail an assertion or never return: it runs in a process of its own.
 
 #include <functional>
 #include <optional>
@@ -10,31 +9,31 @@
 namespace surgicalmesher
 {
 
-/// Work in a process of its own, which sees this one's memory as it is when that begins; what it changes there, and
-/// what it prints, is lost. VTK's loops run on one thread in it. On Linux it ends with the thread that begins it.
-/// Where processes can't be forked (Windows), answer() runs the work in this one, unprotected: what it refers to must
-/// live until then.
+/// Work in a forked process. The child process sees the memory of this process as it is at the fork; its changes to
+/// that memory, and what it prints, are lost. VTK's loops run on one thread in it. On Linux the child ends with the
+/// thread that started it. Where processes cannot be forked (Windows), answer() runs the work in this process,
+/// unprotected: all that the work refers to must live until then.
 class SeparateProcess
 {
 public:
-  /// Begins. Work that takes more than `mostSeconds` of processor time, or ten times as long by the clock, is ended (0:
-  /// no limit). Throws EngineError if the system has no process or pipe left.
+  /// Starts the work. It is killed after `mostSeconds` of processor time, or ten times as long by the clock (0: no
+  /// limit). Throws EngineError if the system has no process or pipe left.
   explicit SeparateProcess(const std::function<std::string()>& work, int mostSeconds = 0);
-  /// Ends the process, if nobody has waited for its answer.
+  /// Kills the child process if answer() has not been called.
   ~SeparateProcess();
   SeparateProcess(const SeparateProcess&) = delete;
   SeparateProcess& operator=(const SeparateProcess&) = delete;
 
-  /// Waits for what `work` returns; nothing if the process did not come to that: it crashed, aborted, exited, took too
-  /// long, or `work` threw. To be asked once.
+  /// Waits for the return value of `work`. Empty if the work did not return: the child crashed, aborted, exited or
+  /// exceeded its time, or `work` threw. To be called once.
   std::optional<std::string> answer();
 
 private:
 #ifdef _WIN32
   std::function<std::string()> m_Work;
 #else
-  int m_Child = -1;   ///< -1: there is none, or none any more
-  int m_Answers = -1; ///< the end of a pipe to read from
+  int m_Child = -1;   ///< process id; -1: none, or already ended
+  int m_Answers = -1; ///< read end of the pipe; -1: closed
 #endif
 };
 

@@ -19,7 +19,8 @@ namespace
 
 const char* const blanks = " \t\r\n";
 
-/// Splits at separators outside double quotes. With `merge`, runs of separators count as one and "" is a quote's end.
+/// Splits at separators outside double quotes, within which "" stands for a quote. With `merge`, runs of separators
+/// count as one.
 template <typename IsSeparator>
 std::vector<std::string> splitQuoted(const std::string& line, bool merge, IsSeparator isSeparator)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Whole files: text to read, bytes to write.
+/// Reading and writing of whole files.
 
 #include "Text.h"
 
@@ -9,7 +9,8 @@ namespace surgicalmesher
 namespace text
 {
 
-/// The whole file, without a byte order mark. Throws InputError if it is missing, a directory or unreadable.
+/// Returns the whole file without a byte order mark. Throws InputError if it is missing, no regular file, or
+/// unreadable.
 std::string readTextFile(const std::string& file);
 
 /// Throws InputError unless `file` is a regular file that can be read.
@@ -17,7 +18,7 @@ void requireReadableFile(const std::string& file);
 
 } // namespace text
 
-/// Writes `bytes` to `file`, and throws InputError unless all of them arrived there.
+/// Writes `bytes` to `file`. Throws InputError if not all of them could be written.
 void writeBytes(const std::string& bytes, const std::string& file);
 
 } // namespace surgicalmesher

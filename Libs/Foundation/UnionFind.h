@@ -16,7 +16,7 @@ public:
   UnionFind() = default;
   explicit UnionFind(std::size_t count) : m_Parent(count) { std::iota(m_Parent.begin(), m_Parent.end(), 0u); }
 
-  /// A new set of one; returns its number.
+  /// Adds a set with one member and returns that member.
   std::uint32_t add()
   {
     m_Parent.push_back(std::uint32_t(m_Parent.size()));
@@ -29,7 +29,7 @@ public:
     return i;
   }
 
-  /// Whether they were apart.
+  /// Joins the sets of a and b; returns whether they were different sets.
   bool unite(std::uint32_t a, std::uint32_t b)
   {
     a = find(a);

@@ -13,11 +13,11 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double fitReach = 2.5;     // voxels, of the normals that a curvature is found from
-constexpr double quartileReach = 6;  // voxels; more than the width that a straight edge is round in
+constexpr double fitReach = 2.5;     // voxels; radius of the fit of a curvature to normals
+constexpr double quartileReach = 6;  // voxels; wider than the rounding of a straight edge
 constexpr double leastCosine = 0.35; // between normals of one sheet
 
-/// Points by the voxel rows that they are in.
+/// Points, sorted into rows of voxels for neighbourhood searches.
 class Rows
 {
 public:
@@ -63,7 +63,7 @@ private:
   std::vector<std::vector<std::size_t>> m_Rows;
 };
 
-/// The normal's change with position across it, by least squares.
+/// Least-squares fit of the linear change of the normal with position in the tangent plane.
 class ShapeFit
 {
 public:

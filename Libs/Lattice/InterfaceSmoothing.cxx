@@ -15,7 +15,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// For each interface vertex, the neighbours it is averaged over.
+/// For each interface vertex, the neighbours over which its position is averaged.
 struct InterfaceGraph
 {
   std::vector<std::int32_t> vertices;   ///< point ids, ascending
@@ -121,7 +121,8 @@ std::vector<Vec3> taubin(const InterfaceGraph& graph, const std::vector<Vec3>& p
   return position;
 }
 
-/// Takes each sample along with the corners of its face, by `share` of their way.
+/// Moves each sample with its face: by `share` times the displacement of the face's corners, interpolated at the
+/// sample.
 void moveSamples(BackgroundMesh& background, const InterfaceGraph& graph, const std::vector<Vec3>& target, double share)
 {
   const auto& points = background.mesh.points;
@@ -156,9 +157,9 @@ void smoothInterface(KuhnLattice& lattice, const Vec3& voxelSpacing, const Smoot
 void moveVertices(TetMesh& mesh, const std::vector<std::int32_t>& vertices, const std::vector<Vec3>& target,
                   double minimumAngle)
 {
-  // Shorten moves until no tetrahedron is worse than allowed. All tetrahedra are judged on the same state and a vertex
-  // takes the shortest of what its tetrahedra ask, so the result does not depend on any order. Only those are judged
-  // again of which a vertex has moved.
+  // Moves are shortened until no tetrahedron is worse than allowed. All tetrahedra are tested in the same state, and a
+  // vertex moves less if any of its tetrahedra is too bad, so the result does not depend on any order. Only tetrahedra
+  // with a vertex that has moved are tested again.
   const std::vector<Vec3> home = mesh.points;
   constexpr std::array<float, 9> shares{ 1, 0.75f, 0.55f, 0.4f, 0.28f, 0.2f, 0.12f, 0.06f, 0 };
   const std::size_t n = vertices.size();

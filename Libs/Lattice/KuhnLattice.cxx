@@ -18,7 +18,7 @@ namespace
 using Index = std::array<int, 3>;
 using Tet = std::array<Index, 4>;
 
-/// Which points of the finest grid are vertices of the complex. Numbered in the order of the grid, x fastest.
+/// The set of points of the finest grid that are vertices of the lattice, numbered in the order of the grid, x fastest.
 class ActivePoints
 {
 public:
@@ -31,7 +31,7 @@ public:
   }
   std::size_t at(const Index& p) const { return (std::size_t(p[2]) * m_Size[1] + p[1]) * m_Size[0] + p[0]; }
   bool test(const Index& p) const { return word(at(p) >> 6) >> (at(p) & 63) & 1; }
-  /// From several threads at once.
+  /// Thread-safe.
   void set(const Index& p)
   {
     if (inside(p) && !test(p))
@@ -48,7 +48,7 @@ public:
     return m_Before[a >> 6] + bitCount(word(a >> 6) & ((std::uint64_t(1) << (a & 63)) - 1));
   }
   std::int32_t numbered() const { return m_Before.back(); }
-  /// Calls f(id, point) for all of them, on several threads.
+  /// Calls f(id, point) for all points of the set, from several threads.
   template <class F>
   void forEach(F&& f) const
   {
@@ -73,8 +73,8 @@ private:
   std::vector<std::int32_t> m_Before;
 };
 
-/// Lattice coordinates are whole numbers of `unit`s; a cell is `cellUnits` of them, and a voxel `cells` cells along
-/// each axis (so that cells are nearly cubes where voxels are not).
+/// Lattice coordinates are integer multiples of `unit`. Along each axis, a cell has `cellUnits` units and a voxel has
+/// `cells` cells, so that cells are nearly cubes even if voxels are not.
 struct Layout
 {
   Index cells{ 1, 1, 1 };
@@ -90,8 +90,8 @@ struct Layout
 
 Layout makeLayout(const Grid& grid, double shortest, const LatticeOptions& options)
 {
-  // Cells of background on every side at least, so that the box never presses on a tissue; a multiple of it, so that
-  // blocks of so many voxels are cubes of the lattice (UniformBlocks.h).
+  // Least number of background cells on every side, so that the box never constrains a tissue. The padding before the
+  // map is a multiple of it, so that blocks of that many voxels are cubes of the lattice (UniformBlocks.h).
   constexpr int margin = 8;
   Layout l;
   const double least = grid.smallestSpacing();
@@ -161,7 +161,7 @@ public:
   }
 
 private:
-  /// Puts the parts one behind the other, in their order, and empties them, array by array: memory is short here.
+  /// Concatenates the parts in their order, array by array, and frees each array at once, to limit peak memory.
   static void join(std::vector<KuhnLattice>& parts, KuhnLattice& whole)
   {
     std::vector<std::int32_t> shifts{ 0 };
@@ -226,13 +226,15 @@ private:
     return x;
   }
 
-  /// Voxel index along an axis of the cell that holds lattice coordinate p (in units, possibly between lattice points).
+  /// Returns the voxel index along an axis of the cell that contains lattice coordinate p (in units, not necessarily
+  /// integer).
   int voxel(double p, int axis) const
   {
     const int cell = int(std::floor(p / m_Layout.cellUnits())) - m_Layout.pad[axis];
     return cell < 0 ? -1 : cell / m_Layout.cells[axis];
   }
 
+  /// Returns whether the cube of `side` units at `corner` contains voxels of different labels.
   bool mixed(const Index& corner, int side) const
   {
     Index low, high;
@@ -270,7 +272,7 @@ private:
     if (side == 1) return;
     if (!insideMap(corner, side)) return;
     const bool isMixed = side > m_Layout.cellUnits() && mixed(corner, side);
-    // Background is thrown away in the end: only its boundary with tissue needs small elements.
+    // Background is discarded in the end: only its boundary with tissues needs small elements.
     const bool isTooLarge = isTissue(corner) && tooLarge(corner, side);
     if (!isMixed && !isTooLarge) return;
     if (side <= mostTetrahedralCells * m_Layout.cellUnits() && !tooLarge(corner, side))
@@ -285,11 +287,12 @@ private:
         for (int i = 0; i < 2; ++i) activateCube({ corner[0] + i * h, corner[1] + j * h, corner[2] + k * h }, h);
   }
 
-  /// In cells, the largest cube that is cut by tetrahedra; larger ones nearly always hold mixed ones everywhere.
+  /// Side, in cells, of the largest cube whose tetrahedra are examined one by one. In larger cubes, nearly all
+  /// tetrahedra contain several labels.
   static constexpr int mostTetrahedralCells = 4;
 
-  /// Only the tetrahedra that voxels of different labels share are cut: half of those in a cube that a boundary crosses
-  /// lie on one side of it.
+  /// Cuts only the tetrahedra that contain voxels of different labels. In a cube that a boundary crosses, half of the
+  /// tetrahedra lie on one side of the boundary.
   void activateMixedTetrahedra(const Index& corner, int side)
   {
     forEachKuhnTetrahedron({ corner[0] / side, corner[1] / side, corner[2] / side }, side,
@@ -298,14 +301,14 @@ private:
 
   static constexpr int mixedLabel = -1;
 
-  /// The label of all voxels that t, out of a cube of `side`, reaches into, or mixedLabel; then t's bisection, with tag
-  /// d, is active.
+  /// Returns the label of all voxels that t intersects, or mixedLabel if there are several; then activates t's
+  /// bisection as well. `d` is t's tag, `side` that of its cube.
   int activateMixed(const Tet& t, int d, int side)
   {
     Tet left, right;
     const Index z = bisection(t, d, left, right);
     const int nextTag = d > 1 ? d - 1 : 3, nextSide = d > 1 ? side : side / 2;
-    const bool last = nextSide == m_Layout.cellUnits(); // the halves lie in one cell each
+    const bool last = nextSide == m_Layout.cellUnits(); // each half then lies in one cell
     const int inLeft = last ? labelOf(left) : activateMixed(left, nextTag, nextSide);
     const int inRight = last ? labelOf(right) : activateMixed(right, nextTag, nextSide);
     if (inLeft == inRight && inLeft != mixedLabel) return inLeft;
@@ -324,8 +327,9 @@ private:
     return labelAt(m_Map, { voxel(corner[0], 0), voxel(corner[1], 1), voxel(corner[2], 2) }) != 0;
   }
 
-  /// Whatever the vertices of one level of bisection rest on: an edge's midpoint on the centres of the faces around it,
-  /// a face's centre on the centres of its two cubes, a cube's centre on the cube's corners.
+  /// Activates the points that the active points of one level of bisection require: the midpoint of an edge requires
+  /// the centres of the faces around it, the centre of a face those of its two cubes, the centre of a cube the cube's
+  /// corners.
   void close(int half)
   {
     const Index n{ m_Layout.roots[0] * m_Layout.rootUnits(), m_Layout.roots[1] * m_Layout.rootUnits(),
@@ -362,8 +366,8 @@ private:
         }
   }
 
-  /// The six tetrahedra of cube number `cube` of a side. Their paths lead from the corner whose numbers are all even to
-  /// the one where all are odd.
+  /// Calls f(t) for the six Kuhn tetrahedra of the cube at index `cube` of the grid of cubes of that side. Their paths
+  /// lead from the corner whose indices are all even to the corner whose indices are all odd.
   template <class F>
   static void forEachKuhnTetrahedron(const Index& cube, int side, F&& f)
   {
@@ -389,7 +393,7 @@ private:
     forEachKuhnTetrahedron(root, m_Layout.rootUnits(), [&](const Tet& t) { bisect(t, 3, out); });
   }
 
-  /// Maubach's bisection of t with tag d, at the point returned.
+  /// Maubach's bisection of t with tag d. Returns the new vertex.
   static Index bisection(const Tet& t, int d, Tet& left, Tet& right)
   {
     Index z;
@@ -428,8 +432,8 @@ private:
     if (label != 0) placeSamples(x, id, label, out);
   }
 
-  /// Every face of a tetrahedron that lies between voxels, towards a smaller label, is an interface face. It takes the
-  /// samples at the centres of the voxel faces that it covers: none, one or, between large tetrahedra, several.
+  /// Records the interface faces of a tetrahedron towards smaller labels, which lie between voxels, and gives them the
+  /// samples at the centres of the voxel faces that they cover: none, one or, between large tetrahedra, several.
   void placeSamples(const Tet& t, std::int32_t id, Label label, KuhnLattice& out) const
   {
     for (int f = 0; f < 4; ++f)
@@ -470,8 +474,8 @@ private:
     }
   }
 
-  /// Whether triangle abc, in the face of `voxel` across `axis`, covers the face's centre. The centre lies on lattice
-  /// edges: moved off them by a fixed bit, exactly one triangle covers it.
+  /// Returns whether triangle abc, which lies in a voxel face across `axis`, covers the centre of that face of `voxel`.
+  /// As the centre lies on lattice edges, a fixed small displacement makes exactly one triangle cover it.
   bool coversCentre(const Index& a, const Index& b, const Index& c, int axis, const Index& voxel) const
   {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;

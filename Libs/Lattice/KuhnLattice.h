@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The ambient complex a tissue map starts as: every voxel cut into tetrahedra near the boundaries and where L is
-/// small, ever larger tetrahedra of one label away from them.
+/// The initial background mesh of a tissue map: each voxel is cut into tetrahedra near tissue boundaries and where the
+/// target length L is small; away from these, tetrahedra of one label grow ever larger.
 ///
 /// Reflected Kuhn cubes under Maubach's bisection (J. M. Maubach, SIAM J. Sci. Comput. 16, 1995): conforming, no
 /// dihedral angle under 45 degrees in cubic cells, and every voxel is a union of tetrahedra. For a well-composed map
@@ -22,21 +22,22 @@ namespace surgicalmesher
 
 struct LatticeOptions
 {
-  double relativeSize = 0.8; ///< cubes are cut until their side is at most this share of the target edge length
-  int mostLevelsBelowVoxel = 2;
-  /// Which voxel faces between two labels get a sample; all, if there is no such function. Called on several threads.
+  double relativeSize = 0.8; ///< cubes in tissues are cut until their side is at most this share of the target length
+  int mostLevelsBelowVoxel = 2; ///< cubes are at most this often halved below the size of a voxel
+  /// Returns whether a voxel face between two labels gets a sample; if empty, all do. Called from several threads.
   std::function<bool(const VoxelFace&)> isSampled;
 };
 
 struct KuhnLattice
 {
-  BackgroundMesh background; ///< with samples at the centres of voxel faces between two labels, of tolerance 0
-  std::vector<std::pair<std::int32_t, std::int32_t>>
-    interfaceFaces; ///< (tetrahedron of the larger label, face), each once
+  BackgroundMesh background; ///< with samples at the centres of voxel faces between two labels; their tolerance is 0
+  /// (tetrahedron of the larger label, number 0..3 of the vertex opposite the face), each interface face once.
+  std::vector<std::pair<std::int32_t, std::int32_t>> interfaceFaces;
 };
 
-/// Points in the grid frame of `map`, mm. The box reaches some voxels beyond the map on every side.
-/// Throws EngineError if the scale asks for more cells than can be numbered.
+/// Returns the lattice of `map` for the target lengths `scale`. Points are in the grid frame of `map`, mm. The lattice
+/// reaches at least eight cells (roughly cubic, as large as a voxel or smaller) beyond the map on every side. Throws
+/// EngineError if the scale requires more cells than can be numbered.
 KuhnLattice kuhnLattice(const TissueMap& map, const ScaleField& scale, const LatticeOptions& options,
                         const Progress& progress = {});
 

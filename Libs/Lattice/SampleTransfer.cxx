@@ -20,7 +20,7 @@ namespace
 {
 
 constexpr int binSide = 4; // voxels
-constexpr int reach = 3;   // bins, beyond which no face is near
+constexpr int reach = 3;   // bins; faces farther away do not take a sample
 
 using Index = std::array<int, 3>;
 using Sample = BackgroundMesh::Sample;
@@ -32,8 +32,9 @@ LabelPair labelsBeside(const TissueMap& map, const VoxelFace& face)
   return std::minmax(labelAt(map, face.lower), labelAt(map, face.upper()));
 }
 
-/// Which voxel faces stay where only a share of them is wanted: by the fractional part of an additive sequence with the
-/// plastic number's relatives for its steps, which leaves any share of them evenly spread.
+/// Returns whether a voxel face belongs to the share of faces to keep. Compares the fractional part of an additive
+/// recurrence, whose steps generalise the plastic number to four dimensions, with `share`, which spreads any share
+/// evenly.
 bool isWithin(double share, const VoxelFace& face)
 {
   if (share >= 1) return true;
@@ -43,7 +44,7 @@ bool isWithin(double share, const VoxelFace& face)
   return at - std::floor(at) < share;
 }
 
-/// The faces between labels of a lattice, by place and labels.
+/// The interface faces of a lattice, found by position and labels.
 class FaceBins
 {
 public:
@@ -63,7 +64,8 @@ public:
     parallelFor(m_Entries.groups(), [&](std::size_t bin) { std::sort(m_Entries.begin(bin), m_Entries.end(bin)); });
   }
 
-  /// (tetrahedron, face) nearest to p between the two labels.
+  /// Returns the face (tetrahedron, face) between the two labels that is nearest to p in the smallest neighbourhood of
+  /// bins that has any; nothing if there is none within `reach` bins.
   std::optional<std::pair<std::int32_t, int>> nearest(const Vec3& p, const LabelPair& labels) const
   {
     const Index home = binOf(p);
@@ -71,7 +73,7 @@ public:
     {
       const Index low{ std::max(0, home[0] - r), std::max(0, home[1] - r), std::max(0, home[2] - r) };
       Nearest best{ low };
-      look(p, labels, home, best); // spares most of the others
+      look(p, labels, home, best); // first, so that most of the other bins are too far
       for (int z = low[2]; z <= std::min(m_Size[2] - 1, home[2] + r); ++z)
         for (int y = low[1]; y <= std::min(m_Size[1] - 1, home[1] + r); ++y)
           for (int x = low[0]; x <= std::min(m_Size[0] - 1, home[0] + r); ++x)
@@ -90,7 +92,8 @@ private:
     bool operator<(const Entry& other) const { return std::tie(labels, face) < std::tie(other.labels, other.face); }
   };
 
-  /// Of several at the same distance, the one that is first met from `corner` on, bin by bin.
+  /// The nearest face so far. Among faces at the same distance, the first one met when bins are visited in order from
+  /// `corner` on, so that the result does not depend on the order of the search.
   struct Nearest
   {
     Index corner;
@@ -121,7 +124,7 @@ private:
 
   std::size_t number(const Index& bin) const { return (std::size_t(bin[2]) * m_Size[1] + bin[1]) * m_Size[0] + bin[0]; }
 
-  /// The first ones lie before the origin, as the map begins half a voxel before it.
+  /// Bin 0 lies before the origin, as the map begins half a voxel before it.
   Index binOf(const Vec3& p) const
   {
     Index bin;
@@ -129,7 +132,7 @@ private:
     return bin;
   }
 
-  /// From a bin, mm^2, and not the last bits more.
+  /// Squared distance from p to a bin, mm^2, a little too small, so that rounding never excludes a bin.
   double squaredDistance(const Vec3& p, const Index& bin) const
   {
     constexpr double slack = 1 - 1e-9;
@@ -160,7 +163,7 @@ private:
     Index from, to;
   };
 
-  /// That the box of a face reaches into.
+  /// Returns the range of bins that the bounding box of a face intersects.
   Bins binsOf(std::int32_t f) const
   {
     const auto [a, b, c] = corners(f);
@@ -182,7 +185,7 @@ private:
         for (int x = from[0]; x <= to[0]; ++x) f(number({ x, y, z }));
   }
 
-  /// A voxel face that lattice face f reaches into.
+  /// Returns a voxel face that lattice face f overlaps.
   VoxelFace faceUnder(std::int32_t f, const TissueMap& blocks) const
   {
     const auto [a, b, c] = corners(f);
@@ -200,12 +203,12 @@ private:
 
   const TetMesh& m_Mesh;
   const std::vector<std::pair<std::int32_t, std::int32_t>>& m_Faces;
-  const Vec3 m_Side; ///< of a bin, mm
+  const Vec3 m_Side; ///< side lengths of a bin, mm
   Index m_Size;
-  Grouped<Entry> m_Entries; ///< by bin, x fastest
+  Grouped<Entry> m_Entries; ///< grouped by bin, x fastest
 };
 
-/// Share of the voxel faces that stay where L is `length`.
+/// Returns the share of voxel faces to keep for `perTriangle` samples per triangle of edge length `length` (mm).
 double shareAt(double length, double perTriangle, const Vec3& spacing)
 {
   const double voxelFace = std::min({ spacing.x * spacing.y, spacing.y * spacing.z, spacing.z * spacing.x });

@@ -23,26 +23,26 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double mostOffset = 0.3;   // voxels, of a tissue's whole boundary
-constexpr double perGaussian = 1.5;  // standard deviation of the fit's weights, in those of the Gaussian
-constexpr double reach = 2.2;        // of the fit, in its standard deviations
-constexpr double leastCosine = 0.35; // between normals, for a sample to count
-constexpr double margin = 0.14;      // voxels, that the boundary stays off the centres of the voxels beside a face
+constexpr double mostOffset = 0.3;   // voxels; largest offset of a tissue's boundary
+constexpr double perGaussian = 1.5;  // standard deviation of the fit's weights, in that of the Gaussian
+constexpr double reach = 2.2;        // radius of the fit, in standard deviations of its weights
+constexpr double leastCosine = 0.35; // between normals; other samples do not take part in a fit
+constexpr double margin = 0.14;      // voxels; distance of the boundary from the centres of the voxels beside a face
 
 using Index = std::array<int, 3>;
 
-/// In voxel coordinates: the centre of voxel (i, j, k) is at (i, j, k).
+/// A point of the smooth boundary, in voxel coordinates: the centre of voxel (i, j, k) is at (i, j, k).
 struct Point
 {
-  Index lower; ///< voxel below the face; the other lies one up along `axis`
+  Index lower; ///< voxel below the point's voxel face; the other voxel follows along `axis`
   int axis;
   Label inside; ///< the larger of the two labels
   Label outside;
-  bool isInsideBelow; ///< `lower` has label `inside`
+  bool isInsideBelow; ///< whether `lower` has label `inside`
   Vec3 position;
   Vec3 normal;          ///< unit, out of `inside`
-  double curvature = 0; ///< the larger one, per voxel
-  double scale = 1;     ///< of the smoothing, see scaleAt
+  double curvature = 0; ///< see Quadric::curvature, 1/voxel
+  double scale = 1;     ///< factor on the width of the smoothing, see scaleAt
 
   Vec3 centre() const
   {
@@ -68,9 +68,10 @@ public:
     }
   }
 
-  double window() const { return m_Window; } ///< voxels farther away have next to no weight
+  /// Distance beyond which voxels have hardly any weight, in voxels.
+  double window() const { return m_Window; }
 
-  /// At |x| up to window().
+  /// Returns value and derivative at x, for |x| up to window().
   std::pair<double, double> operator()(double x) const
   {
     const double at = std::clamp((x + m_Reach) * perVoxel + 1, 0.0, double(m_Values.size()) - 1.001);
@@ -86,15 +87,15 @@ private:
   std::vector<double> m_Values, m_Slopes;
 };
 
-/// How much wider the smoothing is where L is that many voxels: steps of the voxels are noise to triangles that long,
-/// and to follow them costs short edges and what mends these.
+/// Returns the factor on the width of the smoothing where L is `length` voxels. For long triangles the steps of the
+/// voxels are noise: to follow them would create short edges, which then have to be repaired.
 double scaleAt(double length)
 {
   constexpr double from = 8, perVoxel = 0.4, most = 4;
   return std::clamp(1 + perVoxel * (length - from), 1.0, most);
 }
 
-/// Where the smoothed indicators of a point's two labels are equal.
+/// Moves points to where the smoothed indicators of their two labels are equal.
 class IndicatorTie
 {
 public:
@@ -116,7 +117,8 @@ public:
   }
 
 private:
-  /// Down the gradient from the face's centre; false if the tie is none, or too far off.
+  /// Newton steps along the gradient from the face's centre. Returns false if the two indicators are not equal anywhere
+  /// near, or only farther than `farthest` voxels away.
   bool follow(Point& point, const VoxelWeight& weight, double farthest) const
   {
     const Vec3 home = point.centre();
@@ -135,6 +137,7 @@ private:
     return true;
   }
 
+  /// Returns the difference of the smoothed indicators of the point's two labels at p, and its gradient.
   std::pair<double, Vec3> difference(const Point& point, const Vec3& p, const VoxelWeight& weight) const
   {
     constexpr int most = 16;
@@ -146,14 +149,14 @@ private:
       count[a] = std::min(most, int(std::floor(p[a] + weight.window())) - low[a] + 1);
       for (int i = 0; i < count[a]; ++i) w[a][i] = weight(low[a] + i - p[a]);
     }
-    std::array<std::pair<double, double>, most + 1> ofFirst; // of that many voxels at the beginning of a row
+    std::array<std::pair<double, double>, most + 1> ofFirst; // sums over the first n voxels of a row
     for (int i = 0; i < count[0]; ++i)
       ofFirst[i + 1] = { ofFirst[i].first + w[0][i].first, ofFirst[i].second + w[0][i].second };
     const auto signOf = [&](Label label) { return double(label == point.inside) - double(label == point.outside); };
     const bool isWithin = isInMap(low, count);
     std::array<Label, most> row;
     double value = 0;
-    Vec3 gradient; // of the weights with respect to the voxels: the other way round for p
+    Vec3 gradient; // with respect to p: minus the derivatives of the weights, which are with respect to the voxels
     for (int k = 0; k < count[2]; ++k)
       for (int j = 0; j < count[1]; ++j)
       {
@@ -174,7 +177,7 @@ private:
     return { value, gradient };
   }
 
-  /// Whether all those voxels are the map's.
+  /// Returns whether all voxels of the box lie in the map.
   bool isInMap(const Index& low, const Index& count) const
   {
     for (int a = 0; a < 3; ++a)
@@ -182,7 +185,7 @@ private:
     return true;
   }
 
-  /// Of a voxel of the map and those after it along its row.
+  /// Returns the labels of the map from a voxel on along its row.
   const Label* labelsFrom(const Index& voxel) const
   {
     const Index& size = m_Map.grid.size;
@@ -190,12 +193,12 @@ private:
   }
 
   const TissueMap& m_Map;
-  std::vector<std::pair<double, VoxelWeight>> m_Gaussians; ///< share of the standard deviation, the widest first
+  std::vector<std::pair<double, VoxelWeight>> m_Gaussians; ///< factor on the standard deviation; widest first
 };
 
 std::uint32_t labelsOf(const Point& point) { return std::uint32_t(point.inside) << 16 | point.outside; }
 
-/// Points in the order of their lower voxels, found by stretches of rows.
+/// Search structure for points in the order of their lower voxels: rows of voxels, cut into stretches.
 class PointRows
 {
 public:
@@ -207,6 +210,7 @@ public:
     std::partial_sum(m_Start.begin(), m_Start.end(), m_Start.begin());
   }
 
+  /// Calls f(point) for the points whose lower voxels are at most `radius` voxels from `voxel` along each axis.
   template <class F>
   void forEachNear(const Index& voxel, int radius, F&& f) const
   {
@@ -223,7 +227,7 @@ public:
 private:
   static constexpr int stretch = 16; // voxels
 
-  /// Its number.
+  /// Returns the number of the stretch that contains voxel (i, j, k).
   std::size_t stretchOf(int i, int j, int k) const
   {
     return (std::size_t(k + 1) * (m_Size[1] + 1) + (j + 1)) * m_PerRow + std::size_t(i + 1) / stretch;
@@ -232,11 +236,11 @@ private:
   const std::vector<Point>& m_Points;
   Index m_Size;
   std::size_t m_PerRow;
-  std::vector<std::int32_t> m_Start; ///< of each stretch's points, and the end
+  std::vector<std::int32_t> m_Start; ///< first point of each stretch, and the end
 };
 
-/// Points between the same two labels, in the order of their lower voxels, found by rows that have any: to look at those
-/// between other labels, only to pass them over, takes half the time of the fits in an atlas.
+/// Search structure for points between the same two labels: only rows that have such points, in the order of their
+/// lower voxels. Skipping points between other labels one by one would take half the time of the fits in an atlas.
 class LikePoints
 {
 public:
@@ -252,6 +256,8 @@ public:
     m_Rows.push_back({ 0, std::int32_t(m_Entries.size()) });
   }
 
+  /// Calls f for the points with the labels of `point` whose lower voxels are at most `radius` voxels from its own
+  /// along each axis.
   template <class F>
   void forEachLike(const Point& point, int radius, F&& f) const
   {
@@ -274,21 +280,21 @@ private:
   struct Pair
   {
     std::uint32_t labels;
-    int first;          ///< k of its first slice
-    int slices;         ///< how many it has
-    std::int32_t begin; ///< in m_Slices
+    int first;          ///< index k of its first slice
+    int slices;         ///< number of its slices
+    std::int32_t begin; ///< index of its first slice in m_Slices
   };
   struct Row
   {
     int j;
-    std::int32_t begin; ///< in m_Entries
+    std::int32_t begin; ///< index of its first point in m_Entries
   };
   struct Entry
   {
     std::int32_t x, point;
   };
 
-  /// The next of the pairs' points.
+  /// Appends point i; points must come sorted by labels, then by lower voxel.
   void add(std::uint32_t labels, std::int32_t i)
   {
     const auto [x, y, z] = m_Points[i].lower;
@@ -304,7 +310,7 @@ private:
   const std::vector<Point>& m_Points;
   std::vector<Pair> m_Pairs;          ///< by labels
   std::vector<std::int32_t> m_Slices; ///< first row of each pair's slices, and the end
-  std::vector<Row> m_Rows;            ///< those that have any, and the end
+  std::vector<Row> m_Rows;            ///< rows with points, and the end
   std::vector<Entry> m_Entries;
 };
 
@@ -326,7 +332,7 @@ public:
 
   double weight() const { return m_Weight; }
 
-  /// Root mean square, by weight, of what is left of the heights by the solution.
+  /// Returns the weighted root mean square of the heights' residuals for the solution a.
   double misfit(const double (&a)[6]) const
   {
     double left = m_Squares;
@@ -334,7 +340,8 @@ public:
     return std::sqrt(std::max(0.0, left) / m_Weight);
   }
 
-  /// Bending is held by a spring, so that few points make a plane. False if there are too few for that.
+  /// Solves for the coefficients a. A spring on the quadratic terms makes few points give a plane. Returns false if
+  /// there are too few points even for a plane.
   bool solve(double spring, double (&a)[6])
   {
     for (int i = 3; i < 6; ++i) m_Matrix[i][i] += spring * weight();
@@ -363,7 +370,7 @@ private:
   double m_Matrix[6][6] = {}, m_Right[6] = {}, m_Squares = 0, m_Weight = 0;
 };
 
-/// Two unit vectors across n.
+/// Returns two unit vectors that form an orthonormal frame with the unit vector n.
 std::pair<Vec3, Vec3> frameOf(const Vec3& n)
 {
   const Vec3 other = std::abs(n.x) < 0.6 ? Vec3{ 1, 0, 0 } : Vec3{ 0, 1, 0 };
@@ -372,8 +379,9 @@ std::pair<Vec3, Vec3> frameOf(const Vec3& n)
   return { u, cross(n, u) };
 }
 
-/// Keeps the centres of the voxels beside the face on their sides of the plane through the point, or as near to it as
-/// the smoothing is wider.
+/// Moves the point along its normal so that the centres of the two voxels beside its face stay on their sides of its
+/// plane, at least `margin` away. Wider smoothing reduces this distance by scale - 1 voxels, so that the centres may
+/// even lie on the other side.
 void keepLabels(Point& point)
 {
   Vec3 below{ double(point.lower[0]), double(point.lower[1]), double(point.lower[2]) }, above = below;
@@ -387,19 +395,20 @@ void keepLabels(Point& point)
   else if (most < 0 && most > least) point.position += most * point.normal;
 }
 
-/// The height of the boundary over a plane at a point, by its neighbours of the same labels, and what tells how far to
-/// trust that.
+/// The boundary near a point as a quadratic height field over a plane, fitted to neighbours with the same labels, and
+/// measures of its reliability.
 struct Quadric
 {
   Vec3 origin, normal, u, v; ///< the plane's, orthonormal
-  double sigma;              ///< voxels, of the fit's weights
-  double a[6];               ///< HeightFit's, for u and v in `sigma`
-  double misfit;             ///< of the neighbours, root mean square, voxels
-  double cover;              ///< share of the weights of a boundary that goes on all around
+  double sigma;              ///< standard deviation of the fit's weights, voxels
+  double a[6];               ///< coefficients as in HeightFit, with u and v in units of `sigma`
+  double misfit;             ///< root mean square residual of the neighbours, voxels
+  double cover;              ///< sum of the weights, as a share of that of a boundary that continues all around
 
+  /// Returns the root of the sum of the squared principal curvatures at the origin, 1/voxel, for small slopes.
   double curvature() const { return 2 * std::sqrt(a[3] * a[3] + a[5] * a[5] + 0.5 * a[4] * a[4]) / (sigma * sigma); }
 
-  /// `point` moved along the plane's normal onto the quadric.
+  /// Returns `point` moved along the plane's normal onto the quadric, with the quadric's normal and curvature.
   Point onto(Point point) const
   {
     const Vec3 d = point.position - origin;
@@ -414,7 +423,7 @@ struct Quadric
   }
 };
 
-/// None of too few neighbours.
+/// Returns the fit at a point; nothing if there are too few neighbours.
 std::optional<Quadric> quadricAt(const Point& point, const LikePoints& all, double sigma)
 {
   const double squaredReach = reach * reach * sigma * sigma;
@@ -427,7 +436,7 @@ std::optional<Quadric> quadricAt(const Point& point, const LikePoints& all, doub
                     const Vec3 d = other.position - point.position;
                     const double d2 = squaredNorm(d), cosine = dot(other.normal, point.normal);
                     if (d2 > squaredReach || cosine < leastCosine) return;
-                    // A voxel face counts by the area that it stands for.
+                    // A voxel face is weighted by the area of the boundary that it represents.
                     const double area = std::abs(other.normal[other.axis]);
                     const double weight = area * cosine * cosine * std::exp(-0.5 * d2 / (sigma * sigma));
                     fit.add(dot(u, d) / sigma, dot(v, d) / sigma, dot(point.normal, d), weight);
@@ -439,15 +448,16 @@ std::optional<Quadric> quadricAt(const Point& point, const LikePoints& all, doub
   return result;
 }
 
-/// Whether the boundary is one quadric as far as a fit of standard deviation `sigma` goes, but for steps of the voxels.
+/// Returns whether the boundary is plain, that is, one smooth quadric apart from the steps of the voxels, in the range
+/// of a fit of standard deviation `sigma`.
 bool isPlain(const Quadric& q, double sigma)
 {
-  constexpr double mostMisfit = 0.2, leastCover = 0.75, mostTurn = 0.5; // radians, over the standard deviation
+  constexpr double mostMisfit = 0.2, leastCover = 0.75, mostTurn = 0.5; // turn: radians over the standard deviation
   return q.misfit < mostMisfit && q.cover > leastCover && q.curvature() * sigma < mostTurn;
 }
 
-/// The widest quadric at a point, in steps of `sigma`, as long as the boundary is plain; none where a fit of `sigma` is
-/// all there is.
+/// Returns the widest fit at a point, in multiples of `sigma`, over which the boundary is plain; nothing if no fit
+/// wider than `sigma` is plain.
 std::optional<Quadric> widerQuadricAt(const Point& point, const LikePoints& all, double sigma)
 {
   constexpr int widest = 5;
@@ -462,14 +472,15 @@ std::optional<Quadric> widerQuadricAt(const Point& point, const LikePoints& all,
   return best;
 }
 
-/// Points of the same labels in the same cell of some voxels, as ranges of `order`, the least covered first.
+/// Groups of points with the same labels in the same cell of a few voxels, as ranges of `order`; within a group, points
+/// are sorted by ascending Quadric::cover.
 struct PointGroups
 {
   std::vector<std::int32_t> order;
-  std::vector<std::size_t> start; ///< of each group, and the end
+  std::vector<std::size_t> start; ///< start of each group in `order`, and the end
 };
 
-/// Of the points whose `cover` (see Quadric) is not 0.
+/// Groups the points whose `cover` (see Quadric) is positive.
 PointGroups groupsOf(const std::vector<Point>& points, const std::vector<float>& cover)
 {
   constexpr int cell = 2, padding = 2; // voxels; the lowest point is at -1
@@ -495,8 +506,8 @@ PointGroups groupsOf(const std::vector<Point>& points, const std::vector<float>&
   return groups;
 }
 
-/// Moves points of a group that look the same way onto one wide quadric, at the first of them: one at the edge of a wall
-/// is not to go by what is only as wide farther in.
+/// Moves the points of a group that have similar normals onto one wide quadric, fitted at the first, least covered of
+/// them: a point at the edge of a wall must not use a fit that is plain only farther inside.
 void fitWider(const std::vector<Point>& points, std::vector<std::int32_t> group, const LikePoints& all, double sigma,
               std::vector<Point>& fitted)
 {
@@ -515,13 +526,14 @@ void fitWider(const std::vector<Point>& points, std::vector<std::int32_t> group,
   }
 }
 
-/// The points on quadrics as wide as the boundary is plain: a narrow fit does not see beyond the flat cap of a large ball,
-/// or a terrace of a gentle slope. What is wide changes little from point to point, and is fitted once for some.
+/// Returns the points moved onto quadrics as wide as the boundary is plain: a narrow fit does not see beyond the flat
+/// cap of a large ball or a terrace of a gentle slope. Wide fits change little from point to point and are shared by
+/// groups.
 std::vector<Point> fitted(const std::vector<Point>& points, double sigma)
 {
   const LikePoints all(points);
   std::vector<Point> result = points;
-  std::vector<float> cover(points.size(), 0); // of plain ones
+  std::vector<float> cover(points.size(), 0); // Quadric::cover where the boundary is plain
   parallelFor(points.size(),
               [&](std::size_t i)
               {
@@ -542,11 +554,12 @@ std::vector<Point> fitted(const std::vector<Point>& points, double sigma)
   return result;
 }
 
-/// Offsets of the labels' boundaries, voxels, that give back the volume that the points' ways have taken; by label.
+/// Returns, by label, the offsets of the labels' boundaries, voxels, that restore the volumes that the points'
+/// displacements have changed.
 std::vector<double> offsets(const std::vector<Point>& points)
 {
   std::vector<double> lost(labelCount), result(labelCount);
-  std::unordered_map<std::uint32_t, double> areaOf; // by both labels
+  std::unordered_map<std::uint32_t, double> areaOf; // by labelsOf()
   for (const Point& p : points)
   {
     const double sign = p.isInsideBelow ? 1 : -1;
@@ -564,6 +577,7 @@ std::vector<double> offsets(const std::vector<Point>& points)
   return result;
 }
 
+/// Returns the point at the voxel face whose centre is nearest to `position` (mm, in the grid frame).
 Point pointOf(const Vec3& position, const TissueMap& map)
 {
   Point point{};
@@ -584,18 +598,19 @@ Point pointOf(const Vec3& position, const TissueMap& map)
   return point;
 }
 
-/// Voxels, within which a surface of that curvature is off its tangent plane by no more than what nobody sees.
+/// Returns the radius, voxels, within which a surface of that curvature deviates invisibly little from its tangent
+/// plane.
 double planeRadius(double curvature, double scale)
 {
   constexpr double invisible = 0.05, least = 0.7, most = 2;
   return std::clamp(std::sqrt(2 * invisible * scale / std::max(curvature, 1e-3)), least * scale, most * scale);
 }
 
-/// Where planes meet, least squares of the distances to them, held at a place by a spring.
+/// The point where planes meet: least squares of the distances to the planes, with a spring to a given position.
 class MeetingPlanes
 {
 public:
-  /// The plane through a point `way` from the place.
+  /// Adds the plane through the point at `way` from the position.
   void add(const Vec3& normal, const Vec3& way, double weight)
   {
     const Vec3& n = normal;
@@ -607,7 +622,8 @@ public:
 
   double weight() const { return m_Weight; }
 
-  /// From the place to there; `spring` positive, against a plane each.
+  /// Returns the step from the position to the meeting point; `spring` > 0 is the spring's weight relative to the
+  /// planes'.
   Vec3 way(double spring) const
   {
     const double* m = m_Matrix;
@@ -622,7 +638,7 @@ private:
   Vec3 m_Right;
 };
 
-/// Of the samples at the voxel faces around a vertex of the interface, voxels.
+/// Returns the planes of the samples at the voxel faces that touch a lattice vertex on the interface, in voxels.
 MeetingPlanes planesTouching(const Vec3& vertex, const PointRows& rows)
 {
   constexpr double touching = 0.5 + 1e-6;
@@ -649,7 +665,8 @@ Vec3 wayTouching(const Vec3& vertex, const PointRows& rows)
 
 using SamplesAtVertices = Grouped<std::int32_t>; ///< numbers of points
 
-/// The points of the samples of the faces at each vertex of a lattice; `order`: which sample each of the points is.
+/// Returns for each vertex of a lattice the points whose samples are held by a face at the vertex; `order[i].second` is
+/// the sample of point i.
 SamplesAtVertices samplesAtVertices(const BackgroundMesh& background,
                                     const std::vector<std::pair<std::int64_t, std::int32_t>>& order)
 {
@@ -665,11 +682,12 @@ SamplesAtVertices samplesAtVertices(const BackgroundMesh& background,
   return SamplesAtVertices(background.mesh.points.size(), order.size(), forEachCorner);
 }
 
-/// Of the samples that the triangles at vertex number `v` hold, the less the farther off.
+/// Returns the planes of the samples that the triangles at vertex number `v` hold, with weights that fall with
+/// distance.
 MeetingPlanes planesHeld(const Vec3& vertex, double length, const std::vector<Point>& points,
                          const SamplesAtVertices& samples, std::int32_t v)
 {
-  constexpr double ofLength = 0.13; // standard deviation of the weights, a voxel at least
+  constexpr double ofLength = 0.13; // standard deviation of the weights, share of L; at least a voxel
   const double sigma = std::max(1.0, ofLength * length);
   MeetingPlanes planes;
   for (const std::int32_t* n = samples.begin(v); n != samples.end(v); ++n)
@@ -683,13 +701,13 @@ MeetingPlanes planesHeld(const Vec3& vertex, double length, const std::vector<Po
 Vec3 wayToHeld(const MeetingPlanes& planes, double length)
 {
   constexpr double spring = 0.03;
-  constexpr double ofLength = 0.2, least = 1.5; // that the faces of blocks are off
+  constexpr double ofLength = 0.2, least = 1.5; // share of L, voxels; how far faces of blocks are off the boundary
   const Vec3 way = planes.way(spring);
   const double distance = norm(way), most = std::max(least, ofLength * length);
   return (distance > most ? most / distance : 1) * way;
 }
 
-/// Vertices at faces between labels, ascending.
+/// Returns the vertices on the interface, ascending.
 std::vector<std::int32_t> interfaceVertices(const KuhnLattice& lattice)
 {
   const TetMesh& mesh = lattice.background.mesh;
@@ -704,8 +722,9 @@ std::vector<std::int32_t> interfaceVertices(const KuhnLattice& lattice)
 
 Vec3 scaled(const Vec3& p, const Vec3& by) { return { p.x * by.x, p.y * by.y, p.z * by.z }; }
 
-/// The smooth boundary's points in the order of their voxels; `order` gives the sample that each belongs to.
-/// `lengths`, voxels: L at each sample; if there are none, no smoothing is wider. `mostScales`: see mostScalesOf.
+/// Returns the points of the smooth boundary in the order of their voxels; fills `order`, whose `second` is the sample
+/// of each point. `lengths`: L at each sample, voxels; if empty, smoothing is nowhere wider. `mostScales`: see
+/// mostScalesOf.
 std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& samples, const TissueMap& map, double sigma,
                                 const std::vector<float>& lengths, const std::vector<double>& mostScales,
                                 std::vector<std::pair<std::int64_t, std::int32_t>>& order)
@@ -727,7 +746,8 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
   parallelFor(n,
               [&](std::size_t i)
               {
-                points[i] = pointOf(samples[order[i].second].position, map); // once more: all would take as much again
+                // Computed again: storing the points of the first loop would take as much memory again.
+                points[i] = pointOf(samples[order[i].second].position, map);
                 if (!lengths.empty())
                   points[i].scale = std::min(
                     { scaleAt(lengths[order[i].second]), mostScales[points[i].inside], mostScales[points[i].outside] });
@@ -741,7 +761,8 @@ std::vector<Point> smoothPoints(const std::vector<BackgroundMesh::Sample>& sampl
   return points;
 }
 
-/// How much wider the smoothing may be at each label: a tissue of few voxels across would come out flat.
+/// Returns the largest factor on the width of the smoothing by label: wider smoothing would flatten a tissue of few
+/// voxels across.
 std::vector<double> mostScalesOf(const std::map<Label, double>& thickness, double voxel)
 {
   constexpr double perVoxel = 0.5;
@@ -750,7 +771,7 @@ std::vector<double> mostScalesOf(const std::map<Label, double>& thickness, doubl
   return result;
 }
 
-/// L at each sample, voxels.
+/// Returns L at each sample, voxels.
 std::vector<float> lengthsAtSamples(const BackgroundMesh& background, double voxel)
 {
   std::vector<float> lengths(background.samples.size());
@@ -764,9 +785,9 @@ std::vector<float> lengthsAtSamples(const BackgroundMesh& background, double vox
   return lengths;
 }
 
-/// Where vertices of the interface belong, mm: where the planes of the samples at their voxel faces meet; where L is
-/// longer, and samples may be thinned or blocks of voxels have moved the faces, of those that their triangles hold.
-/// `order`: which sample each of the points is.
+/// Returns the positions of interface vertices on the smooth boundary, mm: where the planes of the samples at the voxel
+/// faces around a vertex meet. Where L is at least two voxels, samples may be thinned and faces displaced by uniform
+/// blocks: there the planes of the samples that the vertex's triangles hold are used. `order`: see smoothPoints().
 std::vector<Vec3> meetingPoints(const BackgroundMesh& background, const std::vector<std::int32_t>& vertices,
                                 const Grid& grid, const std::vector<Point>& points,
                                 const std::vector<std::pair<std::int64_t, std::int32_t>>& order)

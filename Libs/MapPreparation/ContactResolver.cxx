@@ -25,22 +25,23 @@ int faceContacts(const Neighbourhood& n, Label label)
   return contacts;
 }
 
-/// Steps from the lowest corner of a block to its corners.
+/// Memory offsets from the lowest corner of a block to its corners.
 std::array<std::ptrdiff_t, 8> cornerSteps(const Grid& grid)
 {
   const std::ptrdiff_t j = grid.size[0], k = j * grid.size[1];
   return { 0, 1, j, j + 1, k, k + 1, k + j, k + j + 1 };
 }
 
-/// What it costs to take the centre away from its label, whichever gets it: parts of that split or joined, and the
-/// interface that it grows by, less the critical blocks that there are.
+/// Cost of taking the centre away from its label, whichever label receives it: parts of the label that split or join,
+/// plus the interface that this adds, minus the critical blocks before the change.
 int costOfLoss(const Neighbourhood& around)
 {
   const Label old = around[centre];
   return std::abs(partsAround(around, old) - 1) + faceContacts(around, old) - criticalBlocks(around);
 }
 
-/// What it costs to give it to `label`: critical blocks left, parts split or joined, less the interface that goes.
+/// Cost of giving the centre to `label`: critical blocks after the change, plus parts of the label that split or join,
+/// minus the interface that this removes.
 int costOfGain(const Neighbourhood& around, Label label)
 {
   Neighbourhood changed = around;
@@ -59,7 +60,7 @@ void findInSlice(const PaddedMap& map, int k, std::vector<std::size_t>& result)
     const std::size_t begin = map.grid.index(0, j, k);
     const Label* a = map.labels.data() + begin;
     const Label *b = a + corners[2], *c = a + corners[4], *d = a + corners[6];
-    // Uniform blocks cost one comparison.
+    // A uniform block then takes a single comparison.
     for (int i = 0; i < size[0]; ++i) differs[i] = (a[i] ^ b[i]) | (a[i] ^ c[i]) | (a[i] ^ d[i]);
     for (int i = 0; i + 1 < size[0]; ++i)
     {
@@ -71,7 +72,7 @@ void findInSlice(const PaddedMap& map, int k, std::vector<std::size_t>& result)
 
 constexpr std::uint8_t queued = 128; ///< in m_States; the other bits count the changes of the voxel
 constexpr std::uint8_t maximumCount = 127;
-constexpr int patience = 16; ///< changes of a voxel, where there is an original to go back to
+constexpr int patience = 16; ///< changes of a voxel before its block is restored, if there is an original
 
 } // namespace
 
@@ -118,7 +119,7 @@ void ContactResolver::updateAfter(const RemovedVoxels& removed)
 
 void ContactResolver::run()
 {
-  // Far more than pure noise takes.
+  // Far more changes than a map of pure noise needs.
   std::size_t changesLeft = 1000 + 100 * m_Queue.size();
   for (std::size_t head = 0; head < m_Queue.size(); ++head)
   {
@@ -165,8 +166,8 @@ void ContactResolver::restore(std::size_t block)
   }
 }
 
-/// The cheapest change of one voxel of the block to another label of the block. Neither fixed voxels nor the last
-/// voxel of a label are touched; cost stays at its maximum if nothing else is left.
+/// The cheapest change of one voxel of the block to another label of the block. Fixed voxels and the last voxel of a
+/// tissue are not changed; if no other voxel is left, the cost is the maximum of its type.
 ContactResolver::Change ContactResolver::bestChange(std::size_t block) const
 {
   Change best;
@@ -199,8 +200,8 @@ void ContactResolver::apply(const Change& change)
 
 int ContactResolver::changesOf(std::size_t voxel) const { return m_States[voxel] & maximumCount; }
 
-/// Differs from visit to visit, so that equal choices are not always taken the same way. The voxel's number is that with
-/// a margin of one, whatever the margin.
+/// A hash that changes with every change of the voxel, so that ties are not always decided in the same way. The voxel
+/// is numbered as with a margin of one, so that the result does not depend on the margin.
 std::uint32_t ContactResolver::noise(std::size_t voxel, Label label) const
 {
   const auto [i, j, k] = m_Map.mapVoxelAt(voxel);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Critical blocks of a map (see MapPreparation.h), and how they go.
+/// Critical blocks of a map (see MapPreparation.h), and their resolution.
 
 #include "PaddedMap.h"
 #include "RegionRemoval.h"
@@ -16,25 +16,25 @@
 namespace surgicalmesher
 {
 
-/// Lowest corners of the critical blocks, ascending.
+/// Returns the memory indices of the lowest corners of all critical blocks, ascending.
 std::vector<std::size_t> findCriticalBlocks(const PaddedMap& map);
 
-/// Empties a queue of critical blocks, one voxel at a time.
+/// Resolves a queue of critical blocks by changing one voxel at a time.
 ///
-/// Each change is the cheapest among the voxels and labels of the block at hand: it leaves few critical blocks around
-/// the voxel, labels that hang together as they did, and little interface. A voxel becomes dearer with every change, so
-/// the search cannot circle for ever, and where no change helps it wanders until one does. Within limits a search that
-/// has become dear is given up instead: the block goes back to what it was.
+/// Each change is the cheapest one among the voxels and labels of a block: it leaves few critical blocks around the
+/// voxel, keeps labels connected as they were, and adds little interface. Every change raises the cost of its voxel, so
+/// the search cannot cycle forever; where no change helps, it wanders until one does. With an original, a search that
+/// has become too expensive is abandoned instead: the block goes back to its original labels.
 class ContactResolver
 {
 public:
   explicit ContactResolver(PaddedMap& map);
 
-  /// `original` is well-composed, and the same as the map in all fixed voxels; closed labels gain nothing.
+  /// `original` must be well-composed and equal to the map in all fixed voxels; closed labels gain no voxel.
   ContactResolver(PaddedMap& map, const PaddedMap& original, std::function<bool(std::size_t)> isFixed,
                   const std::set<Label>& closedLabels);
 
-  /// Those of the margin and of restored blocks are.
+  /// Whether a voxel must keep its label, as all voxels of the margin and of restored blocks must.
   bool isFixed(std::size_t voxel) const
   {
     return m_Map.isInMargin(voxel) || (m_Original && (m_IsFixed(voxel) || m_Restored.count(voxel) > 0));
@@ -68,10 +68,10 @@ private:
   std::array<std::ptrdiff_t, 8> m_Corners;
   std::array<std::ptrdiff_t, 27> m_Around;
   std::vector<std::uint8_t> m_States;
-  std::vector<std::size_t> m_Voxels; ///< of each label
+  std::vector<std::size_t> m_Voxels; ///< number of voxels of each label
   std::vector<std::size_t> m_Queue;
   const PaddedMap* m_Original = nullptr;
-  std::function<bool(std::size_t)> m_IsFixed; ///< asked only where there is an original
+  std::function<bool(std::size_t)> m_IsFixed; ///< called only if there is an original
   std::unordered_set<std::size_t> m_Restored;
   std::set<Label> m_Closed;
 };

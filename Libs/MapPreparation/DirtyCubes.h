@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Cubes of voxels in which something may have to be looked at again.
+/// Bookkeeping of the cubes of voxels that must be examined again after changes of a map.
 
 #include "BoundaryFaces.h"
 #include "Parallel.h"
@@ -27,7 +27,7 @@ public:
     m_Changes.assign(std::size_t(m_Count[0]) * m_Count[1] * m_Count[2], 0);
   }
 
-  /// Marks the cubes that hold a voxel with another label beside it, `margin` voxels at the grid's border left out.
+  /// Marks the cubes that hold a voxel with a face neighbour of another label, except in the outermost `margin` voxels.
   void markBoundary(const TissueMap& map, int margin)
   {
     const auto& size = m_Grid.size;
@@ -43,13 +43,14 @@ public:
                     });
   }
 
-  /// Marks the cubes that hold a voxel within `reach` steps along each axis of a box in which so many voxels change.
+  /// Marks the cubes that hold a voxel within `reach` steps, along each axis, of a box in which `changes` voxels
+  /// changed. `first`, `last`: the box's lowest and highest voxel.
   void mark(const std::array<int, 3>& first, const std::array<int, 3>& last, int reach, std::size_t changes)
   {
     forEachNear(first, last, reach, [&](std::size_t cube) { m_Changes[cube] += std::uint32_t(changes); });
   }
 
-  /// Calls visit(cube) for the cubes that hold a voxel within `reach` steps along each axis of a box.
+  /// Calls visit(cube) for the cubes that hold a voxel within `reach` steps, along each axis, of a box.
   template <typename Visit>
   void forEachNear(const std::array<int, 3>& first, const std::array<int, 3>& last, int reach, const Visit& visit) const
   {
@@ -73,10 +74,10 @@ public:
   struct Dirty
   {
     std::size_t cube;
-    std::uint32_t changes; ///< no fewer than there are within reach of its voxels
+    std::uint32_t changes; ///< upper bound on the changed voxels within reach of its voxels
   };
 
-  /// The dirty cubes, ascending; all are clean afterwards.
+  /// Returns the dirty cubes, ascending, and makes all cubes clean.
   std::vector<Dirty> take()
   {
     std::vector<Dirty> cubes;
@@ -85,13 +86,13 @@ public:
     return cubes;
   }
 
-  static constexpr int voxels = side * side * side; ///< of a cube
+  static constexpr int voxels = side * side * side; ///< per cube
 
-  /// Of all cubes.
+  /// Number of all cubes.
   std::size_t count() const { return m_Changes.size(); }
 
-  /// Calls visit(voxel, its number in the cube) for every voxel of a cube with another label beside it, `margin` voxels
-  /// at the grid's border left out.
+  /// Calls visit(voxel, number in the cube) for every voxel of a cube with a face neighbour of another label, except in
+  /// the outermost `margin` voxels of the grid.
   template <typename Visit>
   void visitBoundary(const TissueMap& map, std::size_t cube, int margin, const Visit& visit) const
   {
@@ -115,7 +116,7 @@ public:
 private:
   const Grid& m_Grid;
   std::array<int, 3> m_Count;
-  std::vector<std::uint32_t> m_Changes; ///< by cube; none in clean ones
+  std::vector<std::uint32_t> m_Changes; ///< by cube; 0 for clean ones
 };
 
 } // namespace surgicalmesher

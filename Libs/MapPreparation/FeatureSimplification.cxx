@@ -22,9 +22,9 @@ namespace surgicalmesher
 namespace
 {
 
-/// A voxel whose label fills less than this share of the ball around it may change. A flat boundary leaves a voxel 1/2,
-/// the surface of a strand of the ball's diameter 0.4, that of such a ball 5/16. Higher, small tissues suffer; lower,
-/// strands as thick as s stay.
+/// A voxel whose label fills less than this share of the ball around it may change. The share is 1/2 at a flat
+/// boundary, 0.4 at the surface of a strand of the ball's diameter, and 5/16 at the surface of a ball of that diameter.
+/// A larger value damages small tissues; a smaller one keeps strands of thickness s.
 constexpr double requiredShare = 0.38;
 
 constexpr double largestSize = 16; ///< in smallest voxel spacings
@@ -38,7 +38,7 @@ public:
   {
   }
 
-  /// mm; 0 where nothing is to change.
+  /// s in mm; 0 where the voxel must not change.
   double at(std::size_t voxel) const
   {
     const double size = m_Factor * m_Scale(m_Map.worldAt(voxel));
@@ -70,16 +70,16 @@ private:
   std::vector<VoxelBall> m_Balls;
 };
 
-/// What is remembered of the voxels of a cube.
+/// Cached data of the voxels of a cube.
 struct CubeMemory
 {
   static constexpr std::uint8_t unknown = 255, none = 0, mostRoom = 255;
 
   CubeMemory() { balls.fill(unknown); }
 
-  /// Numbers of their balls: L takes longer to find than a voxel to rule on.
+  /// Indices of their balls; cached because evaluating L takes longer than applying the share rule.
   std::array<std::uint8_t, DirtyCubes::voxels> balls;
-  /// A voxel keeps its label until as many voxels around it have changed; 0: not known.
+  /// Number of voxels around a voxel that must change before its label can; 0: unknown.
   std::array<std::uint8_t, DirtyCubes::voxels> room{};
 
   void change(std::uint32_t voxels)
@@ -89,7 +89,7 @@ struct CubeMemory
   }
 };
 
-/// That of the cubes that have been looked at.
+/// The CubeMemory of all cubes that have been examined.
 class Memory
 {
 public:
@@ -106,15 +106,15 @@ public:
 
 private:
   static constexpr std::uint32_t absent = std::numeric_limits<std::uint32_t>::max();
-  std::vector<std::uint32_t> m_Place; ///< of each cube in m_Cubes
+  std::vector<std::uint32_t> m_Place; ///< index in m_Cubes, by cube
   std::vector<CubeMemory> m_Cubes;
 };
 
-/// A voxel that goes to another label.
+/// A change of one voxel to another label.
 struct Change
 {
   std::size_t voxel;
-  std::size_t cube; ///< that it lies in
+  std::size_t cube; ///< that contains the voxel
   Label before, after;
 
   bool operator<(const Change& other) const
@@ -125,15 +125,15 @@ struct Change
 
 using Changes = std::vector<Change>; ///< ascending, of different voxels
 
-/// What the rules have changed, step by step.
+/// The changes made by the rules, step by step.
 struct Course
 {
-  Changes small;               ///< regions
-  std::vector<Changes> rounds; ///< of the share rule
-  Changes cutOff;              ///< regions, by the share rule
+  Changes small;               ///< by the first removal of small regions
+  std::vector<Changes> rounds; ///< by the share rule
+  Changes cutOff;              ///< by the last removal of regions, which the share rule cut off
 };
 
-/// The two rules.
+/// Applies the two rules.
 class Simplifier
 {
 public:
@@ -144,8 +144,8 @@ public:
   {
   }
 
-  /// Simplifies the map, without touching the labels in `closed`. After takeBack() once more, with further ones among
-  /// them: then only what these touch, and what comes out otherwise for it, is looked at again.
+  /// Simplifies the map without changing the labels in `closed`. After takeBack(), it can run again with further closed
+  /// labels; then only the surroundings of these labels, and of places that change differently, are examined again.
   void run(const std::set<Label>& closed)
   {
     const Course last = std::exchange(m_Course, {});
@@ -186,7 +186,8 @@ private:
     return changes;
   }
 
-  /// A region counts as small by the least s in it, which is looked for until it is too large for that.
+  /// Whether each region is small, compared with the least s in it. The search in a region stops as soon as the region
+  /// is too large.
   std::vector<bool> smallRegions(const Regions& regions) const
   {
     const Vec3& s = m_Map.grid.spacing;
@@ -208,10 +209,10 @@ private:
     return isSmall;
   }
 
-  /// `last`: the rounds that closed cubes go through once more; none if all are open.
+  /// `last`: the rounds of the last run, which are repeated in the cubes that are not open; empty if all are open.
   void applyShareRule(const std::vector<Changes>& last)
   {
-    // A detail narrower than s is gone after s rounds. More would unravel thin sheets from their edges.
+    // A detail narrower than s is gone after s rounds, in voxels. More rounds would erode thin sheets from their edges.
     const int rounds = int(std::ceil(m_Largest / m_Sizes.smallestSpacing()));
     for (int round = 0; round < rounds; ++round)
       m_Course.rounds.push_back(last.empty() ? applyRound() : applyRoundAgain(last[round]));
@@ -224,7 +225,7 @@ private:
     return changes;
   }
 
-  /// In closed cubes as it was `last`.
+  /// Repeats the changes of `last` in the cubes that are not open, and applies the rule in the others.
   Changes applyRoundAgain(const Changes& last)
   {
     std::vector<DirtyCubes::Dirty> dirty = m_Dirty.take();
@@ -247,7 +248,7 @@ private:
     return result;
   }
 
-  /// Opens the cubes that the rule may look from at a voxel changed, or at one of a label not closed before.
+  /// Opens the cubes whose voxels may be affected by the changes, or by voxels of newly closed labels.
   void openAround(const std::set<Label>& wereClosed, const Changes& changed)
   {
     open(changed);
@@ -262,7 +263,7 @@ private:
     for (const Change& c : changes) open(c.voxel, m_Map.margin - 1);
   }
 
-  /// Opens the cubes that hold a voxel within `reach` steps along each axis of one.
+  /// Opens the cubes that hold a voxel within `reach` steps, along each axis, of `voxel`.
   void open(std::size_t voxel, int reach)
   {
     const std::array<int, 3> at = m_Map.grid.voxelAt(voxel);
@@ -270,7 +271,7 @@ private:
     m_Dirty.mark(at, at, reach, 1);
   }
 
-  /// The voxels of these labels with another one beside them.
+  /// The voxels of these labels that have a face neighbour of another label.
   std::vector<std::size_t> boundaryOf(const std::set<Label>& labels) const
   {
     const auto& size = m_Map.grid.size;
@@ -311,7 +312,7 @@ private:
     }
   }
 
-  /// What the share rule asks of the map as it is, in these cubes.
+  /// The changes that the share rule makes to the present map in these cubes.
   Changes findChanges(const std::vector<DirtyCubes::Dirty>& cubes)
   {
     std::vector<Changes> changes(cubes.size());
@@ -334,7 +335,7 @@ private:
     return all;
   }
 
-  /// The label that a voxel, number n of its cube, should have by the share rule.
+  /// The label that the share rule gives to a voxel, which has number n in its cube.
   Label ruling(std::size_t voxel, int n, CubeMemory& memory) const
   {
     std::uint8_t &ball = memory.balls[n], &room = memory.room[n];
@@ -346,11 +347,11 @@ private:
   std::uint8_t ballOf(std::size_t voxel) const
   {
     const double size = m_Sizes.at(voxel);
-    // A ball through voxel centres: half a voxel wider on each side than what lies within it.
+    // Balls count voxel centres: the diameter is half a voxel larger on each side.
     return size == 0 ? CubeMemory::none : std::uint8_t(m_Balls.indexOf(size + m_Sizes.smallestSpacing()));
   }
 
-  /// The same by its ball; `room`: see CubeMemory, set where its own label fills enough.
+  /// The same for a given ball. Sets `room` (see CubeMemory) if the voxel's own label fills enough of the ball.
   Label ruling(std::size_t voxel, const VoxelBall& ball, std::uint8_t& room) const
   {
     const Label own = m_Map.labels[voxel];
@@ -377,7 +378,7 @@ private:
     return best;
   }
 
-  /// Labels across the faces of a voxel that may gain it; returns how many.
+  /// Finds the labels across the faces of a voxel that may gain it; returns their number.
   int othersBeside(std::size_t voxel, Label own, std::array<Label, 6>& others) const
   {
     int count = 0;
@@ -393,16 +394,16 @@ private:
   PaddedMap& m_Map;
   std::array<std::ptrdiff_t, 27> m_Steps;
   FeatureSizes m_Sizes;
-  double m_Largest; ///< s anywhere, mm
+  double m_Largest; ///< the largest s, mm
   Balls m_Balls;
   std::set<Label> m_Closed;
-  Course m_Course; ///< the last
+  Course m_Course; ///< of the last run
   DirtyCubes m_Dirty;
-  std::vector<char> m_IsOpen; ///< per cube: may go otherwise than in the course before
-  Memory m_Memory;            ///< of open ones
+  std::vector<char> m_IsOpen; ///< per cube: whether it may change differently than in the last run
+  Memory m_Memory;            ///< of the open cubes
 };
 
-/// Tissues of which less than half is left.
+/// Tissues that have less than half of their voxels left.
 std::set<Label> halved(const std::map<Label, std::size_t>& before, const TissueMap& map)
 {
   const std::map<Label, std::size_t> after = countVoxels(map);
@@ -415,7 +416,7 @@ std::set<Label> halved(const std::map<Label, std::size_t>& before, const TissueM
   return result;
 }
 
-/// s anywhere, mm.
+/// The largest s, mm.
 double largestFeature(const Grid& grid, const ScaleField& scale, double featureScale)
 {
   const double longest = *std::max_element(scale.lengths.begin(), scale.lengths.end());

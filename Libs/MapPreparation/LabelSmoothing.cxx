@@ -16,10 +16,10 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr int reach = 3;                          // voxels, of the Gaussian
-constexpr double ofFine = 0.664, ofCoarse = 0.77; // of its standard deviation
+constexpr int reach = 3;                          // of the Gaussian, voxels
+constexpr double ofFine = 0.664, ofCoarse = 0.77; // factors of its standard deviation
 
-/// Weights of the voxels around one along an axis, by a Gaussian cut off at `reach`.
+/// Weights of a Gaussian along one axis, truncated at `reach`.
 struct Kernel
 {
   explicit Kernel(double sigma)
@@ -31,7 +31,8 @@ struct Kernel
   std::array<float, 2 * reach + 1> weights{};
 };
 
-/// The smoothed indicators of the labels around a voxel. Of more than 32 labels the last share one.
+/// The smoothed indicators of the labels around a voxel. If there are more than 32 labels, the last ones share an
+/// indicator.
 class Indicators
 {
 public:
@@ -44,9 +45,10 @@ public:
                kernel.weights[k + reach] * kernel.weights[j + reach]);
   }
 
-  /// What speaks for a label. Where tissues meet outside, the background is the largest from a third of the whole on, and
-  /// digs a groove along their seam; so a part of what all tissues but the largest have counts against it. The whole of
-  /// that would leave no groove, but fill more of those that the map has than tissues' other sides can make up for.
+  /// The value by which labels compete. Where two tissues meet at the background, a share of a third can make the
+  /// background the largest and dig a groove along their seam; so part of the share of all tissues except the largest
+  /// is subtracted from its share. Subtracting all of it would leave no groove, but fill more of the map's own grooves
+  /// than the tissues could compensate for on their other sides.
   float of(Label label) const
   {
     constexpr float part = 0.3F;
@@ -90,7 +92,8 @@ private:
   int m_Count = 0, m_Last = 0;
 };
 
-/// A voxel, and how much more than its own label's the smoothed indicators of the labels beside it are.
+/// A voxel, and the differences between the smoothed indicators of the labels beside it (its rivals) and that of its
+/// own label.
 struct Candidate
 {
   std::size_t voxel;
@@ -98,9 +101,9 @@ struct Candidate
   std::array<Label, 6> labels{};
   std::array<float, 6> gains{};
   int count = 0;
-  bool isRefused = false; ///< alone, and nothing around has changed since
+  bool isRefused = false; ///< changeAlone() failed, and nothing around has changed since
 
-  /// Once; unless it is so much less that no constant is to make up for it.
+  /// Adds a rival once, unless its gain is so low that no constant should make up for it.
   void add(Label label, float gain)
   {
     constexpr float hopeless = -0.3F;
@@ -110,7 +113,8 @@ struct Candidate
   }
 };
 
-/// All that balancing asks of a candidate with one rival, as most have, in little memory: it asks over and over.
+/// The data that balancing needs of a candidate with a single rival, as most have; compact, since they are read over
+/// and over.
 struct Bid
 {
   Label own, rival;
@@ -136,7 +140,7 @@ public:
   void run()
   {
     findCandidates();
-    // What topology refuses, others make up for.
+    // Further rounds compensate for changes that topology refused.
     for (int round = 0; round < 3; ++round)
     {
       balance();
@@ -157,7 +161,7 @@ private:
     parallelForEach(slices.size(), [&](std::size_t k) { findInSlice(int(k) + margin, slices[k]); });
     std::size_t count = 0;
     for (const std::vector<Candidate>& slice : slices) count += slice.size();
-    m_Candidates.reserve(count); // growing, they would for a while be there twice
+    m_Candidates.reserve(count); // otherwise both the old and the grown array would take memory for a while
     for (const std::vector<Candidate>& slice : slices)
       m_Candidates.insert(m_Candidates.end(), slice.begin(), slice.end());
     findSlices();
@@ -183,7 +187,7 @@ private:
       forEachBoundaryVoxel(m_Map, j, k, m_Map.margin, size[0] - m_Map.margin, consider);
   }
 
-  /// A voxel with five of its own label beside it is in a wall, and stays.
+  /// A voxel with five face neighbours of its own label is part of a flat wall, and stays.
   bool mayChange(std::size_t voxel) const
   {
     const Label own = m_Map.labels[voxel];
@@ -211,13 +215,13 @@ private:
     return result;
   }
 
-  /// How much more the smoothed indicator of a candidate's rival is than its own label's, with the constants.
+  /// The difference between the smoothed indicators of a rival and of the candidate's own label, constants included.
   float gain(const Candidate& c, int rival) const
   {
     return c.gains[rival] + m_Constants[c.labels[rival]] - m_Constants[c.own];
   }
 
-  /// Which of its rivals a candidate goes to; -1: none.
+  /// The index of the rival that a candidate goes to; -1: none.
   int choice(const Candidate& c) const
   {
     int best = -1;
@@ -236,7 +240,7 @@ private:
     return result;
   }
 
-  /// Adds to `gained` what the labels would gain by the choices of part number `part`.
+  /// Adds to `gained` the voxels that labels would gain by the choices of the bidders in part number `part` of `parts`.
   void addChoices(const Bidders& bidders, std::size_t part, std::size_t parts, std::vector<std::int32_t>& gained) const
   {
     const auto begin = [&](const auto& all) { return all.begin() + std::ptrdiff_t(part * all.size() / parts); };
@@ -247,7 +251,7 @@ private:
       if (const int r = choice(**c); r >= 0) --gained[(*c)->own], ++gained[(*c)->labels[r]];
   }
 
-  /// m_Gained, were all to make their choices now.
+  /// m_Gained as it would be after the present choices of all bidders.
   std::vector<std::int32_t> gainedByChoices(const Bidders& bidders) const
   {
     constexpr std::size_t parts = 16;
@@ -259,11 +263,11 @@ private:
     return sum;
   }
 
-  /// Finds the constants with which tissues keep their volumes; the background's stays 0. Each goes up or down by a step
-  /// of its own, which grows while that helps and halves when the tissue has come to have too much of what it lacked
-  /// (Riedmiller and Braun 1993): how many voxels a constant moves differs by orders of magnitude between tissues. A
-  /// strand one voxel wide can gain no voxel, as all beside it are in walls. `most` is large enough for it to lose none
-  /// either, to a neighbour that has a constant of its own.
+  /// Finds the constants with which tissues keep their volumes; that of the background stays 0. Each constant moves by
+  /// its own step, which grows while the tissue's error keeps its sign and halves when the sign changes (Riedmiller and
+  /// Braun 1993): the number of voxels that a constant moves differs by orders of magnitude between tissues. A strand
+  /// one voxel wide cannot gain voxels, as all voxels beside it are in walls; `most` is large enough for the strand not
+  /// to lose any to a neighbour with a constant of its own, either.
   void balance()
   {
     constexpr int rounds = 60;
@@ -286,14 +290,14 @@ private:
     }
   }
 
-  /// One by one, over and over, as every change lets others follow; where none does, with a neighbour. Neither what is
-  /// done nor what is refused is a candidate afterwards.
+  /// Applies the choices one by one, repeatedly, since every change may allow others; if no single change is possible,
+  /// a voxel changes together with a neighbour. Afterwards, neither changed nor refused voxels are candidates.
   void change()
   {
     std::vector<Candidate*> left;
     for (Candidate& c : m_Candidates)
     {
-      c.isRefused = false; // the constants, and so its choice, may have changed
+      c.isRefused = false; // the constants, and so the candidate's choice, may have changed
       if (choice(c) >= 0) left.push_back(&c);
     }
     for (std::size_t before = 0; left.size() != before;)
@@ -319,7 +323,7 @@ private:
 
   void tryAgainAround(std::size_t voxel)
   {
-    for (std::size_t row = 0; row < m_Around.size(); row += 3) // of three voxels along the first axis
+    for (std::size_t row = 0; row < m_Around.size(); row += 3) // each row has three voxels along i
     {
       const std::size_t last = voxel + m_Around[row + 2];
       for (auto at = firstFrom(voxel + m_Around[row]); at != m_Candidates.end() && at->voxel <= last; ++at)
@@ -337,13 +341,14 @@ private:
     return !c.isRefused;
   }
 
-  /// Where the change alone leaves a contact: with that of the neighbour which costs least, and takes the contact away.
+  /// For a change that alone would leave a contact: makes it together with the cheapest change of a neighbour that
+  /// removes the contact.
   bool changeWithNeighbour(const Candidate& c)
   {
     const Label label = c.labels[choice(c)];
     if (!isSimple(around(c.voxel), label)) return false;
     m_Map.labels[c.voxel] = label;
-    float least = -0.3F; // a wall moves by a voxel
+    float least = -0.3F; // the least gain allowed: that of moving a wall by a voxel
     const Candidate* partner = nullptr;
     Label to = 0;
     for (const std::ptrdiff_t step : m_Around)
@@ -361,7 +366,7 @@ private:
     return true;
   }
 
-  /// Whether no contact would be left at `voxel` nor at its neighbour with the neighbour of that label, a simple change.
+  /// Whether giving `label` to the neighbour is a simple change and leaves no contact at `voxel` and at the neighbour.
   bool mendsContact(std::size_t voxel, std::size_t neighbour, Label label)
   {
     if (!isSimple(around(neighbour), label)) return false;
@@ -392,10 +397,10 @@ private:
   const LabelSmoothingOptions& m_Options;
   const Kernel m_Usual, m_Fine, m_Coarse;
   const std::array<std::ptrdiff_t, 27> m_Around;
-  std::vector<std::int32_t> m_Gained;        ///< voxels, by label
+  std::vector<std::int32_t> m_Gained;        ///< number of voxels, by label
   std::vector<float> m_Constants;            ///< by label, added to its smoothed indicator
   std::vector<Candidate> m_Candidates;       ///< by voxel, ascending
-  std::vector<std::ptrdiff_t> m_SliceBegins; ///< first candidate of each slice of the map, and the end
+  std::vector<std::ptrdiff_t> m_SliceBegins; ///< first candidate of each slice; the last entry is the end
 };
 
 } // namespace

@@ -72,8 +72,8 @@ CornerMask cornersOf(Label label, const Block& block)
   return corners;
 }
 
-/// For each voxel, those that touch it and are at most so many steps along axes away: 1 across faces alone, 3 across
-/// corners as well.
+/// For each voxel, those that touch it and are at most `mostSteps` steps along axes away, itself included: 1 for faces
+/// alone, 3 for edges and corners as well.
 std::array<VoxelMask, 27> makeNearVoxels(int mostSteps)
 {
   std::array<VoxelMask, 27> near{};
@@ -88,7 +88,7 @@ std::array<VoxelMask, 27> makeNearVoxels(int mostSteps)
 
 const std::array<VoxelMask, 27> acrossFaces = makeNearVoxels(1), acrossCorners = makeNearVoxels(3);
 
-/// Whether the voxels around the centre that are not of the label hang together, across corners as well.
+/// Whether the voxels around the centre that do not have the label exist and are connected, across corners as well.
 bool isOneAround(const Neighbourhood& n, Label label)
 {
   VoxelMask others = 0;

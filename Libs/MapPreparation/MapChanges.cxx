@@ -19,18 +19,18 @@ namespace surgicalmesher
 namespace
 {
 
-using Voxels = std::vector<std::size_t>; // ascending where it serves as a set
+using Voxels = std::vector<std::size_t>; // ascending if used as a set
 
 bool holds(const Voxels& set, std::size_t voxel) { return std::binary_search(set.begin(), set.end(), voxel); }
 
-/// Goes along a set with places that ascend, too.
+/// Visits the members of a set near places that are given in ascending order.
 class Cursor
 {
 public:
-  /// Looks at the set's voxels from `first` to `last`, counted from each place.
+  /// Visits the set's voxels at offsets from `first` to `last` of each place.
   Cursor(const Voxels& set, std::ptrdiff_t first, std::ptrdiff_t last) : m_Set(set), m_First(first), m_Last(last) {}
 
-  /// Calls f(n) for those at `place`.
+  /// Calls f(n) for the members m_Set[n] near `place`.
   template <class F>
   void visitAt(std::size_t place, const F& f)
   {
@@ -45,7 +45,7 @@ private:
   std::size_t m_Next = 0;
 };
 
-/// Where a voxel's neighbours that come before it are found, row by row.
+/// Cursors for a voxel's neighbours that precede it in memory, one per row.
 std::vector<Cursor> earlierNeighbours(const Voxels& set, const std::array<std::ptrdiff_t, 27>& steps,
                                       bool throughFacesOnly)
 {
@@ -54,7 +54,7 @@ std::vector<Cursor> earlierNeighbours(const Voxels& set, const std::array<std::p
   return { cursor(0, 2), cursor(3, 5), cursor(6, 8), cursor(9, 11), cursor(12, 12) };
 }
 
-/// The parts that `set` falls into, each ascending, in the order of their first voxels.
+/// The connected components of `set`, each ascending, in the order of their first voxels.
 std::vector<Voxels> partsOf(const Voxels& set, const std::array<std::ptrdiff_t, 27>& steps, bool throughFacesOnly)
 {
   std::vector<Cursor> earlier = earlierNeighbours(set, steps, throughFacesOnly);
@@ -63,7 +63,7 @@ std::vector<Voxels> partsOf(const Voxels& set, const std::array<std::ptrdiff_t, 
     for (Cursor& row : earlier)
       row.visitAt(set[n], [&](std::size_t other) { joined.unite(std::uint32_t(other), std::uint32_t(n)); });
   std::vector<Voxels> parts;
-  std::vector<std::uint32_t> partOf(set.size()); // of each part's first voxel
+  std::vector<std::uint32_t> partOf(set.size()); // set only at each part's first voxel
   for (std::uint32_t n = 0; n < set.size(); ++n)
   {
     const std::uint32_t first = joined.find(n);
@@ -77,7 +77,7 @@ std::vector<Voxels> partsOf(const Voxels& set, const std::array<std::ptrdiff_t, 
   return parts;
 }
 
-/// Regions of a map by voxel.
+/// Finds the region of a voxel.
 class RegionLookup
 {
 public:
@@ -151,7 +151,7 @@ private:
     return result;
   }
 
-  /// Voxels by their labels in `map`.
+  /// Groups voxels by their labels in `map`.
   static Grouped<std::size_t> byLabel(const Voxels& voxels, const TissueMap& map)
   {
     return Grouped<std::size_t>(std::size_t(std::numeric_limits<Label>::max()) + 1,
@@ -161,7 +161,8 @@ private:
                                 });
   }
 
-  /// The groups of both that hold something, counted on in the second: what comes last leaves threads idle.
+  /// The non-empty groups, largest first, those of `b` numbered after those of `a`: large groups at the end would leave
+  /// threads idle.
   static std::vector<std::size_t> largestFirst(const Grouped<std::size_t>& a, const Grouped<std::size_t>& b)
   {
     const auto size = [&](std::size_t n) { return n < a.groups() ? a.size(n) : b.size(n - a.groups()); };
@@ -172,7 +173,7 @@ private:
     return order;
   }
 
-  /// Voxels beside a piece, across corners too, that `belongs` accepts.
+  /// Voxels within a step of a piece, across edges and corners too, that `belongs` accepts.
   template <typename Predicate>
   Voxels around(const Voxels& piece, const Predicate& belongs) const
   {
@@ -199,8 +200,9 @@ private:
                        });
   }
 
-  /// The parts into which the voxels beside a piece fall that `belongs` accepts: the first voxel of each; `throughFacesOnly`
-  /// is asked of the parts, and of how they touch the piece. Most pieces are single voxels.
+  /// Returns the first voxel of each connected component of the voxels around a piece that `belongs` accepts.
+  /// `throughFacesOnly` applies to the connections within components and to their contact with the piece. Most pieces
+  /// are single voxels, which have a fast path.
   template <typename Predicate>
   Voxels partsBeside(const Voxels& piece, const Predicate& belongs, bool throughFacesOnly) const
   {
@@ -228,7 +230,7 @@ private:
     return firsts;
   }
 
-  /// `parts`: see partsBeside(), of what remains of the tissue.
+  /// `parts`: the result of partsBeside() for the remaining voxels of the tissue.
   ChangeKind kindOfLoss(const Voxels& parts) const
   {
     if (parts.empty()) return ChangeKind::Island;

@@ -19,7 +19,7 @@ double volumeFor(Label label, const std::map<Label, double>& exceptions, double 
   return exception == exceptions.end() ? general : exception->second;
 }
 
-/// Of each region of background, the volume under which it is to go.
+/// The volume below which each region of background is removed.
 std::vector<double> cavityVolumes(const PaddedMap& map, const Regions& regions, const PreparationOptions& options)
 {
   const double general = options.minimumCavityVolume;
@@ -43,7 +43,7 @@ std::vector<double> cavityVolumes(const PaddedMap& map, const Regions& regions, 
   return volumes;
 }
 
-/// Regions that are under the volume asked for.
+/// The regions to be removed: those below the minimum volume, except the largest of each tissue and the outside.
 std::vector<bool> findIslands(const PaddedMap& map, const Regions& regions, const PreparationOptions& options)
 {
   const Vec3& s = map.grid.spacing;
@@ -61,7 +61,7 @@ std::vector<bool> findIslands(const PaddedMap& map, const Regions& regions, cons
   return isIsland;
 }
 
-/// Leaves out the regions that hold a fixed voxel.
+/// Unselects the regions that hold a fixed voxel.
 void excludeFixed(std::vector<bool>& chosen, const Regions& regions, const Grid& grid, const ContactResolver& resolver)
 {
   forEachRun(regions, grid.size[0],
@@ -71,7 +71,7 @@ void excludeFixed(std::vector<bool>& chosen, const Regions& regions, const Grid&
              });
 }
 
-/// Whether the map has another label than before at one of the voxels.
+/// Whether any of the voxels has another label than before.
 bool hasChanged(const TissueMap& map, const RemovedVoxels& removed)
 {
   for (std::size_t n = 0; n < removed.voxels.size(); ++n)
@@ -86,7 +86,7 @@ struct Differing
   Label before;
 };
 
-/// Those of slice k.
+/// The differing voxels of slice k.
 std::vector<Differing> differencesIn(const TissueMap& map, const PaddedMap& prepared, int k)
 {
   std::vector<Differing> result;
@@ -100,7 +100,8 @@ std::vector<Differing> differencesIn(const TissueMap& map, const PaddedMap& prep
   return result;
 }
 
-/// Books every voxel that differs: as an island's if it was in an island of the given map, else as a contact's.
+/// Counts every voxel that differs: as an island voxel if it was in an island of the given map, else as a contact
+/// voxel.
 void countChanges(const TissueMap& map, const PaddedMap& prepared, const std::vector<std::size_t>& islandVoxels,
                   PreparationReport& report)
 {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Preparation of the tissue map: what the surface will be faithful to.
+/// Preparation of the tissue map. The surface is faithful to the prepared map.
 ///
 /// A map is *well-composed* when no tissue, background included, touches itself only along a voxel edge or corner: 6-,
 /// 18- and 26-connectivity then agree on every tissue, and every tissue's boundary is a 2-manifold (L. J. Latecki, "3D
 /// well-composed pictures", Graphical Models and Image Processing 59, 1997). The test is local: in every 2x2x2 block,
-/// the voxels of each label are face-connected within the block, and so are the others. A block that fails is
-/// *critical*.
+/// the voxels of each label are face-connected within the block, and so are the remaining voxels. A block that fails
+/// is *critical*.
 
 #include "PaddedMap.h"
 #include "Progress.h"
@@ -24,9 +24,9 @@ struct PreparationOptions
   /// mm^3; face-connected components of a tissue smaller than this go to the labels around them. The largest component
   /// of a tissue always stays, however small.
   double minimumIslandVolume = 0;
-  std::map<Label, double> islandVolumes; ///< the same for tissues that are exceptions; 0 keeps all
+  std::map<Label, double> islandVolumes; ///< exceptions by tissue; 0 keeps all
   double minimumCavityVolume = 0;        ///< mm^3; the same for enclosed background
-  std::map<Label, double> cavityVolumes; ///< by tissue around it; of several the smallest counts
+  std::map<Label, double> cavityVolumes; ///< exceptions by surrounding tissue; of several, the smallest counts
 };
 
 struct TissueChanges
@@ -40,8 +40,8 @@ struct TissueChanges
 struct PreparationReport
 {
   std::map<Label, TissueChanges> changes; ///< only tissues with a change; background is label 0
-  std::size_t criticalBlocksBefore = 0;   ///< after the islands went, before any contact was resolved
-  std::size_t contactVoxelsChanged = 0;   ///< with the islandVoxels of all tissues: every voxel that differs
+  std::size_t criticalBlocksBefore = 0;   ///< after island removal, before any contact was resolved
+  std::size_t contactVoxelsChanged = 0;   ///< all voxels that differ, without the islandVoxels
 };
 
 /// Number of critical 2x2x2 blocks of the map, padded by one layer of background.
@@ -52,20 +52,21 @@ std::size_t countCriticalBlocks(const TissueMap& map);
 /// EngineError if a contact cannot be resolved, with its place in mm; the map is then as it was.
 PreparationReport prepareMap(TissueMap& map, const PreparationOptions& options, const Progress& progress = {});
 
-/// The same for what goes on working with the margin (at least one voxel, and of no influence): the prepared map.
+/// Does the same without changing `map`: returns the prepared map with a margin (at least one voxel; without influence
+/// on the labels), for callers that continue with padded maps.
 PaddedMap preparedMap(const TissueMap& map, int margin, const PreparationOptions& options, PreparationReport& report,
                       const Progress& progress = {});
 
-/// Which voxels of a prepared map a change has to leave alone.
+/// Restrictions on the changes of a prepared map.
 struct ChangeLimits
 {
   std::function<bool(std::size_t)> isFixed; ///< whether a voxel of the padded map keeps its label
   std::set<Label> closedLabels;             ///< gain no voxel
 };
 
-/// Prepares a changed copy of a prepared map, within limits that the change has kept: removes the islands that it cut
-/// off, and resolves the contacts that it made. Succeeds always, as voxels can go back to what they were; islands that
-/// hold a fixed voxel, or one gone back, stay.
+/// Prepares a changed copy of a prepared map again: removes the islands that the change cut off, and resolves the
+/// contacts that it made, within limits that the change itself must have respected. Always succeeds, as voxels can go
+/// back to their labels in `prepared`; islands that hold a fixed or restored voxel stay.
 void prepareAgain(PaddedMap& map, const PaddedMap& prepared, const PreparationOptions& options,
                   const ChangeLimits& limits);
 

@@ -20,7 +20,7 @@ std::vector<std::size_t> voxelsOf(const TissueMap& map, const Regions& regions, 
   return voxels;
 }
 
-/// Assigns open voxels layer by layer.
+/// Assigns labels to open voxels, those of the removed regions, layer by layer.
 class Peeling
 {
 public:
@@ -34,7 +34,8 @@ public:
     m_FaceAreas[12] = m_FaceAreas[14] = s.y * s.z;
   }
 
-  /// Gives every open voxel beside one that is not to the label there; returns those that have none.
+  /// Gives every open voxel that has an assigned face neighbour the best label of these neighbours; returns the other
+  /// open voxels.
   std::vector<std::size_t> assignLayer(const std::vector<std::size_t>& open)
   {
     std::vector<std::size_t> rest;
@@ -54,7 +55,8 @@ public:
   }
 
 private:
-  /// The label with most face contact to voxel `v`, of equals that with most of the 26 neighbours, then the lowest.
+  /// Finds the label with the largest face contact to voxel `v`; ties are decided by the number of the 26 neighbours,
+  /// then by the lowest label. Returns false if there is none.
   bool bestNeighbour(std::size_t v, Label& result) const
   {
     std::pair<double, int> best{ 0, 0 };
@@ -71,7 +73,7 @@ private:
     return best.first > 0;
   }
 
-  /// Shared surface in mm^2, and number of the 26 neighbours.
+  /// Surface that `label` shares with the voxel, mm^2, and its number among the 26 neighbours.
   std::pair<double, int> contact(std::size_t v, Label label) const
   {
     std::pair<double, int> result{ 0, 0 };
@@ -87,7 +89,7 @@ private:
 
   TissueMap& m_Map;
   std::array<std::ptrdiff_t, 27> m_Steps;
-  std::array<double, 27> m_FaceAreas{}; ///< shared with each of the 3x3x3 neighbours
+  std::array<double, 27> m_FaceAreas{}; ///< area shared with each of the 3x3x3 neighbours, mm^2
   const std::set<Label>& m_Closed;
   std::vector<bool> m_IsOpen;
 };

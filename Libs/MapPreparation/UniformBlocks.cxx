@@ -17,7 +17,7 @@ namespace
 
 constexpr int largestSide = 8;
 
-using Balance = std::map<Label, int>; ///< voxels that labels have lost, or gained where it is negative
+using Balance = std::map<Label, int>; ///< net number of voxels that each label has lost
 
 class Unifier
 {
@@ -28,8 +28,9 @@ public:
     findMixed();
   }
 
-  /// Gives blocks one label each, and tries those once more that a neighbour was in the way of. Blocks of one parity
-  /// along every axis change at once: what one reads, no other writes.
+  /// Gives blocks of this side one label each, and tries refused blocks a second time, after their neighbours have
+  /// changed. Blocks of equal parity along every axis change in parallel: none of them reads voxels that another
+  /// writes.
   void unify(int side)
   {
     std::array<std::vector<Corners>, 8> refused;
@@ -44,10 +45,10 @@ private:
     int voxels;
   };
 
-  using Corner = std::array<int, 3>; ///< of a block: its first voxel in the map
+  using Corner = std::array<int, 3>; ///< first voxel of a block in the map
   using Corners = std::vector<Corner>;
 
-  /// The blocks of a parity that may have several labels, by layers.
+  /// The blocks of one parity that may have several labels, by layers along k.
   std::vector<Corners> blocksOf(int side, int parity) const
   {
     const std::array<int, 3> first{ parity & 1, parity >> 1 & 1, parity >> 2 };
@@ -69,7 +70,7 @@ private:
     return layers;
   }
 
-  /// Returns those that have kept several labels although they are to have one.
+  /// Unifies all blocks; returns those that should have a single label but kept several.
   std::vector<Corners> unifyAll(const std::vector<Corners>& layers, int side)
   {
     std::vector<Balance> lost(layers.size());
@@ -94,7 +95,7 @@ private:
     return side * grid.smallestSpacing() > m_Options.relativeSize * m_Scale(grid.gridToWorld(middle));
   }
 
-  /// Most of a map's largest blocks have one label, and nothing in them changes.
+  /// Finds the largest blocks that have several labels. Most have a single one, and nothing in them changes.
   void findMixed()
   {
     for (int a = 0; a < 3; ++a) m_Count[a] = (m_Map.grid.size[a] - 2 * m_Map.margin) / largestSide;
@@ -146,7 +147,7 @@ private:
     return mixed;
   }
 
-  /// Of the labels with the most voxels in the block, that which has lost most elsewhere.
+  /// The label with the most voxels in the block; of equals, the one that has lost most elsewhere.
   Label majority(const std::vector<Share>& shares) const
   {
     const auto lost = [&](Label label)
@@ -159,7 +160,7 @@ private:
     return std::max_element(shares.begin(), shares.end(), less)->label;
   }
 
-  /// False if the block is to have one label and cannot.
+  /// Unifies a block. Returns false if the block should have a single label but cannot.
   bool unify(const Corner& corner, int side, Balance& lost)
   {
     if (!isMixed(corner, side) || isFine(corner, side)) return true;
@@ -216,8 +217,8 @@ private:
     return true;
   }
 
-  /// Whether a label has nothing left within `most` voxels along an axis of one that it has lost: the end of something
-  /// thin goes no farther back than a wall does.
+  /// Whether a label has no voxel left within `most` voxels, along an axis, of a voxel that it has lost: the end of a
+  /// thin piece must not recede farther than a wall does.
   bool leavesBehind(const std::vector<Change>& changes, int most) const
   {
     const auto isNear = [&](const Change& c)
@@ -253,8 +254,8 @@ private:
   const ScaleField& m_Scale;
   const UniformBlocksOptions& m_Options;
   const std::array<std::ptrdiff_t, 27> m_Around;
-  std::array<int, 3> m_Count;  ///< of whole blocks of the largest side
-  std::vector<char> m_IsMixed; ///< these, i fastest
+  std::array<int, 3> m_Count;  ///< number of whole blocks of the largest side
+  std::vector<char> m_IsMixed; ///< by these blocks, i fastest
   Balance m_Lost;
 };
 

@@ -9,15 +9,15 @@ namespace surgicalmesher
 namespace
 {
 
-/// Of the angle between x and y.
+/// Returns the cotangent of the angle between x and y.
 double cotangent(const Vec3& x, const Vec3& y) { return dot(x, y) / norm(cross(x, y)); }
 
 /// The energy of edge ab with the opposite corners c and d: |s_a a + s_b b - s_c c - s_d d|^2 / area.
 struct Energy
 {
-  Vec3 bent;
-  double atA, atB, atC; ///< s
-  double area;          ///< of both triangles, twice
+  Vec3 bent;            ///< the sum in the norm
+  double atA, atB, atC; ///< coefficients s with their sign
+  double area;          ///< of both triangles together, twice
 
   Energy(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
   {
@@ -31,7 +31,7 @@ struct Energy
     area = norm(cross(edge, c - a)) + norm(cross(edge, d - a));
   }
 
-  /// Of its part in the sum, with the angle that it is bent by now.
+  /// Returns the weight of |bent|^2 in the sum over all edges: less, the larger the present angle at the edge.
   double weight(const Vec3& edge) const
   {
     constexpr double sharp = 0.7; // radians
@@ -46,7 +46,7 @@ std::int32_t cornerBeyond(const TetComplex& complex, const SheetFace& face, std:
   std::int32_t t = face.tet;
   int across = face.face;
   const Label other = complex.labels[complex.neighbours[t][across]];
-  if (other == 0) // turn on the side of the background: there the outer surface goes on
+  if (other == 0) // turn on the side of the background, where the outer surface continues
   {
     const std::int32_t n = complex.neighbours[t][across];
     for (int i = 0; i < 4; ++i)

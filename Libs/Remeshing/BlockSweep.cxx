@@ -21,8 +21,9 @@ namespace
 
 using Centroid = std::array<float, 3>;
 
-/// A frame that is turned differently in each round, so that what the cuts of one round lock is free in the next: what
-/// they lock stays fine, which would draw the medians along the same axes to the same planes.
+/// Returns the axes along which the mesh is cut, rotated differently in each round, so that vertices locked by the cuts
+/// of one round are free in the next. With fixed axes, the medians would fall on the same planes again: locked vertices
+/// are not coarsened, and so lie densest at the cuts.
 std::array<Vec3, 3> frameOfRound(int round)
 {
   const auto spread = [&](double step) { return 2 * (round * step - std::floor(round * step)) - 1; };
@@ -33,11 +34,12 @@ std::array<Vec3, 3> frameOfRound(int round)
            Vec3{ 2 * (a * c - b), 2 * (b * c + a), 1 - a * a - b * b + c * c } / n };
 }
 
-/// Recursive cuts in halves, each across the longest way.
+/// A k-d tree: recursive cuts in halves, each across the longest axis.
 class Cuts
 {
 public:
-  /// `sample`: some of the centroids, each standing for `weight` of them.
+  /// `sample`: a selection of the centroids, each of which represents a cost of `weight`. `most`: greatest cost of a
+  /// block.
   Cuts(std::vector<Centroid> sample, double weight, std::size_t most) : m_Weight(weight), m_Most(most)
   {
     cut(sample.data(), sample.data() + sample.size());
@@ -55,9 +57,9 @@ public:
 private:
   struct Node
   {
-    std::int32_t axis; ///< -1: a block
-    float at;          ///< below it, the node that follows
-    std::int32_t next; ///< from it on, this node; or the block's number
+    std::int32_t axis; ///< of the cut; -1: the node is a block
+    float at;          ///< place of the cut; the subtree below it begins at the following node
+    std::int32_t next; ///< node at which the subtree above the cut begins; for a block, its number
   };
 
   void cut(Centroid* begin, Centroid* end)
@@ -100,7 +102,7 @@ private:
   std::int32_t m_Blocks = 0;
 };
 
-/// What a block gives back: ids below `known` are the mesh's own, the others its new vertices.
+/// The result of a block. Vertex ids below BlockedMesh::m_Known are those of the mesh; the block's new vertices follow.
 struct BlockResult
 {
   struct Moved
@@ -109,10 +111,10 @@ struct BlockResult
     Vec3 position;
     float length;
   };
-  std::vector<std::array<std::int32_t, 4>> tets, neighbours; ///< numbers of neighbours are the block's own
+  std::vector<std::array<std::int32_t, 4>> tets, neighbours; ///< neighbours by their number in the block
   std::vector<Label> labels;
   std::vector<BackgroundMesh::Sample> samples;
-  std::vector<Moved> moved; ///< the mesh's own points; applied only when all blocks have succeeded
+  std::vector<Moved> moved; ///< points of the mesh; applied only when all blocks have succeeded
   std::vector<Vec3> newPoints;
   std::vector<float> newLengths;
 };
@@ -137,8 +139,8 @@ public:
     m_Results.resize(m_Blocks.groups());
   }
 
-  /// The blocks, those first that most of the interface lies in: it takes most of the time, and what comes last leaves
-  /// threads idle.
+  /// Returns the blocks in the order of decreasing interface, which takes most of the time: a long block at the end
+  /// would leave the other threads idle.
   std::vector<std::size_t> longestFirst() const
   {
     std::vector<std::size_t> order(m_Blocks.groups()), size(m_Blocks.groups());
@@ -181,7 +183,7 @@ public:
   }
 
 private:
-  struct Start ///< of a block's result in the mesh
+  struct Start ///< indices in the mesh at which the result of a block begins
   {
     std::size_t point = 0, tetrahedron = 0, samples = 0;
   };
@@ -189,7 +191,7 @@ private:
   void place(BlockResult& r, const Start& start)
   {
     auto& mesh = m_Background.mesh;
-    for (const auto& [id, position, length] : r.moved) // of no other block: not on its border
+    for (const auto& [id, position, length] : r.moved) // not on the border, so in no other block
     {
       mesh.points[id] = position;
       m_Background.lengths[id] = length;
@@ -210,7 +212,8 @@ private:
     r = {};
   }
 
-  /// How much of the interface a block has: faces on some of its tetrahedra, or samples while neighbours are not known.
+  /// Returns a measure of the interface in a block: the number of interface faces of every eighth tetrahedron, or the
+  /// number of samples as long as neighbours are not known.
   std::size_t interfaceOf(std::size_t b) const
   {
     constexpr std::size_t stride = 8; // enough to tell blocks apart
@@ -270,7 +273,8 @@ private:
   TetComplex extract(std::size_t b, std::vector<std::int32_t>& globalIds)
   {
     const auto& mesh = m_Background.mesh;
-    // All -1 between blocks; one per thread, because it is as long as the whole mesh has points.
+    // Local number of each point of the mesh; all -1 between blocks. One array per thread, because it is as long as the
+    // whole mesh has points.
     static thread_local std::vector<std::int32_t> local;
     if (local.size() < std::size_t(m_Known)) local.resize(m_Known, -1);
     const std::size_t size = m_Blocks.size(b);
@@ -366,7 +370,7 @@ private:
 
   BackgroundMesh& m_Background;
   std::int32_t m_Known = 0;
-  std::vector<std::int32_t> m_BlockOf, m_LocalTet; ///< of each tetrahedron: its block, and its number there
+  std::vector<std::int32_t> m_BlockOf, m_LocalTet; ///< of each tetrahedron: its block, and its number in that block
   Grouped<std::int32_t> m_Blocks;                  ///< tetrahedra, by block
   Grouped<std::int32_t> m_Samples;                 ///< samples, by block
   std::vector<BlockResult> m_Results;
@@ -401,7 +405,7 @@ void sweepBlocks(BackgroundMesh& background, int round, std::size_t tetrahedraPe
                         if (failure) return;
                         report(progress, double(done) / double(n), "");
                       }
-                      blocked.run(order[begun++], work); // in this order, whichever the threads are handed
+                      blocked.run(order[begun++], work); // in this order, whichever index the thread gets
                       ++done;
                     }
                     catch (...)

@@ -13,7 +13,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// First in, first out within each class of relative length: near-shortest first at constant cost.
+/// Priority queue by classes of relative length, first in, first out within each class: nearly sorted at constant cost.
 class LengthQueue
 {
 public:
@@ -36,7 +36,7 @@ private:
 
 struct Near
 {
-  double ratio; ///< edge length over min(level, L)
+  double ratio; ///< edge length over min(level, target length)
   std::int32_t vertex;
   bool alongInterface;
 };
@@ -76,7 +76,7 @@ public:
   }
 
 private:
-  /// Length of ab over its target if that is short, else shortEdge.
+  /// Returns the length of ab over its target if less than shortEdge, else shortEdge.
   double ratio(std::int32_t a, std::int32_t b) const
   {
     const double target = std::min(m_Level, m_Complex.targetLength(a, b));
@@ -92,7 +92,7 @@ private:
     m_Queue.push(v, r);
   }
 
-  /// Neighbours of v nearer than shortEdge, nearest first.
+  /// Fills m_Near with the neighbours of v nearer than shortEdge, nearest first.
   void shortNeighbours(std::int32_t v)
   {
     m_Near.clear();
@@ -104,7 +104,7 @@ private:
               { return a.ratio != b.ratio ? a.ratio < b.ratio : a.vertex < b.vertex; });
   }
 
-  /// Of the near neighbours, those that the vertex may go into if it lies on the interface.
+  /// Restricts m_Near to the neighbours into which a vertex of the interface may be merged.
   void keepOnlyAlongInterface()
   {
     m_Near.erase(std::remove_if(m_Near.begin(), m_Near.end(), [](const Near& n) { return !n.alongInterface; }),
@@ -118,7 +118,7 @@ private:
     Vec3 position;
   };
 
-  /// Collapses u onto a near neighbour: the nearest that leaves good angles, else the one that leaves the best.
+  /// Merges u into a near neighbour: the nearest one that leaves good angles, else the one that leaves the best angles.
   void visit(std::int32_t u)
   {
     if (!m_Operations.mayCoarsen(u)) return;
@@ -150,7 +150,8 @@ private:
       if (collapse(u, c)) return;
   }
 
-  /// What the samples at v says of its position: m x = g. Kept until a collapse changes a face at v.
+  /// Returns the normal equations m x = g of the samples for the position x of v (quadricOf() has them for the step);
+  /// cached until a collapse changes a face at v.
   const Quadric& quadricAt(std::int32_t v)
   {
     m_Quadrics.resize(m_Complex.points.size());
@@ -163,7 +164,8 @@ private:
     return quadric;
   }
 
-  /// Where the samples of u and v together would like the vertex they become; held by a spring to `middle`.
+  /// Returns the least-squares fit of the merged vertex to the samples of u and v, held to `middle`, the middle of the
+  /// edge, by a weak spring; `middle` itself if the fit is farther from it than v.
   Vec3 fitted(std::int32_t u, std::int32_t v, const Vec3& middle)
   {
     Quadric both = quadricAt(v);
@@ -195,7 +197,8 @@ private:
     for (const auto& n : m_Operations.neighbours(v)) m_Quadrics[n.vertex].isKnown = false;
   }
 
-  /// After a collapse onto v: the ends of the edges that it changed, m_Around, may have become short or removable.
+  /// Queues v, and the ends m_Around of the edges that a collapse onto v has changed: these may have become short or
+  /// removable.
   void wakeChanged(std::int32_t v)
   {
     double least = m_Options.shortEdge;
@@ -209,7 +212,7 @@ private:
     push(v, least);
   }
 
-  /// The same for v and all of its neighbours.
+  /// Queues v and all of its near neighbours.
   void wakeAll(std::int32_t v)
   {
     shortNeighbours(v);
@@ -233,7 +236,7 @@ private:
     bool isKnown = false;
     Quadric quadric;
   };
-  std::vector<KnownQuadric> m_Quadrics; ///< per vertex, from the first that is asked for on
+  std::vector<KnownQuadric> m_Quadrics; ///< per vertex; empty until the first is needed
   Sheet m_Sheet;
 };
 

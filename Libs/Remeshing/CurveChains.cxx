@@ -9,7 +9,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double leastGap = 0.02; // target lengths along the curve, between vertices of a chain
+constexpr double leastGap = 0.02; // between vertices of a chain along the curve, in target lengths
 
 } // namespace
 
@@ -81,7 +81,7 @@ CurveChains::Station* CurveChains::stationBeside(std::int32_t v, std::size_t arc
   return nullptr;
 }
 
-/// Where v is on an arc, of which its edge to `neighbour` is one.
+/// Returns the arc length of v on an arc whose chain contains the edge from v to `neighbour`.
 double CurveChains::placeBeside(std::int32_t v, std::size_t arc, std::int32_t neighbour) const
 {
   return const_cast<CurveChains*>(this)->stationBeside(v, arc, neighbour)->s;
@@ -89,7 +89,7 @@ double CurveChains::placeBeside(std::int32_t v, std::size_t arc, std::int32_t ne
 
 // --- guards ---------------------------------------------------------------------------------------------------------
 
-/// Arc length of a vertex at p between its neighbours; ends of an arc stay its ends.
+/// Returns the arc length of a vertex at p, between those of its neighbours; ends of an arc keep theirs.
 double CurveChains::placeOf(const Station& station, const Beside& previous, const Beside& next, const Vec3& p) const
 {
   return station.isEnd() ? station.s : m_Network.arcs[station.arc].nearest(p, previous.s, next.s);
@@ -106,7 +106,7 @@ bool CurveChains::mayLie(const Station& station, const Beside& previous, const B
          (at <= next.s - gap && arc.isFollowed(at, p, next.s, m_Complex.points[next.vertex], m_Tolerance));
 }
 
-/// The neighbour of v's station, or what comes after it if that is to be gone.
+/// Returns `neighbour`, the vertex before or after v's station, with its arc length; the vertex beyond if it is `gone`.
 CurveChains::Beside CurveChains::besideOf(std::int32_t v, const Station& station, std::int32_t neighbour,
                                           std::int32_t gone) const
 {
@@ -116,7 +116,7 @@ CurveChains::Beside CurveChains::besideOf(std::int32_t v, const Station& station
   return { beyond, placeBeside(beyond, station.arc, gone) };
 }
 
-/// Whether v may lie at p once its neighbour `gone` (-1: none) has gone into it.
+/// Whether v may lie at p once its neighbour `gone` (-1: none) has been merged into it.
 bool CurveChains::mayLie(std::int32_t v, const Vec3& p, std::int32_t gone) const
 {
   const Stations& stations = stationsOf(v);

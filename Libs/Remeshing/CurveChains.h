@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Curves along the edges of a TetComplex, and whether an operation leaves each a chain of edges within its tolerance:
-/// vertices slide along their curve and merge along it; edges of a chain are split, but never removed.
+/// Curves as chains of edges of a TetComplex, with guards that keep each chain within tolerance of its curve: vertices
+/// slide along their curve and merge along it; edges of a chain are split, but never removed.
 
 #include "CurveNetwork.h"
 #include "TetComplex.h"
@@ -14,14 +14,15 @@ namespace surgicalmesher
 class CurveChains
 {
 public:
-  /// `tolerance`: of a curve to its chain and back, target lengths. Both arguments must live as long.
+  /// `tolerance`: greatest distance between a curve and its chain, both ways, in target lengths. `network` and
+  /// `complex` must outlive this object.
   CurveChains(const CurveNetwork& network, const TetComplex& complex, double tolerance);
 
   // --- building
-  /// Names the vertex of a node; chains begin there.
+  /// Sets the vertex of a node of the network; chains begin and end at nodes.
   void setNode(int node, std::int32_t vertex);
   std::int32_t nodeVertex(int node) const { return m_NodeVertices[node]; }
-  /// Goes on with the chain of an arc: from its vertex a, at arc length `from`, by the edge ab to `to`.
+  /// Appends edge ab to the chain of an arc. `from`, `to`: arc lengths of a and b.
   void link(std::size_t arc, std::int32_t a, double from, std::int32_t b, double to);
 
   // --- queries
@@ -32,42 +33,42 @@ public:
   struct Vertex
   {
     std::int32_t vertex;
-    double s;
+    double s; ///< arc length
   };
-  /// The chain of an arc from its first node to its second.
+  /// Returns the vertices of the chain of an arc, from its first node to its second.
   std::vector<Vertex> chain(std::size_t arc) const;
 
-  // --- guards; each is asked before the change, and told after it
+  // --- guards: mayX() before the change of the complex, the past participle after it
   bool mayMove(std::int32_t v, const Vec3& p) const;
   void moved(std::int32_t v);
-  /// Whether u may go into v at all.
+  /// Whether u may be merged into v, whatever the position of v then.
   bool mayCollapse(std::int32_t u, std::int32_t v) const;
-  /// The same with v at p.
+  /// Whether u may be merged into v with v at p.
   bool mayCollapse(std::int32_t u, std::int32_t v, const Vec3& p) const;
   void collapsed(std::int32_t u, std::int32_t v);
   bool maySplit(std::int32_t a, std::int32_t b, const Vec3& p) const;
   void split(std::int32_t a, std::int32_t b, std::int32_t middle);
 
-  /// While set, chains may lie anywhere: to take back what was so before.
+  /// While lifted, chains may leave their tolerance: for undoing an operation.
   void setLifted(bool isLifted) { m_IsLifted = isLifted; }
 
 private:
-  /// A vertex on an arc. The vertex of a node has one for each end of an arc there.
+  /// The place of a vertex on an arc. The vertex of a node has one station for each arc end at the node.
   struct Station
   {
     std::size_t arc;
-    double s;
-    std::int32_t previous, next; ///< along the arc; -1: the arc ends here
+    double s;                    ///< arc length
+    std::int32_t previous, next; ///< neighbouring vertices along the arc; -1: the arc ends here
 
     bool isEnd() const { return previous < 0 || next < 0; }
     std::int32_t beyond(std::int32_t v) const { return previous == v ? next : previous; }
   };
   using Stations = std::vector<Station>;
 
-  /// An end of a chain's edge and where on the arc it is.
+  /// A neighbouring vertex in a chain, and its arc length.
   struct Beside
   {
-    std::int32_t vertex;
+    std::int32_t vertex; ///< -1: none
     double s;
   };
 
@@ -85,7 +86,7 @@ private:
   const double m_Tolerance;
   bool m_IsLifted = false;
   std::vector<std::int32_t> m_NodeVertices;
-  std::unordered_map<std::int32_t, Stations> m_Stations; ///< looked up only, never iterated
+  std::unordered_map<std::int32_t, Stations> m_Stations; ///< by vertex; never iterated: the order is arbitrary
 };
 
 } // namespace surgicalmesher

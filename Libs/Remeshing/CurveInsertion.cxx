@@ -17,11 +17,11 @@ namespace surgicalmesher
 namespace
 {
 
-/// What is let go of when chains give way to angles: the rest of the tolerance is for rounding and for places between
-/// the samples of L.
+/// Share of the tolerance that chains may use in favour of angles; the rest allows for rounding and for the places
+/// between the points at which the target length is known.
 constexpr double usedTolerance = 0.92;
 
-/// Points of the mesh near a curve: within `reach` target lengths.
+/// Marks the points within `reach` target lengths of a curve.
 std::vector<std::uint8_t> pointsNear(const std::vector<Vec3>& points, const CurveNetwork& curves, double reach)
 {
   std::vector<std::uint8_t> isNear(points.size(), 0);
@@ -37,7 +37,7 @@ std::vector<std::uint8_t> pointsNear(const std::vector<Vec3>& points, const Curv
   return isNear;
 }
 
-/// The tetrahedra around the curves as a complex, and the rest.
+/// Splits a mesh into the tetrahedra near the curves, as a complex, and the rest.
 class Neighbourhood
 {
 public:
@@ -67,7 +67,7 @@ public:
 
   TetComplex& complex() { return *m_Complex; }
 
-  /// The whole mesh; `chains` get its points' ids for those of the complex.
+  /// Returns the whole mesh, and replaces the vertex ids of the complex in `chains` by point ids of that mesh.
   TetMesh mesh(std::vector<CurveChain>& chains) const
   {
     TetMesh result;
@@ -106,11 +106,11 @@ public:
 private:
   const TetMesh& m_Mesh;
   std::vector<std::size_t> m_Rest;
-  std::vector<std::int32_t> m_Ids; ///< in the mesh, of the first points of the complex
+  std::vector<std::int32_t> m_Ids; ///< point ids in the mesh of the first points of the complex; the others are new
   std::unique_ptr<TetComplex> m_Complex;
 };
 
-/// Makes the interface as it is now what it is to stay near to.
+/// Samples the interface of the complex as it is now, so that later operations stay within `tolerance` of it.
 void addSamples(TetComplex& complex, double tolerance)
 {
   BackgroundMesh background;
@@ -129,7 +129,7 @@ void addSamples(TetComplex& complex, double tolerance)
     complex.addSample(alive[sample.tetrahedron], sample.face, sample.position, sample.tolerance);
 }
 
-/// The arcs of each curve put together.
+/// Returns the chain of each curve, joined from the chains of its arcs.
 std::vector<CurveChain> chainsOf(const CurveChains& chains)
 {
   const CurveNetwork& network = chains.network();

@@ -16,7 +16,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Share along ab, from 0 to 1, of the place nearest to p.
+/// Returns the parameter, from 0 at a to 1 at b, of the point of segment ab nearest to p.
 double shareAlong(const Vec3& p, const Vec3& a, const Vec3& b)
 {
   const Vec3 ab = b - a;
@@ -24,7 +24,8 @@ double shareAlong(const Vec3& p, const Vec3& a, const Vec3& b)
   return length2 > 0 ? std::clamp(dot(p - a, ab) / length2, 0.0, 1.0) : 0;
 }
 
-/// The curve without points that repeat the one before, in steps of at most a quarter of the target length.
+/// Returns the curve as one arc, without points that repeat the previous one, in steps of about a quarter of the target
+/// length at most.
 CurveArc subdivided(const Curve& curve, std::size_t number, const SizingFunction& length)
 {
   constexpr double step = 0.25;
@@ -63,10 +64,10 @@ CurveArc subdivided(const Curve& curve, std::size_t number, const SizingFunction
   return arc;
 }
 
-/// Where a curve is to be cut.
+/// A node on a curve, where the curve is to be cut.
 struct Cut
 {
-  double s;
+  double s; ///< arc length
   int node;
 };
 
@@ -94,8 +95,8 @@ public:
   }
 
 private:
-  /// Where p joins the host: at an end within reach, else at the nearest place inside it, if that is within reach. Not
-  /// inside it beside an end: the end would be joined to the same node, by an arc from that to itself.
+  /// Arc length at which p joins the host: at an end within reach, else at the nearest place inside it, if that is
+  /// within reach. Joining it inside next to an end would join both places to one node, with an arc from it to itself.
   static std::optional<double> jointOn(const CurveArc& host, const Vec3& p, double reach)
   {
     for (const double end : { 0., host.length() })
@@ -105,7 +106,7 @@ private:
     return s;
   }
 
-  /// Joins an end of a curve to a node that is there, else to another curve.
+  /// Joins an end of curve c to a node within reach, else to another curve, else makes it a node.
   void addEnd(std::size_t c, bool atEnd)
   {
     const CurveArc& whole = m_Wholes[c];
@@ -165,7 +166,8 @@ private:
     double s, length;
   };
 
-  /// Along the curves from one place to the other, if they are on one arc or on two with a node in common.
+  /// Returns the distance along the curves between two places on one arc or on two arcs with a common node; else
+  /// infinity.
   double wayBetween(const Place& a, const Place& b) const
   {
     const CurveArc &x = m_Network.arcs[a.arc], &y = m_Network.arcs[b.arc];
@@ -179,7 +181,7 @@ private:
 
   void requireSeparation() const
   {
-    constexpr double nearWay = 1.5; // target lengths: an angle of 15 degrees is open by then
+    constexpr double nearWay = 1.5; // target lengths; by then, curves at an angle of 15 degrees have separated
     std::vector<Place> places;
     for (std::size_t n = 0; n < m_Network.arcs.size(); ++n)
     {
@@ -216,7 +218,7 @@ private:
   }
 
   CurveNetwork m_Network;
-  std::vector<CurveArc> m_Wholes;
+  std::vector<CurveArc> m_Wholes;       ///< each curve as one arc
   std::vector<std::vector<Cut>> m_Cuts; ///< of each curve
 };
 

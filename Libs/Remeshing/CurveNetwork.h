@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Vessels, nerves and tracts thinner than any element, as curves that a mesh is to have along its edges: the
-/// curvilinear elements of Audette et al. (MICCAI 2003 workshop paper). Lengths in mm, in one frame of the caller's.
+/// Vessels, nerves and tracts thinner than any element, as curves that a mesh is to follow with its edges: the
+/// curvilinear elements of Audette et al. (MICCAI 2003 workshop paper). Coordinates in mm, in the frame of the mesh.
 
 #include "SizingFunction.h"
 #include "Vec3.h"
@@ -13,35 +13,36 @@
 namespace surgicalmesher
 {
 
-/// A polyline as given; closed if its last point is its first.
+/// An input polyline; closed if its last point equals its first.
 struct Curve
 {
-  std::string name;          ///< for sets
-  std::string source;        ///< for messages: its file
+  std::string name;          ///< names the chain of the curve, and so its sets in exports
+  std::string source;        ///< names the curve in error messages: its file
   std::vector<Vec3> points;  ///< two or more
   std::vector<double> radii; ///< per point, mm; empty: none given
 };
 
-/// A piece of a curve between two nodes, by arc length s.
+/// A piece of a curve between two nodes, parametrized by arc length s (mm).
 struct CurveArc
 {
-  std::size_t curve = 0;       ///< which one it is of
-  std::array<int, 2> nodes{};  ///< at its ends
-  std::vector<Vec3> points;    ///< at most a quarter of the target length apart
-  std::vector<double> s;       ///< of each point, ascending from 0
-  std::vector<double> lengths; ///< target length at each point
-  std::vector<double> radii;   ///< at each point; 0: none given
-  std::vector<Vec3> aims;      ///< where the chain of edges is led through for each point, near it
+  std::size_t curve = 0;       ///< index of its curve
+  std::array<int, 2> nodes{};  ///< indices of the nodes at its ends
+  std::vector<Vec3> points;    ///< about a quarter of the target length apart at most
+  std::vector<double> s;       ///< arc length of each point, ascending from 0
+  std::vector<double> lengths; ///< target length at each point, mm
+  std::vector<double> radii;   ///< at each point, mm; 0: none given
+  std::vector<Vec3> aims;      ///< for each point, a place near it that the chain of edges is to pass through
 
   double length() const { return s.back(); }
-  /// Values at arc length `at`, linear between points.
+  /// Values at arc length `at`, interpolated linearly between points.
   Vec3 pointAt(double at) const { return valueAt(points, at); }
   Vec3 aimAt(double at) const { return valueAt(aims, at); }
   double lengthAt(double at) const { return valueAt(lengths, at); }
   double radiusAt(double at) const { return valueAt(radii, at); }
-  /// Arc length, from `from` to `to`, of the place nearest to p.
+  /// Returns the arc length, between `from` and `to`, of the place nearest to p.
   double nearest(const Vec3& p, double from, double to) const;
-  /// Whether the arc from `from` to `to` and the segment ab are within `tolerance` target lengths of one another.
+  /// Whether the arc between arc lengths `from` and `to` and the segment ab are within `tolerance` target lengths of
+  /// each other.
   bool isFollowed(double from, const Vec3& a, double to, const Vec3& b, double tolerance) const;
 
 private:
@@ -55,19 +56,20 @@ private:
   }
 };
 
-/// Curves cut where others end on them.
+/// Curves, cut into arcs where other curves end on them.
 struct CurveNetwork
 {
-  std::vector<std::string> names, sources; ///< of the curves
-  std::vector<Vec3> nodes;                 ///< ends and branchings
-  std::vector<CurveArc> arcs;              ///< by curve, along it
+  std::vector<std::string> names, sources; ///< of each curve
+  std::vector<Vec3> nodes;                 ///< ends and branchings of the curves
+  std::vector<CurveArc> arcs;              ///< grouped by curve, in order along it
 };
 
-constexpr double curveJoint = 0.1;      ///< target lengths: an end no farther from another curve is joined to it
-constexpr double curveSeparation = 0.2; ///< target lengths: the least distance of curves away from joints
+constexpr double curveJoint = 0.1;      ///< target lengths; a curve's end this near to another curve is joined to it
+constexpr double curveSeparation = 0.2; ///< target lengths; least distance between curves away from joints
 
-/// Throws InputError, with the curve's source and the place, for a curve of less than two points or shorter than half a
-/// target length, one that comes back to itself, and curves that cross or nearly touch elsewhere than at their ends.
+/// Joins curves at their ends and cuts them into arcs. Throws InputError, with the curve's source and the place, for a
+/// curve shorter than half a target length, a curve that crosses or nearly touches itself, and curves that cross or
+/// nearly touch each other elsewhere than at their ends; with the source alone for a curve of fewer than two points.
 CurveNetwork curveNetwork(const std::vector<Curve>& curves, const SizingFunction& length);
 
 } // namespace surgicalmesher

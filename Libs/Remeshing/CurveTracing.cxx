@@ -23,22 +23,23 @@ namespace surgicalmesher
 namespace
 {
 
-// In target lengths.
-constexpr double snapping = 0.06;    // a curve goes through vertices and edges that near to it
-constexpr double attraction = 0.045; // and along interfaces that near
-constexpr double leastStep = 1e-3;   // from vertex to vertex
-constexpr double ahead = 0.1;        // steps in which the way ahead is looked at
-constexpr double farthest = 2;       // that is looked ahead
+// All in target lengths.
+constexpr double snapping = 0.06;    // a chain passes through vertices, edges and faces this near to its curve
+constexpr double attraction = 0.045; // and follows an interface this near
+constexpr double leastStep = 1e-3;   // between vertices of a chain
+constexpr double ahead = 0.1;        // step in which a target is searched for along the curve
+constexpr double farthest = 2;       // distance along the curve to the farthest target
 
-/// A simplex of a tetrahedron: 1 to 4 of its corners.
+/// A vertex, edge or face of a tetrahedron, or the tetrahedron itself: 1 to 4 of its corners.
 struct Simplex
 {
   std::int32_t tet;
-  std::array<int, 4> corners;
+  std::array<int, 4> corners; ///< the first `count`, as numbers in tet
   int count;
 };
 
-/// The place of the simplex that is nearest to p, if it is no part of its border.
+/// Returns the point of the simplex nearest to p, unless it lies on the border of the simplex. Of a tetrahedron it is
+/// p, which must lie inside.
 std::optional<Vec3> nearestInside(const std::vector<Vec3>& corners, const Vec3& p)
 {
   if (corners.size() == 1) return corners[0];
@@ -54,12 +55,12 @@ std::optional<Vec3> nearestInside(const std::vector<Vec3>& corners, const Vec3& 
   return a > 0 && b > 0 && a + b < 1 ? std::optional(o + a * u + b * v) : std::nullopt;
 }
 
-/// Where a ray from a vertex leaves the tetrahedra there.
+/// The place where a ray from a vertex to a target leaves the star of the vertex.
 struct Exit
 {
-  std::int32_t tet = -1;
+  std::int32_t tet = -1; ///< tetrahedron that the ray passes through; -1: none
   Vec3 point;
-  bool isReached = false; ///< the target lies before it: `point` is the target
+  bool isReached = false; ///< the target lies inside the star: `point` is the target
 };
 
 class Tracing
@@ -77,7 +78,7 @@ public:
   }
 
 private:
-  /// Whether a vertex may be at q, and where on the arc it would be.
+  /// Whether a vertex of a chain may lie at q. `vertex`: an existing vertex there; -1: a new one.
   using Accept = std::function<bool(const Vec3& q, std::int32_t vertex)>;
 
   [[noreturn]] void refuseOutside(std::size_t arc, const Vec3& p) const
@@ -95,7 +96,7 @@ private:
     return corners;
   }
 
-  /// The tetrahedra that have all corners of the simplex; empty if some are beyond the complex.
+  /// Returns the tetrahedra that contain a simplex of two or more corners; none if some lie outside the complex.
   std::vector<std::int32_t> around(const Simplex& simplex) const
   {
     const auto& x = m_Complex.tets[simplex.tet];
@@ -111,7 +112,8 @@ private:
     return result;
   }
 
-  /// Cuts all tetrahedra at the simplex from a new vertex q inside it; -1 if that leaves one without volume.
+  /// Splits all tetrahedra that contain the simplex at a new vertex, q, inside it. Returns the vertex; -1 if a part
+  /// would have no positive volume, or if the simplex is on the border of the complex.
   std::int32_t split(const Simplex& simplex, const Vec3& q)
   {
     auto& c = m_Complex;
@@ -140,8 +142,9 @@ private:
     return fresh;
   }
 
-  /// A vertex at p in tetrahedron t, or near it: at a corner, on an edge or on a face, the first that is accepted.
-  /// `without`: a corner that stays out of it, or -1. Returns -1 if there is none.
+  /// Returns a vertex at or near p in tetrahedron t, a corner or one made by a split: the first that is accepted, tried
+  /// at corners, edges, faces and the inside in turn. `without`: number of a corner that these must not contain; -1:
+  /// none. Returns -1 if none is accepted.
   std::int32_t vertexAt(const Vec3& p, std::int32_t t, int without, const Accept& accept)
   {
     const auto x = m_Complex.tets[t];
@@ -158,7 +161,7 @@ private:
     return -1;
   }
 
-  /// Those with that many corners and within reach of p, nearest first.
+  /// Returns the simplices of t with `count` corners that are near to p, nearest first.
   std::vector<Simplex> simplices(std::int32_t t, int count, int without, const Vec3& p) const
   {
     std::vector<std::pair<double, Simplex>> found;
@@ -196,7 +199,7 @@ private:
     m_Chains.setNode(arc.nodes[end], v);
   }
 
-  /// The tetrahedron of a tissue that holds p; -1 if there is none.
+  /// Returns the tetrahedron of a tissue that contains p; -1: none.
   std::int32_t tissueAt(const Vec3& p) const
   {
     constexpr double rounding = -1e-6;
@@ -233,7 +236,7 @@ private:
     }
   }
 
-  /// The vertex after a on the arc, and its arc length.
+  /// Returns the vertex after a on the arc, and its arc length. `s`: arc length of a; `end`: last vertex of the arc.
   std::pair<std::int32_t, double> next(std::size_t arcNumber, std::int32_t a, double s, std::int32_t end)
   {
     const CurveArc& arc = m_Network.arcs[arcNumber];
@@ -268,7 +271,8 @@ private:
            std::any_of(m_Star.begin(), m_Star.end(), [&](std::int32_t t) { return m_Complex.contains(t, b); });
   }
 
-  /// The farthest place of the arc, up to `most` target lengths on, to which a straight way is near the arc.
+  /// Returns the farthest place of the arc, at most `most` target lengths ahead, to which the straight line from `from`
+  /// stays near to the arc: its arc length and position.
   std::pair<double, Vec3> targetOf(const CurveArc& arc, double s, const Vec3& from, std::int32_t end, double most) const
   {
     double best = std::min(s + ahead * m_Length, arc.length());
@@ -282,10 +286,11 @@ private:
     return { best, best == arc.length() ? m_Complex.points[end] : arc.aimAt(best) };
   }
 
-  /// The tetrahedron at a that the way to the target goes through, one of a tissue if it goes along a face.
+  /// Returns where the straight line from a to the target leaves the star of a. If the line runs along a face, a
+  /// tetrahedron of a tissue is preferred.
   Exit exitTowards(std::int32_t a, const Vec3& target)
   {
-    constexpr double along = 0.02; // barycentric: so near to its border, a tetrahedron of a tissue is as good
+    constexpr double along = 0.02; // barycentric coordinate up to which the line counts as along a face
     const Vec3 from = m_Complex.points[a], d = target - from;
     Exit best;
     double bestScore = -along;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// Edge collapse. Vertex u goes into its neighbour v, at p, if all of these allow it, the cheapest asked first:
-//   1. locks and labels (mayCollapse): the star of a locked vertex goes on in another block; a vertex of the interface
-//      goes along it only, and nothing inside a label moves the interface.
-//   2. lengths (keepsLength): no edge becomes longer than asked for, or one that is grows.
-//   3. quality (qualityAfterCollapse): positive volumes forbid every crossing, and with it the link condition on the
-//      tetrahedra fails nowhere.
-//   4. samples (Envelope::samplesStay): the Hausdorff distance from the map's boundary, pair by pair. In late sweeps
-//      nine in ten of what comes so far fail here.
-//   5. triangles (Envelope::trianglesReach) and gaps (Envelope::spansGap): the shape of the new faces, and their
-//      distance from the samples.
+// Edge collapse. Vertex u is merged into its neighbour v, at p, if all of these guards allow it, cheapest first:
+//   1. locks and labels (mayCollapse): the star of a locked vertex continues in another block; a vertex of the
+//      interface moves along it only, and no vertex inside a label moves the interface.
+//   2. lengths (keepsLength): no edge becomes longer than allowed, and edges that are longer already do not grow.
+//   3. quality (qualityAfterCollapse): positive volumes exclude crossings, and therefore the link condition on the
+//      tetrahedra always holds.
+//   4. features (Envelope::featuresStay) and samples (Envelope::samplesStay): the latter bound the Hausdorff distance
+//      from the map's boundary, for each pair of labels, and in late sweeps refuse nine in ten collapses that get here.
+//   5. triangles (Envelope::trianglesReach) and gaps (Envelope::spansGap): the shape of the new faces, and the distance
+//      of their long edges from the samples.
 //   6. topology (CollapseTopology::keepsTissues): exact for every label at the edge, junctions included.
 
 #include "GuardedOperations.h"
@@ -31,11 +31,11 @@ bool GuardedOperations::mayCollapse(std::int32_t u, std::int32_t v, bool moves) 
   const auto& c = m_Complex;
   if (c.locked[u] || (c.onInterface[u] && m_Envelope.isHeld())) return false;
   if (m_Curves && !m_Curves->mayCollapse(u, v)) return false;
-  // The star of a locked vertex may show only some of its labels.
+  // The block may contain only some of the labels at a locked vertex.
   return c.onInterface[u] ? c.onInterface[v] && !c.locked[v] : !moves || (!c.onInterface[v] && !c.locked[v]);
 }
 
-/// Whether the edge from `end` to x, once it leads from v at p, is short enough, or no longer than now.
+/// Whether the edge from `end` to x, when `end` is replaced by v at p, is short enough or no longer than it is now.
 bool GuardedOperations::keepsLength(std::int32_t end, std::int32_t x, std::int32_t v, const Vec3& p,
                                     double maximumRatio) const
 {
@@ -59,7 +59,7 @@ double GuardedOperations::qualityAfterCollapse(std::int32_t u, std::int32_t v, c
   return std::min(worst, measured(v, star).worst(p, atLeast, u));
 }
 
-/// Finds the ring of uv; false if there is none, or a tissue is known not to keep its topology.
+/// Finds the ring of uv. Returns false if it is not closed in the block, or if the topology is known to refuse.
 bool GuardedOperations::findCollapsingRing(std::int32_t u, std::int32_t v)
 {
   if (m_RefusedVertex != u) m_Refused.clear();
@@ -72,7 +72,7 @@ bool GuardedOperations::findCollapsingRing(std::int32_t u, std::int32_t v)
   return false;
 }
 
-/// Whether every tissue keeps its topology; refusals are remembered until the star of u changes.
+/// Whether every tissue keeps its topology. A refusal is remembered until the connectivity or u changes.
 bool GuardedOperations::keepsTissues(std::int32_t u, std::int32_t v)
 {
   if (m_Topology.keepsTissues(u, v, star(u), starOfTarget(v), m_Ring, m_RingVertices)) return true;
@@ -91,12 +91,13 @@ bool contains(const std::array<std::int32_t, n>& vertices, std::int32_t v)
 
 } // namespace
 
-/// Tells the envelope the interface faces at u and v, and what becomes of them; false where a block ends.
+/// Passes the interface faces at u and v to the envelope, with the faces that they become. Returns false at the border
+/// of a block.
 bool GuardedOperations::gatherCollapsingFaces(std::int32_t u, std::int32_t v, const Vec3& p)
 {
   const auto& c = m_Complex;
   m_Envelope.clear();
-  // Each face as it will be in a tetrahedron that stays: `stays`, opposite its vertex number `opposite`.
+  // Adds a face as it will be after the collapse: opposite vertex `opposite` of a tetrahedron `stays` that persists.
   const auto addMoved =
     [&](std::array<std::int32_t, 3> ids, LabelPair labels, std::int32_t stays, int opposite, bool changing)
   {
@@ -112,7 +113,7 @@ bool GuardedOperations::gatherCollapsingFaces(std::int32_t u, std::int32_t v, co
   {
     for (const auto& [face, beside] : faces)
     {
-      if (contains(face.vertices, other) || contains(beside, other)) continue; // dealt with from the ring
+      if (contains(face.vertices, other) || contains(beside, other)) continue; // see the loop over the ring
       if (changing) m_Envelope.addOldFace(face);
       addMoved(face.vertices, face.labels, face.tet, face.face, changing);
     }

@@ -19,10 +19,11 @@ constexpr int maximumRing = 10;
 
 constexpr double none = -std::numeric_limits<double>::infinity();
 
-/// Of a tetrahedron.
+/// Corners of a tetrahedron.
 using Corners = std::array<const Vec3*, 4>;
 
-/// The worst quality counts.
+// --- measures that a triangulation of the ring maximizes
+/// The worst quality.
 struct WorstCounts
 {
   static constexpr double ofNothing = std::numeric_limits<double>::max();
@@ -32,7 +33,7 @@ struct WorstCounts
   const WorstCounts& inLabel(Label) const { return *this; }
 };
 
-/// The least height counts, mm; the background's does not.
+/// The least height, mm, of the tetrahedra of tissues.
 struct HeightCounts
 {
   bool counts = true;
@@ -46,12 +47,12 @@ struct HeightCounts
   HeightCounts inLabel(Label label) const { return { label != 0 }; }
 };
 
-/// The sum of the sines counts, of which each tetrahedron more takes away what one usually has. The background's count
-/// nothing.
+/// The sum over the tetrahedra of tissues of the sine of the worst dihedral angle less the usual sine, so that
+/// additional tetrahedra do not count as a gain.
 struct SumCounts
 {
   double usualSine;
-  double share = 1; ///< that counts
+  double share = 1; ///< weight of the label: 0 for background
   static constexpr double ofNothing = 0;
   double joined(double x, double y) const { return x + y; }
   double with(double soFar, double quality, const Corners& = {}) const
@@ -62,13 +63,13 @@ struct SumCounts
   SumCounts inLabel(Label label) const { return { usualSine, label == 0 ? 0.0 : 1.0 }; }
 };
 
-/// The best triangulation of a polygon of the ring of edge ab, each triangle of which makes a tetrahedron with either
-/// end: by dynamic programming over its diagonals (G. Klincsek, Annals of Discrete Mathematics 9, 1980).
+/// Finds the best triangulation of a polygon of ring vertices of edge ab, whose triangles each form a tetrahedron with
+/// a and one with b: by dynamic programming over the diagonals (G. Klincsek, Annals of Discrete Mathematics 9, 1980).
 template <class Measure>
 class RingTriangulation
 {
 public:
-  /// `vertices`: of the whole ring; `weight`: of qualities in the label that the polygon lies in.
+  /// `vertices`: those of the whole ring; `weight`: factor on qualities in the label of the polygon (see lenient()).
   RingTriangulation(const TetComplex& complex, std::int32_t a, std::int32_t b,
                     const std::vector<std::int32_t>& vertices, double weight, double minimumQuality,
                     const Measure& measure)
@@ -77,8 +78,8 @@ public:
   {
   }
 
-  /// What the best one of the polygon from, from + 1, ..., to (ring numbers) measures; `none` if in every one some
-  /// tetrahedron is below the minimum.
+  /// Returns the measure of the best triangulation of the polygon of ring vertices from, from + 1, ..., to; `none` if
+  /// every triangulation has a tetrahedron below the minimum.
   double find(int from, int to)
   {
     m_From = from;
@@ -88,7 +89,7 @@ public:
     return best(from, to);
   }
 
-  /// The tetrahedra of the polygon found between corners i and k.
+  /// Appends the tetrahedra of the triangulation found between ring vertices i and k.
   void tetrahedra(int i, int k, std::vector<TetComplex::Tet>& result) const
   {
     if (k - i < 2) return;
@@ -104,7 +105,7 @@ private:
   const Vec3& at(int i) const { return m_Complex.points[id(i)]; }
   double& best(int i, int k) { return m_Best[i - m_From][k - m_From]; }
 
-  /// The third corner of the triangle at diagonal ik.
+  /// Chooses the third corner of the triangle at diagonal ik.
   void choose(int i, int k)
   {
     double& value = best(i, k);
@@ -136,14 +137,14 @@ private:
   int m_Choice[maximumRing + 1][maximumRing + 1];
 };
 
-/// Where the labels change around an edge.
+/// The numbers in a ring of the tetrahedra that differ in label from the one before.
 struct RingCuts
 {
   int count = 0;
   int at[2] = { 0, 0 };
 };
 
-/// Nothing if they change more than twice.
+/// Returns nothing if the labels change more than twice.
 std::optional<RingCuts> cutsOf(const TetComplex& complex, const std::vector<std::int32_t>& ring)
 {
   RingCuts cuts;
@@ -201,7 +202,7 @@ std::optional<double> GuardedOperations::fillRing(std::int32_t a, std::int32_t b
   return result;
 }
 
-/// The sheet's edge ab becomes the other diagonal of its two triangles, if the envelope allows it.
+/// Whether the envelope allows the interface edge ab to be flipped to the other diagonal of its two triangles.
 bool GuardedOperations::mayFlipSheet(std::int32_t a, std::int32_t b, double minimumQuality)
 {
   const auto& c = m_Complex;
@@ -216,7 +217,7 @@ bool GuardedOperations::mayFlipSheet(std::int32_t a, std::int32_t b, double mini
   return m_Envelope.trianglesReach(minimumQuality) && m_Envelope.featuresStay() && m_Envelope.samplesStay();
 }
 
-/// Puts what fillRing() has found in the ring's place, if it may be there, and its numbers into m_Ring.
+/// Replaces the ring by the tetrahedra that fillRing() has found, if the envelope allows it; m_Ring then lists these.
 bool GuardedOperations::closeRing(std::int32_t a, std::int32_t b, double minimumQuality)
 {
   m_Envelope.clear();
@@ -259,7 +260,7 @@ bool GuardedOperations::removeLowEdge(std::int32_t a, std::int32_t b, std::int32
 bool GuardedOperations::swapEdge(std::int32_t a, std::int32_t b, std::int32_t seed, const SwapGoal& goal,
                                  SwapRefusals* refusals)
 {
-  constexpr int largest = 7; // larger ones hardly ever get better
+  constexpr int largest = 7; // swaps in larger rings hardly ever gain
   if (!openRing(a, b, seed, largest) || (refusals && refusals->contains(m_Complex, a, b, m_Ring))) return false;
   const std::optional<double> least = worthSwapping(a, b, goal);
   if (!least && refusals) refusals->add(m_Complex, seed, a, b);
@@ -268,8 +269,9 @@ bool GuardedOperations::swapEdge(std::int32_t a, std::int32_t b, std::int32_t se
   return true;
 }
 
-/// After edge ab has made way: what was refused before. On a sheet the new triangles count at all edges of those beside
-/// them, and their number at each corner.
+/// Forgets refusals that the removal of edge ab may have made obsolete. After a flip on a sheet, these are all refusals
+/// at its four corners: bending depends on the adjacent triangles, and staysBroad() on the number of triangles at a
+/// vertex.
 void GuardedOperations::forgetAround(std::int32_t a, std::int32_t b, SwapRefusals& refusals)
 {
   refusals.forgetAt(m_Ring);
@@ -277,7 +279,7 @@ void GuardedOperations::forgetAround(std::int32_t a, std::int32_t b, SwapRefusal
   for (const std::int32_t v : { a, b, m_RingVertices[0], m_RingVertices[m_RingEnd] }) refusals.forgetAt(star(v));
 }
 
-/// Fills the open ring anew; the worst quality that it may have then, nothing if it gains too little.
+/// Fills the open ring anew. Returns the least quality allowed for its tetrahedra, or nothing if the gain is too small.
 std::optional<double> GuardedOperations::worthSwapping(std::int32_t a, std::int32_t b, const SwapGoal& goal)
 {
   if (!m_RingIsOnSheet && m_Complex.labels[m_Ring[0]] == 0) return {};
@@ -297,14 +299,15 @@ std::optional<double> GuardedOperations::worthSwapping(std::int32_t a, std::int3
   return goal.sparesWhole && ringHasWhole() ? std::nullopt : std::optional(least);
 }
 
-/// But for vertices on borders of blocks, whose tetrahedra are not all here. The edge's ends have a mediocre one.
+/// Whether a vertex of the ring isWhole(); misses vertices on a block's border, whose star is incomplete. The ends of
+/// the edge need no test: a swap is only tried for mediocre tetrahedra and on the interface.
 bool GuardedOperations::ringHasWhole()
 {
   return std::any_of(m_RingVertices.begin(), m_RingVertices.end(), [&](std::int32_t v) { return isWhole(*this, v); });
 }
 
-/// Whether both ends of the sheet's edge ab keep four triangles or more: with three left a vertex is a peak, which bends
-/// few edges.
+/// Whether both ends of the interface edge ab keep four triangles or more: a vertex with three triangles is a peak,
+/// which the measure of bending favours because it has few edges.
 bool GuardedOperations::staysBroad(std::int32_t a, std::int32_t b)
 {
   constexpr std::size_t broad = 4;
@@ -312,7 +315,8 @@ bool GuardedOperations::staysBroad(std::int32_t a, std::int32_t b)
   return trianglesAt(a) > broad && trianglesAt(b) > broad;
 }
 
-/// How much less (radians times edge lengths, in units of the target) the sheet would be bent with its edge ab flipped.
+/// Returns by how much flipping the interface edge ab reduces bending: angles, radians, times edge lengths, in target
+/// lengths.
 double GuardedOperations::flatterBy(std::int32_t a, std::int32_t b) const
 {
   const auto& c = m_Complex;

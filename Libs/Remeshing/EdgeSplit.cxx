@@ -16,7 +16,7 @@ std::optional<std::int32_t> GuardedOperations::split(std::int32_t a, std::int32_
     if (lenient(t, c.qualityWith(t, a, p)) < minimumQuality || lenient(t, c.qualityWith(t, b, p)) < minimumQuality)
       return {};
   m_Envelope.clear();
-  const std::int32_t m = std::int32_t(c.points.size()); // the new vertex's id, if it comes to be
+  const std::int32_t m = std::int32_t(c.points.size()); // id of the new vertex
   const std::size_t n = m_Ring.size();
   for (std::size_t i = 0; i < n; ++i)
   {
@@ -52,7 +52,7 @@ std::optional<std::int32_t> GuardedOperations::split(std::int32_t a, std::int32_
 
 void GuardedOperations::takeBackSplit(std::int32_t v, std::int32_t a)
 {
-  const Envelope::Lifted lifted(m_Envelope); // it was so before
+  const Envelope::Lifted lifted(m_Envelope); // the state restored was valid
   if (m_Curves) m_Curves->setLifted(true);
   const OperationCounts before = m_Counts;
   const bool done = collapseWithin(v, a, m_Complex.points[a], 0);

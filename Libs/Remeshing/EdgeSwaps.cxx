@@ -22,7 +22,7 @@ public:
 
   void run()
   {
-    const double mediocre = sine2OfDegrees(44); // around better ones little is to be had
+    const double mediocre = sine2OfDegrees(44); // around better tetrahedra there is little to gain
     for (std::int32_t t = 0; t < std::int32_t(m_Complex.tets.size()); ++t)
     {
       if (m_Complex.alive(t) && m_Operations.quality(t) < mediocre) swapEdgesOf(t);
@@ -31,7 +31,7 @@ public:
   }
 
 private:
-  static constexpr double usualSine = 0.75; // 49 degrees: fewer tetrahedra are as welcome as better ones
+  static constexpr double usualSine = 0.75; // 49 degrees; makes fewer tetrahedra count as a gain, like better ones
   static constexpr double leastGain = 0.03;
 
   bool swap(std::int32_t t, std::int32_t a, std::int32_t b)

@@ -13,11 +13,11 @@ namespace surgicalmesher
 namespace
 {
 
-/// How far faces lie from the samples of a sheet.
+/// Distances of faces from the samples of a sheet.
 struct FacesToSamples
 {
   double area = 0;
-  double sum = 0; ///< of areas times squared distances of centres to the nearest sample, in units of its tolerance
+  double sum = 0; ///< over faces, of area times squared distance of the centroid to the nearest sample, in tolerances
 
   void add(const Sheet& sheet, const Vec3& a, const Vec3& b, const Vec3& c)
   {
@@ -31,7 +31,7 @@ struct FacesToSamples
   }
 };
 
-/// Of a sample with a normal: where the boundary is plane around it.
+/// The plane of a sample with a normal, and the radius within which the boundary is nearly plane.
 struct Plane
 {
   Vec3 origin, normal;
@@ -128,10 +128,12 @@ double Envelope::squaredDistanceNow(const Sheet& sheet, const SheetSample& sampl
   return distance2 = squaredDistanceToTriangle(sample.position, corner(0), corner(1), corner(2));
 }
 
-/// Finds the sample the nearest new face of its labels; false if there is none. Begins with the face that takes the
-/// place of its own, if there is one, and beyond the line of a side the distance to that line bounds the distance to
-/// the face from below: both spare most faces the full test. A sample that this first face passes beneath or above, well
-/// within tolerance, stays with it: a nearer one would be a fold of the same sheet.
+/// Finds the new face of its labels nearest to a sample. Returns false if there is none.
+///
+/// Two shortcuts spare most faces the full test: the search begins with the face that replaces the sample's own, if
+/// there is one; and beyond the line of a side, the distance to that line is a lower bound of the distance to the face.
+/// A sample whose projection falls into the first face, at half its tolerance or less, stays with that face: a nearer
+/// face would be a fold of the same sheet.
 bool Envelope::findNearestFace(const Sheet& sheet, SheetSample& sample) const
 {
   sample.to = -1;
@@ -162,8 +164,8 @@ bool Envelope::findNearestFace(const Sheet& sheet, SheetSample& sample) const
   return sample.to >= 0;
 }
 
-/// From a sample to the new boundary of either of its labels, the greater distance. To that of background that has
-/// vanished there is none to keep.
+/// Returns the greater one of the squared distances from a sample to the new boundaries of its two labels. The boundary
+/// of background that has vanished counts as distance 0.
 double Envelope::squaredDistanceToBoth(const Sheet& sheet, const SheetSample& sample) const
 {
   constexpr double none = std::numeric_limits<double>::max();
@@ -179,7 +181,7 @@ double Envelope::squaredDistanceToBoth(const Sheet& sheet, const SheetSample& sa
   return std::max(toBoundary(Label(labels)), toBoundary(Label(labels >> 16)));
 }
 
-/// Whether squaredDistanceToBoth() is at most that: one face of each label tells, and most are not even measured.
+/// Whether squaredDistanceToBoth() is at most `most2`; faster, because one near face of each label suffices.
 bool Envelope::isNearBoth(const Sheet& sheet, const SheetSample& sample, double most2) const
 {
   const auto isNear = [&](Label label)
@@ -200,9 +202,9 @@ bool Envelope::isNearBoth(const Sheet& sheet, const SheetSample& sample, double 
   return isNear(Label(labels)) && isNear(Label(labels >> 16));
 }
 
-/// Hands a sample to the nearest new face of its labels; false if it would lie beyond its tolerance and farther than it
-/// does now. For labels that others come between, see separatedFactor; where two labels cease to touch, their samples
-/// are let go if the boundary of either stays within tolerance.
+/// Assigns a sample to the nearest new face of its labels. Returns false if it would lie beyond its tolerance and
+/// farther than it does now. For labels that other labels separate, see separatedFactor; where two labels cease to
+/// touch, their samples are given up if the boundaries of both labels stay within tolerance.
 bool Envelope::sampleStays(const Sheet& sheet, SheetSample& sample)
 {
   const double tolerance2 = m_SquaredToleranceFactor * sample.squaredTolerance();
@@ -213,7 +215,8 @@ bool Envelope::sampleStays(const Sheet& sheet, SheetSample& sample)
   return isNearBoth(sheet, sample, tolerance2);
 }
 
-/// Whether the mean square of the samples' distances, in units of the tolerance, is within the limit or does not grow.
+/// Whether the mean square of the samples' distances, each in units of its tolerance and at most 1, is within the limit
+/// or does not grow.
 bool Envelope::meanSquareStays(const Sheet& sheet)
 {
   double sum = 0;
@@ -226,7 +229,7 @@ bool Envelope::meanSquareStays(const Sheet& sheet)
   return sum <= before * (1 + 1e-9);
 }
 
-/// Samples are fetched face by face as they are needed, because most refusals come early.
+/// Fetches the samples face by face as they are needed, because most refusals come early.
 bool Envelope::samplesStay()
 {
   for (std::size_t k = 0; k < m_Old.faces.size(); ++k)
@@ -272,7 +275,7 @@ bool Envelope::growsSpike(const Vec3& p) const
          distance2 > nearestSample(m_Sheet, m_Complex.points[m_SheetVertex]).second;
 }
 
-/// Whether the vertex of the sheet, at p, is beyond planeDistance from the sample's plane, and farther than now.
+/// Whether the vertex of the sheet, at p, is farther than planeDistance from the sample's plane, and farther than now.
 bool Envelope::leavesPlane(const SheetSample& sample, const Vec3& p) const
 {
   if (m_PlaneDistance == 0) return false;
@@ -330,7 +333,7 @@ void Envelope::detach(const Sheet& sheet)
   for (const SheetFace& f : sheet.faces) m_Complex.sampleHeads[f.holder.first][f.holder.second] = -1;
 }
 
-/// Backwards, so that lists keep their order when nothing else changes.
+/// Goes backwards, because samples are inserted at the head: lists then keep their order if nothing else changes.
 void Envelope::attach(const std::vector<SheetSample>& samples, const std::vector<TetComplex::FaceOfTet>& holders)
 {
   for (auto sample = samples.rbegin(); sample != samples.rend(); ++sample)
@@ -385,7 +388,7 @@ Vec3 Envelope::alongFeatures(const Vec3& step)
   return m_Sides.along(step);
 }
 
-/// The faces of the sheet as they would be with its vertex at p.
+/// Makes the new faces those of the sheet with its vertex at p.
 void Envelope::addMovedFaces(const Vec3& p)
 {
   m_NewFaces.clear();
@@ -396,8 +399,8 @@ void Envelope::addMovedFaces(const Vec3& p)
   }
 }
 
-/// Whether all samples of the sheet stay. The one that refused the last place comes first: two in three refuse the next,
-/// too.
+/// Whether all samples of the sheet allow the new faces. Begins with the sample that refused the previous position,
+/// because two in three refuse the next one, too.
 bool Envelope::sheetStays()
 {
   auto& samples = m_Sheet.samples;

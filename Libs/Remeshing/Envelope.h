@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The envelope of the interface: how far it may lie from the boundary samples, and they from it.
+/// The envelope of the interface: bounds on the distances between the interface and the boundary samples, both ways.
 ///
-/// Every sample (TetComplex.h) asks for an interface face of its pair of labels within its tolerance. An operation
-/// names the faces that it takes away (addOldFace, or sheet() for a vertex that moves) and those that take their place
-/// (addNewFace); the envelope hands every sample of the old faces to the nearest new one of its labels, says whether
-/// that may be, and after the change of the complex attaches the samples there. This is the bound on the one-sided
-/// Hausdorff distance from the map's boundary to the mesh, for every pair of labels; vertexDistance bounds the other
-/// side.
+/// Every sample (TetComplex.h) requires an interface face of its pair of labels within its tolerance. An operation
+/// names the faces that it removes (addOldFace, or sheet() for a vertex that moves) and the faces that replace them
+/// (addNewFace). The envelope assigns every sample of the old faces to the nearest new face of its labels, says whether
+/// the distances are allowed, and attaches the samples to the new faces after the change of the complex. This bounds
+/// the one-sided Hausdorff distance from the map's boundary to the mesh, for every pair of labels; vertexDistance
+/// bounds the other side.
 
 #include "FeatureSides.h"
 
@@ -18,34 +18,36 @@ namespace surgicalmesher
 
 struct EnvelopeBounds
 {
-  /// Bound on the root mean square distance of the samples that an operation hands on to their faces, in tolerances,
-  /// unless it does not grow. Single samples may use up their tolerance where the others lie close.
+  /// Bound, in tolerances, on the root mean square distance of an operation's samples to their new faces; a larger one
+  /// is allowed if it does not grow. Single samples may use up their tolerance where the others lie close.
   double rmsLimit = 0.5;
   /// Factor on the tolerance of every sample.
   double toleranceFactor = 1;
-  /// Factor on the quality of triangles between labels: 1 makes their angles count like dihedral ones; 0 leaves them
-  /// out.
+  /// Factor on the quality of the interface triangles: 1 makes their angles count like dihedral angles, 0 ignores them.
   double triangleWeight = 0;
-  /// Bound, in tolerances, on the distance from an interface vertex, and from the middle of an interface edge longer
-  /// than its target, to the nearest sample of its faces, unless it does not grow; and no vertex inside a label comes
-  /// to lie on the interface beyond it. Prevents spikes: they have good angles, and their sides pass the samples at
-  /// their foot however long they grow. 0: no bound.
+  /// Bound, in tolerances, on the distance to the nearest sample of its faces, for an interface vertex that moves and
+  /// for the middle of an interface edge that a move or a collapse leaves longer than its target; a larger distance is
+  /// allowed if it does not grow. Relabelling puts no vertex from inside a label on the interface beyond the bound.
+  /// Prevents spikes, which pass the tests of angles and samples: their angles are good, and their sides stay near to
+  /// the samples at their foot, however long they grow. 0: no bound.
   double vertexDistance = 0;
-  /// Bound, in tolerances, on the distance of an interface vertex that moves from the plane of the nearest sample of its
-  /// faces, if that has a normal and the boundary is plane between them, unless it does not grow. vertexDistance leaves a
-  /// vertex between samples as far off as these are apart. 0: no bound.
+  /// Bound, in tolerances, on the distance of an interface vertex that moves from the plane of the nearest sample of
+  /// its faces, if that sample has a normal and the boundary is nearly plane as far as the vertex; a larger one is
+  /// allowed if it does not grow. Needed because vertexDistance lets a vertex between samples lie as far off as the
+  /// samples are apart. 0: no bound; without effect if vertexDistance is 0.
   double planeDistance = 0;
-  /// mm; vertexDistance is this at least: between samples so far apart a vertex of the smoothest surface is that far from
-  /// the nearest.
+  /// Spacing of the samples, mm; the least value of the bound vertexDistance, because a vertex of a perfectly smooth
+  /// surface may lie that far from the nearest sample.
   double sampleSpacing = 0;
-  /// Factor, at least 1, on the tolerance to faces of its own pair for a sample whose two labels others have come
-  /// between, if it has the boundary of either label within tolerance.
+  /// Factor, at least 1, on the tolerance of a sample whose two labels have been separated by other labels. It applies
+  /// to faces of the sample's own pair, if the boundaries of both of its labels are within the plain tolerance.
   double separatedFactor = 1;
-  /// degrees; sharp edges, corners and flat faces of the interface stay what they are (FeatureSides). 0: there are none.
+  /// Angle, degrees, above which edges of the interface are sharp. Sharp edges, corners and flat faces are kept
+  /// (FeatureSides). 0: no features.
   double featureAngle = 0;
-  /// No vertex moves to where more of the interface is folded around it (foldedMore).
+  /// Refuses moves of a vertex that increase the folded length of the interface around it (foldedMore).
   bool keepsFolds = false;
-  /// The interface stays exactly as it is, its vertices, edges and triangles; the other bounds are then not asked.
+  /// Keeps the vertices, edges and triangles of the interface exactly as they are; no other bound is tested then.
   bool interfaceHeld = false;
 };
 
@@ -56,71 +58,77 @@ public:
 
   bool isHeld() const { return m_Held; }
 
-  /// Whether a place that far from its nearest sample is beyond so many of its tolerances, and the spacing of samples.
+  /// Whether a distance (squared, mm^2) to the sample `nearest` exceeds both `tolerances` tolerances of the sample and
+  /// the spacing of samples.
   bool isBeyond(const SheetSample& nearest, double squaredDistance, double tolerances) const
   {
     return squaredDistance > std::max(tolerances * tolerances * nearest.squaredTolerance(), m_SquaredSpacing);
   }
 
-  /// Of p from the boundary by the sample nearest to it, mm^2: from the sample's plane, if it has a normal and the
-  /// boundary is plane between them, else from the sample.
+  /// Returns the squared distance, mm^2, of p from the boundary as the nearest sample tells it: from the plane of the
+  /// sample, if it has a normal and the boundary is nearly plane as far as p, else from the sample.
   double squaredDistanceBy(const SheetSample& nearest, const Vec3& p) const;
 
-  // --- faces that an operation takes away, and faces that take their place
+  // --- faces that an operation removes, and faces that replace them
   void clear();
-  /// Takes note of the interface face (t, face), once.
+  /// Adds the interface face opposite vertex `face` of t to the old faces, unless it is one already.
   void addOldFace(std::int32_t t, int face);
-  /// The same for one that is known not to have been noted.
+  /// Adds a face that is known not to be among the old faces.
   void addOldFace(const SheetFace& face) { m_Old.faces.push_back(face); }
-  /// A face abc between two labels. `tet`, `face`: a tetrahedron that will have it; -1: attach() looks for one.
-  /// `changes` false: it stays as it is, and may take other samples.
+  /// Adds the new face abc with vertices `ids` between two labels. It lies opposite vertex `face` of tetrahedron `tet`
+  /// after the change of the complex; tet -1: attach() looks for it. `changes` false: the face stays as it is, but may
+  /// receive samples.
   void addNewFace(const Vec3& a, const Vec3& b, const Vec3& c, const std::array<std::int32_t, 3>& ids, LabelPair labels,
                   std::int32_t tet = -1, int face = 0, bool changes = true);
   bool hasNewFaces() const { return !m_NewFaces.empty(); }
 
-  /// Whether the new triangles reach that quality.
+  /// Whether all new faces that change reach `minimumQuality`, after multiplication by triangleWeight.
   bool trianglesReach(double minimumQuality) const;
-  /// Whether the new faces leave flat sides flat and sharp edges where they are, if that is asked for.
+  /// Whether the new faces keep flat sides flat and sharp edges in place; true without a feature angle.
   bool featuresStay();
-  /// Whether every sample of the old faces has a new face within its tolerance, or no farther than its face is now, and
-  /// their mean square is within the limit or does not grow.
+  /// Assigns the samples of the old faces to the new ones. Returns whether every sample has a new face within its
+  /// tolerance or no farther than its present face, and the mean square of the distances is within its limit or does
+  /// not grow. For labels that other labels separate, see separatedFactor.
   bool samplesStay();
-  /// Whether the middle of an edge at v, longer than its target, would lie farther than vertexDistance from the samples
-  /// of the old faces, and farther than with v at `from`.
+  /// After samplesStay(): whether the middle of a new edge at v that is longer than its target lies farther than
+  /// vertexDistance from the samples of the old faces, and farther than with v at `from`.
   bool spansGap(std::int32_t v, const Vec3& from) const { return spansGap(m_Old, v, from); }
-  /// Whether a corner of t, inside a label so far, would lie on the interface beyond vertexDistance.
+  /// After samplesStay(): whether a vertex of t that is inside a label now would come to lie on the interface farther
+  /// than vertexDistance from the samples of the old faces.
   bool laysBare(std::int32_t t) const;
-  /// After samplesStay(): whether at most `mostLeft` would be left of the squared distances, in units of the tolerance,
-  /// of the samples to the faces and of the faces to the samples. A face off all samples has none of its own to say so.
+  /// After samplesStay(): whether the sum of the squared distances, in units of the tolerance, falls below the share
+  /// `mostLeft` of its present value. The distances are those of the samples to the faces and of the faces to the
+  /// samples; the latter, because a face far from all samples holds none that would show it.
   bool comesNearer(double mostLeft);
 
-  /// Takes the samples off the old faces; before the complex changes.
+  /// Removes the samples from the old faces. Call before the complex changes.
   void detach();
-  /// Hands them to the new faces, those without a tetrahedron found among `around`; after the complex has changed.
+  /// Attaches the samples to their new faces. Call after the complex has changed. Faces added without a tetrahedron are
+  /// looked for among the tetrahedra `around`.
   void attach(const std::vector<std::int32_t>& around = {});
 
   // --- moves of one vertex
   bool holdsSheetOf(std::int32_t v) const { return m_SheetVertex == v; }
-  /// The interface faces at v, `faces`, and their samples; kept while only v moves.
+  /// Gathers the interface faces at v, `faces`, and their samples; valid while only v moves.
   const Sheet& gatherSheetOf(std::int32_t v, const std::vector<TetComplex::FaceOfTet>& faces);
   const Sheet& sheet() const { return m_Sheet; }
   void forgetSheet() { m_SheetVertex = -1; }
   bool watchesFeatures() const { return m_Sides.areWatched(); }
-  /// The part of a step of the sheet's vertex that leaves features as they are.
+  /// Returns the part of a step of the sheet's vertex that preserves the features.
   Vec3 alongFeatures(const Vec3& step);
-  /// Whether features, samplesStay() and vertexDistance allow the vertex of the sheet at p.
+  /// Whether the bounds on features, samples, vertices and long edges allow the vertex of the sheet at p. Assigns the
+  /// samples to the faces with the vertex at p.
   bool allowsSheetAt(const Vec3& p);
-  /// After that: hands the samples of the sheet to the faces as they are with the vertex there, and puts them in the
-  /// order of these.
+  /// After allowsSheetAt() has returned true: attaches the samples of the sheet to the faces assigned, and sorts them
+  /// by face.
   void handOn();
-  /// Hands the samples of the sheet to the nearest of its faces as they are with the vertex at p, however far.
+  /// Attaches each sample of the sheet to the nearest of its faces with the vertex at p, at any distance.
   void handToNearest(const Vec3& p);
-  /// Whether a sample of the sheet is beyond its tolerance.
-  bool hasSampleBeyondTolerance();
+  bool hasSampleBeyondTolerance(); ///< of the sheet
 
-  /// A tolerance, mm, that no sample's is less than from now on; 0: their own.
+  /// Sets a lower bound, mm, on the tolerances of all samples from now on; 0: none.
   void setLeastTolerance(double mm) { m_LeastTolerance2 = mm * mm; }
-  /// Everything may be as it comes out, for as long as this lives: to take back what was so before.
+  /// Lifts the bounds on distances and features during its lifetime, for undoing an operation.
   class Lifted
   {
   public:
@@ -144,8 +152,8 @@ private:
     Vec3 normal;                   ///< unit
     std::array<Vec3, 3> slopes;    ///< gradients of the barycentric coordinates
     std::array<double, 3> heights; ///< squared, over the side opposite each corner
-    std::int32_t tet;              ///< that has it as its `face` already; -1: not known yet
-    int face;
+    std::int32_t tet;              ///< tetrahedron of the face, as in addNewFace(); -1: not known yet
+    int face;                      ///< opposite this vertex of tet
     bool changes;
   };
 
@@ -171,13 +179,13 @@ private:
   double m_VertexDistance;
   const double m_PlaneDistance, m_SquaredSpacing, m_SquaredSeparatedFactor;
   double m_LeastTolerance2 = 0;
-  FeatureSides m_Sides; ///< of the faces asked about last
-  Sheet m_Old;          ///< the faces that an operation takes away
+  FeatureSides m_Sides; ///< of the faces tested last
+  Sheet m_Old;          ///< the faces that an operation removes
   std::vector<Face> m_NewFaces;
   std::vector<TetComplex::FaceOfTet> m_Holders; ///< of the new faces
-  std::int32_t m_SheetVertex = -1;              ///< whose m_Sheet is; -1: nobody's
+  std::int32_t m_SheetVertex = -1;              ///< the vertex that m_Sheet is at; -1: none
   Sheet m_Sheet;
-  std::size_t m_LastRefusing = 0; ///< of its samples, or of those of another one before
+  std::size_t m_LastRefusing = 0; ///< index of the sample that refused last, in m_Sheet or in an earlier sheet
 };
 
 } // namespace surgicalmesher

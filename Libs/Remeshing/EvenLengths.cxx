@@ -49,7 +49,7 @@ private:
   static bool isEven(double ratio) { return ratio >= shortestEven && ratio <= longestEven; }
   double floorAt(std::int32_t v) { return std::min(m_Good, m_Operations.qualityAt(v)); }
 
-  /// How many edges at v would have even lengths, were it at p.
+  /// Returns the number of edges at v with even lengths if v were at p; edges inside a label count insideLabel.
   double evenEdges(std::int32_t v, const Vec3& p)
   {
     double sum = 0;
@@ -61,9 +61,9 @@ private:
 
   void stretchAt(std::int32_t v)
   {
-    constexpr double least = 0.4, most = 1.6; // beyond that no single move makes up for it
+    constexpr double least = 0.4, most = 1.6; // beyond these, no single move suffices
     constexpr double ease = 0.02;
-    std::optional<Quadric> held; // until v moves
+    std::optional<Quadric> held; // valid until v moves
     const auto neighbours = m_Operations.neighbours(v);
     for (const auto& n : neighbours)
     {
@@ -77,7 +77,7 @@ private:
     }
   }
 
-  /// v has moved: it and its neighbours along the interface may lie better.
+  /// Marks v, which has moved, and its neighbours along the interface for fitToSamples().
   void touch(std::int32_t v)
   {
     m_IsTouched[v] = 1;
@@ -104,7 +104,8 @@ private:
     return false;
   }
 
-  /// Where the samples would like v, were it at p, without a change of its distance to u.
+  /// Returns the fit of v, were it at p, to its samples, moved only perpendicularly to the edge to u, so that the edge
+  /// keeps its length.
   Vec3 onSheet(std::int32_t v, std::int32_t u, const Vec3& p)
   {
     Quadric quadric = quadricWith(m_Complex, v, p, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
@@ -119,14 +120,15 @@ private:
   {
     moved,
     refused,
-    tooNear ///< angles are good, but lengths no longer even, or samples against it: farther away they may not be
+    tooNear ///< angles are good, but lengths not even or samples against the move; a longer move may succeed
   };
 
-  /// Moves v to p, or from there uphill to where its angles are good enough, if more lengths are then even.
+  /// Moves v to p, or on from p in directions that improve its angles until they are good enough, if more lengths are
+  /// even there.
   Outcome moveNear(std::int32_t v, Vec3 p, const Quadric& held)
   {
     constexpr int trials = 8;
-    constexpr double hopeless = 0.1; // share of the quality wanted, below which one in 150 comes to it
+    constexpr double hopeless = 0.1; // share of the required quality; from below it, one in 150 trials succeeds
     const double floor = floorAt(v), now = evenEdges(v, m_Complex.points[v]);
     if (!(evenEdges(v, p) > now)) return Outcome::refused;
     for (int trial = 0; trial <= trials; ++trial)
@@ -140,7 +142,7 @@ private:
     return Outcome::refused;
   }
 
-  /// Moves v to the fit of its faces to their samples, where that costs no even length.
+  /// Moves v to the least-squares fit to its samples, or part of the way, where that costs no even length.
   void fitToSamples(std::int32_t v)
   {
     Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
@@ -156,7 +158,7 @@ private:
   TetComplex& m_Complex;
   const EdgeLengthOptions& m_Options;
   const double m_Good;
-  std::vector<std::uint8_t> m_IsTouched; ///< vertices beside which a length has changed
+  std::vector<std::uint8_t> m_IsTouched; ///< vertices at which a length has changed
 };
 
 } // namespace

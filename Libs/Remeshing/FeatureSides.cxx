@@ -10,9 +10,10 @@ namespace surgicalmesher
 namespace
 {
 
-// A thousandth of a radian: coordinates in single precision tilt triangles by less.
+// Of a thousandth of a radian: rounding of coordinates to single precision tilts triangles by less.
 constexpr double kFlatCosine = 1 - 0.5e-6;
-// Of a normal beside those that are held already: planes that meet in a sharp edge leave far more.
+// Least length of the component of a unit normal orthogonal to the normals found before, for it to count as another
+// direction: planes that meet in a sharp edge exceed it by far.
 constexpr double kIndependent = 1e-2;
 
 Vec3 outwardNormal(const TetComplex& complex, const SheetFace& face)

@@ -33,14 +33,14 @@ public:
   }
 
 private:
-  using Places = std::array<Vec3, 4>; ///< of a hinge's vertices
+  using Places = std::array<Vec3, 4>; ///< positions or steps of a hinge's vertices
 
   bool isFree(std::int32_t v) const { return !m_Complex.locked[v] && m_Complex.lengths[v] >= m_From; }
 
-  /// At the edges of v; those between two free vertices come at the first.
+  /// Opens the folds at the edges of v. An edge with two free ends is treated only at the end with the smaller id.
   void openAt(std::int32_t v)
   {
-    constexpr double widest = 128 * degree; // beyond, it would take too much of the boundary
+    constexpr double widest = 128 * degree; // opening wider ones would move the interface too far from the boundary
     m_Hinges.clear();
     m_Hinges.add(m_Complex, m_Operations.sheet(v));
     for (const Hinge& h : m_Hinges.sorted())
@@ -53,10 +53,10 @@ private:
 
   void open(const Hinge& h, double turn)
   {
-    constexpr double aim = 86 * degree, farthest = 0.3; // of L
+    constexpr double aim = 86 * degree, farthest = 0.3; // farthest: target lengths
     const Places old = placesOf(h);
-    Places ways;
-    double opens = 0; // radians, by those ways
+    Places ways;      // steps
+    double opens = 0; // radians by which the unscaled steps change the angle
     m_Around.clear();
     for (int i = 0; i < 4; ++i)
     {
@@ -83,7 +83,7 @@ private:
     return { m_Complex.points[h[0]], m_Complex.points[h[1]], m_Complex.points[h[2]], m_Complex.points[h[3]] };
   }
 
-  /// By the place of h's vertex number i, radians / mm.
+  /// Returns the gradient of the angle with respect to the position of the hinge's vertex i, radians / mm.
   Vec3 gradientOfTurn(const Hinge& h, int i, double turn) const
   {
     const double step = 1e-4 * m_Complex.lengths[h[i]];
@@ -111,7 +111,7 @@ private:
       if (moved[i]) m_Operations.reassignSamples(h[i]);
   }
 
-  static constexpr double ease = 0.15; // how easily vertices leave their samples for it
+  static constexpr double ease = 0.15; // see heldAt: how easily vertices leave their samples
 
   GuardedOperations& m_Operations;
   TetComplex& m_Complex;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Folds of the interface that are a little over a right angle, opened to a little less, where little of the boundary has
-/// to give way for that.
+/// Opens folds of the interface of a little more than a right angle to a little less, where the interface hardly has to
+/// leave the boundary for that.
 
 #include "GuardedOperations.h"
 #include "TetQuality.h"
@@ -11,13 +11,14 @@ namespace surgicalmesher
 
 struct FoldOptions
 {
-  double goodAngle = usualAngle; ///< degrees; a move that lowers the worst angle at its vertex is taken only above this
+  double goodAngle = usualAngle; ///< degrees; a move may lower the worst angle at its vertex to this
   double from = 0;               ///< mm; vertices with smaller target lengths stay
 };
 
-/// Opens folds (Folds.h) of less than 128 degrees: the ends of the edge and the two corners beyond it move together, by the
-/// least that their samples resist (least squares, with the angle as a constraint), and back if less than a third of the
-/// edge's length is won for the edges around. Twice over, as one fold's opening may be another's.
+/// Opens folds (Folds.h) of less than 128 degrees. The four vertices of a hinge move together, by the steps against
+/// which their samples resist least (least squares with the angle as a constraint). The moves are undone unless they
+/// reduce the folded length around these vertices by 0.3 of the edge's length. Makes two rounds, because opening one
+/// fold may help to open another.
 void openFoldsOfBlock(GuardedOperations& operations, const FoldOptions& options = {});
 
 } // namespace surgicalmesher

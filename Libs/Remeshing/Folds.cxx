@@ -13,7 +13,8 @@ namespace surgicalmesher
 namespace
 {
 
-/// Share of an edge that is folded, whose triangles have the corners c and d beyond it, seen from its begin.
+/// Returns the share, 0 to 1, of an edge's length that counts as folded. c and d are the vectors from the start of the
+/// edge to the third corners of its triangles.
 double foldedShare(const Vec3& edge, const Vec3& c, const Vec3& d)
 {
   constexpr double cosine = 0.0698; // of 86 degrees

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Folds of the interface: edges at which its normals turn by more than a right angle, from a triangle to the next that
-/// parts the same two labels, or that bounds the background as well (cornerBeyond).
+/// Folds of the interface: edges at which the normal turns by more than a right angle between two triangles that form a
+/// hinge (Bending.h): they separate the same two labels, or both bound the background.
 
 #include "BoundarySamples.h"
 
 namespace surgicalmesher
 {
 
-/// The ends of an edge, and the corners beyond it of the two triangles there; each pair in ascending order.
+/// The two ends of an edge, then the third corners of the two triangles at it; each pair in ascending order.
 using Hinge = std::array<std::int32_t, 4>;
 
-/// The hinges at the edges of the faces of some sheets, each once. Edges on a block's border have none if the other
-/// triangle is outside.
+/// The set of hinges at the edges of the faces of one or several sheets. Edges on a block's border have none if the
+/// other triangle lies outside the block.
 class Hinges
 {
 public:
@@ -24,20 +24,20 @@ private:
   std::vector<Hinge> m_Hinges;
 };
 
-/// Radians between the normals of a hinge's triangles.
+/// Returns the angle, radians, between the normals of a hinge's triangles.
 double turnAt(const TetComplex& complex, const Hinge& hinge);
 
-/// Length, mm, of a hinge's edge.
+/// Returns the length, mm, of a hinge's edge.
 double lengthAt(const TetComplex& complex, const Hinge& hinge);
 
-/// What of that length is folded: all of it from 94 degrees on, half at 90, nothing below 86. A step at 90 degrees would
-/// leave folds of 89 to whatever comes next.
+/// Returns the folded length, mm, of a hinge's edge: all of its length from 94 degrees on, half at 90, none below 86.
+/// With a step at 90 degrees, turns of 89 degrees would pass, and become folds by the next operation.
 double foldedAt(const TetComplex& complex, const Hinge& hinge);
 
-/// The sum of that, mm.
+/// Returns the sum of foldedAt() over `hinges`, mm.
 double foldedLength(const TetComplex& complex, const std::vector<Hinge>& hinges);
 
-/// How much more of the length of the edges of v's `sheet` would be folded, were v at p.
+/// Returns the growth, mm, of the folded length of the edges of `sheet` (the interface faces at v) if v moved to p.
 double foldedMore(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet);
 
 } // namespace surgicalmesher

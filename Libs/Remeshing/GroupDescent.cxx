@@ -52,7 +52,8 @@ void GroupDescent::takeBack()
   m_Moves.clear();
 }
 
-/// Sum over the star of v, were it at p, of the squares of what the sines lack to somewhat more than the target.
+/// Returns the sum over the star of v, if v were at p, of the squared deficits of the sines, up to a quality of 1.15
+/// target.
 double GroupDescent::lack(std::int32_t v, const Vec3& p)
 {
   const double enough = 1.15 * m_Target * (1 + 1e-9), wanted = std::sqrt(1.15 * m_Target);
@@ -68,7 +69,7 @@ double GroupDescent::lack(std::int32_t v, const Vec3& p)
   return sum;
 }
 
-/// A step of v down the gradient of what its tetrahedra lack, along the interface rather than across.
+/// Moves v down the gradient of lack(), along the interface rather than across it. Returns whether v has moved.
 bool GroupDescent::descend(std::int32_t v, double floor)
 {
   const Vec3 p = m_Complex.points[v];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Vertices that move together where none alone could without making another tetrahedron the worst.
+/// Moves several vertices together where no single one could move without making another tetrahedron the worst.
 
 #include "GuardedOperations.h"
 
@@ -11,24 +11,25 @@
 namespace surgicalmesher
 {
 
-/// Descends the sum of the squares of what all tetrahedra at some vertices lack, vertex by vertex, and can take it all
-/// back.
+/// Reduces, vertex by vertex, the sum over the tetrahedra at a group of vertices of the squared deficit: what the sine
+/// of the worst angle lacks to a little more than the target. All moves can be undone.
 class GroupDescent
 {
 public:
-  /// `target`: quality that tetrahedra are to have and a little more; `ease`: as in PolishingOptions.
+  /// `target`: quality that the tetrahedra should reach; `ease`: as in PolishingOptions.
   GroupDescent(GuardedOperations& operations, double target, double ease);
 
-  /// The free vertices among v and its neighbours, v first.
+  /// Sets the group to the free vertices among v and its neighbours, v first.
   void setAround(std::int32_t v);
   void set(std::vector<std::int32_t> vertices);
   const std::vector<std::int32_t>& vertices() const { return m_Vertices; }
 
-  /// Quality of the worst tetrahedron at the vertices.
+  /// Returns the worst quality at the vertices.
   double worst();
-  /// A step of each of them that can make one without a tetrahedron at it falling below `floor`; false: none could.
+  /// Moves each vertex once, if a step reduces its deficit and leaves no quality at it below `floor`. Returns whether
+  /// any vertex has moved.
   bool step(double floor);
-  /// Everything as it was when the vertices were set.
+  /// Undoes all moves since the group was set.
   void takeBack();
 
 private:
@@ -39,7 +40,7 @@ private:
   TetComplex& m_Complex;
   const double m_Target, m_Ease;
   std::vector<std::int32_t> m_Vertices;
-  std::vector<std::pair<std::int32_t, Vec3>> m_Moves; ///< and from where
+  std::vector<std::pair<std::int32_t, Vec3>> m_Moves; ///< vertices moved, and their position before
 };
 
 } // namespace surgicalmesher

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// What all guarded operations measure. The operations themselves: EdgeCollapse,
-// VertexMove, EdgeRemoval, EdgeSplit, Relabel.
+// Stars, qualities and other measures that all guarded operations share. The operations themselves are in EdgeCollapse,
+// VertexMove, EdgeRemoval, EdgeSplit and Relabel.
 
 #include "GuardedOperations.h"
 
@@ -73,7 +73,8 @@ const std::vector<std::int32_t>& GuardedOperations::starOf(std::int32_t v, Star&
   return star.tets;
 }
 
-/// Whether m_Star is that of v again; what it was stays known.
+/// Exchanges m_Star for the star of v, if it is in m_Recent, or else for the entry to be replaced next. Returns whether
+/// it was found.
 bool GuardedOperations::recall(std::int32_t v)
 {
   const auto known = std::find_if(m_Recent.begin(), m_Recent.end(), [v](const Star& star) { return star.vertex == v; });
@@ -151,7 +152,7 @@ const std::vector<GuardedOperations::Neighbour>& GuardedOperations::neighbours(s
       const Label label = m_Complex.labels[t];
       Seen& seen = m_Seen[x];
       const bool isNew = seen.search != m_Search;
-      m_Neighbours[count] = { x, false }; // stays only if x is new, for which there is no foreseeing
+      m_Neighbours[count] = { x, false }; // overwritten unless x is new; a branch would be unpredictable
       seen = { m_Search, isNew ? count : seen.at, isNew ? label : seen.label };
       m_Neighbours[seen.at].alongInterface |= label != seen.label;
       count += std::int32_t(isNew);

@@ -46,7 +46,7 @@ private:
 
   static constexpr double outside = std::numeric_limits<double>::infinity();
 
-  /// By tetrahedron; `outside` in the background.
+  /// Returns the least height of each tetrahedron; `outside` in the background.
   std::vector<double> heightsInTissues() const
   {
     std::vector<double> result(m_Complex.tets.size(), outside);
@@ -59,10 +59,11 @@ private:
     return result;
   }
 
-  /// A tissue of which more than a few tetrahedra are low is thin itself.
+  /// Limits the heights that count as low, by label: if more than a few tetrahedra of a tissue are low, the tissue
+  /// itself is thin.
   void findLimits(const std::vector<double>& heights)
   {
-    constexpr double few = 0.03; // share; a tenth inflated a spinal cord not much wider than L by 4 %
+    constexpr double few = 0.03; // share; 0.1 inflates a spinal cord that is hardly wider than L by 4 %
     std::map<Label, std::vector<double>> heightsOf;
     for (std::size_t t = 0; t < heights.size(); ++t)
       if (heights[t] != outside) heightsOf[m_Complex.labels[t]].push_back(heights[t]);
@@ -75,7 +76,7 @@ private:
   }
   double limitOf(std::int32_t t) const { return m_Limits[m_Complex.labels[t]]; }
 
-  /// Ascending, no more than are worked on.
+  /// Returns the tetrahedra to process in this pass, lowest first.
   std::vector<Low> lowTetrahedra(const std::vector<double>& heights) const
   {
     std::vector<Low> low;
@@ -89,7 +90,7 @@ private:
 
   double heightOf(std::int32_t t) const { return heightWith(t, -1, {}); }
 
-  /// With vertex v at p.
+  /// Returns the least height of t with vertex v at p.
   double heightWith(std::int32_t t, std::int32_t v, const Vec3& p) const
   {
     const auto& x = m_Complex.tets[t];
@@ -97,7 +98,7 @@ private:
     return leastHeight(at(0), at(1), at(2), at(3));
   }
 
-  /// The least of the tissues' tetrahedra at v, were it at p, but for those that contain `without`.
+  /// Returns the least height of the tissues' tetrahedra at v, with v at p, except those that contain `without`.
   double leastAt(std::int32_t v, const Vec3& p, std::int32_t without = -1)
   {
     double least = std::numeric_limits<double>::max();
@@ -145,10 +146,11 @@ private:
     return any;
   }
 
-  /// With three triangles, between whose samples it could go far: that would be a dent, or a spike.
+  /// An interface vertex with three triangles could move far between their samples, which would make a dent or a spike.
   bool isTip(std::int32_t v) { return m_Operations.interfaceFaces(v).size() == 3; }
 
-  /// The way up for the lowest tetrahedra at v: the sum of the unit gradients of all that are nearly as low.
+  /// Returns a direction that raises the lowest tetrahedra at v: the sum of the unit gradients of the heights of all
+  /// that are nearly as low as `least`.
   Vec3 uphill(std::int32_t v, double least)
   {
     const Vec3 p = m_Complex.points[v];

@@ -18,7 +18,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// What is tried over and over at no small cost, as long as it succeeds now and then.
+/// Success rate of a costly operation, which is abandoned once it succeeds too seldom.
 class Chance
 {
 public:
@@ -60,7 +60,7 @@ public:
   }
 
 private:
-  /// What is below the target and has changed, within worstShare.
+  /// Returns the tetrahedra below the target quality near which something has changed, at most the share worstShare.
   std::vector<std::int32_t> worstFirst() const
   {
     std::vector<std::pair<double, std::int32_t>> bad;
@@ -74,10 +74,10 @@ private:
     return result;
   }
 
-  /// Whether once more is worth it.
+  /// Returns whether another pass is worthwhile.
   bool improveAll(const std::vector<std::int32_t>& bad)
   {
-    constexpr double worthwhile = 0.3; // share that came right
+    constexpr double worthwhile = 0.3; // share of the tetrahedra that reached the target
     std::size_t tried = 0, mended = 0;
     for (const std::int32_t t : bad)
     {
@@ -89,7 +89,7 @@ private:
     return !m_IsCrowded || double(mended) >= worthwhile * double(tried);
   }
 
-  /// Or gone: what has come in its place is asked about in the next pass.
+  /// A deleted tetrahedron counts as mended: those that replace it are examined in the next pass.
   bool isMended(std::int32_t t) const { return !m_Complex.alive(t) || m_Operations.quality(t) >= m_Target; }
 
   std::size_t shareOf(double share) const
@@ -97,7 +97,7 @@ private:
     return std::max<std::size_t>(100, std::size_t(share * double(m_Complex.tets.size())));
   }
 
-  /// By tetrahedron; infinite where nothing has changed.
+  /// Returns the quality of each tetrahedron; infinity where nothing has changed.
   std::vector<double> qualitiesOfTouched() const
   {
     std::vector<double> result(m_Complex.tets.size(), std::numeric_limits<double>::infinity());
@@ -110,7 +110,7 @@ private:
     return result;
   }
 
-  /// Whether anything near t has changed since it was last tried.
+  /// Returns whether anything near t has changed since t was last tried.
   bool isTouched(std::int32_t t) const
   {
     const auto& x = m_Complex.tets[t];
@@ -125,7 +125,7 @@ private:
 
   void touchStar(std::int32_t v)
   {
-    m_Touched.resize(m_Complex.points.size(), 1); // v may be what a split has added
+    m_Touched.resize(m_Complex.points.size(), 1); // v may be a new vertex from a split
     m_IsStuck.resize(m_Complex.points.size(), 0);
     for (std::int32_t t : m_Operations.star(v))
       for (std::int32_t x : m_Complex.tets[t]) touch(x);
@@ -179,17 +179,18 @@ private:
     return any;
   }
 
-  /// Climbs the worst quality at v along the gradient of its worst tetrahedron and along trial directions.
+  /// Improves the worst quality at v by steps along the summed gradients of its worst tetrahedra and in random
+  /// directions.
   bool optimise(std::int32_t v)
   {
-    constexpr double first = 0.12, least = 0.004; // shares of L; with 0.01 angles of traced curves stay worse
+    constexpr double first = 0.12, least = 0.004; // steps, shares of L; 0.01 leaves worse angles at traced curves
     if (m_Complex.locked[v] || (m_IsCrowded && m_IsStuck[v])) return false;
     double best = m_Operations.qualityAt(v);
     const double start = best;
     const double size = m_Complex.lengths[v];
     double step = first * size;
     const Quadric held = heldAt(m_Operations, v, m_Options.ease);
-    Vec3 up; // from where v is now
+    Vec3 up; // from v's present position
     bool knowsUphill = false;
     for (int trial = 0; trial < m_Options.trials && best < m_Target && step > least * size; ++trial)
     {
@@ -212,14 +213,14 @@ private:
     return true;
   }
 
-  /// Where no vertex alone can move without making another tetrahedron the worst: those around t move together, which
-  /// stays if the worst of them has become better.
+  /// Moves the vertices around t together, where no single vertex can move without making another tetrahedron the
+  /// worst. The moves are kept if the worst quality around these vertices has improved.
   bool moveTogether(std::int32_t t)
   {
     struct Range
     {
-      double near; ///< tetrahedra up to this many times as good as t take part
-      double dip;  ///< share of t's quality that they may fall to on the way
+      double near; ///< tetrahedra whose quality is at most this multiple of t's take part
+      double dip;  ///< share of the group's initial quality to which it may fall in between
       Chance& chance;
     };
     if (m_TogetherLeft == 0) return false;
@@ -234,7 +235,8 @@ private:
     return false;
   }
 
-  /// The group, to better than `before`, never falling to less than a share of it.
+  /// Moves the group until it is better than `before`; its quality never falls below dip * before. Takes the moves back
+  /// and returns false without success.
   bool moveTogether(double before, double dip)
   {
     double after = m_Group.worst();
@@ -253,8 +255,8 @@ private:
     return false;
   }
 
-  /// Where the vertices are too few for good angles, wherever they lie, as around a tiny body: a new one in the middle
-  /// of an edge, and all around it move together. Taken back if that doesn't help.
+  /// Splits an edge of t in the middle and moves the vertices around the new one together, for places where there are
+  /// too few vertices for good angles, as around a tiny body. Undone if that does not help.
   bool splitAndMoveTogether(std::int32_t t)
   {
     if (!m_Options.split || m_TogetherLeft == 0 || !m_SplitTogether.isFair()) return false;
@@ -264,7 +266,7 @@ private:
                        {
                          if (m_Complex.locked[a]) std::swap(a, b);
                          if (m_Complex.locked[a]) return false;
-                         const auto& star = m_Operations.star(a); // t may have come back under another number
+                         const auto& star = m_Operations.star(a); // an undone split gives t another number
                          const auto isT = [&](std::int32_t s)
                          { return std::is_permutation(x.begin(), x.end(), m_Complex.tets[s].begin()); };
                          return splitAndMoveTogether(a, b, *std::find_if(star.begin(), star.end(), isT));
@@ -284,7 +286,8 @@ private:
     return false;
   }
 
-  /// The free vertices of the tetrahedra that share a vertex with t and are at most `near` times as good.
+  /// Returns the unlocked vertices of the tetrahedra that share a vertex with t and have at most `near` times its
+  /// quality.
   std::vector<std::int32_t> neighbourhood(std::int32_t t, double near)
   {
     const double limit = near * m_Operations.quality(t);
@@ -335,7 +338,8 @@ private:
                        });
   }
 
-  /// Splits ab where the halves of its ring are best, if that beats the ring as it is.
+  /// Splits ab at the point where the halves of the ring's tetrahedra are best, if they are better than the ring is
+  /// now.
   bool splitAtBest(std::int32_t a, std::int32_t b, std::int32_t seed)
   {
     const double before = m_Operations.worstQuality(m_Ring);
@@ -373,10 +377,9 @@ private:
   Directions m_Directions;
   GroupDescent m_Group;
   std::vector<std::uint8_t> m_Touched; ///< per vertex
-  std::vector<std::uint8_t>
-    m_IsStuck;                    ///< per vertex: no better place was found, and nothing near has changed much since
-  bool m_IsCrowded = false;       ///< see ImprovementOptions::crowd
-  std::size_t m_TogetherLeft = 0; ///< in this pass
+  std::vector<std::uint8_t> m_IsStuck; ///< per vertex: no better position was found, and nothing near has changed since
+  bool m_IsCrowded = false;            ///< see ImprovementOptions::crowd
+  std::size_t m_TogetherLeft = 0;      ///< group moves left in this pass
   Chance m_NearTogether, m_FarTogether, m_SplitTogether;
   std::vector<std::int32_t> m_Ring, m_RingVertices;
 };

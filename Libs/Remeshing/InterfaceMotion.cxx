@@ -16,13 +16,13 @@ namespace surgicalmesher
 namespace
 {
 
-/// The triangles of a complex's interface with a corner where L is less than `longest`, out of the larger label, and
-/// where their samples are.
+/// The interface triangles with a corner where L is below `longest`, oriented out of the larger label, and the faces of
+/// the complex that hold their samples.
 struct InterfaceTriangles
 {
   SurfaceComplex surface;
-  std::vector<std::int32_t> ids;              ///< of its points in the complex, ascending
-  std::vector<TetComplex::FaceOfTet> holders; ///< of each triangle
+  std::vector<std::int32_t> ids;              ///< vertex of the complex for each point of `surface`, ascending
+  std::vector<TetComplex::FaceOfTet> holders; ///< per triangle, see TetComplex::holder
 
   InterfaceTriangles(const TetComplex& complex, double longest)
   {
@@ -70,7 +70,7 @@ public:
     : m_Operations(operations), m_Complex(operations.complex()), m_Options(options),
       m_Least(sine2OfDegrees(options.leastAngle)), m_Start(m_Complex.points), m_Volumes(volumes())
   {
-    constexpr double coarse = 4; // fine lengths, where an eighth of the reach is left: less is not seen
+    constexpr double coarse = 4; // in fine lengths; an eighth of `farthest` is left there, and less is invisible
     InterfaceTriangles triangles(m_Complex, coarse * options.fineLength);
     m_Holders = std::move(triangles.holders);
     m_Dual.simplex = simplexMeshOf(triangles.surface, Extent::part);
@@ -91,17 +91,17 @@ public:
 private:
   bool move(std::int32_t v, const Vec3& p)
   {
-    constexpr double least = 0.03; // of the farthest; shorter ways cost as much and show nothing
+    constexpr double least = 0.03; // share of `farthest`; shorter moves cost as much and are invisible
     const Vec3 q = withinReach(v, p);
     return norm(q - m_Complex.points[v]) > least * m_Options.farthest &&
            m_Operations.move(v, q, std::min(m_Least, m_Operations.qualityAt(v)));
   }
 
-  // ---- forces from outside
+  // ---- external forces
 
   std::vector<Vec3> outerForces() const
   {
-    constexpr double factor = 0.4; // of U(U(p)); stable up to 0.5
+    constexpr double factor = 0.4; // on U(U(p)); stable up to 0.5
     const std::vector<Vec3>& points = m_Dual.surface.points;
     std::vector<Vec3> forces = meanImageForces(), umbrellas(points.size());
     for (std::size_t p = 0; p < points.size(); ++p) umbrellas[p] = umbrella(p, points);
@@ -109,7 +109,7 @@ private:
     return forces;
   }
 
-  /// At each point, the mean of what the triangles there have that hold samples.
+  /// Returns for each point the mean image force of its triangles that hold samples, scaled by the motion's `image`.
   std::vector<Vec3> meanImageForces() const
   {
     const SurfaceComplex& surface = m_Dual.surface;
@@ -127,6 +127,7 @@ private:
     return forces;
   }
 
+  /// Returns the displacement, along the triangle's normal, from triangle t to the mean of its samples.
   Vec3 imageForce(std::size_t t) const
   {
     const SurfaceComplex& surface = m_Dual.surface;
@@ -142,14 +143,15 @@ private:
 
   // ---- curves between tissues
 
-  /// The number of a vertex of the complex among the points that move; -1 if it is none of them.
+  /// Returns the number of vertex v of the complex among the moving points; -1 if v does not move.
   std::int32_t pointOf(std::int32_t v) const
   {
     const auto at = std::lower_bound(m_Dual.ids.begin(), m_Dual.ids.end(), v);
     return at != m_Dual.ids.end() && *at == v ? std::int32_t(at - m_Dual.ids.begin()) : -1;
   }
 
-  /// The two next to each point of a curve; none at other points, and where curves meet, end or leave what moves.
+  /// Finds the two neighbours of each point along a curve; none for points off curves and where curves meet, end or
+  /// leave the moving part.
   void findCurves()
   {
     constexpr std::array<std::int32_t, 2> none{ -1, -1 };
@@ -186,7 +188,8 @@ private:
     return result;
   }
 
-  /// Of the faces at free vertices, mm^2, by the labels on both sides.
+  /// Returns the areas, mm^2, by pair of labels, of the interface at unlocked vertices: a third of each face per
+  /// vertex.
   std::map<std::pair<Label, Label>, double> areas()
   {
     std::map<std::pair<Label, Label>, double> result;
@@ -202,7 +205,7 @@ private:
     return result;
   }
 
-  /// How far (mm) each tissue's boundary has to go outwards for the volume that it had.
+  /// Returns how far (mm) the boundary of each tissue has to move outwards to restore the initial volume.
   TissueOffsets offsets()
   {
     std::map<Label, double> lacking = m_Volumes;
@@ -222,11 +225,11 @@ private:
     }
   }
 
-  /// p, or what is nearest to it where the plane of the nearest sample is within reach: from sweep to sweep, edges of a
-  /// box get rounder, and what that takes would swell its walls.
+  /// Returns p, or its projection to within 0.6 `farthest` of the plane of its nearest sample. Without this bound, the
+  /// edges of a box become rounder from sweep to sweep, and the volume that they lose swells its walls.
   Vec3 nearSamples(std::int32_t v, const Vec3& p)
   {
-    constexpr double share = 0.6; // of the reach
+    constexpr double share = 0.6; // of `farthest`
     const SheetSample* sample = nearestSample(m_Operations.sheet(v), p).first;
     if (!sample) return p;
     const auto normal = m_Complex.sampleNormal(sample->id);
@@ -254,8 +257,8 @@ private:
   const std::vector<Vec3> m_Start;
   const std::map<Label, double> m_Volumes;
   MovingDual m_Dual;
-  std::vector<TetComplex::FaceOfTet> m_Holders;     ///< of the samples of each of its triangles
-  std::vector<std::array<std::int32_t, 2>> m_Along; ///< of each of its points, see findCurves
+  std::vector<TetComplex::FaceOfTet> m_Holders;     ///< per triangle of m_Dual: the face that holds its samples
+  std::vector<std::array<std::int32_t, 2>> m_Along; ///< per point of m_Dual: neighbours on a curve, see findCurves
 };
 
 } // namespace

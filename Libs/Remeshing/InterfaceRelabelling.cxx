@@ -11,7 +11,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// The label beyond two or three faces of t, if there is one.
+/// Returns the label beyond two or more interface faces of t, if there is one.
 std::optional<Label> beyondMostFaces(const TetComplex& c, std::int32_t t)
 {
   const auto isBeyond = [&](int i, int k)

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Moves of the interface by whole tetrahedra, which leave every tetrahedron's shape as it is: for places where
-/// vertices are held back by the angles that they would spoil.
+/// Moves the interface by relabelling whole tetrahedra, which leaves their shapes unchanged. For places where vertices
+/// cannot move without spoiling dihedral angles.
 
 #include "GuardedOperations.h"
 
 namespace surgicalmesher
 {
 
-/// Gives tetrahedra with two or three faces towards one other label to that, where dihedral angles of `keptAngle`
-/// (degrees) remain and `mostLeft` of what there is between the surface and its samples (GuardedOperations::relabel) at
-/// most.
+/// Relabels tetrahedra that have two or three faces towards one other label to that label, where quality stays above
+/// that of `keptAngle` (degrees) and at most the share `mostLeft` of the squared distances between the surface and its
+/// samples remains (see GuardedOperations::relabel).
 void relabelBlock(GuardedOperations& operations, double keptAngle, double mostLeft);
 
 } // namespace surgicalmesher

@@ -9,7 +9,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// The triangle cut into n^2 congruent ones.
+/// Returns the triangle cut into n^2 congruent ones.
 std::vector<std::array<Vec3, 3>> subdivided(const std::array<Vec3, 3>& p, int n)
 {
   std::vector<std::array<Vec3, 3>> result;

@@ -45,7 +45,8 @@ private:
         return;
   }
 
-  /// Sum of the sines of the worst angles at v, if it were at p; -1 if one is under `floor`.
+  /// Returns the sum, over the tissues' tetrahedra and the triangles at v, of the sines of their worst angles with v at
+  /// p; -1 if a quality is below `floor`.
   double sumOfSines(std::int32_t v, const Vec3& p, double floor)
   {
     double sum = 0;

@@ -38,7 +38,7 @@ private:
     std::array<std::int32_t, 3> vertices;
   };
 
-  /// The largest squared distance of the face's samples over their squared tolerances.
+  /// Returns the largest ratio of squared distance to squared tolerance among the samples of the face.
   double excessOf(std::int32_t t, int face) const
   {
     const auto& x = m_Complex.tets[t];
@@ -53,7 +53,7 @@ private:
     return most;
   }
 
-  /// The worst first.
+  /// Returns the faces with a sample beyond its tolerance, worst first.
   std::vector<Far> farFaces() const
   {
     std::vector<Far> result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// T2 where proximity asks for it: more triangles where the interface is too far from its samples.
+/// Refinement driven by proximity (Delingette's operator T2): splits interface edges where the interface is too far
+/// from its samples.
 
 #include "GuardedOperations.h"
 
@@ -9,14 +10,15 @@ namespace surgicalmesher
 
 struct ProximityOptions
 {
-  double leastAngle = 12; ///< degrees, that splits may leave
+  double leastAngle = 12; ///< degrees; dihedral angles that moves and splits may leave
   double shortest = 0.6;  ///< mm; shorter edges are not split
   int rounds = 2;
 };
 
-/// Wherever a sample is beyond its tolerance of its face, the face's vertices go to where their samples are nearest; if
-/// that does not mend it, the longest edge of the face is split and the new vertex goes there likewise. A split after
-/// which the sample is as far off as before is taken back.
+/// For each interface face that is farther from one of its samples than the sample's tolerance: moves the face's
+/// vertices to the least-squares fit to their samples; if a sample is still too far, splits the face's longest edge and
+/// moves the new vertex to its fit. The split is undone unless it lowers the worst ratio of squared distance to squared
+/// tolerance by at least a tenth.
 void meetProximityOfBlock(GuardedOperations& operations, const ProximityOptions& options = {});
 
 } // namespace surgicalmesher

@@ -13,11 +13,12 @@ namespace surgicalmesher
 namespace
 {
 
-/// What the plane through a sample with this normal, `way` from the vertex, says of its place: the more, the nearer it is.
+/// Adds the squared distance of the vertex to the plane of a sample, with a weight that falls with the distance |way|
+/// of the sample. `normal` as in BackgroundMesh::Sample.
 template <bool hasGoal>
 void addPlane(const std::array<float, 3>& normal, const Vec3& way, Quadric& quadric)
 {
-  constexpr double share = 0.3; // against the face's distance to the sample
+  constexpr double share = 0.3; // largest weight, relative to the distance between face and sample
   const Vec3 n{ normal[0], normal[1], normal[2] };
   const double perRadius2 = squaredNorm(n), near = 1 - squaredNorm(way) * perRadius2;
   if (perRadius2 == 0 || near <= 0) return;
@@ -28,11 +29,11 @@ void addPlane(const std::array<float, 3>& normal, const Vec3& way, Quadric& quad
   m[3] += w * n.y * n.y, m[4] += w * n.y * n.z, m[5] += w * n.z * n.z;
 }
 
-/// Of the samples, see quadricOf; without a goal, g is left out.
+/// Returns the quadric of the samples alone, see quadricOf; g is computed only if `hasGoal`.
 template <bool hasGoal>
 Quadric ofSamples(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust)
 {
-  constexpr std::ptrdiff_t ahead = 4; // samples, as long as a normal takes to come
+  constexpr std::ptrdiff_t ahead = 4; // samples; processing them takes about as long as fetching a normal
   Quadric quadric;
   const bool hasNormals = !complex.sampleNormals.empty();
   auto sample = sheet.samples.begin();

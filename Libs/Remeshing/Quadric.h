@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The quadric of a vertex: the sum of squared distances of its faces to their boundary samples, as a function of where
-/// the vertex is. Its minimum is the least-squares position (after Garland and Heckbert, SIGGRAPH 1997, with samples of
-/// the boundary in place of planes).
+/// The quadric of a vertex: the sum of squared distances of its faces to their boundary samples, as a function of the
+/// vertex's position. Its minimum is the least-squares position (after Garland and Heckbert, SIGGRAPH 1997, with
+/// samples of the boundary in place of planes).
 
 #include "BoundarySamples.h"
 
@@ -22,18 +22,19 @@ struct Quadric
   Vec3 solve(const Vec3& right) const; ///< zero if m is singular
 };
 
-/// Least squares for the step (mm) of v that brings the faces of its `sheet` nearest to their samples: m step = g. With
-/// `robust` (mm) > 0, a sample at distance d weighs 1 / (1 + d / robust), one round of iteratively reweighted least
-/// squares for the mean distance, and so for the volume between surface and map, instead of its square. The planes of
-/// samples with a normal, so near to v that the boundary is plane between them, want v itself on them. With
-/// `rigidity` > 0, the bending of the interface at v (Bending.h) counts that many times as much as its samples.
+/// Returns the normal equations m step = g for the step (mm) of v that brings the faces of its `sheet` nearest to their
+/// samples. With `robust` (mm) > 0, a sample at distance d has weight 1 / (1 + d / robust): one round of iteratively
+/// reweighted least squares for the mean distance, and so for the volume between surface and map, instead of the mean
+/// square. A sample with a normal also draws v itself onto its plane, if v lies within the radius in which the boundary
+/// is nearly plane. With `rigidity` > 0, the bending of the interface at v (Bending.h) is added, with a trace
+/// `rigidity` times that of the samples.
 Quadric quadricOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet, double robust = 0,
                   double rigidity = 0);
 
-/// What quadricOf() says of how the samples resist a step of v, and not of where they want it: m alone.
+/// Returns m of quadricOf() without robust weights and rigidity: how the samples resist a step of v. g is zero.
 Quadric resistanceOf(const TetComplex& complex, std::int32_t v, const Sheet& sheet);
 
-/// The same as quadricOf(), were v at p.
+/// Returns quadricOf() for v at position p.
 Quadric quadricWith(const TetComplex& complex, std::int32_t v, const Vec3& p, const Sheet& sheet, double robust,
                     double rigidity = 0);
 

@@ -37,8 +37,8 @@ private:
       if (m_Operations.move(v, m_Complex.points[v] + share * step, share < 0.5 ? before : floor)) return;
   }
 
-  /// Where the edges at v would like it: the mean, over its neighbours x, of the point at the target distance from x in
-  /// the direction of v. A descent step of the sum of (|vx| - L)^2.
+  /// Returns the mean of towardsTarget() over the neighbours of v. With spread = 1, this is a descent step of the sum
+  /// of (|vx| - L)^2 over the neighbours x.
   Vec3 towardsMiddle(std::int32_t v)
   {
     const auto& neighbours = m_Operations.neighbours(v);
@@ -47,8 +47,8 @@ private:
     return sum / double(neighbours.size());
   }
 
-  /// The way of v towards (for x too far) or from (for x too near) its target distance to x, and half the way to x
-  /// itself, which evens out the directions.
+  /// Returns the weighted mean of two steps of v: with weight `spread` the step along the edge vx to the target
+  /// distance from x, and with weight 1 - spread the step to x itself, which evens out the directions of the edges.
   Vec3 towardsTarget(std::int32_t v, std::int32_t x) const
   {
     const Vec3 d = m_Complex.points[x] - m_Complex.points[v];
@@ -56,8 +56,8 @@ private:
     return (m_Options.spread * (1 - target / norm(d)) + 1 - m_Options.spread) * d;
   }
 
-  /// Least squares over the samples of the faces at v, held by a spring to the middle of the neighbours on the
-  /// interface.
+  /// Returns the least-squares step to the samples of the faces at v, with a spring to the middle of the neighbours on
+  /// the interface.
   Vec3 onInterface(std::int32_t v)
   {
     Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
@@ -67,7 +67,8 @@ private:
     return quadric.solve(quadric.g + spring * alongInterface(v));
   }
 
-  /// Towards the middle of the neighbours on the same curve, or on the sheet; nothing where curves meet.
+  /// Returns the step towards the middle of the neighbours on the same curve, or else on the sheet; zero where curves
+  /// meet or end.
   Vec3 alongInterface(std::int32_t v)
   {
     facesAtNeighbours(m_Operations.sheet(v), v, m_Degree);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Relaxation: every vertex towards even edge lengths, on the interface along it and to its boundary samples.
+/// Relaxation: moves vertices towards even edge lengths; interface vertices only along the interface, and across it to
+/// their boundary samples.
 
 #include "GuardedOperations.h"
 
@@ -10,14 +11,14 @@ namespace surgicalmesher
 struct RelaxationOptions
 {
   double goodAngle = 25; ///< degrees; a move that lowers the worst angle at its vertex is taken only above this
-  double spread = 0.8;   ///< weight of the target lengths against the mere middle of the neighbours
+  double spread = 0.8;   ///< weight of the target lengths, against the mean of the neighbours' positions
   double fit = 1;        ///< weight of the samples against an even spacing of the vertices
   double robust = 0;     ///< mm, see quadricOf
 };
 
-/// Moves every free vertex once: inside a tissue towards the middle of its neighbours; on a sheet or curve of the
-/// interface towards the middle of its neighbours there and, along the normals, to the least-squares fit of its faces
-/// to their samples.
+/// Moves every unlocked vertex once. A vertex inside a label moves towards the middle of its neighbours; a vertex on a
+/// sheet or curve of the interface moves towards the middle of its neighbours on it and, along the normals, to the
+/// least-squares fit of its faces to their samples.
 void relaxBlock(GuardedOperations& operations, const RelaxationOptions& options = {});
 
 } // namespace surgicalmesher

@@ -74,7 +74,7 @@ void Remesher::run(const Sweep& sweep)
   { report(m_Progress, (double(m_Round) + fraction) / double(m_Sweeps), sweep.name); };
   const auto work = [&](TetComplex& block)
   {
-    const Progress ofStages = sweep.whole ? progress : Progress(); // several blocks report for themselves
+    const Progress ofStages = sweep.whole ? progress : Progress(); // otherwise progress is reported per block
     const OperationCounts counts = runSweep(block, m_Length, sweep, m_Options, ofStages);
     const std::lock_guard<std::mutex> lock(mutex);
     m_Counts += counts;

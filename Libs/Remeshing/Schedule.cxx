@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
-// Angles are dihedral, in degrees; tolerances are factors on those of the samples;
-// lengths are mm or, in edges, shares of L. The numbers come from measurements on jhu189, aal, inia19, hncma and the
-// heads, listed in the pages that Schedule.h names.
+// Angles are dihedral, in degrees; tolerances are factors on those of the samples; lengths are in mm, thresholds for
+// edges are shares of L. The numbers come from measurements on jhu189, aal, inia19, hncma and the heads, listed in the
+// pages that Schedule.h names.
 
 #include "Schedule.h"
 
@@ -18,24 +18,24 @@ namespace
 
 constexpr double triangleWeight = 1.033; // triangles of 28 degrees count like dihedral angles of 28.5
 
-constexpr double earTolerance = 1.1;    // beyond that the surface withdraws where it is to be finest
-constexpr double spikeTolerance = 2.1;  // of what a spike leaves behind
-constexpr double widestTolerance = 2.1; // where an angle cannot be mended otherwise
-constexpr double planeDistance = 0.6;   // 0.2 voxel where L is one
-constexpr double lengthTolerance = 1.5; // what even lengths are worth
-constexpr double foldTolerance = 1.4;   // what an open fold is worth
-constexpr double labelTolerance = 1.6;  // of relabelling
-constexpr double volumeTolerance = 1.3; // where a tissue's boundary has no room for the last of its volume
-constexpr double vertexDistance = 1.4;  // spikes begin there
-constexpr double spikeTriangles = 1.6;  // triangles may lose some degrees where a spike goes
+constexpr double earTolerance = 1.1;    // with more, the surface recedes where it should be most accurate
+constexpr double spikeTolerance = 2.1;  // of the samples where a spike is removed
+constexpr double widestTolerance = 2.1; // where an angle cannot be improved otherwise
+constexpr double planeDistance = 0.6;   // corresponds to 0.2 voxel where L is one voxel
+constexpr double lengthTolerance = 1.5; // for even edge lengths
+constexpr double foldTolerance = 1.4;   // for the opening of folds
+constexpr double labelTolerance = 1.6;  // for relabelling
+constexpr double volumeTolerance = 1.3; // for boundaries without room for the last volume corrections
+constexpr double vertexDistance = 1.4;  // vertices farther from all samples are spikes
+constexpr double spikeTriangles = 1.6;  // as triangleWeight: triangles may lose some degrees where a spike is removed
 
-constexpr double clearlyNearer = 0.9; // share of the distances that relabelling leaves at most
-constexpr double farNearer = 0.7;     // the same where it may cost the shape of a triangle
+constexpr double clearlyNearer = 0.9; // largest share of the squared distances that relabelling may leave
+constexpr double farNearer = 0.7;     // the same where relabelling may worsen triangles
 
 constexpr std::size_t earTetrahedra = 4;
 constexpr double crowd = 0.07;       // see ImprovementOptions
-constexpr double wholeCrowd = 0.005; // the same of repairs of the whole mesh, which have one thread
-constexpr double levelRatio = 1.48;  // of a size to the one before it
+constexpr double wholeCrowd = 0.005; // the same for repairs of the whole mesh, which run on one thread
+constexpr double levelRatio = 1.48;  // of successive size levels
 
 EnvelopeBounds bounds(const MeshTargets& targets, double rmsLimit, double toleranceFactor = 1)
 {
@@ -46,14 +46,14 @@ EnvelopeBounds bounds(const MeshTargets& targets, double rmsLimit, double tolera
            .planeDistance = targets.holdsVertices ? planeDistance : 0 };
 }
 
-/// For what comes after folds have been opened.
+/// `stage`, with the bound that keeps folds open, for stages after the opening of folds.
 Stage keepingFolds(const MeshTargets& targets, Stage stage)
 {
   stage.bounds.keepsFolds = targets.opensFolds;
   return stage;
 }
 
-/// Without splits and moves together; others come after it that go farther.
+/// Improvement without splits and group moves, for stages that are followed by more thorough ones.
 Improve improve(double angle, int trials, int passes)
 {
   return {
@@ -84,18 +84,18 @@ Stage withoutSpikes(const MeshTargets& targets, const MeshSizes& sizes, double p
            { RelabelInterface{ targets.keptAngle, farNearer }, RemoveSpikes{ spikes } } };
 }
 
-/// Not where L is under two voxels: there the vertices stay where the map wants them.
+/// Vertices where L is below two voxels stay where the map places them.
 Stage evenLengths(const MeshTargets& targets, const MeshSizes& sizes, double goodAngle)
 {
   const EvenOut pass{ { .goodAngle = goodAngle, .from = 2 * sizes.voxel, .robust = 0.1 * sizes.voxel } };
   return { bounds(targets, 0.5, lengthTolerance), { pass } };
 }
 
-/// Not where L is under two voxels: there the vertices stay where the map wants them, as with even lengths.
+/// As in evenLengths(), vertices where L is below two voxels do not move.
 Stage openFolds(const MeshTargets& targets, const MeshSizes& sizes, double goodAngle)
 {
   EnvelopeBounds within = bounds(targets, 1, foldTolerance);
-  within.planeDistance = 0; // planes of samples are what folds
+  within.planeDistance = 0; // the samples' planes are themselves folded
   return { within, { OpenFolds{ { .goodAngle = goodAngle, .from = 2 * sizes.voxel } } } };
 }
 
@@ -110,7 +110,8 @@ Coarsen coarsenAll(const MeshSizes& sizes, double leastAngle = 5)
   return { sizes.longest, { .shortEdge = 0.82, .minimumAngle = leastAngle, .quarters = true } };
 }
 
-/// Folds that fits have left, before the last repairs: angles are lost for it, and come back with the folds open.
+/// Opens the folds that fits have left, before the last repairs, at the cost of angles, which are then improved with
+/// the folds open.
 std::vector<Stage> withoutFolds(const MeshTargets& targets, const MeshSizes& sizes)
 {
   constexpr double lostAngle = 15;
@@ -122,15 +123,15 @@ std::vector<Stage> withoutFolds(const MeshTargets& targets, const MeshSizes& siz
 
 Sweep improvement(Stage stage) { return { "improvement", { std::move(stage) } }; }
 
-/// How far a repair goes.
+/// How much a repair may change.
 struct Repair
 {
-  double angle;            ///< aimed at
-  double tolerance;        ///< factor
+  double angle;            ///< target angle
+  double tolerance;        ///< factor on the samples' tolerances
   double splitEdge;        ///< 0: no splits
   double ease;             ///< see ImprovementOptions
   int together;            ///< see ImprovementOptions
-  bool fitsFollow = false; ///< vertices may leave their samples' planes, and crowds are left
+  bool fitsFollow = false; ///< fits come later: vertices may leave their samples' planes, and `crowd` applies
 };
 
 ImprovementOptions optionsOf(const Repair& repair)
@@ -152,7 +153,7 @@ Sweep repairBlocks(const MeshTargets& targets, const Repair& repair)
   return improvement({ within, { Improve{ optionsOf(repair) } } });
 }
 
-/// What no other can mend.
+/// For tetrahedra that no other repair improves.
 Repair widestRepair(const MeshTargets& targets)
 {
   return { .angle = targets.keptAngle, .tolerance = widestTolerance, .splitEdge = 0.3, .ease = 1, .together = 20 };
@@ -161,7 +162,7 @@ Repair widestRepair(const MeshTargets& targets)
 Sweep repairWhole(const MeshTargets& targets, const MeshSizes& sizes, const Repair& repair)
 {
   ImprovementOptions options = optionsOf(repair);
-  options.worstShare = 0.002; // on one thread
+  options.worstShare = 0.002; // small, since this runs on one thread
   return { "improvement",
            { withoutEars(),
              withoutSpikes(targets, sizes, 0),
@@ -216,16 +217,18 @@ std::vector<double> sizeLevels(const MeshSizes& sizes)
 namespace
 {
 
-/// What the levels' sizes are judged by. Where voxels are fine, levels do one level later what they do elsewhere, as
-/// most of it is collapsed next. Another two levels later, the surface on thin tissues would suffer.
+/// The unit for thresholds on size levels. Where voxels are fine, each step of coarsenTo() starts one level later,
+/// since the next level collapses most of its result. A delay by another two levels degrades the surface of thin
+/// tissues.
 double grainOf(const MeshSizes& sizes) { return hasFineVoxels(sizes) ? levelRatio * sizes.voxel : sizes.voxel; }
 
 } // namespace
 
 bool isCoarse(double level, const MeshSizes& sizes) { return level > 5 * grainOf(sizes); }
 
-/// The first levels hold most of the tetrahedra, in a lattice that is still regular: fitting, thoroughness and repair
-/// pay later, and relaxation there costs regular sizes in the end. Stiffness would take away what later levels need.
+/// The first levels have most of the tetrahedra, in a lattice that is still regular: fitting, thorough collapses and
+/// repairs pay off only later, and relaxation at these levels makes the final edge lengths less regular. The interface
+/// does not resist bending, which would remove detail that later levels need.
 Sweep coarsenTo(double level, const MeshSizes& sizes)
 {
   const double grain = grainOf(sizes);
@@ -254,8 +257,7 @@ Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly)
 namespace
 {
 
-/// Number n of the sweeps that coarsen and improve in turn: they aim ever higher, as repairs will, which may go farther
-/// from the samples for it.
+/// Stage of sweep number n of those that coarsen and improve. The target angle rises from sweep to sweep.
 Stage coarsened(const MeshTargets& targets, const MeshSizes& sizes, int n, double rmsLimit)
 {
   const double rise = (targets.aimedAngle - targets.firstAngle) / targets.coarseningSweeps;
@@ -276,14 +278,14 @@ std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes
   for (int n = 1; n < targets.coarseningSweeps; ++n)
   {
     sweeps.push_back(improvement(coarsened(targets, sizes, n, 0.35)));
-    sweeps.back().stages.push_back(evenLengths(targets, sizes, 20)); // sizes still change
+    sweeps.back().stages.push_back(evenLengths(targets, sizes, 20)); // low angle: coarsening continues
     sweeps.back().stages.push_back(relabelled(targets));
   }
   return sweeps;
 }
 
-/// Where features have room, vertices move together only in the last, and nothing works on the whole mesh: fits and motion
-/// come after it, and the second repairs mend what is then left.
+/// Unless repairs are thorough, groups of vertices move only in the last sweep, and no sweep works on the whole mesh in
+/// one block: fits and motion follow, and the second repairs improve what is then left.
 std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
 {
   const double aim = t.aimedAngle, kept = t.keptAngle;
@@ -304,7 +306,7 @@ std::vector<Sweep> repairSweeps(const MeshTargets& t, const MeshSizes& sizes)
 Sweep fittingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 {
   const double kept = targets.keptAngle, robust = 0.1 * sizes.voxel;
-  constexpr double lostAngle = 20; // what is lost, the second repair brings back
+  constexpr double lostAngle = 20; // the second repairs restore angles that fall to this
   const Relax relax{ { .goodAngle = kept, .spread = 0.9, .fit = 2, .robust = robust } };
   const Polish polish{ { .goodAngle = kept, .fit = 10, .robust = robust } };
   return { "improvement",
@@ -316,9 +318,9 @@ Sweep fittingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 
 std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity)
 {
-  constexpr std::size_t sweeps = 2;       // vertices on borders of blocks have their turn in the next
-  constexpr double motionTolerance = 1.5; // samples have the voxels' noise that motion is to take away
-  constexpr double ofPlanes = 0.5;        // of the usual distance: walls swell with what edges lose
+  constexpr std::size_t sweeps = 2;       // vertices on a border between blocks are free in the next sweep
+  constexpr double motionTolerance = 1.5; // the samples contain the voxel noise that motion is to remove
+  constexpr double ofPlanes = 0.5;        // of the usual distance: volume that edges lose would swell flat walls
   InterfaceMotionOptions options;
   options.motion.internalForce.continuity = continuity;
   options.farthest = 0.3 * sizes.voxel;
@@ -335,7 +337,7 @@ std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& siz
 
 std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  constexpr std::size_t sweeps = 3; // triangles on borders of blocks have their turn in the next
+  constexpr std::size_t sweeps = 3; // triangles on a border between blocks are free in the next sweep
   const Sweep sweep{ "proximity",
                      { { bounds(targets, 1), { MeetProximity{ { .shortest = 0.6 * sizes.voxel } } } },
                        { bounds(targets, 1), { improve(targets.keptAngle, 12, 1) } } } };
@@ -347,15 +349,16 @@ std::vector<Sweep> secondRepairSweeps(const MeshTargets& t, const MeshSizes& siz
   const double kept = t.keptAngle;
   Sweep inBlocks =
     repairBlocks(t, { .angle = kept, .tolerance = widestTolerance, .splitEdge = 0.4, .ease = 0.1, .together = 20 });
-  for (Stage& stage : inBlocks.stages) stage = keepingFolds(t, stage); // the last ones may do what they have to
+  for (Stage& stage : inBlocks.stages) stage = keepingFolds(t, stage); // the final repairs may fold
   return { inBlocks, repairWhole(t, sizes, widestRepair(t)) };
 }
 
-/// Single vertices that repairs have left off the boundary are bumps in flat walls; nearer ones are where motion has
-/// them. First those that can go back alone.
+/// Single vertices that repairs have left off the boundary are bumps in flat walls; vertices nearer than the thresholds
+/// are where motion has put them. Vertices that can return on their own do so first, then those that need their
+/// neighbours to move along.
 Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes)
 {
-  constexpr double farShare = 0.04; // of L
+  constexpr double farShare = 0.04; // share of L
   const double off = 0.12 * sizes.voxel, farOff = 0.18 * sizes.voxel, robust = 0.1 * sizes.voxel;
   const Polish back{
     { .goodAngle = targets.keptAngle, .fit = 10, .robust = robust, .leastWay = off, .climbs = false }
@@ -399,24 +402,24 @@ struct VolumeRow
 {
   bool held = false; ///< see EnvelopeBounds::interfaceHeld
   double rmsLimit = 1;
-  double tolerance = 1;    ///< factor
+  double tolerance = 1;    ///< factor on the samples' tolerances
   bool keepsFolds = false; ///< see EnvelopeBounds
   std::size_t polishes = 0;
-  bool swaps = true; ///< edges, before each polish
+  bool swaps = true; ///< whether edges are swapped before each polish
   PolishingOptions polishing = {};
-  double angle = 0;     ///< aimed at; 0: no improvement
+  double angle = 0;     ///< target angle; 0: no improvement
   int trials = 0;       ///< see ImprovementOptions
   int passes = 2;       ///< likewise
   double splitEdge = 0; ///< 0: no splits
   double crowd = 1;     ///< see ImprovementOptions
   bool whole = false;
-  bool softens = false;  ///< pairs of vertices, first, within the tolerance as it is
-  double height = 0;     ///< mm, see HeightOptions, and nothing else is done then but softening; 0: not raised
+  bool softens = false;  ///< whether stiff pairs are softened first, with tolerance factor 1
+  double height = 0;     ///< mm, see HeightOptions; if positive, the row only softens and raises heights
   bool balanced = false; ///< see TetrahedralSweep
 };
 
-/// Within the tolerance as it is first: what is raised so leaves no dent. Beyond it not quite as high: what lacks little
-/// is not worth one.
+/// Raises heights first with tolerance factor 1, which leaves no dents in the surface. Then with the wider bounds
+/// `beyond`, but to a lower height: a small deficit is not worth a dent.
 std::vector<Stage> raisedHeights(const EnvelopeBounds& beyond, double height)
 {
   constexpr double dentingShare = 0.95;
@@ -443,9 +446,9 @@ TetrahedralSweep sweepOf(const VolumeRow& row)
                                       .split = row.splitEdge > 0,
                                       .splitEdge = row.splitEdge,
                                       .trials = row.trials,
-                                      // Where many are bad, moving together costs more than all the rest.
+                                      // Where many tetrahedra are bad, group moves cost more than all the rest.
                                       .together = row.splitEdge > 0 ? 20 : 0,
-                                      .patience = 20, // nothing comes after splits that would mend what is left
+                                      .patience = 20, // no later operation would improve what splits leave
                                       .passes = row.passes,
                                       .crowd = row.crowd } });
   Sweep sweep{ "improvement", { stage }, row.whole };
@@ -454,8 +457,8 @@ TetrahedralSweep sweepOf(const VolumeRow& row)
   return { std::move(sweep), row.balanced };
 }
 
-/// Rows over the whole mesh that follow one another are one sweep: to take the mesh apart and put it together again costs
-/// more than most of them.
+/// Merges consecutive rows over the whole mesh into one sweep: to set up the complex and to write it back costs more
+/// than most of these rows.
 std::vector<TetrahedralSweep> sweepsOf(const std::vector<VolumeRow>& rows)
 {
   std::vector<TetrahedralSweep> sweeps;
@@ -473,8 +476,8 @@ std::vector<TetrahedralSweep> sweepsOf(const std::vector<VolumeRow>& rows)
   return sweeps;
 }
 
-/// For what is still below the target: ever farther from the surface's samples, in the end with splits. Those cost
-/// regular sizes, and come late.
+/// Repairs of tetrahedra that are still below the target angle, with ever larger distances from the surface's samples
+/// and finally with splits. Splits come late because they make edge lengths less regular.
 std::vector<VolumeRow> repairRows(double t)
 {
   // clang-format off
@@ -488,20 +491,20 @@ std::vector<VolumeRow> repairRows(double t)
   // clang-format on
 }
 
-/// What solvers feel: stiff pairs, and heights after them. Last, as only then the angles are what they are to be. Across
-/// blocks, since the worst counts, wherever it is. Not as far from the samples as repairs go: a height that needs more
-/// leaves a dent or a bump in a smooth wall.
+/// Improves what solvers depend on: stiff pairs, then heights. Comes last, when the angles are final. Works on the
+/// whole mesh, since the worst element counts, wherever it is. Allows smaller distances from the samples than repairs
+/// do: a height that needs more would leave a dent or a bump in a smooth wall.
 VolumeRow lastRow(double smallestLength)
 {
-  constexpr double share = 0.4; // the lattice has 0.82; more costs angles in lattices of one length
+  constexpr double share = 0.4; // the lattice has 0.82; a larger share costs angles in lattices of uniform length
   return { .tolerance = 1.5, .whole = true, .softens = true, .height = share * smallestLength };
 }
 
 } // namespace
 
-/// No relaxation and no collapses: the lattice has its sizes, and both destroy it. For the same reason polishing spares
-/// its vertices. In the end the surface goes back to its samples as far as angles allow, and with
-/// them to the volumes that tissues had.
+/// No relaxation and no collapses: the lattice has the right edge lengths, and both would destroy it. For the same
+/// reason polishing leaves the lattice's vertices alone. In the end the surface returns to its samples as far as angles
+/// allow, and the tissues to their volumes.
 std::vector<TetrahedralSweep> sweepsForRawMesh(double t, double smallestLength)
 {
   const PolishingOptions polishing{ .sparesWhole = true };
@@ -524,7 +527,7 @@ std::vector<TetrahedralSweep> sweepsForRawMesh(double t, double smallestLength)
 namespace
 {
 
-/// The surface gives way only where no angle comes right without.
+/// Holds the surface first, then lets it move by ever larger tolerances where angles are still below the target.
 std::vector<TetrahedralSweep> repairsOfImprovedMesh(double t, double smallestLength, bool swaps)
 {
   const PolishingOptions polishing{ .sparesWhole = true };
@@ -540,7 +543,7 @@ std::vector<TetrahedralSweep> repairsOfImprovedMesh(double t, double smallestLen
   });
   // clang-format on
   const VolumeRow last{ .tolerance = 4, .angle = t, .trials = 40, .passes = 6, .splitEdge = 0.2, .whole = true };
-  rows.insert(rows.end(), 2, last); // the second mends what the first has made room for
+  rows.insert(rows.end(), 2, last); // the second uses the room that the first has made
   rows.push_back(lastRow(smallestLength));
   return sweepsOf(rows);
 }
@@ -554,12 +557,13 @@ std::vector<TetrahedralSweep> sweepsForImprovedMesh(double t, double smallestLen
 
 Stage restoringStage(double targetAngle, VolumeBalance wanted)
 {
-  constexpr double tolerance = 4; // where the repairs have gone
+  constexpr double tolerance = 4; // the largest that repairs have used
   return { { .rmsLimit = 1, .toleranceFactor = tolerance },
            { RestoreVolumes{ { .wanted = std::move(wanted), .goodAngle = targetAngle } } } };
 }
 
-/// Only what tracing has cut is short: collapses leave the rest of the lattice alone, and so do swaps.
+/// Only edges that tracing has cut are short, so collapses leave the rest of the lattice alone. For the same reason,
+/// edges are not swapped.
 std::vector<TetrahedralSweep> sweepsForCurves(double t, double smallestLength)
 {
   constexpr double shortEdge = 0.6, anyLevel = 1e9;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The sweeps of both stages, and every number in them: what the surface stage and the tetrahedral stage run, in which
-/// order and how hard each tries. Methods and measurements: Docs/SimplexMesher.md#method,
-/// Docs/FuchsTetrahedralizer.md#method.
+/// The sweeps of the surface stage and of the tetrahedral stage, in the order in which they run, with all their
+/// parameters. Methods and measurements: Docs/SimplexMesher.md#method, Docs/FuchsTetrahedralizer.md#method.
 
 #include "Sweep.h"
 #include "TetMesh.h"
@@ -12,26 +11,30 @@
 namespace surgicalmesher
 {
 
-/// What a mesh is improved to.
+/// The quality that the surface stage improves a mesh to, and the effort that it spends on it.
 struct MeshTargets
 {
-  double firstAngle;  ///< degrees, dihedral: aimed at first, step by step up to aimedAngle: sizes suffer less that way
-  double aimedAngle;  ///< degrees, dihedral: aimed at in the end
-  double keptAngle;   ///< degrees, dihedral: not to be lost again
-  bool holdsVertices; ///< to their samples and these samples' planes: see EnvelopeBounds
-  bool opensFolds;    ///< not where the surface follows the voxels' steps, which are at right angles
-  bool repairsThoroughly; ///< before motion and fits: where features have no room, angles come right in no other way
-  int trials;             ///< see ImprovementOptions, once sizes no longer change
-  int coarseningSweeps;   ///< sweeps of improvement that still coarsen
+  /// Degrees, dihedral; target of the first sweep of improvement. The target then rises in steps to aimedAngle, which
+  /// disturbs edge lengths less than aiming high at once.
+  double firstAngle;
+  double aimedAngle;  ///< degrees, dihedral; final target
+  double keptAngle;   ///< degrees, dihedral; later passes may not lower angles below this
+  bool holdsVertices; ///< whether vertices are bound to their samples and the samples' planes, see EnvelopeBounds
+  bool opensFolds;    ///< false where the surface follows the voxels' steps, which are at right angles
+  /// Whether repairs before motion and fits are thorough: where features have no room, nothing else reaches good
+  /// angles.
+  bool repairsThoroughly;
+  int trials;           ///< see ImprovementOptions; for improvement after coarsening
+  int coarseningSweeps; ///< number of sweeps of improvement that also coarsen
 };
 
 extern const MeshTargets usualTargets;
-/// Where features are of the map's own size, as noise makes them: see hasUnresolvedFeatures. With held vertices most
-/// repairs there would fail.
+/// For maps with unresolved features, such as noise; see hasUnresolvedFeatures. With holdsVertices, most repairs of
+/// such maps would fail.
 extern const MeshTargets noisyTargets;
 
-/// Whether coarsening has left so many bad tetrahedra that features of the map's own size have no room for good ones:
-/// to try for them all would take most of the time and be in vain.
+/// Returns whether coarsening has left so many bad tetrahedra that features of the map's own size have no room for good
+/// ones. Attempts to improve them all would be in vain and take most of the run time.
 bool hasUnresolvedFeatures(const TetMesh& mesh);
 
 /// The sizes that the rows below depend on, all in mm.
@@ -39,67 +42,74 @@ struct MeshSizes
 {
   double voxel;           ///< smallest spacing of the map
   double longest;         ///< largest target length
-  double maximumDistance; ///< of spikes that are cut; infinity: no bound
+  double maximumDistance; ///< see SpikeOptions; infinity: no bound
 };
 
-/// Whether voxels are small against the longest L: a single one matters less.
+/// Returns whether the longest L is more than twelve voxels, so that a single voxel matters less.
 bool hasFineVoxels(const MeshSizes& sizes);
 
 // --- surface stage, in this order
-/// Sizes that edges are collapsed to one after the other, the last one `longest`: a single pass to the final lengths
-/// would leave a ragged mesh.
+/// Returns the size levels (mm) of successive coarsening sweeps; the last one is `longest`. A single pass to the final
+/// lengths would leave a ragged mesh.
 std::vector<double> sizeLevels(const MeshSizes& sizes);
-/// Features may be unresolved before this level: edges are then several voxels long, half again as many where L is more
-/// than twelve.
+/// Returns whether edges of size `level` are longer than 5 voxels (7.4 if hasFineVoxels()). Only from such levels on
+/// can unresolved features be recognised.
 bool isCoarse(double level, const MeshSizes& sizes);
 Sweep coarsenTo(double level, const MeshSizes& sizes);
-/// The last level. `thoroughly` false for unresolved features: they hold most of the vertices where they are, and to
-/// try them at every place costs much and gains little.
+/// The last level. Pass `thoroughly` = false for unresolved features: they keep most of the vertices from collapsing,
+/// and trying more positions costs much and gains little.
 Sweep coarsenToLast(const MeshSizes& sizes, bool thoroughly);
-/// The first sweep of improvement, which still coarsens.
+/// The first sweep of improvement, which also coarsens.
 Sweep firstImprovement(const MeshTargets& targets, const MeshSizes& sizes);
-/// Those after it that still coarsen; the angle aimed at rises. Tissues' volumes are balanced before each.
+/// The following sweeps of improvement that also coarsen, with rising target angle. The caller balances the tissues'
+/// volumes before each.
 std::vector<Sweep> improvementSweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// Without coarsening; what is still bad may go ever farther from its samples, and be split in the end.
+/// Sweeps without coarsening that allow the interface ever larger distances from its samples where tetrahedra are still
+/// bad, and in the end splits.
 std::vector<Sweep> repairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// Vertices go back to their samples as far as angles allow, at volumes that are balanced before.
+/// Moves vertices back to their samples as far as angles allow. The caller balances the tissues' volumes before.
 Sweep fittingSweep(const MeshTargets& targets, const MeshSizes& sizes);
-/// The motion of the simplex mesh, which makes the surface smooth between the voxels where elements are of their size,
-/// each time with an improvement of the angles that this costs, which keeps to the surface. Folds are opened after it,
-/// wherever they are, and what comes later, but for volumes and the very last repairs, keeps them open.
+/// Motion of the simplex mesh, which smooths the steps of the voxels where elements are of the voxels' size. Each sweep
+/// then repairs the angles lost, within the samples' tolerances, and opens folds everywhere. Later sweeps keep folds
+/// open, except those for proximity, those that restore volumes and the very last repairs.
 std::vector<Sweep> motionSweeps(const MeshTargets& targets, const MeshSizes& sizes, Continuity continuity);
-/// Where samples are beyond their tolerances, which proximity has set: more triangles, and angles as good as they were.
+/// Refines the interface where it is beyond the samples' tolerances, which the proximity option has set, and repairs
+/// the angles.
 std::vector<Sweep> proximitySweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// What resisted before may have got room; in the end across the blocks' borders.
+/// Repairs once more, since tetrahedra that resisted before may have room now: first by blocks, then the whole mesh in
+/// one block.
 std::vector<Sweep> secondRepairSweeps(const MeshTargets& targets, const MeshSizes& sizes);
-/// Single vertices go back to their samples, and lengths and folds are worked on once more, at volumes that are balanced
-/// before.
+/// Moves single vertices back to their samples, then evens edge lengths and opens folds once more. The caller balances
+/// the tissues' volumes before, unless proximity is bounded.
 Sweep finishingSweep(const MeshTargets& targets, const MeshSizes& sizes);
 constexpr std::size_t offsetRounds = 9; ///< on jhu189 one tissue needs more than six
-/// What tissues still lack of their volumes, by their boundaries themselves.
+/// Corrects the remaining errors of the tissues' volumes by moving the tissues' boundaries by `offsets`.
 Sweep offsetSweep(const MeshTargets& targets, TissueOffsets offsets);
-/// How many sweeps there are at most.
+/// Returns the largest number of sweeps that the surface stage can run.
 std::size_t surfaceSweepCount(const MeshSizes& sizes);
 
 // --- tetrahedral stage
 struct TetrahedralSweep
 {
   Sweep sweep;
-  bool balanced = false; ///< VolumeBalance is applied before it
+  bool balanced = false; ///< whether VolumeBalance::apply precedes the sweep
 };
 
-/// For tetrahedra that nobody has improved yet, such as constrained Delaunay's. `targetAngle` in degrees, dihedral;
-/// `smallestLength`: the least L in tissues, mm, of which the last sweep makes every height a fair share, as
-/// far as the surface has room, after it has softened pairs of vertices.
+/// For a mesh that has not been improved yet, such as a constrained Delaunay one. `targetAngle`: degrees, dihedral.
+/// `smallestLength`: the least L in tissues, mm; the last sweep softens stiff pairs of vertices and then raises heights
+/// to 0.4 of this length, as far as the surface has room.
 std::vector<TetrahedralSweep> sweepsForRawMesh(double targetAngle, double smallestLength);
-/// For a mesh whose surface the surface stage improved to `targetAngle`, whatever fills it: the surface is held, but
-/// where an angle cannot be mended otherwise, and slides within its tolerance where pairs of vertices are softened.
+/// For a mesh whose surface the surface stage has improved to `targetAngle`, whatever its interior. The surface moves
+/// only where an angle cannot be repaired otherwise, within its tolerance where pairs of vertices are softened, and
+/// within 1.5 tolerances where heights are raised.
 std::vector<TetrahedralSweep> sweepsForImprovedMesh(double targetAngle, double smallestLength);
 
-/// Gives back the volumes that repairs of the surface have cost. For a sweep over the whole mesh.
+/// Restores the tissues' volumes that repairs of the surface have changed. For a sweep over the whole mesh in one
+/// block.
 Stage restoringStage(double targetAngle, VolumeBalance wanted);
 
-/// For tetrahedra that curves have just been traced through, their chains as short as the tetrahedra they cut.
+/// For a mesh through which curves have just been traced, so that the edges along the curves are as short as the
+/// tetrahedra that the curves cut.
 std::vector<TetrahedralSweep> sweepsForCurves(double targetAngle, double smallestLength);
 
 } // namespace surgicalmesher

@@ -13,6 +13,7 @@ namespace
 
 constexpr double anyQuality = 0;
 
+/// Returns the tetrahedra of tissues at v.
 std::vector<std::int32_t> tissuesAt(GuardedOperations& operations, std::int32_t v)
 {
   std::vector<std::int32_t> result;
@@ -21,7 +22,7 @@ std::vector<std::int32_t> tissuesAt(GuardedOperations& operations, std::int32_t 
   return result;
 }
 
-/// The solid angle of t at its corner v (Van Oosterom and Strackee 1983), in parts of the sphere.
+/// Returns the solid angle of t at its corner v (Van Oosterom and Strackee 1983), as a share of the sphere.
 double shareOfSphere(const TetComplex& complex, std::int32_t t, std::int32_t v)
 {
   Vec3 ways[3];
@@ -34,11 +35,11 @@ double shareOfSphere(const TetComplex& complex, std::int32_t t, std::int32_t v)
   return std::atan2(std::abs(dot(a, cross(b, c))), within) / (2 * M_PI);
 }
 
-/// Whether tissues have at most `few` tetrahedra at v, and these stick out: in a wall they are half the sphere, however
-/// few, and without them it has a dent.
+/// Returns whether tissues have at most `few` tetrahedra at v and these stick out. In a flat wall they fill half the
+/// sphere, however few they are, and their removal would leave a dent.
 bool isEar(GuardedOperations& operations, std::int32_t v, std::size_t few)
 {
-  constexpr double sharp = 0.25; // of the sphere; what noise lifts off a wall fills 0.35
+  constexpr double sharp = 0.25; // share of the sphere; bumps that noise makes in a wall fill 0.35
   const std::vector<std::int32_t> tissues = tissuesAt(operations, v);
   if (tissues.size() > few) return false;
   double share = 0;
@@ -46,8 +47,8 @@ bool isEar(GuardedOperations& operations, std::int32_t v, std::size_t few)
   return share < sharp;
 }
 
-/// Gives all at v to `label`, in whatever order that allows. What leads nowhere is given back, unless the samples have
-/// come to lie too well for that.
+/// Relabels all tetrahedra at v to `label`, in any order that the guards allow, by backtracking. A relabelling that
+/// leads nowhere is undone, unless the envelope refuses because the samples fit better now.
 bool takeOff(GuardedOperations& operations, std::int32_t v, Label label, double quality)
 {
   std::vector<std::int32_t> others;
@@ -63,11 +64,12 @@ bool takeOff(GuardedOperations& operations, std::int32_t v, Label label, double 
   return false;
 }
 
-/// Gives background at v that faces of one tissue enclose on two or three sides to that tissue, until v has enough.
+/// Relabels background tetrahedra at v with two or more faces towards tissues to the tissue beyond the last of these
+/// faces, until tissues have more than `few` tetrahedra at v.
 void fillBeside(GuardedOperations& operations, std::int32_t v, std::size_t few)
 {
   const TetComplex& c = operations.complex();
-  const double least = sine2OfDegrees(usualAngle); // what is let off as background no longer is
+  const double least = sine2OfDegrees(usualAngle); // background may be worse than tissue may
   const std::vector<std::int32_t> star = operations.star(v);
   for (std::int32_t t : star)
   {
@@ -81,13 +83,14 @@ void fillBeside(GuardedOperations& operations, std::int32_t v, std::size_t few)
   }
 }
 
-/// The labels at v if they are two, that of fewer tetrahedra first, and how many these are.
+/// The two labels at a vertex, that of fewer tetrahedra first, and the number of these tetrahedra.
 struct TwoLabels
 {
   Label fewer, more;
   std::size_t count;
 };
 
+/// Returns nothing if the number of labels at v is not two.
 std::optional<TwoLabels> twoLabelsAt(GuardedOperations& operations, std::int32_t v)
 {
   const TetComplex& c = operations.complex();
@@ -106,7 +109,7 @@ std::optional<TwoLabels> twoLabelsAt(GuardedOperations& operations, std::int32_t
   return ofA < ofB ? TwoLabels{ a, b, ofA } : TwoLabels{ b, a, ofB };
 }
 
-/// Moves v towards its samples, if there are any left, as far as quality allows.
+/// Moves v towards its nearest sample, if it has any, as far as quality allows.
 void pull(GuardedOperations& operations, std::int32_t v, double quality)
 {
   const auto to = operations.nearestSampleOf(v);

@@ -6,8 +6,9 @@
 #include <algorithm>
 #include <limits>
 
-// A copy of the loops for processors that handle four doubles at once, chosen when the program starts. Without fused
-// operations both copies give the same bits. Sanitisers are not ready yet at that moment.
+// Compiles a second copy of a function for processors with AVX2, chosen when the program starts. Both copies give the
+// same bits, since AVX2 alone has no fused multiply-add. Not with sanitisers, which are not initialised yet at that
+// moment.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) &&                           \
   !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define WITH_WIDE_COPY __attribute__((target_clones("avx2", "default")))
@@ -28,7 +29,7 @@ double lesser(double a, double b) { return a < b ? a : b; }
 void StarQuality::gather(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star,
                          const std::vector<TetComplex::FaceOfTet>& triangles, double triangleWeight)
 {
-  // With v first, an even permutation of the tetrahedron.
+  // The other three corners, in an order such that (v, others) is an even permutation of the tetrahedron.
   static constexpr int others[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 3, 0, 1 }, { 2, 1, 0 } };
   m_Size = star.size();
   m_Groups.resize((m_Size + lanes - 1) / lanes);
@@ -97,7 +98,7 @@ inline void StarQuality::measure(const Group& g, const Vec3& p, double* quality)
                                        lesser(squaredNorm(d) * (na2 * nd2), squaredNorm(c - b) * (nb2 * nc2))),
                                 lesser(squaredNorm(d - b) * (nb2 * nd2), squaredNorm(d - c) * cd));
     const double q = v6 > 0 ? g.weight[k] * (v6 * v6 * least / (ab * cd)) : -1;
-    quality[k] = q > 0 ? q : -1; // not a number where a face has no area, but rounding leaves a volume
+    quality[k] = q > 0 ? q : -1; // q is NaN if a face has no area but rounding leaves a volume
   }
 }
 
@@ -112,7 +113,8 @@ inline void StarQuality::measure(const Triangles& g, const Vec3& p, double* qual
   }
 }
 
-/// The least of `worst` and what `measure` finds in the groups, or some value below `atLeast`.
+/// Returns the lesser of `worst` and the least quality that `measure` finds in the groups, or some value below
+/// `atLeast`.
 template <class Groups, class Measure>
 inline double StarQuality::worstOf(const Groups& groups, double without, double atLeast, double worst,
                                    Measure&& measure)
@@ -142,12 +144,13 @@ const std::vector<double>& StarQuality::each(const Vec3& p)
 {
   m_Each.resize((m_Groups.size() + m_Triangles.size()) * lanes);
   for (std::size_t i = 0; i < m_Groups.size(); ++i) measure(m_Groups[i], p, m_Each.data() + i * lanes);
-  // In the place of what fills up the last group of tetrahedra.
+  // Triangles overwrite the padding of the last group of tetrahedra.
   for (std::size_t i = 0; i < m_Triangles.size(); ++i) measure(m_Triangles[i], p, m_Each.data() + m_Size + i * lanes);
   return m_Each;
 }
 
-/// Most groups have nothing as bad as that, and are measured once.
+/// Adds the unit gradients of the qualities that are at most `most` to `sum`. Most groups have none and are measured
+/// only once.
 template <class Groups, class Measure>
 inline void StarQuality::addGradients(const Groups& groups, std::size_t size, const Vec3& p, double h, double most,
                                       Measure&& measure, Vec3& sum)

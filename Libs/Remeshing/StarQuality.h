@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The tetrahedra at a vertex, and the triangles between labels, laid out so that several are measured at once wherever
-/// the vertex is put: guarded operations spend more time on this than on anything else.
+/// Quality of the star of a vertex, and of the interface triangles at it, as a function of the vertex's position. Laid
+/// out for SIMD: guarded operations spend more time on this than on anything else.
 
 #include "TetComplex.h"
 
@@ -11,26 +11,27 @@
 namespace surgicalmesher
 {
 
-constexpr double backgroundLeniency = 20; ///< worst angles of 32 degrees inside weigh as 6.8 degrees outside
+/// Factor on the quality of background: 6.8 degrees there count like 32 degrees in a tissue.
+constexpr double backgroundLeniency = 20;
 
 class StarQuality
 {
 public:
-  /// `star`: the tetrahedra at v. Stays true until another vertex than v moves, or the star changes. `triangles`: those
-  /// between labels, which count with `triangleWeight`; 0: not at all.
+  /// Collects the geometry. `star`: the tetrahedra at v. `triangles`: the interface triangles at v, whose quality is
+  /// multiplied by `triangleWeight`; 0: they do not count. Valid until a vertex other than v moves or the star changes.
   void gather(const TetComplex& complex, std::int32_t v, const std::vector<std::int32_t>& star,
               const std::vector<TetComplex::FaceOfTet>& triangles = {}, double triangleWeight = 0);
 
-  /// The worst quality (see GuardedOperations) with the vertex at p, or some value below `atLeast` if it is less than
-  /// that. What contains the vertex `without` does not count.
+  /// Returns the worst quality (see GuardedOperations) with the vertex at p, or some value below `atLeast` if the worst
+  /// is below `atLeast`. Tetrahedra and triangles that contain the vertex `without` do not count.
   double worst(const Vec3& p, double atLeast, std::int32_t without = -1) const;
 
-  /// The quality of each tetrahedron, in the order of the star, and of each triangle after them, with the vertex at p.
-  /// The result lives until the next call.
+  /// Returns the quality of each tetrahedron, in the order of the star, then that of each triangle, with the vertex at
+  /// p. Only the first size() values count. The reference is valid until the next call.
   const std::vector<double>& each(const Vec3& p);
 
-  /// The sum of the unit gradients, by differences of step h (mm), of all that are no better than `most` with the vertex
-  /// at p.
+  /// Returns the sum of the unit gradients, by forward differences of step h (mm), of all qualities that are at most
+  /// `most` with the vertex at p.
   Vec3 sumOfGradients(const Vec3& p, double h, double most) const;
 
   std::size_t size() const { return m_Size + m_TriangleCount; }
@@ -40,8 +41,8 @@ private:
   static constexpr std::size_t lanes = 4;
   struct Group
   {
-    double corners[3][3][lanes]; ///< by corner and axis: with the vertex, a positively wound tetrahedron
-    double ids[3][lanes];        ///< of the corners; as doubles they are compared in the same registers
+    double corners[3][3][lanes]; ///< by corner and axis; positively wound with the vertex as the first corner
+    double ids[3][lanes];        ///< of the corners; doubles, so that comparisons use the same registers
     double weight[lanes];
   };
   struct Triangles
@@ -58,8 +59,8 @@ private:
   static void addGradients(const Groups& groups, std::size_t size, const Vec3& p, double h, double most,
                            Measure&& measure, Vec3& sum);
 
-  std::vector<Group> m_Groups;        ///< the last one filled up with its first tetrahedron
-  std::vector<Triangles> m_Triangles; ///< the last one filled up with its last triangle
+  std::vector<Group> m_Groups;        ///< the last one is padded with copies of its first tetrahedron
+  std::vector<Triangles> m_Triangles; ///< the last one is padded with copies of its last triangle
   std::vector<double> m_Each;
   std::size_t m_Size = 0, m_TriangleCount = 0;
   double m_TriangleWeight = 0;

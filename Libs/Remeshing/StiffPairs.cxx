@@ -31,7 +31,7 @@ Block stiffnessOf(const LinearTetrahedron& tetrahedron, int a, int b)
   return stiffnessBlock(tetrahedron, a, b, lame);
 }
 
-/// With vertex v at p.
+/// The shape of tetrahedron t with vertex v at p.
 LinearTetrahedron shapeOf(const TetComplex& complex, std::int32_t t, std::int32_t v = -1, const Vec3& p = {})
 {
   std::array<Vec3, 4> corners;
@@ -40,7 +40,8 @@ LinearTetrahedron shapeOf(const TetComplex& complex, std::int32_t t, std::int32_
   return linearTetrahedron(corners);
 }
 
-/// Of two vertices, divided by its diagonal: from their blocks there and what is between them.
+/// Returns the stiffness matrix of two vertices, scaled by its diagonal: `a` and `b` are their diagonal blocks,
+/// `between` is the block that couples them.
 PairMatrix scaledMatrix(const Block& a, const Block& b, const Block& between)
 {
   std::array<double, 6> factors;
@@ -56,11 +57,11 @@ PairMatrix scaledMatrix(const Block& a, const Block& b, const Block& between)
   return m;
 }
 
-/// Not where tetrahedra are turned over.
+/// Returns whether the block's diagonal is positive, which inverted tetrahedra can prevent.
 bool isPositive(const Block& own) { return own[0] > 0 && own[4] > 0 && own[8] > 0; }
-constexpr double outOfTheQuestion = 6; // the trace
+constexpr double outOfTheQuestion = 6; // the trace of a PairMatrix, which no eigenvalue exceeds
 
-/// That of a vertex, at the end if there was none.
+/// Returns the entry of a vertex; appends one if there is none.
 template <class Entry>
 Entry& entryOf(std::int32_t vertex, std::vector<Entry>& entries)
 {
@@ -108,11 +109,11 @@ private:
     for (int i = 0; i < 4; ++i) add(m_Diagonal[m_Complex.tets[t][i]], stiffnessOf(shape, i, i), factor);
   }
 
-  /// A vertex beside the one that is worked on, and where it is in the tetrahedra there.
+  /// A neighbour of the vertex being moved, and its corners in the tetrahedra at that vertex.
   struct Side
   {
     std::int32_t vertex;
-    std::vector<std::pair<std::size_t, int>> corners; ///< number among m_Tissues, corner
+    std::vector<std::pair<std::size_t, int>> corners; ///< (index in m_Tissues, corner of that tetrahedron)
   };
 
   /// Fills m_Tissues and m_Sides, in the order of the star.
@@ -130,7 +131,7 @@ private:
     }
   }
 
-  /// Gives the tetrahedra at v their shapes, were it at p; its own block.
+  /// Fills m_Shapes with the shapes of the tetrahedra at v with v at p. Returns v's diagonal block.
   Block shapesAt(std::int32_t v, const Vec3& p)
   {
     Block own{};
@@ -143,7 +144,8 @@ private:
     return own;
   }
 
-  /// Of the pair with that vertex; none where its tetrahedra are turned over.
+  /// Returns the matrix of the pair of v and a neighbour, `own` being v's diagonal block; nothing if tetrahedra are
+  /// inverted.
   std::optional<PairMatrix> matrixOf(const Side& side, const Block& own) const
   {
     Block others{}, between{};
@@ -157,7 +159,7 @@ private:
     return scaledMatrix(own, others, between);
   }
 
-  /// Of v with neighbours of higher numbers; `star`: the tetrahedra there.
+  /// Adds the stiff pairs of v and neighbours with higher numbers; `star`: the tetrahedra at v.
   void addStiffPairs(std::int32_t v, const std::vector<std::int32_t>& star, std::vector<Pair>& pairs) const
   {
     std::vector<Neighbour> neighbours;
@@ -179,7 +181,7 @@ private:
     }
   }
 
-  /// Stiffest first.
+  /// Returns the pairs whose eigenvalue is not below the option's, stiffest first.
   std::vector<Pair> stiffPairs() const
   {
     constexpr std::size_t parts = 16;
@@ -203,8 +205,8 @@ private:
     return pairs;
   }
 
-  /// Of the pairs at v, were it at p; the tetrahedra there are not in m_Diagonal. `least` if none is above, `most` if one
-  /// is not below.
+  /// Returns the largest eigenvalue among the pairs of v, with v at p: `least` if none is above it, `most` if one is
+  /// not below it. The tetrahedra at v must have been subtracted from m_Diagonal.
   double largestAt(std::int32_t v, const Vec3& p, double least, double most = outOfTheQuestion)
   {
     const Block own = shapesAt(v, p);
@@ -217,7 +219,7 @@ private:
       const bool isRefused = !areEigenvaluesBelow(most, *matrix);
       const double largest = isRefused ? most : largestEigenvalue(*matrix);
       least = std::max(least, largest);
-      if (least == largest) std::swap(side, m_Sides[0]); // likely the stiffest at the next place, too
+      if (least == largest) std::swap(side, m_Sides[0]); // probably the stiffest at the next position, too
       if (isRefused) return most;
     }
     return least;
@@ -273,9 +275,9 @@ private:
   const TetComplex& m_Complex;
   const StiffPairOptions& m_Options;
   const double m_Good;
-  std::vector<Block> m_Diagonal;                       ///< of each vertex
-  std::vector<std::pair<std::int32_t, int>> m_Tissues; ///< tetrahedra at a vertex, and which corner it is
-  std::vector<LinearTetrahedron> m_Shapes;             ///< theirs
+  std::vector<Block> m_Diagonal;                       ///< diagonal block of each vertex
+  std::vector<std::pair<std::int32_t, int>> m_Tissues; ///< tetrahedra of tissues at v, and v's corner in each
+  std::vector<LinearTetrahedron> m_Shapes;             ///< shapes of m_Tissues
   std::vector<Side> m_Sides;
   Directions m_Directions;
 };

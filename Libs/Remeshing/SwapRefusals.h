@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Edges whose swap was refused, while vertices stay: each comes up once for every mediocre tetrahedron around it, and
-/// mostly nothing has changed since the first.
+/// Cache of edges whose swap was refused, valid while no vertex moves. An edge is tried once for every mediocre
+/// tetrahedron around it, and mostly nothing has changed since the first refusal.
 
 #include "TetComplex.h"
 
@@ -15,7 +15,7 @@ class SwapRefusals
 public:
   explicit SwapRefusals(std::size_t tetrahedra) : m_Of(tetrahedra) {}
 
-  /// Edge ab was refused; t is a tetrahedron at it.
+  /// Records the refusal of edge ab; t is a tetrahedron at the edge.
   void add(const TetComplex& complex, std::int32_t t, std::int32_t a, std::int32_t b)
   {
     OfTetrahedron& own = m_Of[t];
@@ -23,7 +23,7 @@ public:
     own.edges |= edgeOf(complex, t, a, b);
   }
 
-  /// Whether ab was refused and nothing has changed at its ring since.
+  /// Returns whether ab was refused and no tetrahedron of its `ring` has changed since.
   bool contains(const TetComplex& complex, std::int32_t a, std::int32_t b, const std::vector<std::int32_t>& ring) const
   {
     std::uint32_t newest = 0;
@@ -33,7 +33,7 @@ public:
                        { return m_Of[t].since >= newest && m_Of[t].edges & edgeOf(complex, t, a, b); });
   }
 
-  /// Tetrahedra are new, or what is around them.
+  /// Invalidates refusals at tetrahedra that are new or have new neighbours.
   void forgetAt(const std::vector<std::int32_t>& tetrahedra)
   {
     ++m_Time;
@@ -48,8 +48,8 @@ private:
   struct OfTetrahedron
   {
     std::uint32_t changed = 0;
-    std::uint32_t since = 0; ///< the first of its refusals; they no longer count if it has changed later
-    std::uint16_t edges = 0; ///< refused, a bit for each pair of corners
+    std::uint32_t since = 0; ///< time of the first refusal; refusals before `changed` are void
+    std::uint16_t edges = 0; ///< refused edges, one bit per pair of corners
   };
   static std::uint16_t edgeOf(const TetComplex& complex, std::int32_t t, std::int32_t a, std::int32_t b)
   {

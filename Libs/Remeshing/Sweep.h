@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What a remesher does to every block of a mesh: passes, grouped into stages that share an envelope.
+/// A sweep: the passes that a remesher runs on every block of a mesh, grouped into stages that share an envelope.
 
 #include "Coarsening.h"
 #include "EdgeSwaps.h"
@@ -86,7 +86,7 @@ struct RestoreVolumes ///< restoreVolumesOfBlock
 struct RelabelInterface ///< relabelBlock
 {
   double keptAngle; ///< degrees
-  double mostLeft;
+  double mostLeft;  ///< see relabelBlock
 };
 struct RemoveSpikes ///< cutSpikesOfBlock
 {
@@ -109,11 +109,12 @@ struct Stage
 
 struct Sweep
 {
-  std::string name; ///< as progress and reports call it
+  std::string name; ///< for progress and reports
   std::vector<Stage> stages;
-  /// In one block: borders between blocks are locked, and what is still bad in the end lies at them.
+  /// Whether the whole mesh is one block: borders between blocks are locked, and after sweeps by blocks the tetrahedra
+  /// that are still bad lie at them.
   bool whole = false;
-  /// The interface resists bending (RemesherOptions::rigidity).
+  /// Whether the interface resists bending (RemesherOptions::rigidity).
   bool stiff = true;
 };
 

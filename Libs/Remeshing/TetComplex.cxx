@@ -17,7 +17,7 @@ namespace
 
 using Tet = TetComplex::Tet;
 
-/// The three vertices opposite vertex i, ascending.
+/// Returns the three vertices opposite vertex i, in ascending order.
 std::array<std::int32_t, 3> sortedFace(const Tet& t, int i)
 {
   std::array<std::int32_t, 3> f{ t[(i + 1) & 3], t[(i + 2) & 3], t[(i + 3) & 3] };
@@ -82,7 +82,7 @@ void TetComplex::star(std::int32_t v, std::vector<std::int32_t>& out, Marks& mar
       const std::int32_t t = across[k];
       if (t < 0) continue;
       std::uint32_t& mark = marks.of[t];
-      out[n] = t; // stays only if it is new, for which there is no foreseeing
+      out[n] = t; // kept only if t is new; a branch on that would be unpredictable
       n += std::size_t(mark != search);
       mark = search;
       prefetch(&tets[t]);
@@ -107,8 +107,8 @@ bool TetComplex::ring(std::int32_t a, std::int32_t b, std::int32_t seed, std::ve
 {
   tetrahedra.clear();
   vertices.clear();
-  // Which of the two rotations is taken is fixed by the seed's winding: (a, b, from, to) positive, an even permutation
-  // of its corners. By the corners of a and b, that of `from`; no edge on the diagonal.
+  // The seed's winding fixes the sense of rotation: (a, b, from, to) is an even permutation of its corners. third[i][k]
+  // is the corner of `from` if i and k are those of a and b.
   static constexpr int third[4][4] = { { 0, 2, 3, 1 }, { 3, 0, 0, 2 }, { 1, 3, 0, 0 }, { 2, 0, 1, 0 } };
   std::int32_t t = seed, from = tets[t][third[indexOf(t, a)][indexOf(t, b)]];
   do {
@@ -160,7 +160,7 @@ void TetComplex::collapse(std::int32_t u, std::int32_t v, const std::vector<std:
   {
     if (!contains(t, u)) continue;
     const int iv = indexOf(t, v), iu = indexOf(t, u);
-    const std::int32_t nu = neighbours[t][iv], nv = neighbours[t][iu]; // nu keeps the face at u, nv the one at v
+    const std::int32_t nu = neighbours[t][iv], nv = neighbours[t][iu]; // across the face at u, and the face at v
     int ju = -1, jv = -1;
     if (nu >= 0)
       for (int k = 0; k < 4; ++k)
@@ -171,7 +171,7 @@ void TetComplex::collapse(std::int32_t u, std::int32_t v, const std::vector<std:
     const std::int32_t head = sampleHeads[t][iu] >= 0 ? sampleHeads[t][iu] : (jv >= 0 ? sampleHeads[nv][jv] : -1);
     if (ju >= 0) neighbours[nu][ju] = nv, sampleHeads[nu][ju] = -1;
     if (jv >= 0) neighbours[nv][jv] = nu, sampleHeads[nv][jv] = -1;
-    // Beyond the block's border lies another label, or there would be no samples.
+    // If nv is beyond the block's border, it has another label: otherwise there would be no samples.
     if (head >= 0 && nu >= 0 && (nv < 0 || labels[nu] > labels[nv])) sampleHeads[nu][ju] = head;
     else if (head >= 0 && nu >= 0 && labels[nu] < labels[nv]) sampleHeads[nv][jv] = head;
     for (std::int32_t x : tets[t])

@@ -19,9 +19,9 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double balancingGain = 0.7; // polishing brings vertices nearer to their samples as well, which adds volume
+constexpr double balancingGain = 0.7; // polishing also brings vertices nearer to their samples, which adds volume
 
-/// At the points of tissues.
+/// Returns the smallest target length at the points of tissues, mm.
 double smallestLength(const BackgroundMesh& background)
 {
   double smallest = std::numeric_limits<double>::max();

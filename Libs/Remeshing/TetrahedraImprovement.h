@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Improvement of a finished labelled mesh, with its own interface as the surface to stay on: what the tetrahedral
-/// stage does.
+/// The tetrahedral stage: improvement of a finished labelled mesh, which keeps to the mesh's own interface.
 
 #include "Progress.h"
 #include "SizingFunction.h"
@@ -13,21 +12,26 @@ namespace surgicalmesher
 
 struct TetrahedraImprovementOptions
 {
-  /// How far the surface may move from where it was, as a share of the target length, and of the cube root of a tissue's
-  /// volume where that is less (not if isImproved); four times as far where nothing else mends an angle.
+  /// Largest distance of the surface from its initial position, as a share of the target length or, if that is smaller
+  /// and the surface is not improved yet, of the cube root of the tissue's volume; four times as much where an angle
+  /// cannot be improved otherwise.
   double surfaceTolerance = 0.017;
-  double targetAngle = usualAngle; ///< degrees; work goes on until no dihedral angle is below it or above 180 minus it
-  double featureAngle = 0; ///< degrees; edges of the surface sharper than that, corners and flat faces stay what they
-                           ///< are. 0: none are watched
-  /// The surface stage has improved the surface for targetAngle: it is where it belongs, and is held except where an
-  /// angle cannot be mended otherwise, or a tissue has lost volume by that.
+  /// Degrees; tetrahedra with a dihedral angle below this, or above 180 minus it, are improved.
+  double targetAngle = usualAngle;
+  /// Degrees; edges of the surface sharper than this, corners and flat faces are preserved. 0: features are not
+  /// detected.
+  double featureAngle = 0;
+  /// Whether the surface stage has already improved the surface to targetAngle. The surface is then held, except where
+  /// an angle cannot be improved otherwise, where stiff pairs are softened or heights raised, and where a tissue's
+  /// volume has to be restored afterwards.
   bool isImproved = false;
 };
 
-/// Improves `mesh` (positively wound, face-to-face, label 0 outside; vertices on its hull stay) towards `length` and
-/// towards the target angle. Labels keep their topology, and no operation lowers the worst quality of what it
-/// touches below the target angle. Heights under 0.4 of the smallest length are raised in the end.
-/// Deterministic, whatever the number of threads.
+/// Improves `mesh` towards the target angle, with the target lengths `length`, a function of positions in the frame of
+/// the mesh's points. The mesh must be positively wound and face-to-face, with label 0 outside the tissues; vertices on
+/// its hull do not move. Labels keep their topology, and no operation lowers the worst dihedral angle in tissues of the
+/// tetrahedra that it changes below the lesser of the target angle and 28.4 degrees. Heights below 0.4 of the smallest
+/// target length in tissues are raised in the end. The result does not depend on the number of threads.
 void improveTetrahedra(TetMesh& mesh, const SizingFunction& length, const TetrahedraImprovementOptions& options = {},
                        const Progress& progress = {});
 

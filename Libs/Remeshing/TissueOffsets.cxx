@@ -30,7 +30,7 @@ SheetSide sideOf(const TetComplex& complex, const SheetFace& f)
 
 Vec3 meetingStep(const TetComplex& complex, const Sheet& sheet, const TissueOffsets& offsets)
 {
-  constexpr double spring = 0.05; // where all are nearly one plane
+  constexpr double spring = 0.05; // for vertices whose faces lie nearly in one plane
   Quadric quadric;
   for (const SheetFace& f : sheet.faces)
   {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The boundaries of tissues, each offset by a way of its own.
+/// Offsets of tissue boundaries along their normals, each tissue by its own distance.
 
 #include "GuardedOperations.h"
 #include "TetQuality.h"
@@ -9,19 +9,20 @@
 namespace surgicalmesher
 {
 
-/// A face at a vertex, seen from one of its labels.
+/// An interface face with an orientation, from one of its labels to the other.
 struct SheetSide
 {
   Label from, to;
-  Vec3 area; ///< vector, mm^2, from the one to the other
+  Vec3 area; ///< area vector, mm^2, pointing from `from` to `to`
 };
 SheetSide sideOf(const TetComplex& complex, const SheetFace& face);
 
-/// The step (mm) of a vertex to where the tissues' boundaries in its `sheet` meet when they are offset: least squares.
+/// Returns the step (mm) that takes a vertex to where the offset boundaries of the tissues in its `sheet` meet, by
+/// least squares.
 Vec3 meetingStep(const TetComplex& complex, const Sheet& sheet, const TissueOffsets& offsets);
 
-/// Moves v by the way (mm), a half or a quarter of it: the longest that the guards let pass and that leaves the worst
-/// quality at v at `floor` or above.
+/// Moves v by `way` (mm), or by a half or a quarter of it: the longest of these that the guards allow and that leaves
+/// the worst quality at v at `floor` or above. Returns whether v has moved.
 bool moveAlong(GuardedOperations& operations, std::int32_t v, const Vec3& way, double floor);
 
 struct TissueOffsetOptions
@@ -30,7 +31,7 @@ struct TissueOffsetOptions
   double goodAngle = usualAngle; ///< degrees; the worst angle at a vertex may fall to this
 };
 
-/// Moves the vertices between labels by what the offsets of their tissues ask for.
+/// Moves the unlocked interface vertices so that the tissues' boundaries are offset as `options` say.
 void offsetTissuesOfBlock(GuardedOperations& operations, const TissueOffsetOptions& options);
 
 } // namespace surgicalmesher

@@ -20,13 +20,13 @@ int bitCount(std::uint32_t x)
   return n;
 }
 
-/// The triangles of one label on the boundary of two stars together.
+/// The triangles on the boundary of the union of two stars that belong to tetrahedra of one label.
 class LabelShare
 {
 public:
   LabelShare(const TetComplex& complex, Label label) : m_Complex(complex), m_Label(label) {}
 
-  /// Those of the star of `centre` that have no vertex `other`.
+  /// Adds those opposite `centre` in tetrahedra of its star that do not contain `other`.
   void add(const std::vector<std::int32_t>& star, std::int32_t centre, std::int32_t other)
   {
     for (std::int32_t t : star)
@@ -42,7 +42,7 @@ public:
     }
   }
 
-  /// Connected, and of Euler number 1.
+  /// Returns whether the triangles are connected and have Euler characteristic 1.
   bool isDisc()
   {
     std::sort(m_Corners.begin(), m_Corners.end());
@@ -63,13 +63,13 @@ private:
   const TetComplex& m_Complex;
   const Label m_Label;
   std::vector<std::int32_t> m_Corners;
-  std::vector<std::pair<std::array<std::int32_t, 2>, std::int32_t>> m_Sides; ///< and their triangles' numbers
+  std::vector<std::pair<std::array<std::int32_t, 2>, std::int32_t>> m_Sides; ///< (edge, number of its triangle)
   std::int32_t m_Triangles = 0;
 };
 
 } // namespace
 
-/// One of 30 bits for each label met, or a last one for all the others.
+/// Returns a label's bit: one for each of the first 30 labels met, and a last one for all others.
 std::uint32_t CollapseTopology::bitOf(Label label)
 {
   const auto at = std::find(m_LocalLabels.begin(), m_LocalLabels.end(), label);
@@ -78,8 +78,8 @@ std::uint32_t CollapseTopology::bitOf(Label label)
   return 1u << std::min<std::size_t>(k, mostLocalLabels);
 }
 
-/// The labels of an end's star that are not at the edge's other end; and which of them are at each vertex of the ring,
-/// which m_Places numbers.
+/// Looks through the star of one end of an edge; `other` is the other end. Returns the labels of its tetrahedra that do
+/// not contain `other`, and adds the labels that meet each vertex of the ring to its RingLabels member `atEnd`.
 std::uint32_t CollapseTopology::lookAround(const std::vector<std::int32_t>& star, std::int32_t other,
                                            std::uint32_t RingLabels::*atEnd)
 {
@@ -98,8 +98,8 @@ std::uint32_t CollapseTopology::lookAround(const std::vector<std::int32_t>& star
   return beside;
 }
 
-/// The label, as a bit, that closes over tetrahedron t of the ring of uv once that is gone: the one beyond both its
-/// faces; 0 if they are two, or t's own.
+/// Returns the bit of the label that closes over tetrahedron t of the ring of uv when t vanishes: the label beyond both
+/// of t's faces that do not contain edge uv. Returns 0 if these are different labels, or t's own.
 std::uint32_t CollapseTopology::closingOver(std::int32_t t, std::int32_t u, std::int32_t v)
 {
   const auto& c = m_Complex;
@@ -108,8 +108,7 @@ std::uint32_t CollapseTopology::closingOver(std::int32_t t, std::int32_t u, std:
   return bitOf(c.labels[nu]);
 }
 
-/// Fills in what both ends have at the edges of the ring. Returns the labels that fail the link condition on their own
-/// boundary.
+/// Fills RingLabels::atEdge and m_Closed. Returns the labels that fail the link condition on their own boundary.
 std::uint32_t CollapseTopology::compareEnds(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& ring)
 {
   const auto& c = m_Complex;
@@ -128,16 +127,16 @@ std::uint32_t CollapseTopology::compareEnds(std::int32_t u, std::int32_t v, cons
   return doubtful;
 }
 
-/// A label that is at both ends is cut out of the ball of both stars and comes back as the cone over its share of the
-/// ball's boundary, which changes nothing if what was there was contractible and that share is a disc:
-///   - The stars meet in the ring of uv. Those of its vertices and edges at which both have the label, be it in the
-///     ring
-///     or beyond, must be a path.
-///   - The share is a disc for certain if the label is not at edge uv, or closes over nothing and meets the link
-///     condition
-///     on its own boundary; else it is looked at.
-/// Positive volumes see to the link condition on the tetrahedra themselves: the cone from v tiles star(u) only if it
-/// holds.
+/// The collapse removes a label that occurs at both ends from the ball that the two stars form, and puts back the cone
+/// over the label's share of the ball's boundary. This preserves the topology if the removed part was contractible and
+/// the share is a disc:
+///   - The stars meet in the ring of uv. The vertices and edges of the ring at which both stars have the label must
+///     form a path.
+///   - The share is certainly a disc if the label is not at edge uv, or if it closes over no tetrahedron of the ring
+///     and meets the link condition on its own boundary; otherwise the share is examined.
+///
+/// The link condition on the tetrahedra themselves follows from positive volumes: the cone from v tiles star(u) only if
+/// it holds.
 bool CollapseTopology::keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& starOfU,
                                     const std::vector<std::int32_t>& starOfV, const std::vector<std::int32_t>& ring,
                                     const std::vector<std::int32_t>& ringVertices)
@@ -177,10 +176,10 @@ bool CollapseTopology::keepsTissues(std::int32_t u, std::int32_t v, const std::v
 bool isSimple(const TetComplex& c, std::int32_t t, Label label,
               const std::function<const std::vector<std::int32_t>&(std::int32_t)>& starOf)
 {
-  std::array<int, 4> corners{}; // opposite what has the label, and from the end opposite what has not
+  std::array<int, 4> corners{}; // first those opposite neighbours with the label, then the others
   int shared = 0, rest = 4;
   for (int i = 0; i < 4; ++i) corners[c.labels[c.neighbours[t][i]] == label ? shared++ : --rest] = i;
-  const auto meets = [&](int k, int l, bool has) // at that corner, or at the edge between two
+  const auto meets = [&](int k, int l, bool has) // at corner k, or at the edge between corners k and l
   {
     const std::int32_t v = c.tets[t][corners[k]], w = c.tets[t][corners[l]];
     const auto& star = starOf(v);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Whether an operation leaves every tissue its topology and a manifold boundary. Exact, by what is at the changed
-/// vertices alone.
+/// Tests of whether an operation preserves every tissue's topology and manifold boundary. The tests are exact and look
+/// only at the stars of the changed vertices.
 
 #include "TetComplex.h"
 
@@ -16,18 +16,18 @@ class CollapseTopology
 public:
   explicit CollapseTopology(const TetComplex& complex) : m_Complex(complex) {}
 
-  /// Whether merging u into v keeps all tissues; `ring` and `ringVertices` as of TetComplex::ring. Background that has
-  /// no more than the ring of uv is enclosed by tissues, and may vanish: it is no tissue.
+  /// Returns whether merging u into v preserves all tissues; `ring` and `ringVertices` as found by TetComplex::ring().
+  /// Background that consists of tetrahedra of the ring of uv only is enclosed by tissues and may vanish.
   bool keepsTissues(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& starOfU,
                     const std::vector<std::int32_t>& starOfV, const std::vector<std::int32_t>& ring,
                     const std::vector<std::int32_t>& ringVertices);
 
-  /// After keepsTissues: whether a label may leave a vertex of the ring.
+  /// Valid after keepsTissues(): whether the collapse may remove a label from a vertex of the ring.
   bool ringLosesLabels() const { return m_RingLosesLabels; }
 
 private:
-  /// One vertex of the ring of an edge uv: as bits, the labels at its edges to u and to v, and those that both ends
-  /// have at the edge of the ring after it.
+  /// Labels, as bits, at one vertex of the ring of edge uv: at its edge to u, at its edge to v, and those that both u
+  /// and v have at the ring's edge that follows the vertex.
   struct RingLabels
   {
     std::uint32_t atU = 0, atV = 0, atEdge = 0;
@@ -35,7 +35,7 @@ private:
   struct Place
   {
     std::uint32_t search = 0;
-    std::int32_t at = 0; ///< in the ring's vertices
+    std::int32_t at = 0; ///< index among the ring's vertices
   };
 
   std::uint32_t bitOf(Label label);
@@ -44,18 +44,18 @@ private:
   std::uint32_t compareEnds(std::int32_t u, std::int32_t v, const std::vector<std::int32_t>& ring);
 
   const TetComplex& m_Complex;
-  std::vector<Place> m_Places; ///< per vertex, of the search of that number
+  std::vector<Place> m_Places; ///< per vertex; valid if its search number is m_Search
   std::uint32_t m_Search = 0;
   std::vector<Label> m_LocalLabels;
   std::vector<RingLabels> m_RingLabels;
-  std::uint32_t m_Closed = 0; ///< labels that close over a tetrahedron of the ring
+  std::uint32_t m_Closed = 0; ///< bits of the labels that close over a tetrahedron of the ring, see closingOver
   bool m_RingLosesLabels = false;
 };
 
-/// Whether t can leave `label`, or go over to it, without a change of that label's topology: what has the label and
-/// what has not each meet t in one to three of its faces, and besides at these faces' edges and corners only (t is a
-/// simple point). A last tetrahedron of background among tissues may also go. `starOf` gives the tetrahedra at a
-/// vertex.
+/// Returns whether t can lose `label`, or be given it, without a change of that label's topology, that is, whether t is
+/// a simple point: the other tetrahedra with the label, and likewise those without it, share one to three faces with t
+/// and meet t nowhere but in these faces. A single tetrahedron of background enclosed by tissues may also vanish.
+/// `starOf` returns the tetrahedra at a vertex. No face of t may lie on the border of the block.
 bool isSimple(const TetComplex& complex, std::int32_t t, Label label,
               const std::function<const std::vector<std::int32_t>&(std::int32_t)>& starOf);
 

@@ -13,7 +13,7 @@ bool GuardedOperations::moveWithin(std::int32_t v, const Vec3& p)
   {
     if (m_Envelope.isHeld()) return false;
     const Sheet& faces = sheet(v);
-    if (!m_Envelope.allowsSheetAt(p)) return false; // first: it is cheaper, and refuses most
+    if (!m_Envelope.allowsSheetAt(p)) return false; // before folds, as it is cheaper and refuses most
     constexpr double rounding = 1e-6;
     if (m_KeepsFolds && foldedMore(m_Complex, v, p, faces) > rounding * m_Complex.lengths[v]) return false;
     m_Envelope.handOn();

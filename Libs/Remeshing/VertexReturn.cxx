@@ -43,7 +43,8 @@ private:
       if (isBack(v, share * way, before, folded)) return;
   }
 
-  /// To the least-squares fit, nearly: the samples leave the direction along a flat sheet open.
+  /// Returns the step to the least-squares fit, with a weak spring, as the samples do not determine the step along a
+  /// flat sheet.
   Vec3 wayBack(std::int32_t v)
   {
     Quadric quadric = quadricOf(m_Complex, v, m_Operations.sheet(v), m_Options.robust, m_Operations.rigidity());
@@ -53,10 +54,10 @@ private:
 
   bool isBack(std::int32_t v, const Vec3& way, double before, double folded)
   {
-    constexpr double least = 0.05; // share of what the worst was, on the way
+    constexpr double least = 0.05; // share of the worst quality before that must remain in between
     const Vec3 from = m_Complex.points[v];
     if (!m_Operations.move(v, from + way, least * before)) return false;
-    // Of what folds more, one in forty would be unfolded by what mends the angles.
+    // Folds are checked before the angles are mended, too, although mending would open one in forty.
     const auto isOpen = [&] { return isFine(v) || foldedAround() <= folded + rounding * norm(way); };
     if (isOpen() && mends(std::min(m_Good, before)) && isOpen()) return true;
     m_Group.takeBack();
@@ -65,12 +66,12 @@ private:
     return false;
   }
 
-  /// Whether the worst around comes to be as good as that.
+  /// Moves the group until its worst quality is at least `wanted`; returns whether it is.
   bool mends(double wanted)
   {
-    constexpr int rounds = 6;   // 97 of 100 that come to be good are so by then
-    constexpr double hope = 2;  // that the rounds left bring, of what the last one has: loses one in twenty
-    constexpr double dip = 0.5; // of what the return has left
+    constexpr int rounds = 6;   // enough for 97 % of the groups that would succeed
+    constexpr double hope = 2;  // most gain expected of a later round, in gains of the last one; loses one in twenty
+    constexpr double dip = 0.5; // share of the quality after the return that must remain
     double now = m_Group.worst();
     const double floor = dip * now;
     for (int left = rounds; left > 0 && now < wanted && m_Group.step(floor); --left)
@@ -92,7 +93,7 @@ private:
 
   double foldedAround() { return foldedLength(m_Complex, m_Hinges.sorted()); }
 
-  static constexpr double ease = 0.02; // how easily vertices leave their samples for it
+  static constexpr double ease = 0.02; // as in PolishingOptions
   static constexpr double rounding = 1e-6;
 
   GuardedOperations& m_Operations;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Return of single vertices that collapses and repairs have left off the boundary, where tetrahedra hold them there.
+/// Return of single vertices to the boundary: of those that collapses and repairs have left off it, and whose
+/// tetrahedra prevent a direct move.
 
 #include "GuardedOperations.h"
 #include "TetQuality.h"
@@ -10,17 +11,17 @@ namespace surgicalmesher
 
 struct VertexReturnOptions
 {
-  double goodAngle = usualAngle; ///< degrees; a worst angle around a vertex may fall to this
-  double leastWay = 0;           ///< mm, to the fit; a vertex that is nearer to it stays there
-  double leastShare = 0;         ///< the same in target lengths, whichever is more
+  double goodAngle = usualAngle; ///< degrees; the worst dihedral angle around a vertex may fall to this
+  double leastWay = 0;           ///< mm; a vertex nearer than this to its fitted position is not moved
+  double leastShare = 0;         ///< the same as a share of the target length; the larger of the two counts
   double robust = 0;             ///< mm, see quadricOf
-  double foldsFrom = 0;          ///< mm; where target lengths are smaller, a return may fold more of the interface
+  double foldsFrom = 0;          ///< mm; where the target length is smaller, a return may add folds to the interface
 };
 
-/// Moves each free vertex of the interface that is too far from the least-squares fit to its samples all the way to it,
-/// or a part of the way, over bad angles but not over inverted tetrahedra. Then it and its neighbours move together, as
-/// the envelope lets them, until angles are what they were or good; if they do not come to be, or more is folded, all of
-/// that is taken back.
+/// Moves each unlocked interface vertex that is too far from the least-squares fit to its samples to this fit, or a
+/// part of the way, at the cost of bad angles but not of inverted tetrahedra. Then the vertex and its neighbours move
+/// together within the envelope until the worst angle is good or as good as before. If it does not become so, or if
+/// more of the interface is folded, all these moves are undone.
 void returnVerticesOfBlock(GuardedOperations& operations, const VertexReturnOptions& options);
 
 } // namespace surgicalmesher

@@ -20,7 +20,7 @@ Vec3 easiest(GuardedOperations& operations, std::int32_t v, const Quadric& held,
   constexpr double rounding = 1e-9;
   const Vec3 wanted = held.solve(direction), d = operations.alongFeatures(v, wanted);
   const double n = norm(d);
-  return n > rounding * norm(wanted) ? d / n : Vec3{}; // of what features leave nothing of, only rounding is left
+  return n > rounding * norm(wanted) ? d / n : Vec3{}; // less is rounding, where features leave no direction
 }
 
 void facesAtNeighbours(const Sheet& sheet, std::int32_t v, FacesAtNeighbours& result)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Directions for a vertex: where angles get better, and where its samples yield.
+/// Directions in which to move a vertex: those that improve angles, and those that its samples resist least.
 
 #include "GuardedOperations.h"
 #include "Quadric.h"
@@ -11,25 +11,28 @@
 namespace surgicalmesher
 {
 
-/// How the samples, whatever the interface's rigidity, resist a step of v: a share `ease` of all its resistance in every direction besides.
+/// Returns the resistance of the samples at v to a step of v (resistanceOf, without the interface's rigidity), plus
+/// `ease` times its trace in every direction; the identity if v lies inside a label.
 Quadric heldAt(GuardedOperations& operations, std::int32_t v, double ease);
 
-/// Whether a step is too small to be worth its tests, where L is `length`.
+/// Returns whether a step is too small to be worth its tests: below 1 % of the target length `length`.
 inline bool isNegligible(const Vec3& step, double length) { return squaredNorm(step) < 1e-4 * length * length; }
 
-/// Turns `direction` at v into one that its samples resist less, along the features there; a unit vector, or zero.
+/// Turns `direction` at v towards directions that the resistance `held` (see heldAt) opposes less, and along the
+/// features at v. Returns a unit vector, or zero if features leave no direction.
 Vec3 easiest(GuardedOperations& operations, std::int32_t v, const Quadric& held, const Vec3& direction);
 
-/// The vertices next to one on the interface, and how many faces of its sheet are at each: more than two along a curve
-/// between tissues.
+/// The neighbours of a vertex on the interface, each with the number of faces of the vertex's sheet that contain it:
+/// more than two along a curve where three or more labels meet.
 using FacesAtNeighbours = std::vector<std::pair<std::int32_t, int>>;
 void facesAtNeighbours(const Sheet& sheet, std::int32_t v, FacesAtNeighbours& result);
 
-/// Whether v lies inside a label among 24 tetrahedra, none of them with a dihedral angle below 45 degrees or above 135:
-/// what Fuchs's lattice, of 60 and 90 degrees, makes of a vertex, or nearly so. To move it can only harm the lattice.
+/// Returns whether v lies inside a label and has 24 tetrahedra, none with a dihedral angle below 45 degrees or above
+/// 135: its star is then that of Fuchs's lattice (60 and 90 degrees), or nearly so, and moving v can only harm the
+/// lattice.
 bool isWhole(GuardedOperations& operations, std::int32_t v);
 
-/// A fixed sequence of directions, for reproducible trials.
+/// A fixed pseudo-random sequence of unit vectors, for reproducible trials.
 class Directions
 {
 public:
@@ -52,8 +55,8 @@ private:
   std::uint64_t m_State = 88172645463325252ull;
 };
 
-/// Unit direction at v, were it at p, that lifts the worst tetrahedra, whose quality is `worst`: the sum of the unit
-/// gradients of all that are nearly as bad.
+/// Returns the unit direction in which v, at p, improves its worst tetrahedra: the normalised sum of the unit quality
+/// gradients of all that are nearly as bad as `worst`, the worst quality there.
 Vec3 uphill(GuardedOperations& operations, std::int32_t v, const Vec3& p, double worst);
 
 } // namespace surgicalmesher

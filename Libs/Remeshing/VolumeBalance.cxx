@@ -10,7 +10,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Its length is twice the triangle's area, its side depends on the order of the corners.
+/// Returns a normal whose length is twice the triangle's area; its sense depends on the order of the corners.
 Vec3 normal(const Vec3& a, const Vec3& b, const Vec3& c) { return cross(b - a, c - a); }
 
 } // namespace
@@ -51,7 +51,7 @@ TissueOffsets VolumeBalance::offsets(const TetComplex& complex, double leastShar
 
 TissueOffsets VolumeBalance::offsetsFor(const Lack& lack, double leastShare) const
 {
-  constexpr double gain = 1.3; // some vertices may not go where they should
+  constexpr double gain = 1.3; // the guards keep some vertices from moving
   std::map<Label, double> lacking;
   for (const auto& [label, volume] : m_Volumes)
     if (std::abs(lack.volumes[label]) >= leastShare * volume) lacking[label] = gain * lack.volumes[label];
@@ -86,7 +86,8 @@ void VolumeBalance::apply(BackgroundMesh& background, double gain)
   }
 }
 
-/// How much farther a tissue's boundary goes out, mm: as wanted, within the most in all.
+/// Returns the next outward step of a tissue's boundary, mm: `wanted`, as far as the sum of all steps stays within the
+/// bound.
 double VolumeBalance::stepOf(Label label, double wanted)
 {
   double& moved = m_Moved[label];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Keeps the volume of every tissue: smoothing and least squares cut corners, which takes from whatever is convex.
+/// Preserves the volume of every tissue: smoothing and least-squares fits cut corners, so convex shapes lose volume.
 
 #include "BackgroundMesh.h"
 #include "TetComplex.h"
@@ -15,33 +15,35 @@ namespace surgicalmesher
 class VolumeBalance
 {
 public:
-  /// The volumes to keep, mm^3, and how far (mm) samples may go for that in all.
+  /// `volumes`: to preserve, mm^3. `most`: mm, bound on the sum of the steps of apply() for each tissue, and on each
+  /// offset that offsets() returns.
   VolumeBalance(std::map<Label, double> volumes, double most) : m_Most(most), m_Volumes(std::move(volumes)) {}
 
-  /// Moves the boundary samples of every tissue that has gained or lost volume along its boundary's normals; twice the
-  /// most between two tissues. `gain`: how much of the way that would make up for the volume, above 1 where angles hold
-  /// vertices back from where the samples go. The mesh must know its neighbours.
+  /// Moves the boundary samples of every tissue that has gained or lost volume along the normals of its boundary;
+  /// samples between two tissues by the difference of both steps. `gain`: factor on the distance that would restore the
+  /// volume; above 1 where angles keep vertices from following the samples. `background.neighbours` must be filled.
   void apply(BackgroundMesh& background, double gain);
 
-  /// How far (mm) the boundaries themselves should go, of all tissues at once, no farther than the most each time; some
-  /// more than is missing, as not all vertices can follow. Of tissues that are off by less than
-  /// `leastShare` of their volume, only the boundaries to the others move. The mesh must know its neighbours.
+  /// Returns the offsets (mm) of all tissues' boundaries that restore their volumes, 1.3 times as large as needed, as
+  /// not all vertices can follow. Tissues whose error is below `leastShare` of their volume get no offset of their own:
+  /// only their boundaries with other tissues move. The neighbours must be known.
   TissueOffsets offsets(const BackgroundMesh& background, double leastShare = 0) const;
   TissueOffsets offsets(const TetComplex& complex, double leastShare = 0) const;
 
 private:
-  /// Of a mesh or a complex.
+  /// The tetrahedra of a mesh or of a complex.
   struct Tetrahedra
   {
     const std::vector<Vec3>& points;
-    const std::vector<std::array<std::int32_t, 4>>& corners; ///< the first one is -1: no tetrahedron
+    const std::vector<std::array<std::int32_t, 4>>& corners; ///< the first corner is -1 for a deleted tetrahedron
     const AcrossFaces& neighbours;
     const std::vector<Label>& labels;
   };
+  /// Volumes that are missing, and the areas between labels.
   struct Lack
   {
-    std::vector<double> volumes;                     ///< mm^3, by label
-    std::map<std::pair<Label, Label>, double> areas; ///< mm^2, by the labels on both sides, each pair once
+    std::vector<double> volumes;                     ///< mm^3, by label; negative: too large
+    std::map<std::pair<Label, Label>, double> areas; ///< mm^2, by pair of labels, the smaller one first
   };
   static Tetrahedra tetrahedraOf(const BackgroundMesh& background);
   Lack lackOf(const Tetrahedra& tetrahedra) const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Gives tissues back the volumes that other passes have cost them, by offsets of their boundaries.
+/// Restores the volumes of tissues that other passes have changed, by offsets of their boundaries.
 
 #include "GuardedOperations.h"
 #include "TetQuality.h"
@@ -11,13 +11,13 @@ namespace surgicalmesher
 
 struct VolumeRestoringOptions
 {
-  VolumeBalance wanted;
-  double leastShare = 0.0005;    ///< of its volume from which on a tissue is given it back
-  int rounds = 3;                ///< where repairs have cost 1.4 % on jhu189, one leaves 0.35
+  VolumeBalance wanted;          ///< the volumes to restore
+  double leastShare = 0.0005;    ///< a tissue's volume is restored if its error is at least this share of it
+  int rounds = 3;                ///< where repairs have cost 1.4 % on jhu189, one round leaves 0.35 %
   double goodAngle = usualAngle; ///< degrees; the worst angle at a vertex may fall to this
 };
 
-/// For the whole mesh in one block, as volumes are.
+/// Offsets the tissues' boundaries, round by round. The block must be the whole mesh, as the volumes refer to it.
 void restoreVolumesOfBlock(GuardedOperations& operations, const VolumeRestoringOptions& options);
 
 } // namespace surgicalmesher

@@ -13,7 +13,7 @@ namespace
 
 struct FaceArea
 {
-  double ratio; ///< to its target
+  double ratio; ///< area over target area
   std::int32_t face;
 };
 
@@ -30,7 +30,7 @@ std::vector<FaceArea> areasWhere(const SimplexOperators& mesh, const TargetArea&
   return faces;
 }
 
-/// With the neighbour that goes best with it, among those that are not too large for it.
+/// Fuses face a with the neighbour of the highest merit among those with which its area stays below `largest`.
 bool fuseFace(SimplexOperators& mesh, std::int32_t a, double largest)
 {
   std::vector<std::pair<double, std::int32_t>> choices;

@@ -15,14 +15,16 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double widthOfRigidity = 0.375; ///< of the neighbourhood that resists bending, of the rigidity
-constexpr double lengthOfRigidity = 0.3;  ///< of the edges that a balloon grows with, of the rigidity
-constexpr double widthOfRadius = 0.3;     ///< most of that width, of the radius of a ball of the balloon's volume
-constexpr double pressureInTheOpen = 3;   ///< of the pressure near tissues that stop
-constexpr double resistance = 0.5;        ///< to bending, as alpha in Delingette's law of motion
-constexpr double leastFaces = 40;         ///< that a balloon has, however small
-constexpr int motionsPerRound = 3;        ///< between operators
-constexpr int lastMotions = 12;           ///< after the last operators
+constexpr double widthOfRigidity = 0.375; ///< width of the neighbourhood that resists bending, over the rigidity
+constexpr double lengthOfRigidity = 0.3;  ///< shortest edges while a balloon grows, over the rigidity
+/// Upper bound of that width, over the radius of a ball of the balloon's volume.
+constexpr double widthOfRadius = 0.3;
+constexpr double pressureInTheOpen = 3; ///< in units of the pressure near stopping tissues
+/// Weight of the resistance to bending, as alpha in Delingette's law of motion.
+constexpr double resistance = 0.5;
+constexpr double leastFaces = 40;  ///< lower bound, for small balloons as well
+constexpr int motionsPerRound = 3; ///< between uses of the operators
+constexpr int lastMotions = 12;    ///< after the last use of the operators
 
 SurfaceComplex seedSphere(const Vec3& centre, double radius, Label tissue)
 {
@@ -30,7 +32,7 @@ SurfaceComplex seedSphere(const Vec3& centre, double radius, Label tissue)
   return sphere(centre, radius, levels, tissue, 0);
 }
 
-/// Spheres of a voxel and a half, or as small as the space around the seed asks for.
+/// Returns spheres with a radius of 1.5 voxels, or less where the space around the seed requires it.
 SurfaceComplex startingSpheres(const std::vector<BalloonSeed>& seeds, const StoppingField& field)
 {
   const double voxel = field.reach() / 2;
@@ -57,7 +59,7 @@ std::vector<Label> tissuesOfPoints(const SurfaceComplex& surface)
   return tissues;
 }
 
-/// Whether a point of another tissue is within `reach` of each point.
+/// Returns for each point whether a point of another tissue is within `reach` mm.
 std::vector<char> meetsAnother(const SurfaceComplex& surface, const std::vector<Label>& tissues, double reach)
 {
   BoxGrid grid(reach);
@@ -82,13 +84,13 @@ public:
       m_Pressure(options.pressure > 0 ? options.pressure : 0.075 * field.reach()), m_None(SurfaceComplex{}, 1e-6)
   {
     for (const BalloonSeed& seed : seeds) m_Centres[seed.tissue] = seed.centre;
-    m_Motion.internalForce.continuity = Continuity::C0; // along the surface; bending has a width of its own
+    m_Motion.internalForce.continuity = Continuity::C0; // tangential only; bending has a width of its own
     m_Motion.least = 1e-3 * field.reach();
     begin(startingSpheres(seeds, field));
   }
 
-  /// Until the volume rests, or the motions run out: with L(x) or, while it grows, edges that are not shorter than the
-  /// rigidity asks for.
+  /// Iterates until the volume is at rest (returns true) or the motions run out (returns false). The target edge length
+  /// is L(x); while the balloon grows, it is not below the length that the rigidity requires.
   bool run(bool grows, const Progress& progress)
   {
     m_ShortestEdge = grows && m_Options.continuity != Continuity::C0 ? lengthOfRigidity * m_Options.rigidity : 0;
@@ -106,7 +108,7 @@ public:
     return false;
   }
 
-  /// The last motions, without operators.
+  /// Performs the last motions, without operators.
   void settle()
   {
     SimplexMotion motion(m_Motion);
@@ -136,7 +138,7 @@ private:
     m_Mesh = std::make_unique<SimplexOperators>(surface, m_None, limits);
   }
 
-  /// A_s, or less where the whole balloon has not enough of it.
+  /// Returns A_s(x), or less if the balloon would have too few faces.
   double targetArea(const Vec3& p) const
   {
     double area = std::sqrt(3.) / 2 * length(p) * length(p);
@@ -188,7 +190,8 @@ private:
     return force;
   }
 
-  /// By triangle, over three points that integrate it to second order, as imageForces() does: the volume then stays.
+  /// Returns the force by triangle, from three quadrature points of second order as in imageForces(), which preserves
+  /// the volume.
   std::vector<Vec3> balloonForces(const SurfaceComplex& dual) const
   {
     std::vector<Vec3> force(dual.triangles.size());
@@ -215,9 +218,9 @@ private:
     return way > 0 ? std::min(0.5 * way, m_Pressure * room(x, n, tissue)) : std::max(0.5 * way, -m_Pressure);
   }
 
-  /// From 1, where a ball as wide as the rigidity fits a voxel behind the membrane, to 0 where it does not: in an
-  /// opening or a recess; 1 for balloons that are smaller than that ball. More in the open, where no tissue is near
-  /// that the membrane could pass by.
+  /// Returns a factor on the pressure. It is 1 where a ball as wide as the rigidity fits a voxel behind the membrane
+  /// and drops to 0 where it does not, as in an opening or a recess; it is 1 for balloons smaller than that ball. In
+  /// the open, where no tissue is near that the membrane could pass by, it rises to pressureInTheOpen.
   double room(const Vec3& x, const Vec3& n, Label tissue) const
   {
     const double voxel = m_Field.reach() / 2, radius = 0.5 * m_Options.rigidity;
@@ -270,7 +273,7 @@ private:
   const BalloonOptions& m_Options;
   const BalloonWatch& m_Watch;
   double m_Pressure;
-  TissueBoundary m_None; ///< nothing attracts a balloon
+  TissueBoundary m_None; ///< empty: no boundary attracts a balloon
   MotionOptions m_Motion;
   std::map<Label, Vec3> m_Centres;
   std::map<Label, BalloonSize> m_Sizes;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Simplex meshes that grow from points until tissues stop them (Audette et al., section 2.3): small spheres under
-/// a balloon force along their normals.
+/// Balloons: simplex meshes that grow from seed points until tissues stop them (Audette et al., section 2.3). Each
+/// starts as a small sphere and expands under a balloon force along its normals.
 ///
-/// The law of motion is that of SimplexMotion. At a dual point with normal n, the balloon force is the pressure along n
-/// where no tissue is within two voxels ahead, more of it in the open, and half the way to what stops it otherwise, so
-/// that the membrane comes to rest at the surface of the stopping tissues, at the limit, or at the map's end. Against
-/// it stands the resistance to bending (bendingForces), at a width that does not depend on the length of edges:
-/// openings up to the rigidity are closed over, whatever the mesh. For these there is no pressure, either, where a ball
-/// as wide does not fit behind the membrane. The operators' guards keep every membrane from crossing itself or another
-/// one.
+/// The law of motion is that of SimplexMotion. The balloon force at a dual point with normal n acts along n. Where no
+/// stopping tissue is within two voxels ahead, it is the pressure, which is larger in open space; otherwise it is half
+/// the distance to the obstacle. The membrane thus comes to rest at the surface of the stopping tissues, at the limit,
+/// or at the end of the map. A resistance to bending opposes it (bendingForces); its width is independent of the edge
+/// lengths, so that the membrane does not enter openings up to `rigidity` wide, whatever the mesh. For the same reason
+/// the pressure vanishes where a ball of that diameter does not fit behind the membrane. The guards of the operators
+/// keep every membrane from crossing itself or another one.
 ///
-/// The balloon grows with edges no shorter than its rigidity asks for; at rest, its faces are brought to A_s(x) and it
-/// settles once more.
+/// While it grows, a balloon has edges no shorter than its rigidity requires; at rest, its faces are adapted to A_s(x)
+/// and it settles once more.
 
 #include "AreaAdaptation.h"
 #include "Progress.h"
@@ -31,22 +31,22 @@ struct BalloonSeed
 struct BalloonOptions
 {
   std::function<double(const Vec3&)> edgeLength; ///< L(x), mm; A_s = sqrt(3)/2 L^2
-  double areaTolerance = 0.5;                    ///< of A_s
-  double limit = 0;                              ///< mm from the seed; 0: none
+  double areaTolerance = 0.5;                    ///< relative to A_s
+  double limit = 0;                              ///< largest distance from the seed, mm; 0: none
   Continuity continuity = Continuity::C2;
-  double rigidity = 8;    ///< mm; width of the openings that are closed over
-  double pressure = 0;    ///< mm a motion; 0: 0.15 voxel
-  int mostMotions = 1300; ///< in all
+  double rigidity = 8;    ///< mm; the membrane does not enter openings up to this width
+  double pressure = 0;    ///< mm per motion; 0: 0.15 voxel
+  int mostMotions = 1300; ///< in total
 };
 
-/// What holds the faces, in numbers of them.
+/// Numbers of faces, by what holds them.
 struct BalloonHalt
 {
-  std::size_t tissue = 0;    ///< a stopping tissue, within a voxel
-  std::size_t end = 0;       ///< the map's end
-  std::size_t limit = 0;     ///< the distance from the seed
+  std::size_t tissue = 0;    ///< a stopping tissue within a voxel
+  std::size_t end = 0;       ///< the end of the map
+  std::size_t limit = 0;     ///< the limit on the distance from the seed
   std::size_t neighbour = 0; ///< another balloon
-  std::size_t rigidity = 0;  ///< nothing but its own membrane: an opening
+  std::size_t rigidity = 0;  ///< none of these: the membrane's own resistance to bending, at an opening
 
   std::size_t faces() const { return tissue + end + limit + neighbour + rigidity; }
 };
@@ -54,10 +54,10 @@ struct BalloonHalt
 struct BalloonSize
 {
   double volume = 0, area = 0; ///< mm^3, mm^2
-  double radius() const;       ///< of a ball of that volume, mm
+  double radius() const;       ///< of the ball of that volume, mm
 };
 
-/// By tissue.
+/// Returns volume and area of the balloons by tissue.
 std::map<Label, BalloonSize> balloonSizes(const SurfaceComplex& surface);
 
 struct BalloonStep
@@ -65,24 +65,24 @@ struct BalloonStep
   int motion = 0;
   std::size_t faces = 0, vertices = 0;
   double volume = 0, area = 0; ///< mm^3, mm^2
-  double meanMove = 0;         ///< mm, of a dual point in the last motion
-  double withinTolerance = 0;  ///< share of the faces
-  AreaCounts operations;       ///< since the step before
+  double meanMove = 0;         ///< mm, over the dual points, in the last motion
+  double withinTolerance = 0;  ///< fraction of the faces whose area is within the tolerance
+  AreaCounts operations;       ///< since the previous step
 };
 
 struct BalloonResult
 {
-  SurfaceComplex surface;             ///< labels [tissue, 0]; see withSharedInterfaces where balloons meet
-  std::vector<BalloonStep> evolution; ///< the last one is the result
+  SurfaceComplex surface;             ///< labels [tissue, 0]; where balloons meet, see withSharedInterfaces
+  std::vector<BalloonStep> evolution; ///< the last step describes the result
   std::map<Label, BalloonHalt> halts; ///< by tissue
-  bool isAtRest = false;              ///< or else the motions ran out
+  bool isAtRest = false;              ///< false if mostMotions was reached first
 };
 
-/// Called after every motion, with the membranes as they are.
+/// Called after every motion with the current membranes.
 using BalloonWatch = std::function<void(int motion, const SimplexOperators& membranes)>;
 
-/// Everything in the grid frame of the field. Throws InputError if a seed is in a stopping tissue or outside the map,
-/// or if two seeds are within a voxel of each other; UsageError for options without meaning.
+/// Grows one balloon from each seed. All coordinates are in the grid frame of `field`. Throws InputError if a seed is
+/// in a stopping tissue or outside the map, or if two seeds are within a voxel of each other.
 BalloonResult growBalloons(const std::vector<BalloonSeed>& seeds, const StoppingField& field,
                            const BalloonOptions& options, const Progress& progress = {},
                            const BalloonWatch& watch = {});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Items in space by the cells of a regular grid that their boxes touch: who is near whom.
+/// Spatial hash: items are stored in the cells of a regular grid that their bounding boxes touch, for proximity
+/// queries.
 
 #include "Vec3.h"
 
@@ -44,7 +45,7 @@ public:
     forCells(box, [&](std::uint64_t key) { m_Cells[key].push_back(item); });
   }
 
-  /// `box` as it was inserted with.
+  /// Removes an item; `box` must be the one it was inserted with.
   void remove(std::int32_t item, const Box& box)
   {
     forCells(box,
@@ -55,8 +56,8 @@ public:
              });
   }
 
-  /// Hands over the items of all cells that the box touches, one after the other, until `visit` returns false. An item
-  /// may come several times. The order depends on nothing but the insertions and removals before.
+  /// Calls visit(item) for the items of all cells that the box touches, until it returns false. An item may come
+  /// several times. The order depends only on the preceding insertions and removals.
   template <class Visit>
   void visit(const Box& box, const Visit& visit) const
   {
@@ -88,7 +89,8 @@ private:
 
   static constexpr std::uint64_t mask = (1u << 21) - 1;
   double m_Size;
-  std::unordered_map<std::uint64_t, std::vector<std::int32_t>> m_Cells; // only looked up, never walked through
+  // Only looked up, never iterated over: its order is unspecified.
+  std::unordered_map<std::uint64_t, std::vector<std::int32_t>> m_Cells;
 };
 
 } // namespace surgicalmesher

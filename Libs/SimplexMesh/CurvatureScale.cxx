@@ -28,12 +28,12 @@ std::vector<std::vector<std::int32_t>> neighboursOf(const SurfaceComplex& surfac
   return neighbours;
 }
 
-/// The largest change of normal per mm at each point; points on curves, where there are several normals, have none.
+/// Returns the largest change of the normal per mm at each point; 0 on curves, where the normal is not unique.
 std::vector<double> surfaceCurvatures(const SurfaceComplex& surface,
                                       const std::vector<std::vector<std::int32_t>>& neighbours,
                                       const std::vector<bool>& isOnCurve)
 {
-  constexpr int sweeps = 3; // of smoothing: steps of voxels are not curvature
+  constexpr int sweeps = 3; // sweeps of smoothing, so that the steps of voxels do not count as curvature
   std::vector<Vec3> normals = pointNormals(surface);
   for (int sweep = 0; sweep < sweeps; ++sweep)
   {

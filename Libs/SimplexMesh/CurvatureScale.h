@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Edge lengths by which triangles stay within a distance of a curved surface.
+/// Edge lengths for which triangles stay within a given distance of a curved surface.
 
 #include "SurfaceCurves.h"
 
 namespace surgicalmesher
 {
 
-/// At each point, min(edgeLength, sqrt(6 chordError / k)) with k the largest curvature there, of the surface or of a
-/// curve through the point, measured over a few edges: equilateral triangles of that length leave no more than the
-/// chord error between their middle and the surface. Not below the surface's own edges, and rising by no more than half
-/// a mm per mm along the surface.
+/// Returns, at each point, min(edgeLength, sqrt(6 chordError / k)) in mm, where k is the largest curvature at the
+/// point, of the surface or of a curve through the point, measured over a few edges. The centre of an equilateral
+/// triangle of that edge length is no farther than `chordError` from the surface. Lengths derived from curvature are
+/// not below the surface's own edges, and lengths grow by at most half a mm per mm along the surface.
 std::vector<double> lengthsByCurvature(const SurfaceComplex& surface, const std::vector<DualEdge>& sharp,
                                        const std::function<double(const Vec3&)>& edgeLength, double chordError);
 

@@ -10,7 +10,7 @@ namespace surgicalmesher
 namespace
 {
 
-// Rows pass points and edges of the surface by this much of a voxel: no crossing counts twice.
+// Offset of the rows, in voxels, so that no row meets a point or edge of the surface and no crossing counts twice.
 constexpr double offRowJ = 1.1e-7, offRowK = 1.7e-7;
 
 struct Crossing
@@ -19,7 +19,8 @@ struct Crossing
   double x; ///< mm
 };
 
-/// Twice the signed area of row and edge ab, seen along the rows; the same to the last bit from both its triangles.
+/// Returns twice the signed area of the row and edge ab, seen along the rows; bitwise identical for both triangles at
+/// ab.
 double side(const Vec3& row, const Vec3& a, const Vec3& b)
 {
   const bool swapped = b.y != a.y ? b.y < a.y : b.z < a.z;

@@ -8,8 +8,8 @@
 namespace surgicalmesher
 {
 
-/// The voxels, ascending, whose centres are inside the closed surface of `tissue`, by the parity of crossings along the
-/// grid's rows. Points in the grid frame.
+/// Returns the indices, ascending, of the voxels whose centres are inside the closed surface of `tissue`, found by the
+/// parity of crossings along the rows of the grid. Surface points are in the grid frame.
 std::vector<std::size_t> enclosedVoxels(const SurfaceComplex& surface, Label tissue, const Grid& grid);
 
 } // namespace surgicalmesher

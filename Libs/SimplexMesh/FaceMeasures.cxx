@@ -11,7 +11,8 @@ namespace surgicalmesher
 namespace
 {
 
-/// Seen as one face, inertia of its vertices across over along its longer axis.
+/// Returns the ratio of the standard deviations of the vertices along the shorter and the longer axis of the face they
+/// form.
 double roundnessOf(const std::vector<Vec3>& vertices)
 {
   Vec3 mean;
@@ -23,7 +24,7 @@ double roundnessOf(const std::vector<Vec3>& vertices)
     xx += d.x * d.x, yy += d.y * d.y, zz += d.z * d.z;
     xy += d.x * d.y, yz += d.y * d.z, zx += d.z * d.x;
   }
-  // The third eigenvalue is near zero: two are left of trace and second invariant.
+  // The third eigenvalue is near zero; the other two follow from the trace and the second invariant.
   const double half = 0.5 * (xx + yy + zz);
   const double second = xx * yy - xy * xy + yy * zz - yz * yz + zz * xx - zx * zx;
   const double spread = std::sqrt(std::max(0., half * half - second));

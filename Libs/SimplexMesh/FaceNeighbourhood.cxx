@@ -73,7 +73,7 @@ bool SimplexOperators::isOnCrease(std::int32_t a) const
   return std::any_of(neighbours.begin(), neighbours.end(), [&](std::int32_t b) { return isCrease(a, b); });
 }
 
-/// The faces around face a, counter-clockwise; none unless it lies inside one sheet.
+/// Returns the faces around face a, counter-clockwise; empty unless a lies within one interface.
 std::vector<std::int32_t> SimplexOperators::sheetRing(std::int32_t a) const
 {
   if (junctionOrder(a) != 0) return {};

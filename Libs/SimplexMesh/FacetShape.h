@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Corners, box and quality of single triangles, as the parts of SimplexOperators share them.
+/// Corners, box and quality of single triangles, shared by the parts of SimplexOperators.
 
 #include "BoxGrid.h"
 #include "TriangleCrossing.h"
@@ -30,7 +30,7 @@ inline Box boxOf(const CornerTriangle& t)
   return box;
 }
 
-/// 4 sqrt(3) area / sum of squared edges: 1 equilateral.
+/// Returns 4 sqrt(3) area / sum of squared edges: 1 for an equilateral triangle, 0 for a degenerate one.
 inline double qualityOf(const CornerTriangle& t)
 {
   const auto& [a, b, c] = t.corners;

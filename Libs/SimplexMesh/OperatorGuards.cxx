@@ -39,7 +39,7 @@ SimplexOperators::Fit SimplexOperators::fitOf(const Triangle& t)
   double farthest = 0;
   for (std::int32_t p : t.corners) farthest = std::max(farthest, distanceOfPoint(p, t.labels));
   for (int k = 0; m_Limits.isBoundStrict && k < 3; ++k)
-    if (t.corners[k] < t.corners[(k + 1) % 3]) // once for both triangles of a sheet
+    if (t.corners[k] < t.corners[(k + 1) % 3]) // once for both triangles of an interface
       farthest = std::max(farthest, distanceAt(0.5 * (corners[k] + corners[(k + 1) % 3]), t.labels));
   Fit fit;
   const auto nearest = m_Boundary.nearest(centroid, t.labels);

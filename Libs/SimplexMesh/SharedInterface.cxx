@@ -26,7 +26,7 @@ TissueMap enclosedMap(const SurfaceComplex& surfaces, const Grid& grid)
   return map;
 }
 
-/// Calls visit(index, mm) for the voxels within `reach` mm of a voxel.
+/// Calls visit(index, distance in mm) for the voxels within `reach` mm of a voxel.
 template <class Visit>
 void visitAround(const Grid& grid, std::size_t voxel, double reach, const Visit& visit)
 {
@@ -45,7 +45,7 @@ void visitAround(const Grid& grid, std::size_t voxel, double reach, const Visit&
         if (const double way = norm(grid.position(i, j, k) - centre); way <= reach) visit(grid.index(i, j, k), way);
 }
 
-/// Free voxels within `gap` mm of two tissues become the nearer one's, the lower label's where they are as near.
+/// Assigns each free voxel within `gap` mm of two tissues to the nearer one; ties go to the lower label.
 void closeGaps(TissueMap& map, const std::vector<bool>& isFree, double gap)
 {
   struct Near

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Closed surfaces that lie against each other, made one complex.
+/// Merges closed surfaces that lie against each other into one complex.
 
 #include "Progress.h"
 #include "SizingFunction.h"
@@ -10,10 +10,10 @@
 namespace surgicalmesher
 {
 
-/// The surfaces in `apart`, each of one tissue with 0 in front, as one complex: where two of them are within `gap` mm
-/// of each other there is one interface, midway. Through the voxels that they enclose and their smooth boundary,
-/// remeshed at L(x): points move by up to half a voxel. `isFree`, by voxel, says what the gap may consist of. All in
-/// the frame of `grid`.
+/// Returns the surfaces in `apart`, each with labels [tissue, 0], as one complex: where two of them are within `gap` mm
+/// of each other, they share one interface midway. The surfaces are voxelized, the gaps closed, and the smoothed
+/// boundary of the voxels is remeshed at L(x), so points move by up to half a voxel. Only voxels for which `isFree` is
+/// true may be filled. All coordinates are in the frame of `grid`.
 SurfaceComplex withSharedInterfaces(const SurfaceComplex& apart, const Grid& grid, const std::vector<bool>& isFree,
                                     double gap, const SizingFunction& edgeLength, const Progress& progress = {});
 

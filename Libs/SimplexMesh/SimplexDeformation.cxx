@@ -10,13 +10,13 @@ namespace surgicalmesher
 namespace
 {
 
-/// A simplex edge by the two faces beside it, the shortest first.
+/// A simplex edge, given by the two faces beside it; ordered so that a priority queue yields the shortest first.
 struct ShortEdge
 {
   double ratio;
   std::int32_t a, b;
   bool operator<(const ShortEdge& e) const
-  { // std::priority_queue hands out the greatest
+  { // std::priority_queue yields the greatest
     return ratio != e.ratio ? ratio > e.ratio : a != e.a ? a > e.a : b > e.b;
   }
 };
@@ -32,8 +32,8 @@ void addShortEdges(const SimplexOperators& mesh, std::int32_t a, double threshol
   }
 }
 
-/// Fuses the faces beside the edge, or beside one of the four edges at its ends: the pair that goes together best.
-/// Returns the face that there is now, or -1.
+/// Fuses the pair of faces with the highest merit: the two beside the edge, or the two beside one of the four edges at
+/// its ends. Returns the fused face, or -1.
 std::int32_t fuseBest(SimplexOperators& mesh, std::int32_t a, std::int32_t b)
 {
   struct Choice
@@ -51,7 +51,7 @@ std::int32_t fuseBest(SimplexOperators& mesh, std::int32_t a, std::int32_t b)
   return -1;
 }
 
-/// T1, the worst edge first.
+/// Applies T1, the relatively shortest edge first.
 int fuseShortEdges(SimplexOperators& mesh, const AdaptationOptions& options)
 {
   const double threshold = options.shortEdge;
@@ -73,7 +73,7 @@ int fuseShortEdges(SimplexOperators& mesh, const AdaptationOptions& options)
   return count;
 }
 
-/// T2: faces whose centre leaves the boundary, whose vertices are too many, or too far from the next face's.
+/// Applies T2 to faces whose centre is too far from the boundary, that have too many vertices or too long an edge.
 int cutFaces(SimplexOperators& mesh, const AdaptationOptions& options)
 {
   struct Need
@@ -109,9 +109,10 @@ void measure(const SimplexOperators& mesh, SimplexStep& step)
   }
 }
 
-/// Dual points can be rough and their triangles' centroids smooth, such as where points go up, down and nowhere in
-/// turn. No force on vertices sees that. This is the way to the mean of the vertices, less what of it the neighbourhood
-/// has in common, which is curvature. Points where tissues meet have none.
+/// Returns displacements against roughness of the dual points that the centroids of their triangles do not show, such
+/// as points alternately above, below and on the surface, and that no force on vertices detects. Each is the
+/// displacement to the mean of the vertices minus what the neighbourhood has in common, which is curvature. Zero where
+/// tissues meet.
 std::vector<Vec3> hiddenRoughness(const SurfaceComplex& dual)
 {
   const auto centroids = [&](const std::vector<Vec3>& x)
@@ -135,7 +136,7 @@ std::vector<Vec3> hiddenRoughness(const SurfaceComplex& dual)
   return away;
 }
 
-/// At each point of the surface.
+/// Returns the neighbours of each point, each once per triangle.
 std::vector<std::vector<std::int32_t>> pointNeighbours(const SurfaceComplex& surface)
 {
   std::vector<std::vector<std::int32_t>> neighbours(surface.points.size());
@@ -248,7 +249,7 @@ std::vector<SimplexStep> adaptSimplexMesh(SimplexOperators& mesh, const TissueBo
   measure(mesh, steps[0]);
   const auto atRest = [&]
   {
-    constexpr std::size_t span = 5; // steps to look back: single ones may balance by chance
+    constexpr std::size_t span = 5; // steps to look back: single steps may balance by chance
     if (steps.size() <= span + 1) return false;
     const double now = double(steps.back().faces), then = double(steps[steps.size() - 1 - span].faces);
     return std::abs(now - then) <= options.rest * now;

@@ -10,18 +10,18 @@ namespace surgicalmesher
 namespace
 {
 
-/// What C2 takes the mean of, per vertex and side.
+/// The quantities that C2 averages over the neighbourhood, per vertex and side.
 struct Bend
 {
   double curvature = 0;
-  double cosine = 1; ///< of the simplex angle: below 0 on the branch beyond 90 degrees
+  double cosine = 1; ///< of the simplex angle; negative on the branch beyond 90 degrees
 };
 
 using Bends = std::vector<std::array<Bend, 2>>;
 
 bool hasNeighbours(const SimplexMesh& mesh, std::size_t v, int side) { return mesh.neighbours[v][side][0] >= 0; }
 
-/// Counter-clockwise as seen from outside the tissue of that side.
+/// Returns the neighbours counter-clockwise as seen from outside the tissue of that side.
 SimplexNeighbours neighboursOf(const SimplexMesh& mesh, std::size_t v, int side)
 {
   const auto& n = mesh.neighbours[v][side];
@@ -51,7 +51,7 @@ Bends bendsOf(const SimplexMesh& mesh)
   return bends;
 }
 
-/// One ring more: each vertex takes the mean of itself and its neighbours.
+/// Extends the neighbourhood by one ring: averages each vertex with its neighbours.
 Bends averaged(const SimplexMesh& mesh, const Bends& bends)
 {
   Bends means = bends;
@@ -86,7 +86,8 @@ Vec3 referencePosition(const SimplexMesh& mesh, std::size_t v, int side, const B
   return simplexPosition(neighbours, metric, angle);
 }
 
-/// Diffusion along the edges of a surface by so much that a point's value ends up over a width, whatever the edges.
+/// Diffusion along the edges of a surface that spreads the value of a point over a given width, whatever the edge
+/// lengths.
 class Diffusion
 {
 public:
@@ -95,7 +96,7 @@ public:
     std::vector<std::array<std::int32_t, 2>> pairs;
     for (const auto& [a, b, c] : surface.triangles)
       for (const std::array<std::int32_t, 2>& pair : { std::array{ a, b }, std::array{ b, c }, std::array{ c, a } })
-        pairs.push_back(pair); // the other way comes with the other triangle
+        pairs.push_back(pair); // the opposite direction comes with the other triangle
     std::sort(pairs.begin(), pairs.end());
     for (const auto& [a, b] : pairs)
     {
@@ -126,7 +127,8 @@ public:
   }
 
 private:
-  /// The mean of neighbours at distance L is L^2/4 of the Laplacian; diffusion for a time t spreads to sqrt(2 t).
+  /// The mean over neighbours at distance L minus the centre is L^2/4 times the Laplacian; diffusion over a time t
+  /// spreads to sqrt(2 t).
   void setRates(const SurfaceComplex& surface, const std::vector<double>& widths)
   {
     constexpr double fastest = 0.7;

@@ -50,8 +50,8 @@ double simplexAngle(double radius, double offset, double height)
   return std::atan2(2 * height * radius, radius * radius - offset * offset - height * height);
 }
 
-// Delingette's L(r, d, phi) without its tangent, which has no value at 90 degrees; the second form avoids a difference
-// of nearly equal numbers beyond.
+// Delingette's L(r, d, phi) without its tangent, which is undefined at 90 degrees. Beyond 90 degrees, the second form
+// avoids cancellation.
 double simplexHeight(double radius, double offset, double angle)
 {
   const double r2 = radius * radius, d2 = offset * offset, s = std::sin(angle), c = std::cos(angle);

@@ -40,7 +40,7 @@ bool touches(const std::array<Label, 2>& labels, Label tissue) { return labels[0
 
 int sideOf(const std::array<Label, 2>& labels, Label tissue) { return labels[0] == tissue ? 0 : 1; }
 
-/// Joins, for each tissue, the two triangles that its surface has at one edge.
+/// Makes the two triangles that each tissue's surface has at one edge neighbours of each other.
 void joinAtEdge(const SurfaceComplex& surface, const TriangleEdge* begin, const TriangleEdge* end, Extent extent,
                 SimplexMesh& mesh)
 {
@@ -60,10 +60,11 @@ void joinAtEdge(const SurfaceComplex& surface, const TriangleEdge* begin, const 
     }
 }
 
-/// Points as unknowns, centroids of triangles as observations: the normal equations, with a little weight on the start.
+/// Normal equations of the fit: dual points are the unknowns, vertices the observed centroids; a small weight on the
+/// start regularizes.
 struct CentroidFit
 {
-  static constexpr double stay = 0.02; ///< weight of the start; it decides where the centroids leave a choice
+  static constexpr double stay = 0.02; ///< weight of the start, which decides where the centroids leave a choice
   const SimplexMesh& mesh;
   std::vector<double> count; ///< vertices around each point
 
@@ -98,7 +99,7 @@ double product(const std::vector<Vec3>& a, const std::vector<Vec3>& b)
   return sum;
 }
 
-/// Conjugate gradients from `x` towards the least squares of centroid minus vertex.
+/// Minimizes the squared distances between centroids and vertices by conjugate gradients, starting from `x`.
 void fitCentroids(const CentroidFit& fit, std::vector<Vec3>& x)
 {
   constexpr int iterations = 60;
@@ -122,7 +123,7 @@ void fitCentroids(const CentroidFit& fit, std::vector<Vec3>& x)
   }
 }
 
-/// Walks around face `mesh.faces[start][corner]` on the surface of one side of `start`.
+/// Returns the vertices around face `mesh.faces[start][corner]` on the surface of the tissue on one side of `start`.
 std::vector<std::int32_t> walkAround(const SimplexMesh& mesh, std::int32_t start, int side, int corner)
 {
   const std::int32_t face = mesh.faces[start][corner];

@@ -12,7 +12,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double kCellSize = 1.5; ///< in edges of the surface to begin with
+constexpr double kCellSize = 1.5; ///< relative to the initial edge length
 
 double cellSize(const SurfaceComplex& surface)
 {
@@ -31,7 +31,7 @@ SimplexOperators::SimplexOperators(const SurfaceComplex& surface, const TissueBo
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
   {
     Triangle triangle{ surface.triangles[t], surface.labels[t] };
-    if (triangle.labels[0] < triangle.labels[1]) // one sheet, one orientation
+    if (triangle.labels[0] < triangle.labels[1]) // all triangles of an interface have the same orientation
     {
       std::swap(triangle.labels[0], triangle.labels[1]);
       std::swap(triangle.corners[1], triangle.corners[2]);
@@ -83,7 +83,7 @@ std::int32_t SimplexOperators::insert(const Triangle& triangle)
     m_Free.pop_back();
   }
   m_Triangles[t] = triangle;
-  m_Fits[t].distance = -1; // found when it is asked for
+  m_Fits[t].distance = -1; // computed on demand
   for (std::int32_t p : triangle.corners) m_At[p].insert(std::lower_bound(m_At[p].begin(), m_At[p].end(), t), t);
   m_Grid.insert(t, boxOf(cornersOf(triangle)));
   return t;
@@ -177,8 +177,8 @@ bool SimplexOperators::cut(std::int32_t a)
   return other >= 0 && cutEdge(a, other);
 }
 
-/// Cuts a face inside a sheet into two of nearly as many vertices, across the way along which its neighbours lie
-/// closest.
+/// Cuts a face within an interface into two with nearly equal numbers of vertices, across the direction in which its
+/// neighbours lie closest.
 bool SimplexOperators::cutSheet(std::int32_t a)
 {
   const std::vector<std::int32_t> ring = sheetRing(a);

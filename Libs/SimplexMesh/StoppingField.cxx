@@ -12,7 +12,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Each value becomes the weighted mean of itself and the two beside it along the axis, 1 : 4 : 1, the ends' repeated.
+/// Smooths along an axis with weights 1 : 4 : 1; the values at the ends are repeated.
 void smoothAlong(int axis, const Grid& grid, std::vector<float>& values)
 {
   const std::array<std::size_t, 3> stride{ 1, std::size_t(grid.size[0]), std::size_t(grid.size[0]) * grid.size[1] };
@@ -36,8 +36,7 @@ void smoothAlong(int axis, const Grid& grid, std::vector<float>& values)
               });
 }
 
-/// Along one axis: each squared distance becomes the least, over the voxels within `most` mm, of theirs and the square
-/// of the way there.
+/// Performs one axis of a squared Euclidean distance transform that is limited to `most` mm.
 void spreadAlong(int axis, const Grid& grid, double most, std::vector<float>& squared)
 {
   const std::array<std::size_t, 3> stride{ 1, std::size_t(grid.size[0]), std::size_t(grid.size[0]) * grid.size[1] };
@@ -118,7 +117,7 @@ bool StoppingField::stops(const Vec3& p) const
 
 double StoppingField::wayToTissue(const Vec3& p, const Vec3& n) const
 {
-  constexpr int samples = 8; // of a quarter of a voxel
+  constexpr int samples = 8; // in steps of a quarter of a voxel
   const double step = m_Reach / samples;
   double before = share(p) - 0.5;
   const double sign = before < 0 ? 1 : -1;

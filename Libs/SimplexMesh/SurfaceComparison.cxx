@@ -28,7 +28,7 @@ double angleAt(const Vec3& p, const Vec3& q, const Vec3& r)
 
 SurfaceDistance surfaceDistance(const SurfaceComplex& from, const SurfaceComplex& to)
 {
-  constexpr int samples = 7; // of a triangle
+  constexpr int samples = 7; // per triangle
   const TissueBoundary boundary(to, diagonal(from) + diagonal(to));
   std::vector<SurfaceDistance> ofTriangles(from.triangles.size());
   parallelFor(from.triangles.size(),

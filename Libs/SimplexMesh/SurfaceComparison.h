@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Two surfaces of the same tissues: how far they lie apart, and how good their triangles are.
+/// Comparison of two surfaces of the same tissues: their distance, and the quality of their triangles.
 
 #include "MeshQuality.h"
 
@@ -10,18 +10,18 @@ namespace surgicalmesher
 struct SurfaceDistance
 {
   double mean = 0, maximum = 0; ///< mm
-  Vec3 where;                   ///< of the largest
+  Vec3 where;                   ///< position of the maximum
 };
 
-/// From the corners, the middles of edges and the centroids of `from`, weighted alike, to the nearest point of `to`
-/// between the same labels.
+/// Returns the distances from `from` to the nearest points of `to` between the same labels, sampled at the corners,
+/// edge midpoints and centroids of the triangles, all with equal weight.
 SurfaceDistance surfaceDistance(const SurfaceComplex& from, const SurfaceComplex& to);
 
 struct TriangleQuality
 {
   Distribution smallestAngle; ///< degrees, of each triangle
-  Distribution edgeLength;    ///< mm, each triangle's three
-  double edgeVariation = 0;   ///< standard deviation of the edge lengths over their mean
+  Distribution edgeLength;    ///< mm, three per triangle
+  double edgeVariation = 0;   ///< coefficient of variation of the edge lengths
 };
 
 TriangleQuality triangleQuality(const SurfaceComplex& surface);

@@ -18,7 +18,7 @@ struct SharedEdge
   std::vector<std::int32_t> triangles;
 };
 
-/// All edges with their triangles, ascending.
+/// Returns all edges with their triangles, ascending.
 std::vector<SharedEdge> sharedEdges(const SurfaceComplex& surface)
 {
   std::vector<std::pair<DualEdge, std::int32_t>> sides;
@@ -38,9 +38,9 @@ std::vector<SharedEdge> sharedEdges(const SurfaceComplex& surface)
   return edges;
 }
 
-constexpr double smooth = 0.95; ///< mean of the unit normals of a side that is smooth, at least
+constexpr double smooth = 0.95; ///< least length of the mean of the unit normals on a smooth side
 
-/// Means of normals over the triangles around an edge.
+/// Mean normals of the triangles on either side of an edge.
 class SideNormals
 {
 public:
@@ -61,13 +61,13 @@ public:
     }
   }
 
-  /// Cosine between the two triangles of the edge.
+  /// Returns the cosine between the normals of the two triangles at the edge.
   double cosine(const SharedEdge& edge) const
   {
     return cosine(m_Normals[edge.triangles[0]], m_Normals[edge.triangles[1]]);
   }
 
-  /// The same between the means of what lies within the radius on either side; 1 where a side is rough.
+  /// Returns the cosine between the mean normals within `radius` on either side; 1 if a side is rough.
   double cosine(const SharedEdge& edge, double radius)
   {
     const Vec3 middle = 0.5 * (m_Surface.points[edge.ends[0]] + m_Surface.points[edge.ends[1]]);
@@ -107,7 +107,7 @@ private:
 
   const SurfaceComplex& m_Surface;
   std::vector<Vec3> m_Normals, m_Centroids;
-  std::vector<std::array<std::int32_t, 3>> m_Beside; ///< across edges of two triangles; -1: none
+  std::vector<std::array<std::int32_t, 3>> m_Beside; ///< across edges of exactly two triangles; -1: none
   std::vector<std::int32_t> m_Seen;
   std::int32_t m_Search = 0;
 };
@@ -117,12 +117,13 @@ double lengthOf(const SurfaceComplex& surface, const DualEdge& edge)
   return norm(surface.points[edge[1]] - surface.points[edge[0]]);
 }
 
-/// Where a piece ends, for up to two edge lengths: those of `candidates` that go on in its direction.
+/// Returns `edges` with extensions: at each end of a piece, up to two edge lengths of `candidates` that continue it
+/// straight.
 std::vector<DualEdge> withExtensions(const SurfaceComplex& surface, const std::vector<DualEdge>& edges,
                                      const std::vector<DualEdge>& candidates,
                                      const std::function<double(const Vec3&)>& edgeLength)
 {
-  constexpr double straight = 0.7; // cosine of the turn
+  constexpr double straight = 0.7; // cosine of the turn, at least
   std::vector<std::vector<std::int32_t>> next(surface.points.size());
   for (const auto& [a, b] : candidates)
   {
@@ -160,7 +161,7 @@ std::vector<DualEdge> withExtensions(const SurfaceComplex& surface, const std::v
   return { all.begin(), all.end() };
 }
 
-/// Without connected pieces that are shorter than the edge length there.
+/// Returns the edges without connected pieces that are shorter than twice the edge length there.
 std::vector<DualEdge> longPieces(const SurfaceComplex& surface, const std::vector<DualEdge>& edges,
                                  const std::function<double(const Vec3&)>& edgeLength)
 {

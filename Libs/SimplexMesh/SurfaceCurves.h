@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The curves of a surface complex: where three or more sheets meet, and sharp edges within a sheet.
+/// The curves of a surface complex: edges where three or more interfaces meet, and sharp edges within an interface.
 
 #include "SimplexOperators.h"
 
@@ -9,10 +9,11 @@
 namespace surgicalmesher
 {
 
-/// Edges of two triangles whose normals are more than `angle` degrees apart, and stay so in the mean over all that lies
-/// within L(x) on either side, both of them smooth: what is sharp at the scale of the edges to come, such as a cube's
-/// edges, and not the steps of voxels. With what goes on from their ends, as before a corner; pieces shorter than twice
-/// L are left out. Ascending.
+/// Returns the sharp edges of the surface, ascending: edges between two triangles whose normals differ by more than
+/// `angle` degrees, both directly and in the mean over all triangles within L(x) on either side, where both sides are
+/// smooth. This selects edges that are sharp at the scale of the target length, such as those of a cube, and not the
+/// steps of voxels. Edges that continue the curves beyond their ends, as before a corner, are included; pieces shorter
+/// than 2 L are omitted.
 std::vector<DualEdge> sharpEdges(const SurfaceComplex& surface, double angle,
                                  const std::function<double(const Vec3&)>& edgeLength);
 
@@ -21,17 +22,18 @@ class SurfaceCurves
 public:
   SurfaceCurves(const SurfaceComplex& surface, const std::vector<DualEdge>& sharp);
 
-  /// The point nearest to p on the curves between exactly these labels, ascending; none within reach, no answer.
+  /// Returns the point nearest to p on the curves between exactly these labels (ascending), or nothing if none is
+  /// within `reach` mm.
   std::optional<Vec3> nearest(const Vec3& p, const std::vector<Label>& labels, double reach) const;
 
-  /// By point, the curvature of the curve there, 1/mm; negative off curves and where several meet.
+  /// Returns the curvature of the curve at each point, 1/mm; negative off curves, at their ends and where several meet.
   std::vector<double> curvatures() const;
 
 private:
   struct Segment
   {
     DualEdge ends;
-    std::vector<Label> labels; ///< of the triangles there, ascending
+    std::vector<Label> labels; ///< of the triangles at the segment, ascending
   };
 
   std::vector<Vec3> m_Points;
@@ -39,7 +41,7 @@ private:
   BoxGrid m_Grid;
 };
 
-/// Labels on either side of the triangles, each once, ascending.
+/// Returns the labels on either side of the triangles, each once, ascending.
 std::vector<Label> labelsOf(const std::vector<std::array<Label, 2>>& sides);
 
 } // namespace surgicalmesher

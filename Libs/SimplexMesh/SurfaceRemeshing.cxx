@@ -14,14 +14,15 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double shortEdge = 0.8, longEdge = 4. / 3; ///< of L; between them edges stay (Botsch and Kobbelt 2004)
+/// Relative to L; edges between these bounds stay (Botsch and Kobbelt 2004).
+constexpr double shortEdge = 0.8, longEdge = 4. / 3;
 constexpr int roundsOfLevel = 2, lastRounds = 10;
-constexpr int smoothingSteps = 3;      ///< a round
-constexpr int finishingRounds = 6;     ///< for the worst triangles
-constexpr int balancingRounds = 30;    ///< for the volumes
-constexpr double longestBalance = 0.1; ///< of L, of a point in a round
-constexpr double wantedQuality = 0.62; ///< of a triangle
-constexpr double poorQuality = 0.56;   ///< at least that is no angle under 20 degrees
+constexpr int smoothingSteps = 3;      ///< per round
+constexpr int finishingRounds = 6;     ///< improving the worst triangles
+constexpr int balancingRounds = 30;    ///< restoring the volumes
+constexpr double longestBalance = 0.1; ///< bound on the displacement of a point per round, relative to L
+constexpr double wantedQuality = 0.62; ///< triangles below this quality are improved at the end
+constexpr double poorQuality = 0.56;   ///< triangles of at least this quality have no angle below 20 degrees
 
 double meanEdge(const SurfaceComplex& surface)
 {
@@ -34,7 +35,7 @@ double meanEdge(const SurfaceComplex& surface)
 
 struct Edge
 {
-  double ratio; ///< of its length to the target
+  double ratio; ///< length over target length
   std::int32_t a, b;
 };
 
@@ -49,7 +50,7 @@ public:
     begin(original, sharp);
   }
 
-  /// Edges towards the least of L and `level`.
+  /// Performs one round with the smaller of L and `level` as target edge length.
   void round(double level)
   {
     m_Level = level;
@@ -136,7 +137,7 @@ private:
     }
   }
 
-  /// Whether no edge of b's would become a long one at a's place or half the way there.
+  /// Whether every edge of b would stay below the split threshold if b moved to a.
   bool staysShort(std::int32_t a, std::int32_t b) const
   {
     const Vec3& p = m_Mesh->points()[a];
@@ -156,8 +157,8 @@ private:
     }
   }
 
-  /// One step of all points: along their sheet or curve to the middle of what is around them, weighted so that edges
-  /// follow L, and across to the fit of the triangles to the original, by which its volume stays.
+  /// Moves every point once: along its interface or curve towards the mean of its surroundings, weighted so that edges
+  /// follow L, and across the interface towards the fit of the triangles to the original, which preserves its volume.
   void smooth()
   {
     std::vector<std::int32_t> ids;
@@ -212,8 +213,8 @@ private:
 
   // ---- volumes ----
 
-  /// Gives every tissue the volume back that coarse triangles take from what is convex. Points that a guard has held
-  /// back move less in the next round, and the others more.
+  /// Restores the volumes of the tissues, since coarse triangles cut off what is convex. Points that a guard has held
+  /// back are less mobile in the next round, so that the others move more.
   void balanceVolumes()
   {
     std::vector<std::int32_t> ids;
@@ -240,13 +241,13 @@ private:
 
   bool isBalanced(const std::map<Label, double>& lacking) const
   {
-    constexpr double enough = 1e-4; // of its volume
+    constexpr double enough = 1e-4; // relative to the tissue's volume
     return std::all_of(lacking.begin(), lacking.end(),
                        [&](const auto& tissue)
                        { return std::abs(tissue.second) <= enough * m_Volumes.at(tissue.first); });
   }
 
-  /// Returns whether the point went all of the way, or as far as one round may take it.
+  /// Returns whether the point moved the whole way, or as far as one round allows.
   bool balance(std::int32_t a, const Vec3& way)
   {
     const Vec3 p = m_Mesh->points()[a];
@@ -258,7 +259,7 @@ private:
 
   // ---- the worst triangles ----
 
-  /// By each operation in turn. Returns how many edges and faces have been changed.
+  /// Improves the worst faces, trying each operation in turn. Returns the number of faces changed.
   int mendTriangles()
   {
     std::vector<Edge> worst;
@@ -285,8 +286,8 @@ private:
     return isPoor && !m_Mesh->isOnCrease(a) && improveBesideCurve(a);
   }
 
-  /// To the best of some places around it, or along its curve. Where curves between tissues meet, the bound alone says
-  /// how far.
+  /// Moves a to the best of some places around it or along its curve. Where curves between tissues meet, only the
+  /// proximity bound limits the distance.
   bool improveByMoves(std::int32_t a)
   {
     const int order = m_Mesh->junctionOrder(a);
@@ -298,7 +299,7 @@ private:
       a, waysAlong(a), [&](const Vec3& p) { return m_Curves.nearest(p, tissues, m_Boundary.reach()).value_or(home); });
   }
 
-  /// Where curves between tissues leave no other way: no farther than a share of L from its curve.
+  /// The last resort on curves between tissues: moves a off its curve, by at most a fraction of L.
   bool improveBesideCurve(std::int32_t a)
   {
     constexpr double farthest = 0.1;
@@ -313,7 +314,7 @@ private:
                           });
   }
 
-  /// `place` says where a point goes instead of a place beside it.
+  /// `place`, if given, maps a trial position to the position to use instead.
   bool improveByMoves(std::int32_t a, const std::vector<Vec3>& ways, const std::function<Vec3(const Vec3&)>& place)
   {
     bool isBetter = false;

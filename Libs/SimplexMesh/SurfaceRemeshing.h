@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Any closed surface of one or many tissues at other densities: decimated and refined, smoothed and projected back on
-/// the original again and again (Virtual Family, section 3.2), by the operators of the simplex mesh and under their
-/// guards: every tissue keeps its topology, no triangle crosses another, curves between tissues and sharp edges stay.
+/// Remeshes closed surfaces of one or many tissues to another density. The surface is repeatedly decimated, refined,
+/// smoothed and projected back onto the original (Virtual Family, section 3.2) with the guarded operators of the
+/// simplex mesh: every tissue keeps its topology, triangles do not intersect, and curves between tissues and sharp
+/// edges are preserved.
 
 #include "Progress.h"
 #include "SurfaceCurves.h"
@@ -13,8 +14,8 @@ namespace surgicalmesher
 struct RemeshingOptions
 {
   std::function<double(const Vec3&)> edgeLength; ///< L(x), mm
-  /// mm; bound on the distance to the original and back, and edges shorter than L where curvature asks for it. 0: a
-  /// fifth of L, and edges by L alone.
+  /// Bound on the distance to the original and back, mm; edges are shorter than L where the curvature requires it. 0:
+  /// the bound is a fifth of L, and L alone gives the edge lengths.
   double chordError = 0;
   double featureAngle = 40; ///< degrees; see sharpEdges
 };
@@ -22,11 +23,12 @@ struct RemeshingOptions
 struct RemeshedSurface
 {
   SurfaceComplex surface;
-  std::vector<double> edgeLength; ///< by point, aimed at, mm
+  std::vector<double> edgeLength; ///< target length at each point, mm
   std::size_t sharpEdges = 0;     ///< of the original
 };
 
-/// `original` is to be sound (requireSound). The same result with any number of threads.
+/// Returns the remeshed surface; the result does not depend on the number of threads. `original` must be sound
+/// (requireSound).
 RemeshedSurface remeshSurface(const SurfaceComplex& original, const RemeshingOptions& options,
                               const Progress& progress = {});
 

@@ -7,7 +7,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// The gradients of the tissues' volumes by the points, and how readily the points move.
+/// The gradients of the volumes of the tissues with respect to the points, and the mobilities of the points.
 class VolumeGradients
 {
 public:
@@ -18,7 +18,8 @@ public:
     for (std::size_t t = 0; t < surface.triangles.size(); ++t)
     {
       const auto& [a, b, c] = surface.triangles[t];
-      const Vec3 &p = surface.points[a], third = cross(surface.points[b] - p, surface.points[c] - p) / 6; // of the area
+      // A third of the triangle's vector area.
+      const Vec3 &p = surface.points[a], third = cross(surface.points[b] - p, surface.points[c] - p) / 6;
       for (const std::int32_t v : surface.triangles[t])
       {
         m_Ease[v] += norm(third);
@@ -37,7 +38,7 @@ public:
     return m_Ease[v] * sum;
   }
 
-  /// What each tissue gains by the displacements of these pressures.
+  /// Returns the volume that each tissue gains from the displacements caused by these pressures.
   std::vector<double> gains(const std::vector<double>& pressures) const
   {
     std::vector<double> result(m_Tissues, 0);
@@ -62,7 +63,7 @@ private:
   }
 
   std::vector<std::vector<std::pair<std::size_t, Vec3>>> m_Entries; ///< by point: tissue and gradient
-  std::vector<double> m_Ease;                                       ///< mobility over area
+  std::vector<double> m_Ease;                                       ///< mobility divided by area
   std::size_t m_Tissues;
 };
 
@@ -73,7 +74,8 @@ double product(const std::vector<double>& a, const std::vector<double>& b)
   return sum;
 }
 
-/// By conjugate gradients: as many steps as there are tissues would do, and far fewer nearly do.
+/// Solves for the pressures by conjugate gradients. As many steps as there are tissues give the solution; far fewer are
+/// accurate enough.
 std::vector<double> pressuresFor(const VolumeGradients& gradients, std::vector<double> lacking)
 {
   constexpr int mostSteps = 100;

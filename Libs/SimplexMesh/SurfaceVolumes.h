@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Volumes of the tissues that a surface encloses, and how to move its points for them to be others.
+/// Volumes of the tissues enclosed by a surface, and displacements of its points that change these volumes.
 
 #include "TetMesh.h"
 
@@ -9,12 +9,13 @@
 namespace surgicalmesher
 {
 
-/// mm^3, of all labels but 0.
+/// Returns the enclosed volume, mm^3, of every label except 0.
 std::map<Label, double> enclosedVolumes(const SurfaceComplex& surface);
 
-/// Displacements of the points by which every tissue gains what `lacking` says (mm^3), to first order: of all such the
-/// least, in the mean square over the surface's area, by Lagrange's multipliers: a pressure in each tissue. A point
-/// moves as readily as `mobility` says: 0, it stays; 1, as its area does. What cannot be gained is not.
+/// Returns displacements of the points by which every tissue gains the volume in `lacking` (mm^3), to first order. Of
+/// all such displacements, they have the least mean square over the area of the surface, found with Lagrange
+/// multipliers: a pressure in each tissue. `mobility` scales the displacement of each point: 0 fixes it, 1 moves it
+/// according to its area. Volume changes that the mobile points cannot produce are left out.
 std::vector<Vec3> displacementsForVolumes(const SurfaceComplex& surface, const std::map<Label, double>& lacking,
                                           const std::vector<double>& mobility);
 

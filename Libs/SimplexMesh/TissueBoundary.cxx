@@ -23,7 +23,7 @@ double meanEdge(const SurfaceComplex& surface)
 
 } // namespace
 
-// By Voronoi regions (Ericson 2005, 5.1.5).
+// By Voronoi regions of the triangle (Ericson 2005, 5.1.5).
 Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
 {
   const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;

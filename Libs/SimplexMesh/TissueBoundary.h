@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Where the boundary between two tissues is, at sub-voxel position: what attracts the simplex mesh.
+/// Location of the boundary between two tissues, at sub-voxel position: the target of the image forces on the simplex
+/// mesh.
 
 #include "BoxGrid.h"
 #include "TetMesh.h"
@@ -12,38 +13,40 @@ namespace surgicalmesher
 
 struct TissueMap;
 
-/// Nearest point of a boundary.
+/// The point of a boundary that is nearest to a query point.
 struct BoundaryPoint
 {
   Vec3 position;
-  Vec3 normal; ///< unit; out of the first of the two tissues that were asked for
+  Vec3 normal; ///< unit; points out of the first of the two tissues of the query
   double distance = 0;
 };
 
-/// The dense surface of a map's tissues: the voxels' staircase, smoothed without shrinking (ReferenceSurface.h), two
-/// triangles or more per voxel face. `map` is to be well-composed (prepareMap); points in its grid frame, mm.
+/// Returns the dense surface of the tissues of a map: the staircase of the voxel faces, smoothed without shrinking
+/// (ReferenceSurface.h), with two or more triangles per voxel face. `map` must be well-composed (prepareMap); points
+/// are in its grid frame, mm.
 SurfaceComplex smoothedBoundary(const TissueMap& map);
 
 class TissueBoundary
 {
 public:
-  /// `surface` may be smoothedBoundary() or any other; distances over `reach` mm count as none.
+  /// `surface` may be smoothedBoundary() or any other; boundaries farther than `reach` mm from a query are ignored.
   TissueBoundary(const SurfaceComplex& surface, double reach);
 
-  /// The point nearest to p of the faces between these two tissues; none within reach, no answer.
+  /// Returns the point nearest to p on the boundary between these two tissues, or nothing if none is within reach.
   std::optional<BoundaryPoint> nearest(const Vec3& p, const std::array<Label, 2>& tissues) const;
 
   double reach() const { return m_Reach; }
 
-  /// Hands over the centroids, and the labels, of the surface's triangles near the box, some of them several times,
-  /// until `visit` returns false.
+  /// Calls visit(centroid, labels) for the triangles of the surface near the box, until it returns false. A triangle
+  /// may come several times.
   template <class Visit>
   void samples(const Box& box, const Visit& visit) const
   {
     m_Grid.visit(box, [&](std::int32_t t) { return visit(m_Centroids[t], m_Surface.labels[t]); });
   }
 
-  /// Likewise those in the box, each once for each labels, and the triangles' corners and the middles of their edges.
+  /// Calls visit(point, labels) for the centroids, corners and edge midpoints of the triangles that lie in the box,
+  /// each once per pair of labels, until it returns false.
   template <class Visit>
   void allSamples(const Box& box, const Visit& visit) const
   {
@@ -63,12 +66,12 @@ private:
   SurfaceComplex m_Surface;
   std::vector<Sample> m_Samples;
   std::vector<Vec3> m_Centroids;
-  std::vector<double> m_Radii; ///< of the triangles, around their centroids
+  std::vector<double> m_Radii; ///< radii of the triangles around their centroids
   double m_Reach, m_Cell;
   BoxGrid m_Grid, m_SampleGrid;
 };
 
-/// Nearest point of triangle abc to p.
+/// Returns the point of triangle abc that is nearest to p.
 Vec3 nearestOnTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 } // namespace surgicalmesher

@@ -6,7 +6,7 @@ namespace surgicalmesher
 {
 
 /// Two faces may fuse if they share exactly one edge on the surface of each tissue that has both, if no two triangles
-/// become one, and if the tissues that touch here still do.
+/// coincide afterwards, and if all tissues in contact here stay in contact.
 bool SimplexOperators::keepsTissues(std::int32_t a, std::int32_t b) const
 {
   const std::vector<std::int32_t> between = trianglesAt(a, b);
@@ -48,8 +48,8 @@ bool SimplexOperators::keepsTissues(std::int32_t a, std::int32_t b) const
   return true;
 }
 
-/// Two faces fuse along a curve or where one of them lies beside it, and no two parts of curves become one but across a
-/// chamfer.
+/// Two faces may fuse along a curve, or if one of them lies off the curves. Otherwise two parts of curves would merge,
+/// which is allowed only across a chamfer.
 bool SimplexOperators::keepsCreases(std::int32_t a, std::int32_t b) const
 {
   if (m_Creases.empty()) return true;
@@ -66,8 +66,8 @@ bool SimplexOperators::keepsCreases(std::int32_t a, std::int32_t b) const
                       });
 }
 
-/// Whether a and b lie on two creases that run beside each other, less than half an edge apart: one sharp edge, as far as
-/// edges of this length can tell.
+/// Whether a and b lie on two parallel creases less than half an edge length apart, which count as one sharp edge at
+/// this resolution.
 bool SimplexOperators::isChamfer(std::int32_t a, std::int32_t b) const
 {
   constexpr double narrow = 0.5, parallel = 0.8;
@@ -80,7 +80,7 @@ bool SimplexOperators::isChamfer(std::int32_t a, std::int32_t b) const
     { return std::any_of(alongB.begin(), alongB.end(), [&](const Vec3& v) { return dot(u, v) > parallel; }); });
 }
 
-/// From a along its creases, of length 1; none where curves between tissues pass.
+/// Returns the unit directions of the creases from a; empty if a curve between tissues passes a.
 std::vector<Vec3> SimplexOperators::creaseDirections(std::int32_t a) const
 {
   std::vector<Vec3> directions;

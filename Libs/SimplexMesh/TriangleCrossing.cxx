@@ -9,9 +9,9 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr double kRounding = 1e-9; ///< of lengths, relative
+constexpr double kRounding = 1e-9; ///< tolerance, relative to lengths
 
-/// Whether two segments within one plane of normal n come within rounding of each other.
+/// Whether two segments in a common plane with normal n intersect or come within rounding error of each other.
 bool segmentsMeet(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& n)
 {
   const auto side = [&](const Vec3& from, const Vec3& to, const Vec3& x) { return dot(cross(to - from, x - from), n); };
@@ -20,7 +20,7 @@ bool segmentsMeet(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, co
   if (std::min(p1, q1) > tolerance || std::max(p1, q1) < -tolerance) return false;
   if (std::min(a1, b1) > tolerance || std::max(a1, b1) < -tolerance) return false;
   if (std::abs(p1) > tolerance || std::abs(q1) > tolerance) return true;
-  const Vec3 along = b - a; // all on one line
+  const Vec3 along = b - a; // all four points are collinear
   const double from = dot(p - a, along), to = dot(q - a, along), rounding = kRounding * squaredNorm(along);
   return std::max(from, to) >= -rounding && std::min(from, to) <= squaredNorm(along) + rounding;
 }
@@ -46,7 +46,7 @@ bool segmentMeetsTriangle(const Vec3& p, const Vec3& q, const std::array<Vec3, 3
   return false;
 }
 
-/// Corners a[i], a[j] are shared, a[k] and b[m] aren't.
+/// Whether two triangles with the common edge ij and the apexes k and m are folded onto each other.
 bool folded(const Vec3& i, const Vec3& j, const Vec3& k, const Vec3& m)
 {
   const Vec3 edge = j - i;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Whether two triangles of a surface cross: the test that keeps it free of self-intersections. It errs on the safe
-/// side: what comes within rounding of a crossing counts as one.
+/// Test whether two triangles of a surface intersect, which keeps surfaces free of self-intersections. The test is
+/// conservative: triangles within rounding error of an intersection count as intersecting.
 
 #include "Vec3.h"
 
@@ -14,11 +14,12 @@ namespace surgicalmesher
 struct CornerTriangle
 {
   std::array<Vec3, 3> corners;
-  std::array<std::int32_t, 3> ids; ///< equal ids are the same point
+  std::array<std::int32_t, 3> ids; ///< equal ids denote the same point
 };
 
-/// Triangles with no common corner cross where they have a point in common; with one, where they have another one; with
-/// two, where they are folded onto each other to less than 8 degrees; with three, always.
+/// Returns whether the triangles cross. Without a common corner, they cross if they have a point in common; with one,
+/// if they have another point in common; with two, if they are folded onto each other with an angle below 8 degrees;
+/// with three, always.
 bool trianglesCross(const CornerTriangle& a, const CornerTriangle& b);
 
 } // namespace surgicalmesher

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// limitGradation: branch and bound over a pyramid of minima. A block of voxels is left out when even its least length,
-// at the distance of its nearest corner, would not lower what has been found so far.
+// limitGradation: branch and bound over a pyramid of minima. A block of voxels is skipped if even its least length, at
+// the distance of its nearest voxel, would not lower the minimum found so far.
 
 #include "Gradation.h"
 #include "Parallel.h"
@@ -14,7 +14,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Level n: the least length in each block of 2^n voxels' side.
+/// Level n of the pyramid: the least length in each block of side 2^n voxels.
 struct Level
 {
   std::array<int, 3> size;
@@ -54,8 +54,8 @@ public:
 
   using Voxel = std::array<int, 3>;
 
-  /// min over voxels y of L(y) + slope |x - y|. `source` goes in as a guess and comes out as the y of the minimum; a
-  /// good guess, such as a neighbour's source, saves most of the search.
+  /// Returns the minimum over voxels y of L(y) + slope |x - y|. `source` is a guess of the minimising y on input and
+  /// that y on output; a good guess, such as a neighbour's source, saves most of the search.
   double at(const Voxel& x, Voxel& source) const
   {
     Search search{ x, source, cone(x, source) };
@@ -103,7 +103,7 @@ private:
       search.best = bound;
       return;
     }
-    int nearest = 0; // of the eight halves, the one towards x
+    int nearest = 0; // of the eight children, the one nearest to x
     for (int axis = 0; axis < 3; ++axis) nearest |= (search.x[axis] >> (level - 1)) > 2 * block[axis] ? 1 << axis : 0;
     const std::array<int, 3>& size = m_Levels[level - 1].size;
     for (int n = 0; n < 8; ++n)

@@ -14,7 +14,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr int margin = 2; // what a normal looks at; background, so that every chord ends there
+constexpr int margin = 2; // voxels that outwardNormal() reads; of background, so that every chord ends there
 
 /// Chords through voxels of a padded map.
 class Chords
@@ -26,7 +26,7 @@ public:
     m_Strides = { 1, j, j * paddedMap.grid.size[1] };
   }
 
-  /// mm^2 of the voxel that other labels touch.
+  /// Area of the voxel's faces towards other labels, mm^2.
   double exposedArea(std::size_t voxel) const
   {
     const Vec3& s = m_Map.grid.spacing;
@@ -40,7 +40,7 @@ public:
     return area;
   }
 
-  /// Thickness at the centre of the voxel, mm; anything from `limit` on if it is not below that.
+  /// Thickness at the centre of the voxel, mm; any value of at least `limit` if it is not below `limit`.
   double thickness(std::size_t voxel, double limit) const
   {
     const Vec3& s = m_Map.grid.spacing;
@@ -56,7 +56,7 @@ public:
   }
 
 private:
-  /// Chords along the axes, ascending.
+  /// Lengths of the chords along the three axes, ascending.
   std::array<double, 3> alongAxes(std::size_t voxel, double limit) const
   {
     std::array<double, 3> along;
@@ -70,7 +70,7 @@ private:
     return along;
   }
 
-  /// Of unit length, or 0 if the labels around show no direction.
+  /// Unit normal, or 0 if the labels around the voxel give no direction.
   Vec3 outwardNormal(std::size_t voxel) const
   {
     const Label own = m_Map.labels[voxel];
@@ -83,7 +83,7 @@ private:
         int others = 0;
         for (int di = -margin; di <= margin; ++di)
         {
-          const int isOther = row[di] != own; // without branches, which would be chance
+          const int isOther = row[di] != own; // no branch, as it would be unpredictable
           others += isOther;
           sum[0] += isOther * di;
         }
@@ -103,7 +103,7 @@ private:
     return outwards < limit ? outwards + reach(voxel, -direction, limit - outwards) : outwards;
   }
 
-  /// How far one stays in the label from the centre of the voxel on, along an axis.
+  /// Distance from the centre of the voxel along an axis to where its label ends; followed up to `limit`.
   double reachAlong(int axis, std::ptrdiff_t step, std::size_t voxel, double limit) const
   {
     const Label own = m_Map.labels[voxel];
@@ -118,7 +118,7 @@ private:
   /// The same in any direction, face by face (Amanatides and Woo 1987).
   double reach(std::size_t voxel, const Vec3& direction, double limit) const
   {
-    std::array<double, 3> next, between; // way to the next face across each axis, and from one to the other
+    std::array<double, 3> next, between; // distance to the next face across each axis, and between faces
     std::array<std::ptrdiff_t, 3> steps;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -142,7 +142,7 @@ private:
   std::array<std::ptrdiff_t, 3> m_Strides;
 };
 
-/// Slice k of the map.
+/// Measures slice k of the map.
 LocalThickness measureSlice(const Grid& grid, const TissueMap& paddedMap, const ScaleField& scale, int k)
 {
   const Chords chords(paddedMap);

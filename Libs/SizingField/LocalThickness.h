@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// How thick tissues are, at their surface, compared with the edge length asked for.
+/// Thickness of tissues at their surface, compared with the target edge length L.
 
 #include "ScaleField.h"
 #include "TissueMap.h"
@@ -22,8 +22,8 @@ struct ThinVoxel
 struct TissueThickness
 {
   double area = 0;     ///< mm^2 of voxel faces at the tissue's surface
-  double thinArea = 0; ///< those where the tissue is thinner than L
-  double smallest = 0; ///< mm; least thickness where it is, 0 if nowhere
+  double thinArea = 0; ///< mm^2, the part of it where the tissue is thinner than L
+  double smallest = 0; ///< mm; least thickness on that part, 0 if there is none
 };
 
 struct LocalThickness
@@ -32,11 +32,12 @@ struct LocalThickness
   std::vector<ThinVoxel> thinVoxels; ///< ascending
 };
 
-/// Thickness at a voxel is the length of the chord of its tissue along the normal, which the labels of the 5x5x5 voxels
-/// around it tell: of a sheet the thickness, of a tube or ball the diameter. Where they tell no direction, and at the
-/// rim of a flat piece (at most three voxels along one axis, a fourth of what it is along the others), it is the
-/// shortest chord along an axis. Chords are followed up to L. `scale` is in world coordinates. Time grows with the
-/// number of voxels at surfaces, whatever the number of tissues.
+/// Measures the thickness at every voxel on a tissue's surface: the length of the chord through the tissue along the
+/// normal, which is estimated from the labels of the 5x5x5 voxels around. This is the thickness of a sheet and the
+/// diameter of a tube or ball. Where these labels give no direction, it is the shortest chord along an axis; at the rim
+/// of a flat piece (at most three voxels along one axis, a quarter of its extent along the others), the shorter of the
+/// two. Chords are followed up to L. `scale` is in world coordinates. Time grows with the number of surface voxels,
+/// whatever the number of tissues.
 LocalThickness measureThickness(const TissueMap& map, const ScaleField& scale);
 
 } // namespace surgicalmesher

@@ -11,11 +11,11 @@
 namespace surgicalmesher
 {
 
-/// L(x) is the length at the nearest of the points (the TargetEdgeLength of a surface), mm.
+/// Returns L(x) that is the length (mm) at the nearest of the points, such as the TargetEdgeLength of a surface.
 SizingFunction edgeLengthFromPoints(const std::vector<Vec3>& points, const std::vector<double>& lengths);
 
-/// Throws InputError, with `scaleFile` and the place, if a point lies farther outside the scale's volume (voxel centres
-/// plus half a voxel) than half the edge length there: a mesher may have moved the surface a little way out of the map.
+/// Throws InputError, with `scaleFile` and the place, if a point lies outside the scale's volume (voxel centres plus
+/// half a voxel) by more than half the edge length there: a mesher may have moved the surface slightly out of the map.
 void requireCover(const ScaleField& scale, const std::vector<Vec3>& points, const std::string& scaleFile);
 
 } // namespace surgicalmesher

@@ -23,7 +23,7 @@ public:
   LengthLimits(const ScaleField& scale, const Grid& map)
     : minima(scale.lengths.size(), 0), maxima(scale.lengths.size(), unlimited), m_Scale(scale.grid), m_Map(map)
   {
-    // From a voxel's centre, how far its corners reach along the axes of the scale.
+    // Half the extent of a voxel of the map along the axes of the scale.
     for (int axis = 0; axis < 3; ++axis)
     {
       m_HalfVoxel[axis] = 0;
@@ -34,7 +34,7 @@ public:
 
   std::vector<float> minima, maxima;
 
-  /// Calls visit(index) for the scale's voxels that interpolation in a voxel of the map refers to.
+  /// Calls visit(index) for the scale's voxels that interpolation within a voxel of the map uses.
   template <typename Visit>
   void visitAround(std::size_t voxel, const Visit& visit) const
   {
@@ -42,7 +42,7 @@ public:
     std::array<int, 3> from, to;
     for (int axis = 0; axis < 3; ++axis)
     {
-      constexpr double rounding = 1e-6; // of headers: a node at the very edge has no weight
+      constexpr double rounding = 1e-6; // of headers, in voxels: a node exactly at the edge has no weight
       const double last = m_Scale.size[axis] - 1;
       const auto clamped = [&](double index) { return int(std::min(last, std::max(0.0, index))); };
       from[axis] = clamped(std::floor((p[axis] - m_HalfVoxel[axis]) / m_Scale.spacing[axis] + rounding));
@@ -57,7 +57,7 @@ public:
     }
   }
 
-  /// Brings L into the limits, and lets it rise slowly from where that lowered it.
+  /// Clamps L to the limits, and lets it rise by at most `gradation` per mm around places where this lowered it.
   void apply(ScaleField& scale, double gradation) const
   {
     ScaleField lowered = scale;
@@ -103,17 +103,17 @@ void visitVoxels(const TissueMap& map, const TissueSettings& settings, const Vis
                   });
 }
 
-constexpr double flattest = 0.32, smallest = 0.75; // of L: thickness, and size all round
+constexpr double flattest = 0.32, smallest = 0.75; // ratios of thickness and of extent to L
 
-/// A tissue as far as its size goes, mm.
+/// The dimensions of a tissue, mm.
 struct Extent
 {
   double thickness = 0; ///< mean
   double size = 0;      ///< cube root of the volume
 };
 
-/// The longest edges, mm, that leave its volume to a tissue flatter than near-regular tetrahedra can be where they are to
-/// be as long as `length`; `length` itself elsewhere.
+/// The longest edges, mm, with which a tissue keeps its volume that is flatter than near-regular tetrahedra of edge
+/// `length` can be; `length` itself for other tissues.
 double mostIfFlat(const Extent& extent, double length)
 {
   constexpr double flatness = 0.5, leastSize = 0.9;
@@ -121,18 +121,18 @@ double mostIfFlat(const Extent& extent, double length)
   return isFlat ? extent.thickness / flatness : length;
 }
 
-/// The same of one that is small all round.
+/// The same for a tissue that is small in every direction.
 double mostIfSmall(const Extent& extent, double length, double voxel)
 {
   constexpr double enough = 8; // voxels
   return std::min(length, std::max(extent.size / smallest, enough * voxel));
 }
 
-/// Of the labels that are `wanted`, the mean L within, mm.
+/// The mean of L within each of the `wanted` labels, mm.
 std::map<Label, double> meanLengths(const ScaleField& scale, const TissueMap& map, const std::vector<bool>& wanted)
 {
   const Vec3& h = map.grid.spacing;
-  std::vector<std::map<Label, std::pair<double, std::size_t>>> lengths(map.grid.size[2]); // sum and number
+  std::vector<std::map<Label, std::pair<double, std::size_t>>> lengths(map.grid.size[2]); // by slice: sum and number
   parallelForEach(lengths.size(),
                   [&](std::size_t k)
                   {
@@ -162,7 +162,7 @@ ScaleField scaleVolume(const ScaleField& scale, const Grid& map)
   volume.grid = map;
   for (int axis = 0; axis < 3; ++axis)
   {
-    volume.grid.size[axis] = map.size[axis] / 2 + 2; // from a voxel before the first to one beyond the last, or more
+    volume.grid.size[axis] = map.size[axis] / 2 + 2; // from one voxel before the first to at least one after the last
     volume.grid.spacing[axis] = 2 * map.spacing[axis];
   }
   volume.grid.origin = map.gridToWorld(-1 * map.spacing);
@@ -265,7 +265,7 @@ ScaleField followCurvature(const ScaleField& scale, const TissueMap& map, const 
 std::map<Label, double> meanThickness(const TissueMap& map)
 {
   constexpr double staircase = 1.5;
-  constexpr std::size_t parts = 8; // each has a sum for every label
+  constexpr std::size_t parts = 8; // each part stores a sum for every label
   const Vec3 h = map.grid.spacing;
   const double area[3] = { h.y * h.z / staircase, h.z * h.x / staircase, h.x * h.y / staircase };
   const std::size_t slices = std::size_t(map.grid.size[2]) + 1;
@@ -305,7 +305,7 @@ ScaleField followSmallTissues(const ScaleField& scale, const TissueMap& map, con
     mayBeSmall[label] = extent.thickness < flattest * longest || extent.size < smallest * longest;
     extents[label] = extent;
   }
-  constexpr double gradation = 0.5; // to edges as long as around them, small surfaces would come out larger
+  constexpr double gradation = 0.5; // without it, small surfaces would grow towards the longer edges around them
   TissueSettings flat, small;
   for (const auto& [label, length] : meanLengths(scale, map, mayBeSmall))
   {

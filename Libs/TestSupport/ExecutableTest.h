@@ -37,7 +37,8 @@ protected:
     EXPECT_EQ(result.err, "");
   }
 
-  /// That the run ends with this status, one line on stderr that holds `expected`, and no file more or less.
+  /// Expects that the run ends with this status and with one line on stderr that contains `expected`, and that no file
+  /// is added or removed.
   void expectRefused(const std::string& arguments, int status, const std::string& expected) const
   {
     const std::vector<std::string> before = folder.files();
@@ -45,7 +46,7 @@ protected:
     EXPECT_EQ(folder.files(), before) << arguments;
   }
 
-  /// That no output remains when a file can't grow to its full size: the system refuses after 4 kB of any file.
+  /// Expects that no output remains when a file cannot grow to its full size: the system limits all files to 4 kB.
   void expectSaysThatAFileCanNotGrow(const std::string& arguments) const
   {
     const std::vector<std::string> before = folder.files();
@@ -54,8 +55,8 @@ protected:
     EXPECT_EQ(folder.files(), before) << arguments;
   }
 
-  /// The same on a full disk of 32 kB, mounted on the subfolder `disk`, where the outputs are to go. Skips the test
-  /// where no user may mount one.
+  /// The same on a full disk of 32 kB, mounted on the subfolder `disk`, to which `arguments` must write the outputs.
+  /// Skips the test where users may not mount file systems.
   void expectSaysThatTheDiskIsFull(const std::string& arguments) const
   {
     std::filesystem::create_directory(folder.file("disk"));
@@ -67,8 +68,8 @@ protected:
     expectFailure(result, 1, "disk/", arguments);
   }
 
-  /// That a run killed as soon as its progress tells of `stage` leaves no output: nothing at all after SIGTERM, after
-  /// SIGKILL only temporaries that the next run removes.
+  /// Expects that a run that is killed as soon as its progress reports `stage` leaves no output: nothing at all after
+  /// SIGTERM, and after SIGKILL only temporary files, which the next run removes.
   void expectLeavesNothingWhenKilled(const std::string& arguments, const std::string& stage) const
   {
     const std::vector<std::string> before = folder.files();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What every meshed map has to be, whatever the map: shared by the tests and the fuzzer.
+/// Properties that the mesh of every map must have; shared by the tests and the fuzzer.
 
 #include "DigitalTopology.h"
 #include "Errors.h"
@@ -18,8 +18,8 @@
 namespace surgicalmesher::test
 {
 
-/// The first thing wrong with the mesh of `map`, or nothing: sound, every tissue with the topology of the map, samples
-/// on faces of a larger and a smaller label and within its tolerance.
+/// Returns the first fault of the mesh of `map`, or an empty text. The mesh must be sound, every tissue must have the
+/// topology of the map, and every sample must lie on a face between a larger and a smaller label, within its tolerance.
 inline std::string faultOf(const MeshedMap& result, const TissueMap& map)
 {
   const TetMesh& mesh = result.background.mesh;

@@ -7,14 +7,14 @@
 namespace surgicalmesher::test
 {
 
-/// The voxels of a map, each `times` times along every axis in its place, between `before` and `after` more voxels of
-/// background.
+/// Describes the map in which each voxel of `map` is repeated `times` times along every axis, in its place, with
+/// `before` and `after` more voxels of background at the lower and upper ends.
 inline VoxelRepeats repeatsOf(const TissueMap& map, int times, const std::array<int, 3>& before = {},
                               const std::array<int, 3>& after = {})
 {
   VoxelRepeats repeats{ map.grid, times, before };
   repeats.grid.spacing = map.grid.spacing / double(times);
-  Vec3 first; // of the repeated voxels, seen from the middle of the map's
+  Vec3 first; // centre of the new voxel (0, 0, 0), in the grid frame of the map
   for (int a = 0; a < 3; ++a)
   {
     repeats.grid.size[a] = map.grid.size[a] * times + before[a] + after[a];

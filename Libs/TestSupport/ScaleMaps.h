@@ -10,8 +10,8 @@
 namespace surgicalmesher::test
 {
 
-/// `low` mm up to `inner` mm from `centre` (world), then towards `high` over `decay` mm; sampled on 16^3 points over
-/// `grid`.
+/// Returns a scale of `low` mm up to `inner` mm from `centre` (world) that rises from there exponentially towards
+/// `high` mm with the decay length `decay` mm; sampled on 16^3 points over `grid`.
 inline ScaleField radialScale(const Grid& grid, const Vec3& centre, double low, double high, double inner, double decay)
 {
   constexpr int samples = 16;

@@ -8,7 +8,7 @@
 namespace surgicalmesher::test
 {
 
-/// Of the tissues, in degrees: the worst dihedral angle, 150 counting as 30.
+/// Returns the worst dihedral angle of the tissues, degrees; 150 counts as 30.
 inline double worstAngle(const TetMesh& mesh)
 {
   double worst = 90;

@@ -14,7 +14,7 @@ namespace
 
 using Voxel = std::array<int, 3>;
 
-/// The voxels at most `reach` from `centre` along every axis and along one that far.
+/// Calls f(voxel) for the voxels on the surface of the cube of half-width `reach` around `centre`.
 template <class F>
 void forEachInShell(const Voxel& centre, int reach, F&& f)
 {
@@ -35,7 +35,7 @@ double distanceToFaces(const TissueMap& map, const Vec3& p, const Voxel& centre)
   double best = mostReach * least * mostReach * least;
   for (int reach = 0; reach <= mostReach; ++reach)
   {
-    const double farther = (reach - 1) * least; // all faces of this shell are
+    const double farther = (reach - 1) * least; // lower bound for all faces of this shell
     if (reach > 0 && best <= farther * farther) break;
     forEachInShell(centre, reach,
                    [&](const Voxel& v)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// How far the surface lies from the tissue boundaries in the map.
+/// Distances of a surface from the tissue boundaries in the map.
 
 #include "TetMesh.h"
 
@@ -13,8 +13,8 @@ namespace surgicalmesher
 double squaredDistanceToFace(const Vec3& p, const std::array<int, 3>& v, int axis, const Vec3& spacing);
 
 /// Signed distance, mm, of each point of `surface` (in the grid frame of `map`) to the nearest face between voxels of
-/// different labels: positive where the map has, at the point, the label in front of the surface, negative otherwise.
-/// Beyond four voxels, the distance of four voxels.
+/// different labels: positive where the voxel at the point has the label in front of the surface, negative otherwise.
+/// Limited to four times the smallest voxel spacing.
 std::vector<double> boundaryDistances(const SurfaceComplex& surface, const TissueMap& map);
 
 } // namespace surgicalmesher

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Points that cells use, renumbered without gaps.
+/// Renumbering of the points that cells use, without gaps.
 
 #include "Parallel.h"
 
@@ -13,7 +13,7 @@
 namespace surgicalmesher
 {
 
-/// Values at `ids`, in their order, found on several threads; empty if `values` is.
+/// Returns the values at `ids`, in their order; empty if `values` is empty. Runs on several threads.
 template <class Value>
 std::vector<Value> valuesAt(const std::vector<Value>& values, const std::vector<std::int32_t>& ids)
 {
@@ -24,8 +24,8 @@ std::vector<Value> valuesAt(const std::vector<Value>& values, const std::vector<
   return result;
 }
 
-/// Renumbers the points of `cells`, ascending; the first `kept` of all `pointCount` points stay, used or not. Returns
-/// the old ids in the new order.
+/// Renumbers the points of `cells` without gaps, in the order of their old ids; the first `kept` of all `pointCount`
+/// points stay, used or not. Returns the old ids in the new order.
 template <std::size_t Corners>
 std::vector<std::int32_t> compactPoints(std::vector<std::array<std::int32_t, Corners>>& cells, std::size_t pointCount,
                                         std::size_t kept = 0)
@@ -45,7 +45,7 @@ std::vector<std::int32_t> compactPoints(std::vector<std::array<std::int32_t, Cor
   return oldId;
 }
 
-/// The same in the order in which the cells use them first: neighbours in space lie together in memory.
+/// The same in the order in which the cells first use the points, so that neighbours in space are close in memory.
 template <std::size_t Corners>
 std::vector<std::int32_t> compactPointsByUse(std::vector<std::array<std::int32_t, Corners>>& cells,
                                              std::size_t pointCount)

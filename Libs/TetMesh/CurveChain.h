@@ -14,7 +14,7 @@ struct CurveChain
 {
   std::string name;
   std::vector<std::int32_t> points; ///< point ids, along the curve; a closed one ends with its first point
-  std::vector<double> radii;        ///< at each of them, mm; 0: none given
+  std::vector<double> radii;        ///< at each point, mm; 0: not given
 };
 
 } // namespace surgicalmesher

@@ -14,10 +14,10 @@ namespace surgicalmesher
 namespace
 {
 
-/// A face without its first point, by which faces are bucketed.
+/// A face without its smallest point, by which faces are grouped.
 struct Face
 {
-  std::uint64_t others; ///< its two larger points, the second in the upper half
+  std::uint64_t others; ///< its two larger points, the middle one in the upper half
   std::int32_t tetrahedron;
   std::int32_t local;
 };
@@ -38,7 +38,7 @@ bool operator<(const Face& a, const Face& b)
   return a.tetrahedron != b.tetrahedron ? a.tetrahedron < b.tetrahedron : a.local < b.local;
 }
 
-/// Pairs the faces from `begin` to `end`, all with the same first point.
+/// Pairs equal faces among those from `begin` to `end`, which have the same smallest point.
 void pairFaces(Face* begin, Face* end, AcrossFaces& across, std::vector<std::int32_t>& overused)
 {
   std::sort(begin, end);
@@ -67,7 +67,7 @@ FaceAdjacency faceAdjacency(const TetMesh& mesh)
 std::vector<std::int32_t> matchOpenFaces(const std::vector<std::array<std::int32_t, 4>>& tetrahedra,
                                          std::size_t pointCount, AcrossFaces& across)
 {
-  // By their first points: of all faces of a mesh, some twenty of each are left to compare.
+  // Faces are grouped by their smallest points: some twenty per point are left to compare.
   const auto forEachOpen = [&](std::size_t begin, std::size_t end, auto&& visit)
   {
     for (std::size_t t = begin; t < end; ++t)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Which tetrahedra share a face; the surface between labels, and the mesh without what lies outside.
+/// Adjacency of tetrahedra through faces, the surface between labels, and the mesh without the outside.
 
 #include "TetMesh.h"
 
@@ -17,7 +17,7 @@ constexpr std::array<std::array<int, 2>, 6> kEdgeCorners{
   { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } }
 };
 
-/// [t][f]: the tetrahedron beyond the face opposite corner f; -1: none.
+/// [t][f]: the tetrahedron beyond the face of tetrahedron t opposite corner f; -1: none.
 using AcrossFaces = std::vector<std::array<std::int32_t, 4>>;
 
 struct FaceAdjacency
@@ -28,17 +28,18 @@ struct FaceAdjacency
 
 FaceAdjacency faceAdjacency(const TetMesh& mesh);
 
-/// Finds the neighbours that are not in `across` yet; returns the overused tetrahedra among those faces, ascending.
+/// Finds the neighbours across the faces that are -1 in `across`. Returns the tetrahedra with overused faces among
+/// these, ascending (see FaceAdjacency).
 std::vector<std::int32_t> matchOpenFaces(const std::vector<std::array<std::int32_t, 4>>& tetrahedra,
                                          std::size_t pointCount, AcrossFaces& across);
 
-/// Regions of tetrahedra joined through faces: the region of each tetrahedron, numbered from 0 in the order of their
-/// first tetrahedra. `joined(t, f)` says whether the face may be passed; it must say the same from both sides, and is
-/// asked only where there is a tetrahedron beyond.
+/// Finds the regions of tetrahedra that are connected through faces. Returns the region of each tetrahedron, numbered
+/// from 0 in the order of their first tetrahedra. `joined(t, f)` says whether the face connects; it must return the
+/// same from both sides, and is called only where there is a tetrahedron beyond.
 std::vector<std::int32_t> faceRegions(const FaceAdjacency& neighbours,
                                       const std::function<bool(std::int32_t t, int f)>& joined);
 
-/// A face between different labels (0 beyond the mesh), of the tetrahedron of the higher one.
+/// A face between different labels (0 beyond the mesh), as a face of the tetrahedron with the higher label.
 struct InterfaceFace
 {
   std::int32_t tetrahedron;
@@ -46,7 +47,8 @@ struct InterfaceFace
   Label front;
 };
 
-/// In the order of the tetrahedra. `across`: where it is known.
+/// Returns the faces between different labels in the order of the tetrahedra. `across`: the adjacency, if known
+/// already.
 std::vector<InterfaceFace> interfaceFaces(const TetMesh& mesh);
 std::vector<InterfaceFace> interfaceFaces(const TetMesh& mesh, const AcrossFaces& across);
 

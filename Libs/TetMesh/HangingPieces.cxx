@@ -10,7 +10,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Depth-first search through the faces inside tissues.
+/// Depth-first search of the tetrahedra of a tissue, connected through faces.
 class DepthFirst
 {
 public:
@@ -21,7 +21,7 @@ public:
 
   bool isReached(std::int32_t t) const { return m_Nodes[t].number >= 0; }
 
-  /// The component of `root` in preorder: the tetrahedra below one follow it.
+  /// Returns the component of `root` in preorder: every tetrahedron is followed by those below it in the search tree.
   std::vector<std::int32_t> componentOf(std::int32_t root)
   {
     std::vector<std::int32_t> order, path;
@@ -40,16 +40,16 @@ public:
     for (const std::int32_t t : component) m_Nodes[t] = {};
   }
 
-  /// Tetrahedra from this one downwards.
+  /// Number of tetrahedra in the subtree of this one, itself included.
   std::int32_t sizeAt(std::int32_t t) const { return m_Nodes[t].size; }
-  /// Whether the face by which it was entered is a bridge.
+  /// Whether the face by which the tetrahedron was entered is a bridge.
   bool hangsOnBridge(std::int32_t t) const { return m_Nodes[t].lowest == m_Nodes[t].number && m_Nodes[t].entry >= 0; }
   int entryFace(std::int32_t t) const { return m_Nodes[t].entry; }
 
 private:
   struct Node
   {
-    std::int32_t number = -1, lowest = -1, size = 0; // place in preorder; least one that a face leads back to
+    std::int32_t number = -1, lowest = -1, size = 0; // place in preorder; least place reached from its subtree
     int entry = -1, nextFace = 0;
   };
 
@@ -86,7 +86,7 @@ private:
   std::vector<Node> m_Nodes;
 };
 
-/// A component in preorder from where every bridge has at most half of it below.
+/// Returns a component in preorder from a root below which every bridge has at most half of the tetrahedra.
 std::vector<std::int32_t> componentFromItsMiddle(DepthFirst& search, std::int32_t first)
 {
   std::vector<std::int32_t> component = search.componentOf(first);
@@ -102,7 +102,7 @@ std::vector<std::int32_t> componentFromItsMiddle(DepthFirst& search, std::int32_
 
 using Piece = std::vector<std::int32_t>::const_iterator;
 
-/// How many tetrahedra have each point; label 0 does not count.
+/// Number of tetrahedra at each point, without those of label 0.
 std::vector<std::int32_t> usesOf(const TetMesh& mesh)
 {
   std::vector<std::int32_t> uses(mesh.points.size(), 0);
@@ -114,7 +114,7 @@ std::vector<std::int32_t> usesOf(const TetMesh& mesh)
   return uses;
 }
 
-/// Whether only the face opposite this corner of the first tetrahedron holds the piece.
+/// Whether the piece is attached only by the face opposite this corner of its first tetrahedron.
 bool isFree(const TetMesh& mesh, Piece begin, Piece end, int corner, const std::vector<std::int32_t>& uses)
 {
   std::map<std::int32_t, std::int32_t> inside;

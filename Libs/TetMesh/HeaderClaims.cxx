@@ -21,12 +21,12 @@ namespace
 
 struct Claim
 {
-  std::string what; ///< as the file calls it
+  std::string what; ///< in the file's words
   double count = 0;
   double bytesEach = 1; ///< at least
 };
 
-/// The digits at `at`, blanks before them skipped; -1 if there is none.
+/// The number at position `at`, after blanks; -1 if there is none.
 double numberAt(const std::string& text, std::size_t at)
 {
   while (at < text.size() && text[at] == ' ') ++at;
@@ -43,8 +43,8 @@ void forEach(const std::string& text, const std::string& word, const Take& take)
   for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) take(at, at + word.size());
 }
 
-/// XML: attributes NumberOfPoints="..." and the like. Data that are compressed shrink to a thousandth at most (zlib:
-/// 1032 times), and a point is 12 bytes at least.
+/// XML: attributes NumberOfPoints="..." and the like. Compression reduces data to a thousandth at best (zlib: 1032
+/// times), and a point has at least 12 bytes.
 std::vector<Claim> xmlClaims(const std::string& text)
 {
   std::vector<Claim> claims;
@@ -72,7 +72,7 @@ std::vector<Claim> legacyClaims(const std::string& text)
   return claims;
 }
 
-/// PLY: lines "element NAME COUNT" of the header, each followed by its properties, of a byte at least.
+/// PLY: lines "element NAME COUNT" of the header, each followed by its properties, which have at least one byte.
 std::vector<Claim> plyClaims(const std::string& text)
 {
   std::vector<Claim> claims;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What linear shape functions on a tetrahedron are made of.
+/// Linear shape functions on a tetrahedron, and its stiffness in linear elasticity.
 
 #include "FaceAdjacency.h"
 
@@ -45,10 +45,11 @@ inline LameConstants lameConstants(double youngsModulus, double poissonsRatio)
            0.5 * youngsModulus / (1 + poissonsRatio) };
 }
 
-/// Rows by the force on one corner, columns by the displacement of another, in [x, y, z]; N/mm for moduli in MPa.
+/// A 3x3 block of the stiffness matrix, row by row: rows are the force on one corner, columns the displacement of
+/// another, in [x, y, z]; N/mm for moduli in MPa.
 using StiffnessBlock = std::array<double, 9>;
 
-/// Of corners a and b, of linear elasticity.
+/// The block of the force on corner a and the displacement of corner b, in linear elasticity.
 inline StiffnessBlock stiffnessBlock(const LinearTetrahedron& tetrahedron, int a, int b, const LameConstants& lame)
 {
   const Vec3 &g = tetrahedron.gradients[a], &h = tetrahedron.gradients[b];

@@ -19,13 +19,13 @@ namespace
 
 // ---- surfaces -------------------------------------------------------------------------------------------------------
 
-/// An edge of a triangle as one tissue sees it, which lies on the given side of the triangle.
+/// An edge of a triangle in the boundary of one tissue, which lies on one side of the triangle.
 struct Side
 {
   Label tissue;
   std::int32_t low, high; ///< point ids
   std::uint32_t node;     ///< 6 * triangle + 3 * side + corner at which the edge starts
-  bool ascending;         ///< the edge runs from low to high when the tissue is behind the triangle
+  bool ascending;         ///< the edge runs from low to high if the triangle is oriented with the tissue behind it
 };
 
 std::vector<Side> sidesOf(const SurfaceComplex& surface)
@@ -116,8 +116,8 @@ Vec3 centreOf(const TetMesh& mesh, std::size_t t)
   return 0.25 * (mesh.points[ids[0]] + mesh.points[ids[1]] + mesh.points[ids[2]] + mesh.points[ids[3]]);
 }
 
-/// The open interior of each tissue: cells whose surrounding tetrahedra all have its label and that are not on the
-/// hull.
+/// The open interior of each tissue: the cells (tetrahedra, faces, edges, points) whose surrounding tetrahedra all have
+/// its label and that are not on the hull of the mesh.
 class InteriorCells
 {
 public:
@@ -165,7 +165,7 @@ private:
 
   void addEdges(std::map<Label, int>& result) const
   {
-    using Edge = std::pair<std::int32_t, Label>; // by its higher point, of a tetrahedron with that label
+    using Edge = std::pair<std::int32_t, Label>; // its higher point, and the label of a tetrahedron at it
     Grouped<Edge> edges(m_Mesh.points.size(),
                         [&](auto&& visit)
                         {
@@ -220,8 +220,9 @@ bool passable(const TetMesh& mesh, const FaceAdjacency& neighbours, std::size_t 
   return beyond >= 0 && mesh.labels[beyond] == mesh.labels[t];
 }
 
-/// Number of boundary surfaces of each tissue, seen from inside. Corner nodes 4 t + c: those of one tissue around one
-/// point are joined where they share a face (a sector); boundary triangles join the sectors at their three points.
+/// Number of connected boundary surfaces of each tissue, seen from inside. The nodes 4 t + c are the corners of
+/// tetrahedra: the corners of one tissue at one point are joined where their tetrahedra share a face, which gives
+/// sectors; boundary triangles join the sectors at their three points.
 std::map<Label, int> boundarySurfaces(const TetMesh& mesh, const FaceAdjacency& neighbours)
 {
   UnionFind sectors(4 * mesh.tetrahedra.size());
@@ -375,7 +376,7 @@ void requireSound(const TetMesh& mesh, const std::string& stage)
     requireNone(defects.unusedPoints, stage, "points of no tetrahedron");
     requireNone(defects.duplicatePoints, stage, "points on top of another");
   };
-  // Of both that fail, the first is told: the other may be in want of what it requires.
+  // If both fail, the first is reported: the second check may depend on what the first requires.
   runInParallel({ checkTetrahedra, [&] { requireSound(interfaceOf(mesh, neighbours.across), stage); } });
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What must hold for a surface complex and for labelled tetrahedra, checked from scratch: the last word of every run,
-/// the first about foreign files, and what the tests assert.
+/// Checks of what must hold for surface complexes and labelled tetrahedra, from scratch: the last check of every run,
+/// the first check of files from elsewhere, and the assertions of the tests.
 
 #include "DigitalTopology.h"
 #include "Place.h"
@@ -13,11 +13,11 @@
 namespace surgicalmesher
 {
 
-/// How often something was found, and where first (in the order of the arrays).
+/// The number of occurrences of a defect, and the first of them in the order of the arrays.
 struct Defect
 {
   std::size_t count = 0;
-  Vec3 where;             ///< of the first
+  Vec3 where;             ///< place of the first
   std::int32_t item = -1; ///< index of the first: triangle, tetrahedron or point
 
   void add(const Vec3& at, std::int32_t index)
@@ -45,7 +45,8 @@ struct TissueSurface
   bool manifold() const { return closed() && nonManifoldEdges.count == 0 && nonManifoldVertices.count == 0; }
 };
 
-/// By tissue; background is left out: two tissues that touch along an edge pinch it, and may.
+/// Checks the surface of each tissue. Background is left out: two tissues that touch along an edge pinch it, which is
+/// allowed.
 std::map<Label, TissueSurface> checkSurface(const SurfaceComplex& surface);
 
 struct MeshDefects
@@ -53,7 +54,7 @@ struct MeshDefects
   Defect invertedOrFlat;  ///< tetrahedra whose volume isn't positive
   Defect overusedFaces;   ///< tetrahedra with a face that more than two share
   Defect unusedPoints;    ///< points of no tetrahedron
-  Defect duplicatePoints; ///< points at the very place of an earlier one
+  Defect duplicatePoints; ///< points at exactly the position of an earlier one
 
   bool none() const
   {
@@ -64,8 +65,9 @@ struct MeshDefects
 
 MeshDefects checkMesh(const TetMesh& mesh);
 
-/// Betti numbers of every tissue's tetrahedra, comparable with those of a label map: a tissue is joined through faces,
-/// its complement through points as well. Label 0 is left out; what lies beyond the mesh is complement.
+/// Betti numbers of every tissue's tetrahedra, comparable with those of a label map: a tissue is connected through
+/// faces, its complement through edges and points as well. Label 0 is left out; the space beyond the mesh belongs to
+/// the complement.
 std::map<Label, Betti> meshTopology(const TetMesh& mesh);
 
 /// Throws EngineError, naming `stage` and the place in mm, unless the mesh has no defects and every tissue's surface is

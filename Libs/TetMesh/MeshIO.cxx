@@ -53,7 +53,7 @@ constexpr const char* kTargetAngle = "TargetDihedralAngle";
 constexpr const char* kTissueNames = "TissueNames";
 constexpr const char* kTissueColors = "TissueColors";
 constexpr const char* kTissueRoles = "TissueRoles";
-constexpr const char* kShell = "shell"; // a role, as the next
+constexpr const char* kShell = "shell"; // a value of TissueRoles, like the next
 constexpr const char* kNullDisplacement = "null displacement";
 
 [[noreturn]] void refuse(const std::string& file, const std::string& what) { throw InputError(file + ": " + what); }
@@ -86,7 +86,7 @@ std::vector<Vec3> pointsOf(vtkPointSet* data, bool ras, const std::string& file)
     {
       refuse(file, "point " + std::to_string(i) + " has a coordinate that isn't a finite number");
     }
-    if (ras) p = { 0 - p.x, 0 - p.y, p.z }; // of 0 comes 0, not -0
+    if (ras) p = { 0 - p.x, 0 - p.y, p.z }; // not -p.x, which turns 0 into -0
   }
   return points;
 }
@@ -207,7 +207,7 @@ void addStrings(vtkFieldData* data, const char* name, const std::vector<std::str
   data->AddArray(array);
 }
 
-/// 0 where there is none that means something.
+/// Returns 0 if there is no meaningful angle.
 double targetAngleOf(vtkFieldData* data)
 {
   vtkDataArray* angle = data->GetArray(kTargetAngle);
@@ -221,7 +221,7 @@ void removeStrings(vtkFieldData* data)
   for (const char* name : { kSpace, kTissueNames, kTissueRoles }) data->RemoveArray(name);
 }
 
-/// Through memory, because VTK's writers don't notice every failure of the disk.
+/// Composes the file in memory, because VTK's writers do not detect every failure of the disk.
 template <class Writer>
 void writeXML(Writer* writer, vtkDataSet* data, const std::string& file)
 {
@@ -242,10 +242,10 @@ void writeLegacy(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts 
   vtkNew<vtkUnstructuredGridWriter> writer;
   writer->SetInputData(grid);
   writer->SetHeader("SurgicalMesher tetrahedra; SPACE=LPS");
-  // What other readers stumble over is left out: bytes to swap, and field data before the points.
+  // ASCII for readers that do not swap bytes; see FieldTexts.
   if (texts == FieldTexts::LeftOut) writer->SetFileTypeToASCII();
   else writer->SetFileTypeToBinary();
-  writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2); // what solvers and older readers understand
+  writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2); // understood by solvers and older readers
   writer->WriteToOutputStringOn();
   if (!writer->Write() || errors.any()) refuse(file, "can't be composed (" + errors.message() + ")");
   writeBytes(writer->GetOutputStdString(), file);
@@ -534,7 +534,7 @@ void writeGrid(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts te
 void writeCurves(const MeshFile& content, const std::string& file)
 {
   if (text::extensionOf(file) != ".vtp") refuse(file, "curves are written as .vtp");
-  std::map<std::int32_t, double> radiusOf; // of a branching, the largest
+  std::map<std::int32_t, double> radiusOf; // at branch points the largest
   for (const CurveChain& curve : content.curves)
     for (std::size_t k = 0; k < curve.points.size(); ++k)
       radiusOf[curve.points[k]] = std::max(radiusOf[curve.points[k]], curve.radii[k]);

@@ -3,10 +3,10 @@
 /// Surface complexes and labelled tetrahedra as VTK files.
 ///
 /// Coordinates are LPS mm in memory and in the files written (field data SPACE = LPS; in legacy files also the title).
-/// Files that say SPACE=RAS are turned to LPS while reading; files that say nothing are taken as LPS. The same content
-/// gives the same bytes. Everything here throws InputError: readers with the file's name, what was found and what was
-/// expected; writers when the file can't be opened or not be written to its end. Writers write the file as named:
-/// atomic replacement is the caller's (CommandLine).
+/// Files that say SPACE=RAS are converted to LPS while reading; files that say nothing are taken as LPS. The same
+/// content gives the same bytes. Everything here throws InputError: readers with the file's name, what was found and
+/// what was expected; writers if the file cannot be opened or not be written completely. Writers write directly to the
+/// given name: atomic replacement is up to the caller (CommandLine).
 
 #include "CurveChain.h"
 #include "TetMesh.h"
@@ -23,18 +23,17 @@ class vtkUnstructuredGrid;
 namespace surgicalmesher
 {
 
-/// A surface complex and what travels with it in its file.
+/// A surface complex and the data that its file stores with it.
 struct SurfaceFile
 {
-  SurfaceComplex surface;               ///< labels is empty in surfaces from elsewhere, without BoundaryLabels
+  SurfaceComplex surface;               ///< without labels if the file has no BoundaryLabels
   std::vector<double> targetEdgeLength; ///< per point, mm; empty: the file has none
   std::vector<double> boundaryDistance; ///< per point, mm, signed; empty: the file has none
   TissueTable tissues;                  ///< names and colours
 };
 
-/// Reads .vtp, .vtk, .stl, .ply or .obj; other polygons than triangles are triangulated, points without a triangle
-/// dropped.
-/// Refused: missing file, another format, damaged content, no triangles, point ids out of range, non-finite
+/// Reads .vtp, .vtk, .stl, .ply or .obj. Polygons other than triangles are triangulated, points without a triangle are
+/// dropped. Refused: missing file, another format, damaged content, no triangles, point ids out of range, non-finite
 /// coordinates, BoundaryLabels or point arrays of the wrong size or with values out of range, a triangle with the same
 /// label on both sides or with a point used twice.
 SurfaceFile readSurface(const std::string& file);
@@ -44,7 +43,7 @@ SurfaceFile readSurface(const std::string& file);
 /// "null displacement") of the tissues that occur.
 void writeSurface(const SurfaceFile& content, const std::string& file);
 
-/// Polygons of one tissue each, a simplex mesh for one, and what travels with them in their file.
+/// Polygons of one tissue each, such as a simplex mesh, and the data that their file stores with them.
 struct PolygonFile
 {
   std::vector<Vec3> points;
@@ -56,7 +55,7 @@ struct PolygonFile
 /// Writes a .vtp: cell array TissueLabel, and field data as writeSurface does.
 void writePolygons(const PolygonFile& content, const std::string& file);
 
-/// A polyline and what travels with it in its file.
+/// A polyline and the data that its file stores with it.
 struct Polyline
 {
   std::vector<Vec3> points;
@@ -67,7 +66,7 @@ struct Polyline
 /// content, no lines, non-finite coordinates, radii that are not over 0.
 std::vector<Polyline> readPolylines(const std::string& file);
 
-/// Labelled tetrahedra and what travels with them in their file. Empty vectors: the file has none.
+/// Labelled tetrahedra and the data that their file stores with them. Empty vectors: the file has no such data.
 struct MeshFile
 {
   TetMesh mesh;
@@ -79,7 +78,7 @@ struct MeshFile
   std::vector<std::int32_t> interfaceId; ///< per point of a part: its number on the child/parent interface, -1 none
   TissueTable tissues;                   ///< names and colours
   std::vector<CurveChain> curves;        ///< along edges; they have a file of their own
-  /// Degrees, dihedral: what the surface stage has improved the mesh to, but for single places; 0: nobody says.
+  /// Dihedral angle, degrees, to which the surface stage has improved the mesh, except in single places; 0: unknown.
   double targetAngle = 0;
 };
 
@@ -88,24 +87,24 @@ struct MeshFile
 /// or flat, points that no tetrahedron uses.
 MeshFile readMesh(const std::string& file);
 
-/// Begins to read it while this process goes on; what is returned ends it, to be called once. Both throw as readMesh()
-/// does.
+/// Starts reading a mesh in the background. The returned function waits for the result; it is to be called once. Both
+/// throw like readMesh().
 std::function<MeshFile()> beginReadingMesh(const std::string& file);
 
-/// The same from memory. `ras`: the grid's coordinates are RAS, which its field data need not know; `name` stands for
-/// the file in messages.
+/// Converts a grid in memory, with the checks of readMesh(). `ras`: whether the grid's coordinates are RAS, whatever
+/// its field data say; `name` stands for the file in messages.
 MeshFile meshOfGrid(vtkUnstructuredGrid* grid, bool ras, const std::string& name);
 
-/// Names, colours and roles in field data; tables that are incomplete or of other kinds are left out, as nothing
-/// depends on them.
+/// Reads names, colours and roles from field data. Missing entries and arrays of another type are skipped without an
+/// error, as nothing depends on them.
 TissueTable tissuesOf(vtkFieldData* data);
 
-/// SPACE = LPS, and names, colours and roles of the tissues that occur, into field data.
+/// Adds SPACE = LPS, and the names, colours and roles of the tissues in `present`, to field data.
 void addTissues(vtkFieldData* data, const std::set<Label>& present, const TissueTable& tissues);
 
-/// Texts in field data, SPACE and TissueNames: readers other than VTK's own tend to stumble over them. Legacy files
-/// without them are text, to eleven digits, and have no field data at all: Gmsh 4.8 refuses it before the points, and
-/// SOFA does not swap the bytes of cell data.
+/// Whether files have the texts of field data (SPACE, TissueNames, TissueRoles), at which readers other than VTK's own
+/// tend to fail. Legacy files without them are text, to eleven digits, and have no field data at all: Gmsh 4.8 rejects
+/// field data before the points, and SOFA does not swap the bytes of cell data.
 enum class FieldTexts
 {
   Written,
@@ -118,11 +117,12 @@ void writePolyData(vtkPolyData* data, const std::string& file);
 /// Writes a .vtu (compressed) or a legacy .vtk (binary, unless texts are left out), by the file's extension.
 void writeMesh(const MeshFile& content, const std::string& file, FieldTexts texts = FieldTexts::Written);
 
-/// Writes a grid with its arrays likewise.
+/// Writes a grid with its arrays likewise; texts that are left out are removed from the grid's field data.
 void writeGrid(vtkUnstructuredGrid* grid, const std::string& file, FieldTexts texts);
 
-/// Writes the curves of a mesh as the lines of a .vtp: point arrays VolumePointId, the point's id in the mesh, and Radius
-/// (mm; 0: not given); cell array CurveId from 0; field data CurveNames and SPACE. Curves that meet share points.
+/// Writes the curves of a mesh as the lines of a .vtp: point arrays VolumePointId, the point's id in the mesh, and
+/// Radius (mm; 0: not given); cell array CurveId from 0; field data CurveNames and SPACE. Curves that meet share
+/// points.
 void writeCurves(const MeshFile& content, const std::string& file);
 
 } // namespace surgicalmesher

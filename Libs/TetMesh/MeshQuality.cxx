@@ -67,7 +67,7 @@ std::vector<std::int32_t> valences(const TetMesh& mesh)
   return result;
 }
 
-/// Of each tissue at each point on its boundary.
+/// Number of tetrahedra of each tissue at each point on its boundary.
 std::vector<double> boundaryValences(const TetMesh& mesh, const std::vector<std::int32_t>& inner)
 {
   std::vector<std::pair<std::int32_t, Label>> uses;
@@ -100,7 +100,7 @@ Edges edgesOf(const TetMesh& mesh)
     std::int32_t tetrahedron, local;
   };
   const std::size_t n = mesh.points.size();
-  // By their lower ends, some thirty are left to sort for each.
+  // Edges are grouped by their lower ends: some thirty per point are left to sort.
   Grouped<Use> uses(n,
                     [&](auto&& visit)
                     {
@@ -147,10 +147,10 @@ TetrahedronMeasures measuresOf(const TetMesh& mesh, std::size_t t)
            leastHeight(a, b, c, d) };
 }
 
-/// L of the edge between two points, mm.
+/// Target length of the edge between two points, mm.
 using EdgeTarget = std::function<double(std::int32_t a, std::int32_t b)>;
 
-/// What every group is assessed from, found once.
+/// Data from which every group is assessed, computed once.
 struct Context
 {
   const TetMesh& mesh;
@@ -187,7 +187,7 @@ std::vector<double> edgesOverTarget(const Context& context, const std::vector<st
   return result;
 }
 
-/// Tetrahedra of a group at each point of the mesh.
+/// Number of tetrahedra of a group at each point of the mesh.
 std::vector<std::int32_t> usesOf(const TetMesh& mesh, const std::vector<std::int32_t>& tetrahedra)
 {
   std::vector<std::int32_t> uses(mesh.points.size(), 0);
@@ -358,7 +358,7 @@ Distribution distributionOf(std::vector<double> values)
   if (values.empty()) return result;
   result.count = values.size();
   result.mean = std::accumulate(values.begin(), values.end(), 0.0) / double(values.size());
-  // Each selection leaves less for the next one to search.
+  // Each selection reduces the range of the next.
   auto begin = values.begin();
   const auto percentile = [&](double share)
   {
@@ -419,7 +419,7 @@ MeshQuality assessed(const TetMesh& mesh, const std::vector<std::int32_t>& subMe
     if (!subMesh.empty()) bySubMesh[subMesh[t]].push_back(t);
   }
   MeshQuality result;
-  // The largest first: the threads end together.
+  // The largest tasks first, so that all threads end at about the same time.
   std::vector<std::function<void()>> tasks;
   tasks.push_back(
     [&]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// How good a tetrahedral mesh is for finite elements: measures of one tetrahedron, and their distributions over the
+/// Quality of tetrahedral meshes for finite elements: measures of one tetrahedron, and their distributions over the
 /// mesh, its tissues and its sub-meshes.
 
 #include "TetMesh.h"
@@ -16,7 +16,7 @@ namespace surgicalmesher
 /// 90.
 std::array<double, 6> dihedralAngles(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// Three times the inscribed over the circumscribed sphere's radius, in (0, 1]; 0 or less if flat or inverted.
+/// Three times the ratio of the inradius to the circumradius, in (0, 1]; 0 or less if flat or inverted.
 /// Regular: 1; canonical: sqrt(0.9).
 double radiusRatio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
@@ -27,7 +27,7 @@ double scaledJacobian(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d
 /// The least of the four heights; 0 if flat.
 double leastHeight(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// All zero if there are no values.
+/// Figures of a set of values; all zero if there are no values.
 struct Distribution
 {
   std::size_t count = 0;
@@ -37,7 +37,7 @@ struct Distribution
 
 Distribution distributionOf(std::vector<double> values);
 
-/// Counts of values in equal bins from `low` to `high`; values beyond are in the first and last bin.
+/// Counts of values in equal bins from `low` to `high`; values beyond are counted in the first and last bin.
 struct Histogram
 {
   double low = 0, high = 1;
@@ -58,7 +58,7 @@ struct QualityGroup
   Distribution height;            ///< mm, the least of each tetrahedron
   Distribution edgeOverTarget;    ///< each edge once; empty if there is no target
   double edgesNearTarget = 0;     ///< share of edges between 0.7 and 1.4 times their target
-  Distribution valence;           ///< tetrahedra at each point around which all are of the group and of one tissue
+  Distribution valence;           ///< tetrahedra at each point whose tetrahedra are all of the group and of one tissue
 };
 
 struct MeshQuality
@@ -73,20 +73,20 @@ struct MeshQuality
   Histogram boundaryValence; ///< tetrahedra of one tissue per point on its boundary: points count once for each tissue
 };
 
-/// Of tetrahedron `t`, see TetQuality.h.
+/// worstSine2() of TetQuality.h for tetrahedron `t`.
 double worstSine2(const TetMesh& mesh, std::size_t t);
 
 /// How many tetrahedra of tissues (label not 0) have a dihedral angle below `degrees` or above 180 minus it.
 std::size_t countBelow(const TetMesh& mesh, double degrees);
 
-/// Of the tissues (label not 0), mm^3.
+/// Volume of each tissue (label not 0), mm^3.
 std::map<Label, double> tissueVolumes(const TetMesh& mesh);
 
-/// Assesses the tetrahedra (label 0 included, if there are any). `subMesh` per tetrahedron, or empty. `edgeLength` is
-/// L(x) in mm, asked at the middle of each edge, or empty.
+/// Assesses the tetrahedra, including those of label 0. `subMesh` has one entry per tetrahedron, or is empty.
+/// `edgeLength` is L(x) in mm, evaluated at the middle of each edge, or empty.
 MeshQuality assessQuality(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh,
                           const std::function<double(const Vec3&)>& edgeLength);
-/// The same with L (mm) at each point, whose mean over both ends counts for an edge; empty without a target.
+/// The same with L (mm) at each point; the target of an edge is the mean over its ends. Empty without a target.
 MeshQuality assessQualityFromPoints(const TetMesh& mesh, const std::vector<std::int32_t>& subMesh,
                                     const std::vector<double>& edgeLengths);
 

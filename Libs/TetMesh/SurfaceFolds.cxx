@@ -37,14 +37,14 @@ std::vector<Side> sidesOf(const SurfaceComplex& surface)
   return sides;
 }
 
-/// The larger label, then the smaller one.
+/// The labels of a triangle: the larger, then the smaller one.
 std::array<Label, 2> pairOf(const SurfaceComplex& surface, std::int32_t t)
 {
   const auto& [behind, front] = surface.labels[t];
   return { std::max(behind, front), std::min(behind, front) };
 }
 
-/// Unit, out of the larger label.
+/// Unit normal of a triangle, out of the larger label.
 Vec3 normalOf(const SurfaceComplex& surface, std::int32_t t)
 {
   const auto& [a, b, c] = surface.triangles[t];
@@ -57,7 +57,7 @@ double degreesBetween(const Vec3& a, const Vec3& b)
   return std::atan2(norm(cross(a, b)), dot(a, b)) * 180 / std::acos(-1.0);
 }
 
-/// What edges of one fold have in common.
+/// The properties that all edges of a fold share.
 struct FoldKind
 {
   bool isOuter, isConcave;
@@ -75,7 +75,7 @@ struct FoldedEdge
   EdgePoints points;
   double length;
   Vec3 middle;
-  double boundaryTurn; // -1: not known
+  double boundaryTurn; // degrees; -1: unknown
 };
 
 class FoldFinder
@@ -87,7 +87,7 @@ public:
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) m_Normals.push_back(normalOf(surface, std::int32_t(t)));
   }
 
-  /// `first`, `last`: all triangles at an edge.
+  /// Examines an edge. `first`, `last`: all triangles at it.
   void add(std::vector<Side>::const_iterator first, std::vector<Side>::const_iterator last, SurfaceFolds& result)
   {
     std::vector<std::int32_t> outer;
@@ -108,7 +108,7 @@ public:
 private:
   bool isFolded(std::int32_t a, std::int32_t b) const
   {
-    return dot(m_Normals[a], m_Normals[b]) < -1e-9; // right angles are none
+    return dot(m_Normals[a], m_Normals[b]) < -1e-9; // a right angle is no fold
   }
 
   double lengthOf(const EdgePoints& points) const
@@ -122,7 +122,7 @@ private:
     if (isFolded(a, b)) total.folded += lengthOf(points);
   }
 
-  /// Whether the larger label has the smaller angle.
+  /// Whether the larger label is on the convex side: its dihedral angle is below 180 degrees.
   bool isConvex(const EdgePoints& points, std::int32_t a, std::int32_t b) const
   {
     Vec3 opposite;
@@ -158,7 +158,7 @@ private:
   std::vector<FoldedEdge> m_Edges;
 };
 
-/// Edges of one kind that share points, in the order of their first edges.
+/// Chains of edges of one kind that are connected by points, in the order of their first edges.
 std::vector<std::vector<FoldedEdge>> chainsOf(const std::vector<FoldedEdge>& edges)
 {
   std::vector<std::pair<std::int32_t, std::uint32_t>> ends;
@@ -198,7 +198,7 @@ double meanBoundaryTurn(const std::vector<FoldedEdge>& chain)
   return length > 0 ? sum / length : -1;
 }
 
-/// Along half of the length, one of the tissues whose edge it is.
+/// Whether the fold is the edge of a thin tissue along at least half of its length.
 bool isThinAlong(const std::vector<FoldedEdge>& chain, const Fold& fold, const IsThin& isThin)
 {
   double thin = 0;
@@ -265,7 +265,7 @@ std::vector<Vec3> boundaryNormals(const BackgroundMesh& background)
   std::vector<std::array<Vec3, 4>> sums(mesh.tetrahedra.size());
   for (const BackgroundMesh::Sample& sample : background.samples)
   {
-    const Vec3 normal{ sample.normal[0], sample.normal[1], sample.normal[2] }; // longer where the boundary bends
+    const Vec3 normal{ sample.normal[0], sample.normal[1], sample.normal[2] }; // not a unit vector: see BackgroundMesh
     if (squaredNorm(normal) > 0) sums[sample.tetrahedron][sample.face] += normal / norm(normal);
   }
   std::vector<Vec3> result;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Where a surface is folded by more than 90 degrees: how much of it, where and why.
+/// Folds of a surface by more than 90 degrees: their length, place and reason.
 
 #include "BackgroundMesh.h"
 
@@ -12,11 +12,11 @@ namespace surgicalmesher
 
 enum class FoldReason
 {
-  Groove,     ///< outside between two tissues
-  Crack,      ///< outside that goes into one tissue
-  ThinTissue, ///< the edge of a tissue that is thinner there than elements are long
-  Boundary,   ///< the edge of a thicker one, and the boundary that the surface stands for turns as far
-  Surface     ///< an edge that the surface alone has
+  Groove,     ///< the outside enters between two tissues
+  Crack,      ///< the outside enters one tissue
+  ThinTissue, ///< the edge of a tissue that is thinner there than its elements are long
+  Boundary,   ///< the edge of a thicker tissue, whose boundary in the map turns by more than 90 degrees, too
+  Surface     ///< an edge of the surface that its boundary in the map does not have
 };
 
 constexpr int foldReasons = 5;
@@ -24,23 +24,24 @@ constexpr int foldReasons = 5;
 /// "groove between two tissues", "crack", "edge of a thin tissue", "edge in the map", "edge of the surface alone".
 std::string_view nameOf(FoldReason reason);
 
-/// Folded edges that hang together, of the same labels and on the same side.
+/// A connected chain of folded edges that have the same labels on the same sides.
 struct Fold
 {
   bool isOuter = false;   ///< on the surface of all tissues together
-  bool isConcave = false; ///< as seen from the tissues; false inside, where it is one tissue's edge
-  /// Of an outer fold the tissues of the two triangles, ascending; inside the tissue whose edge it is, and what it is in.
+  bool isConcave = false; ///< as seen from the tissues; always false for inner folds
+  /// Of an outer fold, the tissues of the two triangles, ascending; of an inner fold, the tissue whose edge it is, and
+  /// the label around that.
   std::array<Label, 2> labels{ 0, 0 };
   std::size_t edges = 0;
   double length = 0;       ///< mm
-  Vec3 place;              ///< middle of the edge nearest to the centre of all
-  double boundaryTurn = 0; ///< degrees, mean by length: between what the two triangles stand for; -1: not known
+  Vec3 place;              ///< middle of the edge that is nearest to the fold's centre
+  double boundaryTurn = 0; ///< degrees between the boundary's normals at both triangles, mean by length; -1: unknown
   FoldReason reason = FoldReason::Surface;
 };
 
 struct FoldedLength
 {
-  double length = 0, folded = 0; ///< mm, of edges
+  double length = 0, folded = 0; ///< mm: of all edges, of the folded ones
 };
 
 struct SurfaceFolds
@@ -53,13 +54,14 @@ struct SurfaceFolds
 /// Whether a tissue is thinner than its elements are long, at a point on its surface.
 using IsThin = std::function<bool(Label tissue, const Vec3& place)>;
 
-/// `boundaryNormals`: for each triangle the normal of the boundary that it stands for, out of the larger label; 0, or no
-/// normals at all: not known. A tissue is thin along a fold if it is along half of its length. In O(n log n).
+/// Finds all folds. `boundaryNormals`: for each triangle, the normal of the boundary that it represents, out of the
+/// larger label; a zero vector, or no normals at all: unknown. A tissue counts as thin along a fold if it is thin along
+/// at least half of the fold's length. Takes O(n log n).
 SurfaceFolds surfaceFolds(const SurfaceComplex& surface, const std::vector<Vec3>& boundaryNormals,
                           const IsThin& isThin);
 
-/// For each triangle of interfaceOf(background.mesh) the mean of its samples' normals; 0 where there is none. The mesh
-/// must know its neighbours.
+/// Returns, for each triangle of interfaceOf(background.mesh), the sum of the unit normals of its samples; 0 where
+/// there is none. `background.neighbours` must be known.
 std::vector<Vec3> boundaryNormals(const BackgroundMesh& background);
 
 } // namespace surgicalmesher

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A labelled tetrahedral mesh as plain arrays, and the surface complex between its labels: what the stages hand on.
+/// A labelled tetrahedral mesh as plain arrays, and the surface complex between its labels: the results that stages
+/// pass on.
 
 #include "TissueMap.h"
 #include "Vec3.h"

@@ -48,7 +48,7 @@ inline double sine2OfDegrees(double degrees)
   return s * s;
 }
 
-/// Degrees: what meshes are improved to, and what those are whose features leave no room for that.
+/// Dihedral angles, degrees, to which meshes are improved: usually, and where their features leave no room for that.
 constexpr double usualAngle = 28.5;
 constexpr double modestAngle = 23;
 

@@ -12,7 +12,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Adds a point of `all` to `part` unless it is there; returns its new id.
+/// Copies points to the surfaces of single tissues, each point once per tissue.
 class PointCopier
 {
 public:
@@ -33,13 +33,13 @@ public:
 private:
   const SurfaceFile& m_All;
   std::vector<std::int32_t> m_Ids;
-  std::vector<Label> m_Owner; ///< the tissue that m_Ids is of
+  std::vector<Label> m_Owner; ///< the tissue in whose surface m_Ids is valid
 };
 
-/// Whether the triangles with this label in front close up around a volume.
+/// Whether the triangles with this label in front form a closed surface around a volume.
 bool isWholeInFront(const SurfaceComplex& surface, Label label)
 {
-  std::map<std::pair<std::int32_t, std::int32_t>, int> balance; // of each edge's directions
+  std::map<std::pair<std::int32_t, std::int32_t>, int> balance; // by edge: ascending minus descending uses
   double volume = 0;
   for (std::size_t t = 0; t < surface.triangles.size(); ++t)
   {

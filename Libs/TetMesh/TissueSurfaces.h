@@ -10,13 +10,14 @@
 namespace surgicalmesher
 {
 
-/// Per tissue, the triangles that have it on one side, turned so that it is behind their normals, and their points.
-/// Faces between two tissues are in the surfaces of both. BoundaryDistance, whose sign is the complex's, is left out.
+/// Returns, for each tissue, the triangles that have it on one side, oriented so that it is behind their normals, and
+/// their points. Faces between two tissues are in the surfaces of both. BoundaryDistance is left out, as its sign
+/// refers to the complex.
 std::map<Label, SurfaceFile> tissueSurfaces(const SurfaceFile& content);
 
-/// The tissue that `surface` is the surface of alone, as tissueSurfaces takes it out: it is behind all normals, and
-/// what is in front is not in the file, or only in part. Its neighbours then become outside, 0. Otherwise none, and
-/// nothing changes.
+/// Detects a surface of one tissue alone, as tissueSurfaces() extracts it: the tissue is behind all normals, and the
+/// surfaces of its neighbours are not in the file, or not all of them completely. Then sets the labels in front to
+/// outside, 0, and returns the tissue. Otherwise returns nothing and changes nothing.
 std::optional<Label> leaveNeighboursOut(SurfaceComplex& surface);
 
 /// The text of a multi-block file (.vtm) that refers to one file per tissue, by their names as `files` has them, and

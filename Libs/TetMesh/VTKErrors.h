@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What VTK reports while it reads and writes: its readers tell of damaged content in no other way.
+/// Capture of VTK's error messages, the only way in which its readers report damaged content.
 
 #include <vtkLogger.h>
 #include <vtkNew.h>
@@ -14,7 +14,7 @@ namespace surgicalmesher
 
 class ErrorWindow;
 
-/// While it lives, VTK prints nothing, and the first error is kept.
+/// Keeps VTK from printing anything during its lifetime, and records the first error.
 class ErrorCatcher
 {
 public:

@@ -48,7 +48,7 @@ std::string listed(const std::vector<std::string>& words)
   return text;
 }
 
-// ---- in the process of their own ------------------------------------------------------------------------------------
+// ---- in the separate process ----------------------------------------------------------------------------------------
 
 template <class Reader>
 vtkPointSet* outputOf(Reader* reader, const std::string& file, const std::string& format)
@@ -62,7 +62,7 @@ vtkPointSet* outputOf(Reader* reader, const std::string& file, const std::string
   {
     refuse(file, "not enough memory for what its " + format + " header promises");
   }
-  catch (const std::exception& error) // of the containers that a damaged header sizes
+  catch (const std::exception& error) // from containers whose size a damaged header gives
   {
     refuse(file, "not a readable " + format + " file (" + error.what() + ")");
   }
@@ -177,12 +177,13 @@ void requireValidIds(vtkCellArray* cells, vtkIdType pointCount, const std::strin
 
 // ---- from one process to the other ----------------------------------------------------------------------------------
 
-/// Last letter of what one process tells the other, behind the data as XML and whether they are in RAS ('r', 'l').
+/// Last letter of the answer of the separate process. It follows the data as XML and a letter for their coordinates:
+/// RAS ('r') or LPS ('l').
 enum Answer : char
 {
   Surface = 's',
   Grid = 'g',
-  Refused = '!' ///< behind the sentence that says why
+  Refused = '!' ///< follows the error message
 };
 
 std::string asXML(vtkDataObject* data, const std::string& file)
@@ -233,7 +234,7 @@ std::uintmax_t sizeOf(const std::string& file)
   return error ? 0 : bytes;
 }
 
-/// What a sound file needs to be read, at least, with room for what libraries take for themselves.
+/// The least memory to read a sound file, including what the libraries need.
 std::uint64_t memoryFor(const std::string& file) { return (std::uint64_t(128) << 20) + 4 * sizeOf(file); }
 
 VTKFile fileOf(std::optional<std::string> answer, const std::string& file, int mostSeconds)
@@ -250,7 +251,8 @@ VTKFile fileOf(std::optional<std::string> answer, const std::string& file, int m
 
 int mostSecondsFor(const std::string& file) { return 10 + int(std::min<std::uintmax_t>(sizeOf(file) >> 21, 1u << 20)); }
 
-/// VTK's readers and writers that lack memory crash, or report what a damaged file would be reported for.
+/// Distinguishes lack of memory from a damaged file: VTK's readers and writers that run out of memory crash, or report
+/// the same errors as for damaged files.
 VTKFile fileOrNoMemory(SeparateProcess& reader, const std::string& file, int mostSeconds)
 {
   try

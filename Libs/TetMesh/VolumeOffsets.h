@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Offsets of tissues' boundaries that give back volumes.
+/// Offsets of tissue boundaries that restore volumes.
 
 #include "TissueMap.h"
 
@@ -10,13 +10,14 @@
 namespace surgicalmesher
 {
 
-/// How far (mm) the boundary of each tissue goes outwards; that between two tissues goes by the difference. Nothing said
-/// of a tissue is no way at all.
+/// Distance (mm) by which the boundary of each tissue moves outwards; the boundary between two tissues moves by the
+/// difference. Tissues without an entry have the offset 0.
 using TissueOffsets = std::map<Label, double>;
 
-/// How far each tissue's whole boundary has to go outwards for the volume that it is lacking (negative: has too much),
-/// `most` at most. A face between two tissues moves by the difference of theirs, towards the background by its own
-/// tissue's: `areas` by the labels on both sides, each pair once. In one unit of length.
+/// Returns the distance by which the whole boundary of each tissue has to move outwards to gain the volume that it
+/// lacks (`lacking`; negative: it has too much), limited to [-most, most]. A face between two tissues moves by the
+/// difference of their offsets, a face towards the background by the offset of its tissue. `areas`: by the labels on
+/// both sides, each pair once. All in one unit of length.
 TissueOffsets offsetsForVolumes(const std::map<Label, double>& lacking,
                                 const std::map<std::pair<Label, Label>, double>& areas, double most);
 

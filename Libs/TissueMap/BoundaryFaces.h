@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The voxel faces between labels, those between tissue and the outside of the map included: the one walk over a map
-/// that all who look for them take.
+/// Loops over the voxel faces between different labels, including those between tissue and the outside of the map.
 
 #include "Parallel.h"
 #include "TissueMap.h"
@@ -26,7 +25,7 @@ struct VoxelFace
     ++u[axis];
     return u;
   }
-  /// In the grid frame, mm.
+  /// Centre of the face in the grid frame, mm.
   Vec3 centre(const Vec3& spacing) const
   {
     Vec3 c{ double(lower[0]), double(lower[1]), double(lower[2]) };
@@ -46,8 +45,8 @@ inline std::array<int, 3> voxelInside(const Grid& grid, const VoxelFace& face)
   return isInside(grid, face.lower) ? face.lower : face.upper();
 }
 
-/// Calls f(face) for every face between two labels whose lower voxel is in slice k, in order; slice -1 has those below
-/// the map. Most of a map has one label for many voxels, which are passed over together.
+/// Calls f(face) for every face between two labels whose lower voxel is in slice k, in the order of these voxels; the
+/// faces below the map belong to slice -1. Skips stretches of equal labels many voxels at a time.
 template <class F>
 void forEachBoundaryFace(const TissueMap& map, int k, F&& f)
 {
@@ -79,8 +78,8 @@ void forEachBoundaryFace(const TissueMap& map, int k, F&& f)
   }
 }
 
-/// Calls f(index) for the voxels of row (j, k) from i = `first` up to `last`, which is not one of them, that have another
-/// label beside them, in order. The neighbours of all lie in the map.
+/// Calls f(index), in order, for the voxels of row (j, k) with i in [first, last) that have a face neighbour of another
+/// label. The face neighbours of all these voxels must lie in the map.
 template <class F>
 void forEachBoundaryVoxel(const TissueMap& map, int j, int k, int first, int last, F&& f)
 {
@@ -104,7 +103,8 @@ void forEachBoundaryVoxel(const TissueMap& map, int j, int k, int first, int las
   }
 }
 
-/// The sum of sumOfSlice(k) over all slices that have faces' lower voxels, in their order whatever the threads.
+/// Returns the sum of sumOfSlice(k) over all slices k of forEachBoundaryFace(), from -1 on. The slices are evaluated in
+/// parallel but added in order, so that the sum does not depend on the threads.
 template <class T, class F>
 T sumOverBoundarySlices(const TissueMap& map, F&& sumOfSlice)
 {

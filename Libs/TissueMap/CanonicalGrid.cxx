@@ -11,16 +11,15 @@ namespace surgicalmesher
 namespace
 {
 
-/// How the axes of a file go onto those of the canonical grid: w runs along or against file axis source[w].
+/// The map from file axes to canonical axes: canonical axis w runs along (sign 1) or against (-1) file axis source[w].
 struct AxisOrder
 {
   std::array<int, 3> source;
   std::array<int, 3> sign;
 };
 
-/// The right-handed order whose axes lie nearest to +L, +P, +S: of the 24, the one of largest trace. Where two are
-/// equally near, the choice depends on the directions in space alone, so that permuted and flipped copies of a map end
-/// alike.
+/// The right-handed order whose axes are nearest to +L, +P, +S: of the 24, the one of the largest trace. Ties are
+/// decided by the directions in space alone, so that permuted and flipped copies of a map get the same result.
 AxisOrder canonicalOrder(const std::array<Vec3, 3>& axes)
 {
   constexpr double tolerance = 1e-6;

@@ -10,7 +10,7 @@
 namespace surgicalmesher
 {
 
-/// Whether no two of the axes, of any length, are more than a thousandth off a right angle.
+/// Whether the axes, of any length, are pairwise perpendicular: the cosines of their angles are below 1e-3.
 bool arePerpendicular(const std::array<Vec3, 3>& axes);
 
 /// The nearest orthonormal frame.

@@ -18,7 +18,7 @@ namespace
 using Index = std::uint32_t;
 using Edge = std::pair<Index, Index>; // ascending region indices
 
-/// The runs of a map, their sets still being united: set 0 is the outside, set r + 1 that of run r.
+/// The runs of a map and their sets during the union: set 0 is the outside, set r + 1 that of run r.
 struct RunUnion
 {
   const TissueMap& map;
@@ -32,7 +32,7 @@ struct RunUnion
   }
 };
 
-/// The runs of a slice, and how many each of its rows has.
+/// The runs of a slice, and the number of runs in each of its rows.
 struct SliceRuns
 {
   std::vector<Run> runs;
@@ -53,7 +53,7 @@ SliceRuns runsOf(const TissueMap& map, int k)
   return result;
 }
 
-/// Each a set of its own.
+/// All runs of the map, each in a set of its own.
 RunUnion separateRuns(const TissueMap& map)
 {
   std::vector<SliceRuns> slices(map.grid.size[2]);
@@ -69,7 +69,8 @@ RunUnion separateRuns(const TissueMap& map)
   return u;
 }
 
-/// Unites the runs of background in a row that touch the outside with `outside`, a set that does; 0: none is known yet.
+/// Unites the background runs of a row that touch the outside with `outside`, another set that does (0: none is known
+/// yet, and the first one found becomes it).
 void uniteWithOutside(RunUnion& u, std::size_t row, bool atBorder, Index& outside)
 {
   const std::size_t begin = u.regions.rowBegins[row], end = u.regions.rowBegins[row + 1];
@@ -96,8 +97,8 @@ void uniteRows(RunUnion& u, std::size_t rowA, std::size_t rowB)
   }
 }
 
-/// Unites what touches in the slices from `begin` up to `end`, which is not one of them; no other set is looked at.
-/// Returns one that touches the outside; 0 if none does.
+/// Unites touching runs within the slices [begin, end), without access to sets of other slices. Returns a set that
+/// touches the outside; 0 if none does.
 Index uniteSlices(RunUnion& u, int begin, int end)
 {
   const int sizeJ = u.map.grid.size[1], sizeK = u.map.grid.size[2];
@@ -113,7 +114,7 @@ Index uniteSlices(RunUnion& u, int begin, int end)
   return outside;
 }
 
-/// A share of slices for each of some threads: that of part n begins at begin(n), and ends where the next begins.
+/// Division of slices among threads: part n has the slices [begin(n), begin(n + 1)).
 struct SliceParts
 {
   int slices, count;
@@ -122,10 +123,10 @@ struct SliceParts
   int begin(std::size_t part) const { return int(part) * slices / count; }
 
 private:
-  static constexpr int most = 8, worthwhile = 16; // parts, slices of each
+  static constexpr int most = 8, worthwhile = 16; // most parts; fewest slices per part
 };
 
-/// Part by part, then where these meet.
+/// Unites runs within each part of the slices in parallel, then across the borders of the parts.
 void uniteAll(RunUnion& u)
 {
   const int sizeJ = u.map.grid.size[1];
@@ -165,7 +166,7 @@ void numberRegions(RunUnion& u)
   }
 }
 
-/// One slice of region indices, with a margin of one voxel of outside.
+/// The region indices of one slice, with a margin of one voxel that belongs to the outside.
 class RegionSlice
 {
 public:
@@ -199,13 +200,13 @@ private:
   std::vector<Index> m_Regions;
 };
 
-/// What the 2x2x2 blocks of regions tell: Euler numbers, and which regions share a block (26-adjacency).
+/// Data from the 2x2x2 blocks of regions: Euler numbers, and which regions share a block (26-adjacency).
 class BlockCounts
 {
 public:
   explicit BlockCounts(std::size_t regions) : euler(regions, 0) { m_Recent.fill({ 0, 0 }); }
 
-  std::vector<int> euler; ///< of each region; that of the outside without the space beyond the grid
+  std::vector<int> euler; ///< by region; for the outside without the space beyond the grid
 
   /// Corner 0 is the voxel with the lowest i, j, k; bit 0 of a corner's number is i, bit 1 j, bit 2 k.
   void add(const std::array<Index, 8>& block)
@@ -245,7 +246,7 @@ private:
     euler[block[0]] += 1 - pairs + ij + ik + jk - (ij && ik && jk && same(7));
   }
 
-  /// A small memory of recent pairs keeps most repetitions out of the list.
+  /// A small cache of recent pairs keeps most repetitions out of the list.
   void addEdge(const Edge& edge)
   {
     Edge& recent = m_Recent[(edge.first * 31 + edge.second) % m_Recent.size()];
@@ -258,7 +259,7 @@ private:
   std::vector<Edge> m_Edges;
 };
 
-/// Adds the blocks between rows `a`, `b` (at j, j + 1) and `c`, `d` (the same one slice up) that are not uniform.
+/// Adds the blocks that are not uniform between `rows`: two at j and j + 1, and the same two one slice up.
 void addBlockRow(BlockCounts& counts, const std::array<const Index*, 4>& rows, std::size_t size,
                  std::vector<Index>& differs)
 {
@@ -271,7 +272,7 @@ void addBlockRow(BlockCounts& counts, const std::array<const Index*, 4>& rows, s
   }
 }
 
-/// Adds the blocks whose lower voxels are in the slices from `begin` up to `end`, which is not one of them.
+/// Adds the blocks whose lower voxels are in the slices [begin, end).
 void addBlocks(BlockCounts& counts, const Grid& grid, const Regions& regions, int begin, int end)
 {
   RegionSlice below(grid), above(grid);
@@ -289,7 +290,7 @@ void addBlocks(BlockCounts& counts, const Grid& grid, const Regions& regions, in
 
 BlockCounts countBlocks(const Grid& grid, const Regions& regions)
 {
-  const SliceParts parts(grid.size[2] + 1); // from the one below the map on
+  const SliceParts parts(grid.size[2] + 1); // including the slice below the map
   std::vector<BlockCounts> counts(parts.count, BlockCounts(regions.list.size()));
   parallelForEach(counts.size(), [&](std::size_t n)
                   { addBlocks(counts[n], grid, regions, parts.begin(n) - 1, parts.begin(n + 1) - 1); });
@@ -312,8 +313,8 @@ Adjacency adjacency(std::size_t regions, const std::vector<Edge>& edges)
                    });
 }
 
-/// How many parts each region cuts off from the outside: the components that the connected graph falls into without the
-/// region, minus one. Depth-first search from the outside after Hopcroft and Tarjan 1973, without recursion.
+/// Number of parts that each region cuts off from the outside: the number of components of the connected graph without
+/// the region, minus one. Depth-first search from the outside after Hopcroft and Tarjan 1973, without recursion.
 std::vector<int> enclosedParts(const Adjacency& graph)
 {
   const std::size_t count = graph.groups();

@@ -48,7 +48,7 @@ struct Region
   std::size_t voxels = 0;
 };
 
-/// A longest stretch of equal label along i; it ends where the next run of its row begins, or with the row.
+/// A maximal stretch of equal label along i; it ends where the next run of its row begins, or with the row.
 struct Run
 {
   std::uint32_t begin = 0;  ///< i of its first voxel
@@ -67,8 +67,8 @@ struct Regions
 
 Regions connectedRegions(const TissueMap& map);
 
-/// Calls visit(region, begin, end) for every run, in the order of memory: the voxels from index `begin` up to `end`, which
-/// is not one of them. `rowSize` is the map's size along i.
+/// Calls visit(region, begin, end) for every run, in memory order; its voxels have the indices [begin, end). `rowSize`
+/// is the map's size along i.
 template <class Visit>
 void forEachRun(const Regions& regions, std::size_t rowSize, const Visit& visit)
 {

@@ -28,7 +28,7 @@ struct DataBlock
   std::uint64_t offset = 0; ///< in the file
   std::uint64_t headerBytes = 0;
   bool compressed = false;
-  std::string compressedBytes; ///< as a MetaImage header tells them
+  std::string compressedBytes; ///< text of CompressedDataSize in a MetaImage header
 };
 
 bool hasExtension(const std::string& file, const std::string& extension)
@@ -57,7 +57,7 @@ std::string besides(const std::string& headerFile, const std::string& name)
   return folder.empty() ? name : folder + "/" + name;
 }
 
-/// The file of voxels of a NIfTI or Analyze pair.
+/// The voxel file (.img) of a NIfTI or Analyze pair.
 std::string pairedImage(const std::string& file)
 {
   const bool isGz = hasExtension(file, ".gz");
@@ -107,10 +107,11 @@ DataBlock findData(const std::string& file)
   return wholeFile(pairedImage(file), 0);
 }
 
-/// Bytes that the compressed stream holds, counted up to `enough`; 0 if it ends early or its check sum is wrong.
+/// Number of bytes that the stream decompresses to, without members after the one that reaches `enough`; 0 if it ends
+/// early or a checksum is wrong.
 std::uint64_t inflatedSize(std::istream& stream, std::uint64_t enough)
 {
-  constexpr int anyHeader = 47; // zlib's or gzip's, as found
+  constexpr int anyHeader = 47; // zlib or gzip, detected automatically
   std::vector<unsigned char> in(1 << 16);
   std::vector<unsigned char> out(1 << 18);
   std::uint64_t size = 0;
@@ -136,8 +137,8 @@ std::uint64_t inflatedSize(std::istream& stream, std::uint64_t enough)
   return status == Z_STREAM_END ? size : 0;
 }
 
-/// A line of an NRRD header that is no key and value goes whole into a message of the reader's, which has room for so
-/// much.
+/// Refuses long header lines that are no key/value pairs: the reader copies such a line into a message buffer of
+/// limited size.
 void requireLegibleNrrd(const std::string& file)
 {
   constexpr std::size_t longest = 500;
@@ -149,7 +150,7 @@ void requireLegibleNrrd(const std::string& file)
                        " characters in the header, expected fields of at most " + std::to_string(longest));
 }
 
-/// MetaImage's reader asks for so much memory before it reads.
+/// Checks CompressedDataSize, for which MetaImage's reader allocates memory before it reads.
 void requireCredibleCompression(const DataBlock& block, std::uint64_t fileSize)
 {
   double claimed = 0;
@@ -184,7 +185,7 @@ std::optional<NiftiPlacement> readNiftiPlacement(const std::string& file)
 {
   constexpr std::size_t headerSize = 348;
   std::array<unsigned char, headerSize> bytes{};
-  const gzFile stream = gzopen(file.c_str(), "rb"); // reads what is not compressed, too
+  const gzFile stream = gzopen(file.c_str(), "rb"); // also reads uncompressed files
   if (!stream) return {};
   const bool isWhole = gzread(stream, bytes.data(), headerSize) == int(headerSize);
   gzclose(stream);
@@ -245,10 +246,10 @@ void requireImageData(const std::string& imageFile, std::uint64_t byteCount)
 
 void requirePlausibleData(const std::string& imageFile, std::uint64_t byteCount)
 {
-  constexpr std::uint64_t densestText = 4; // "0 " may stand for the eight bytes of a number
+  constexpr std::uint64_t densestText = 4; // memory over file size: "0 " may stand for a number of eight bytes
   const DataBlock block = findData(imageFile);
   std::ifstream stream(block.file.c_str(), std::ios::binary | std::ios::ate);
-  if (!stream || block.compressed) return; // counted already, or data of many files
+  if (!stream || block.compressed) return; // checked already, or data in several files
   const std::uint64_t size = std::uint64_t(stream.tellg());
   if (densestText * size >= byteCount) return;
   throw InputError(block.file + ": truncated, " + std::to_string(size) + " bytes, expected " +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Whether an image file holds the data that its header promises. ITK's readers, NRRD's aside, return zeros or whatever
-/// was in memory for what is missing, and none of them looks at the check sums of compressed data.
+/// Checks that an image file holds the data that its header promises. ITK's readers, except that of NRRD, return zeros
+/// or uninitialised memory for missing data, and none of them verifies the checksums of compressed data.
 
 #include <cstdint>
 #include <optional>
@@ -10,24 +10,25 @@
 namespace surgicalmesher
 {
 
-/// Throws InputError unless the data of `imageFile` (NRRD, NIfTI, Analyze, MetaImage or GIPL, told by its extension)
-/// are all there, `byteCount` bytes once decompressed (for NIfTI, those before the first voxel included), and their
-/// check sums hold.
+/// Throws InputError unless the data of `imageFile` (NRRD, NIfTI, Analyze, MetaImage or GIPL, by its extension) are
+/// complete, `byteCount` bytes after decompression (for NIfTI, including those before the first voxel), and their
+/// checksums are correct.
 void requireImageData(const std::string& imageFile, std::uint64_t byteCount);
 
-/// Throws InputError if the file is too small to hold as many bytes of data uncompressed, as numbers of text even: where
-/// memory lacks for what a header promises, that tells whether there is anything to be read.
+/// Throws InputError if the file is too small to hold that many bytes of uncompressed data, even as text. To be called
+/// when memory does not suffice for what a header promises, to distinguish a wrong header from a lack of memory.
 void requirePlausibleData(const std::string& imageFile, std::uint64_t byteCount);
 
-/// Throws InputError for a MetaImage header with a number of dimensions that its reader would never come back from.
+/// Throws InputError for headers at which ITK's readers hang or overflow a buffer: a MetaImage header with an
+/// impossible number of dimensions, and an NRRD header with a field of more than 500 characters.
 void requireCredibleDimensions(const std::string& imageFile);
 
-/// What a NIfTI-1 header says of where its voxels lie, as it stands in the file.
+/// What a NIfTI-1 header says about the placement of its voxels.
 struct NiftiPlacement
 {
   bool isInMetres = false;
   int sformCode = 0;
-  double skew = 0; ///< degrees by which two columns of the sform miss the right angle, at most
+  double skew = 0; ///< degrees: largest deviation of two columns of the sform from a right angle
 };
 
 /// Empty unless `file`, compressed or not, is NIfTI-1.

@@ -13,11 +13,11 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr std::size_t kFewestLabels = 32; ///< of an image with values to speak of
-constexpr double kUnlikeNeighbours = 0.5; ///< share among all; maps of many small tissues come to a third
-constexpr double kSmallSteps = 0.5;       ///< share among the unlike: labels of neighbouring tissues may be any
+constexpr std::size_t kFewestLabels = 32; ///< fewest values of an intensity image
+constexpr double kUnlikeNeighbours = 0.5; ///< share among all pairs; maps of many small tissues reach a third
+constexpr double kSmallSteps = 0.5;       ///< share among unlike pairs; neighbouring tissues may differ by any amount
 
-/// Pairs of voxels of tissue, one beside the other.
+/// Counts of pairs of face-adjacent tissue voxels.
 struct Neighbours
 {
   std::size_t pairs = 0, unlike = 0, smallSteps = 0;
@@ -38,7 +38,7 @@ std::size_t countPairs(const Label* some, const Label* others, std::size_t count
   return pairs;
 }
 
-/// Those whose first voxel is in slice k.
+/// Number of pairs of face-adjacent tissue voxels whose first voxel is in slice k.
 std::size_t countPairs(const TissueMap& map, int k)
 {
   if (k < 0) return 0;
@@ -51,7 +51,7 @@ std::size_t countPairs(const TissueMap& map, int k)
   return pairs;
 }
 
-/// In some slices of a large map: it is the shares that count.
+/// Counts pairs; in large maps only in some slices, since only their shares matter.
 Neighbours countNeighbours(const TissueMap& map, int smallStep)
 {
   constexpr std::size_t many = 1 << 24; // voxels

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Stretches of equal labels, as most of a map is made of.
+/// Runs of equal labels, of which most of a map consists.
 
 #include "TissueMap.h"
 
@@ -11,7 +11,8 @@
 namespace surgicalmesher
 {
 
-/// How many of `count` labels in memory, one at least, are like the first; four of them are looked at together.
+/// Returns how many labels at the beginning of `labels` equal the first, at most `count`, which is at least 1. Compares
+/// four labels at a time.
 inline std::size_t runLength(const Label* labels, std::size_t count)
 {
   constexpr std::size_t together = sizeof(std::uint64_t) / sizeof(Label);
@@ -26,8 +27,8 @@ inline std::size_t runLength(const Label* labels, std::size_t count)
   return i;
 }
 
-/// Calls visit(label, begin, end) for every run of the labels from index `begin` up to `end`, in order: they are those from its
-/// own begin up to its end.
+/// Calls visit(label, runBegin, runEnd), in order, for every run of equal labels within the indices [begin, end); the
+/// run has the indices [runBegin, runEnd).
 template <class Visit>
 void forEachLabelRun(const std::vector<Label>& labels, std::size_t begin, std::size_t end, Visit&& visit)
 {

@@ -19,7 +19,7 @@ namespace
 using Points = std::vector<Vec3>;
 using Json = rapidjson::Value;
 
-/// Whether positions in this coordinate system are RAS, else LPS. Older files write a number for it.
+/// Whether positions in this coordinate system are RAS (else LPS). Older files write a number for it.
 bool isRas(const std::string& system, const std::string& file)
 {
   if (system == "RAS" || system == "0") return true;
@@ -43,7 +43,7 @@ std::string textMember(const Json& object, const char* name, const std::string& 
   return missing;
 }
 
-/// So many finite numbers, or none.
+/// Returns the member's `count` numbers; empty if it is no array of that many finite numbers.
 std::vector<double> numbersOf(const Json& object, const char* name, rapidjson::SizeType count)
 {
   const Json* values = member(object, name);
@@ -64,7 +64,8 @@ Vec3 readPosition(const Json& controlPoint, const std::string& file)
   return { p[0], p[1], p[2] };
 }
 
-/// A plane has a centre and a normal, a box centre, size and orientation, row by row, whose columns are its axes.
+/// Reads the centre and normal of a plane, or the centre, size and orientation of a box: a matrix, row by row, whose
+/// columns are the axes.
 std::optional<MarkupRegion> readRegion(const Json& markup, const std::string& type, bool ras)
 {
   const auto center = numbersOf(markup, "center", 3), normal = numbersOf(markup, "normal", 3);
@@ -83,7 +84,7 @@ std::optional<MarkupRegion> readRegion(const Json& markup, const std::string& ty
   return region;
 }
 
-/// `isPlaced` of every control point of the file; values of those that are not are dropped with them.
+/// `isPlaced`: for every control point of the file; values of points that are not placed are dropped.
 void readMeasurements(const Json& markup, const std::vector<bool>& isPlaced, Markup& result)
 {
   const Json* measurements = member(markup, "measurements");
@@ -103,7 +104,7 @@ void readMeasurements(const Json& markup, const std::vector<bool>& isPlaced, Mar
   }
 }
 
-/// A text, or a list of the unit's code, the scheme of codes and the unit's name.
+/// The unit of coordinates. The file has a text, or a list of the unit's code, the coding scheme and the unit's name.
 std::string unitsOf(const Json& markup)
 {
   const Json* value = member(markup, "coordinateUnits");
@@ -112,7 +113,7 @@ std::string unitsOf(const Json& markup)
   return value->IsString() ? value->GetString() : "no text";
 }
 
-/// The control points that are placed: Slicer also keeps points "undefined", "missing" and "preview".
+/// Reads the control points that are placed: Slicer also stores points that are "undefined", "missing" or "preview".
 Markup readMarkup(const Json& markup, const std::string& file)
 {
   const Json* controlPoints = markup.IsObject() ? member(markup, "controlPoints") : nullptr;
@@ -145,7 +146,7 @@ Markup readMarkup(const Json& markup, const std::string& file)
 std::vector<Markup> readJson(const std::string& file)
 {
   rapidjson::Document document;
-  // Iterative: nested brackets without end would use up the stack.
+  // Iterative: deeply nested brackets would overflow the stack.
   document.Parse<rapidjson::kParseFullPrecisionFlag | rapidjson::kParseIterativeFlag>(text::readTextFile(file).c_str());
   if (document.HasParseError())
   {
@@ -159,7 +160,7 @@ std::vector<Markup> readJson(const std::string& file)
   return lists;
 }
 
-/// What follows `# key = ` in a comment line of an .fcsv, or nothing.
+/// The text after `# key = ` in a comment line of an .fcsv file; empty for other lines.
 std::string commentValue(const std::string& line, const std::string& key)
 {
   const std::size_t equal = line.find('=');
@@ -167,7 +168,7 @@ std::string commentValue(const std::string& line, const std::string& key)
   return text::trimmed(line.substr(equal + 1));
 }
 
-/// Where an .fcsv file keeps what. Version 3 files have label,x,y,z,sel,vis; version 4 files name their columns.
+/// The columns of an .fcsv file. Version 3 files have label,x,y,z,sel,vis; version 4 files name their columns.
 struct Columns
 {
   std::size_t x = 1; ///< y and z follow it

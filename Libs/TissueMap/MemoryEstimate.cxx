@@ -17,18 +17,18 @@ namespace
 
 constexpr double kBytes = 30e6, kBytesPerVoxel = 9.5, kBytesPerLength = 16;
 constexpr double kBytesPerSample = 230, kBytesPerStartingFace = 440,
-                 kBytesPerCube = 370;                                      ///< as the surface stage begins
-constexpr double kBytesAtEnd = 80e6, kBytesPerTetrahedron = 500;           ///< when it is done
-constexpr double kBytesInTissues = 45e6, kBytesPerTissueTetrahedron = 560; ///< of the stage after it
+                 kBytesPerCube = 370;                                      ///< at the beginning of the surface stage
+constexpr double kBytesAtEnd = 80e6, kBytesPerTetrahedron = 500;           ///< at its end
+constexpr double kBytesInTissues = 45e6, kBytesPerTissueTetrahedron = 560; ///< of the tetrahedral stage
 constexpr double kTetrahedronVolume = 0.12, kTetrahedraPerArea = 6, kMorePerOuterArea = 7; ///< at unit edge
 constexpr double kSamplesPerTriangle = 16, kTriangleArea = 0.433;                          ///< at unit edge
-constexpr double kRelativeSize = 0.8;                                                      ///< of a cube to L
+constexpr double kRelativeSize = 0.8;                                                      ///< of a cube's side to L
 constexpr int kSmallest = -2, kLargest = 5; ///< powers of two of a cube's side, in voxels
 
-/// What a voxel face counts where blocks of voxels stand for them (UniformBlocks.h).
+/// The share of one voxel face in the face of a block, where blocks stand for voxels (UniformBlocks.h).
 double shareOfFace(double length, double voxel)
 {
-  constexpr double relativeSize = 0.25; // of a block to L; 0.34 in the lattice, but samples are as many then
+  constexpr double relativeSize = 0.25; // of a block to L; 0.34 in the lattice, but the number of samples is the same
   constexpr int largest = 8;            // voxels
   int side = 1;
   while (side < largest && 2 * side * voxel <= relativeSize * length) side *= 2;
@@ -42,7 +42,7 @@ double cubesPerVoxel(double length, double voxel)
   return std::pow(8.0, -std::clamp(power, double(kSmallest), double(kLargest)));
 }
 
-/// A long voxel is cut into several cells, and its faces with it.
+/// Number of lattice cells per voxel face, by axis: long voxels, and so their faces, are divided into several cells.
 std::array<double, 3> cellsOfFaces(const Grid& grid)
 {
   const double voxel = grid.smallestSpacing();
@@ -54,14 +54,14 @@ std::array<double, 3> cellsOfFaces(const Grid& grid)
 
 double areaOf(const Grid& grid, int axis) { return grid.spacing[(axis + 1) % 3] * grid.spacing[(axis + 2) % 3]; }
 
-/// That of edges at a voxel, mm.
+/// Edge length at a voxel, mm.
 double lengthAt(const ScaleField& scale, const Grid& grid, const std::array<int, 3>& voxel)
 {
   const Vec3 p = grid.gridToWorld(grid.position(voxel[0], voxel[1], voxel[2]));
   return std::max(scale(p), shortestLatticeLength(grid));
 }
 
-/// Of tissue, from a voxel in every few: L varies slowly.
+/// Adds the cubes and tetrahedra within tissue, estimated from a subset of the voxels, since L varies slowly.
 void addFilled(const TissueMap& map, const ScaleField& scale, MeshingSize& size)
 {
   constexpr std::size_t mostSamplesPerAxis = 64;
@@ -85,7 +85,7 @@ void addFilled(const TissueMap& map, const ScaleField& scale, MeshingSize& size)
   size.tetrahedra = voxelsPerSample * tetrahedra;
 }
 
-/// What the faces of a slice add.
+/// Contribution of the faces of a slice.
 struct Faces
 {
   double all = 0, samples = 0, starting = 0, tetrahedra = 0;

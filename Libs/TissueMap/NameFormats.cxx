@@ -45,7 +45,7 @@ public:
     for (std::string& name : m_Names) name = text::lowerCase(name);
   }
 
-  /// Of the first of these columns that the table has and that is not empty in the row.
+  /// The row's field in the first of the columns `names` that the table has and that is not empty in the row.
   std::string field(const std::vector<std::string>& row, const std::vector<std::string>& names) const
   {
     for (const std::string& name : names)
@@ -66,7 +66,7 @@ private:
 const std::vector<std::string> labelColumns{ "labelvalue", "label", "index", "id", "value" };
 const std::vector<std::string> nameColumns{ "name", "type_codemeaning", "region", "abbreviation" };
 
-/// Of three columns to 255 or one of #RRGGBB; what is none stays grey.
+/// Reads the colour from three columns of 0 to 255 or one of #RRGGBB; otherwise it stays grey.
 void readColor(const Columns& columns, const std::vector<std::string>& row, Tissue& tissue)
 {
   const std::vector<std::vector<std::string>> names{ { "color_r", "r", "red" },
@@ -85,7 +85,7 @@ void readColor(const Columns& columns, const std::vector<std::string>& row, Tiss
   if (found == 3) tissue.color = { rgb[0] / 255, rgb[1] / 255, rgb[2] / 255 };
 }
 
-/// Keeps the labels of an atlas and its type, however deep or wide the file is.
+/// Extracts only the labels and the type of an atlas, however deep or wide the file is.
 class FslParser : public vtkXMLParser
 {
 public:

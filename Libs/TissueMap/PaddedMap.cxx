@@ -11,7 +11,8 @@ namespace surgicalmesher
 namespace
 {
 
-/// Calls f(its first voxel in the map, the same in the padded one) for every row of the map, on all threads.
+/// Calls f(first voxel in the map, first voxel in the padded map) for every row of the map, on all threads; the
+/// arguments are memory indices.
 template <class F>
 void forEachRow(const TissueMap& map, const PaddedMap& paddedMap, F&& f)
 {

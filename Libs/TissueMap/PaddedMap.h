@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A map with a margin of background around it: every voxel of the map then has its neighbours in memory, as far as the
-/// margin is wide.
+/// A map with a margin of background around it, so that every voxel of the map has its neighbours in memory, up to the
+/// width of the margin.
 
 #include "TissueMap.h"
 
@@ -11,18 +11,19 @@
 namespace surgicalmesher
 {
 
-/// Voxel (i, j, k) of the map is (i, j, k) + margin of the grid, whose origin stays that of the map.
+/// Voxel (i, j, k) of the map is voxel (i, j, k) + margin of the padded grid. The grid's origin remains the centre of
+/// voxel (0, 0, 0) of the map.
 struct PaddedMap : TissueMap
 {
   int margin = 0; ///< voxels, on all sides
 
-  /// The voxel of the map that lies at `index` in memory; in the margin, one beyond the map.
+  /// Returns the voxel of the map that lies at `index` in memory; for the margin, a voxel beyond the map.
   std::array<int, 3> mapVoxelAt(std::size_t index) const
   {
     const auto [i, j, k] = grid.voxelAt(index);
     return { i - margin, j - margin, k - margin };
   }
-  /// Centre of the voxel that lies at `index` in memory, mm.
+  /// Centre of the voxel that lies at `index` in memory, in world coordinates, mm.
   Vec3 worldAt(std::size_t index) const
   {
     const auto [i, j, k] = mapVoxelAt(index);
@@ -36,10 +37,11 @@ PaddedMap padded(const TissueMap& map, int margin);
 /// Copies what lies within the margin back into the map.
 void copyWithoutMargin(const PaddedMap& paddedMap, TissueMap& map);
 
-/// Steps from a voxel to its 3x3x3 neighbourhood, itself included, in memory order: i + 3 j + 9 k, the centre at 13.
+/// Memory offsets from a voxel to its 3x3x3 neighbourhood, itself included, in the order i + 3 j + 9 k; the centre is
+/// at 13.
 std::array<std::ptrdiff_t, 27> neighbourSteps(const Grid& grid);
 
-/// Places of the six face neighbours in a 3x3x3 neighbourhood.
+/// Indices of the six face neighbours in a 3x3x3 neighbourhood.
 inline constexpr std::array<int, 6> sixNeighbours{ 4, 10, 12, 14, 16, 22 };
 
 } // namespace surgicalmesher

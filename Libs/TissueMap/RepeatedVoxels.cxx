@@ -10,13 +10,13 @@ namespace surgicalmesher
 namespace
 {
 
-/// The steps along one axis between places where neighbouring voxels differ, as far as they are seen.
+/// The distances along one axis between the places where neighbouring voxels differ, of those added so far.
 class ChangeSteps
 {
 public:
   explicit ChangeSteps(int size) : m_IsChange(std::size_t(size), false) {}
 
-  /// Voxel number `at` differs from the one before it.
+  /// Adds a place: voxel number `at` differs from the one before it.
   void add(int at)
   {
     if (m_IsChange[at]) return;
@@ -28,14 +28,14 @@ public:
 
   int count() const { return m_Count; }
   int first() const { return m_First; }
-  int divisor() const { return m_Divisor; } ///< greatest, of all steps; 0: of none
+  int divisor() const { return m_Divisor; } ///< greatest common divisor of the distances; 0: no distance
 
 private:
   std::vector<bool> m_IsChange;
   int m_Count = 0, m_First = -1, m_Divisor = 0;
 };
 
-/// The changes along `axis`, or some of them, if there is a step of one.
+/// The changes along `axis`; stops early when the divisor is 1.
 ChangeSteps changesAlong(const TissueMap& map, int axis)
 {
   const auto& size = map.grid.size;
@@ -81,11 +81,11 @@ std::array<int, 3> wholeBlocks(const VoxelRepeats& repeats)
 
 VoxelRepeats findRepeats(const TissueMap& map, double shortestLength)
 {
-  constexpr int leastChanges = 12; // along each axis; were places chance, one map in 2^33 would have even ones alone
+  constexpr int leastChanges = 12; // along each axis; by chance, one map in 2^33 would have an even divisor on all axes
   const VoxelRepeats none{ map.grid };
   VoxelRepeats repeats = none;
   int times = 0;
-  for (const int axis : { 2, 1, 0 }) // whole rows are compared first
+  for (const int axis : { 2, 1, 0 }) // the axes that compare whole rows first
   {
     const ChangeSteps steps = changesAlong(map, axis);
     times = std::gcd(times, steps.divisor());
@@ -107,7 +107,7 @@ TissueMap withoutRepeats(const TissueMap& map, const VoxelRepeats& repeats)
 {
   TissueMap result = everyNth(map, repeats.times, repeats.first, wholeBlocks(repeats));
   const auto& first = repeats.first;
-  const double half = 0.5 * (repeats.times - 1); // to the middle of what repeats
+  const double half = 0.5 * (repeats.times - 1); // voxels from the first one to the middle of a block
   const Vec3 voxel = map.grid.spacing;
   result.grid.origin =
     map.grid.gridToWorld({ (first[0] + half) * voxel.x, (first[1] + half) * voxel.y, (first[2] + half) * voxel.z });

@@ -10,14 +10,14 @@ namespace surgicalmesher
 namespace
 {
 
-/// To a millionth, never -0.
+/// Rounds to a millionth, never to -0.
 Vec3 rounded(const Vec3& v)
 {
   const auto round = [](double x) { return std::round(x * 1e6) / 1e6 + 0.0; };
   return { round(v.x), round(v.y), round(v.z) };
 }
 
-/// To a millionth, of small spacings to a few millionths of themselves.
+/// Rounds to a millionth; spacings below 0.01 mm to five significant digits.
 Vec3 roundedSpacing(const Vec3& spacing)
 {
   const auto round = [](double x)

@@ -18,17 +18,17 @@ struct ScaleField
   double operator()(const Vec3& world) const;
 };
 
-/// The grid seen from its own grid frame: origin 0, axes along x, y, z. Spacing is rounded as below.
+/// The grid seen from its own grid frame: origin 0, axes along x, y, z. Its spacing is rounded as by inFrameOf().
 Grid inOwnFrame(const Grid& grid);
 
-/// The same lengths seen from the grid frame of `frame`. Placement is rounded to 1e-6 mm, more than headers in single
-/// precision hold: map and scale then give the same numbers, bit by bit, as copies of both that lie elsewhere.
+/// Returns the scale in the grid frame of `frame`. Its placement is rounded to 1e-6 mm, finer than headers in single
+/// precision resolve: a map and its scale then give bitwise the same numbers as copies of both that lie elsewhere.
 ScaleField inFrameOf(const Grid& frame, const ScaleField& scale);
 
-/// A world position seen from the grid frame of `frame`, rounded likewise.
+/// Returns a world position in the grid frame of `frame`, rounded likewise.
 Vec3 inFrameOf(const Grid& frame, const Vec3& world);
 
-/// One length everywhere.
+/// A scale of one length (mm) everywhere, stored as a single voxel.
 ScaleField uniformScale(double edgeLength);
 
 } // namespace surgicalmesher

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 /// Small tables of comma-separated values whose first row names the columns. Empty lines and lines that begin with #
-/// don't count.
+/// are skipped.
 
 #include <functional>
 #include <string>
@@ -25,8 +25,9 @@ struct TextTable
   std::vector<TextTableRow> rows;
 };
 
-/// `columnOf` numbers a name of the first row, from 0 to columns - 1; -1 if there is no such column. `names` lists them
-/// all for the user. Throws InputError for files that can't be read, and for names that are unknown or come twice.
+/// Reads a table of `columns` columns. `columnOf` maps a name of the first row to its column, from 0 to columns - 1;
+/// -1: unknown. `names` lists all names for messages. Throws InputError if the file cannot be read, for unknown or
+/// repeated names, and for rows with more fields than the first.
 TextTable readTextTable(const std::string& file, int columns, const std::function<int(const std::string&)>& columnOf,
                         const std::string& names);
 

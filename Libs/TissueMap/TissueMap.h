@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The label map that everything starts from, and the tissues in it.
+/// The label map, which is the input of all stages, and the tissues in it.
 
 #include "Grid.h"
 
@@ -15,7 +15,7 @@ namespace surgicalmesher
 {
 
 using Label = std::uint16_t;              ///< 0 is background
-constexpr std::size_t labelCount = 65536; ///< possible values, for tables by label
+constexpr std::size_t labelCount = 65536; ///< number of possible values, for tables by label
 
 struct Tissue
 {
@@ -42,27 +42,27 @@ inline Label labelAt(const TissueMap& map, const std::array<int, 3>& voxel)
   return map.grid.contains(i, j, k) ? map.labels[map.grid.index(i, j, k)] : Label(0);
 }
 
-/// The shortest edges, mm, that meshing voxels of this grid gives: a quarter of their shortest side.
+/// The shortest edges, mm, that a mesh of this grid can have: a quarter of the shortest voxel side.
 inline double shortestLatticeLength(const Grid& grid) { return grid.smallestSpacing() / 4; }
 
 /// Labels present in the map, ascending, without background.
 std::vector<Label> presentLabels(const TissueMap& map);
 
-/// `count` labels, ascending, that neither a voxel of the map, nor its table, nor `named` has: the next after all of
-/// these, or where that would end above 65535 the smallest. Fewer if fewer are free.
+/// Returns `count` labels, ascending, that occur neither in the map's voxels nor in its table nor in `named`: those
+/// after the largest label in use or, if these would exceed 65535, the smallest. Returns fewer if fewer are free.
 std::vector<Label> freeLabels(const TissueMap& map, std::size_t count, const std::set<Label>& named = {});
 
-/// Makes the background, all of it, a tissue of that label, which is called "surroundings" if the table has no name for
-/// it. False, and no change, if a voxel has the label already.
+/// Turns the whole background into a tissue of that label, named "surroundings" if the table has no name for it.
+/// Returns false and changes nothing if a voxel has the label already.
 bool fillBackground(TissueMap& map, Label label);
 
-/// Every n-th voxel along each axis, from voxel (0, 0, 0) on, which stays where it is.
+/// Returns every n-th voxel along each axis, starting from voxel (0, 0, 0), which stays where it is.
 TissueMap everyNth(const TissueMap& map, int n);
 
-/// The same, `size` of them, from voxel `first` on.
+/// Returns `size` voxels, every n-th along each axis, starting from voxel `first`.
 TissueMap everyNth(const TissueMap& map, int n, const std::array<int, 3>& first, const std::array<int, 3>& size);
 
-/// Voxels of each label in the map, background included.
+/// Number of voxels of each label in the map, background included.
 std::map<Label, std::size_t> countVoxels(const TissueMap& map);
 
 } // namespace surgicalmesher

@@ -34,12 +34,12 @@ namespace
 
 using MetaData = std::map<std::string, std::string>;
 
-/// Of a segment, as Slicer keeps tags: key:value|
+/// Tag of a segment, in Slicer's notation key:value|
 const char* const nullDisplacementTag = "SurgicalMesher.Role:null displacement|";
 
 constexpr double maximumVoxelCount = 2147483648.0; // 2^31: 4 GB of labels
 
-/// Bytes that a reader may take besides an image's data.
+/// Bytes that a reader may need besides an image's data.
 constexpr std::uint64_t memoryOfLibraries = 64 << 20;
 
 /// An image file as it lies in memory after reading, and how to walk it in the order of the canonical grid.
@@ -99,8 +99,8 @@ std::vector<itk::ImageIOBase::Pointer> imageFormats()
 
 const char* const formatNames = "NRRD, NIfTI, MetaImage or GIPL";
 
-/// What is wrong with a NIfTI header that the library refuses, and what the user can do; empty for other files and
-/// faults.
+/// Explains what is wrong with a NIfTI header that the library refuses, and what the user can do. Empty for other files
+/// and other faults.
 std::string niftiAdvice(const std::string& file, const std::string& reason)
 {
   const std::optional<NiftiPlacement> placement = readNiftiPlacement(file);
@@ -142,7 +142,7 @@ itk::ImageIOBase::Pointer openImage(const std::string& file)
   throw InputError(file + ": not an image that can be read, expected " + formatNames);
 }
 
-/// ITK's readers take what a damaged header says at its word, and crash: a process of its own reads it first.
+/// Reads the header in a separate process first: ITK's readers trust damaged headers and may crash.
 void requireHarmlessHeader(const std::string& file)
 {
   constexpr int mostSeconds = 10;
@@ -160,7 +160,7 @@ void requireHarmlessHeader(const std::string& file)
       }
     },
     mostSeconds);
-  if (!answer || !answer->empty()) requireMemory(memoryOfLibraries); // or it may be for lack of it
+  if (!answer || !answer->empty()) requireMemory(memoryOfLibraries); // otherwise the cause may be a lack of memory
   if (!answer)
     throw InputError(file + ": the image header is damaged: its reader crashed or did not end within " +
                      std::to_string(mostSeconds) + " s of processor time, or ten times as long by the clock");
@@ -202,9 +202,9 @@ double niftiUnit(const MetaData& metaData)
   return spaceUnits == 1 ? 1000 : spaceUnits == 3 ? 0.001 : 1;
 }
 
-/// The sform of a NIfTI header in LPS mm: whether there is one, and it is a placement of perpendicular axes. Where a
-/// file has an sform and a qform that differ, ITK takes the qform unless the sform is of the scanner; nearly everybody
-/// else, and this project, takes the sform, in which atlases are aligned.
+/// Reads the sform of a NIfTI header in LPS mm; returns whether there is one with perpendicular axes. If sform and
+/// qform differ, ITK uses the qform unless the sform is that of the scanner; nearly all other programs, and this one,
+/// use the sform, in which atlases are aligned.
 bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& columns)
 {
   const std::string* code = find(metaData, "sform_code");
@@ -227,8 +227,8 @@ bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& colu
   return arePerpendicular(columns);
 }
 
-/// The origin of a NIfTI header's qform in LPS mm, if there is one whose unit is another: ITK scales the spacing to mm,
-/// but, in the version of Debian 12, not the origin.
+/// The origin of a NIfTI header's qform in LPS mm, if there is a qform and its unit is not mm: ITK scales the spacing
+/// to mm but, in the version of Debian 12, not the origin.
 std::optional<Vec3> qformOriginInMm(const MetaData& metaData)
 {
   const double unit = niftiUnit(metaData);
@@ -288,8 +288,8 @@ MetaData readMetaData(const itk::ImageIOBase& io)
   return metaData;
 }
 
-/// Bytes of the file's data, those before the first voxel included. A NIfTI header tells; its voxels may be smaller in
-/// the file than in memory, where its slope and intercept make them floats.
+/// Bytes of the file's data, for NIfTI those before the first voxel included. NIfTI voxels may be smaller in the file
+/// than in memory, where slope and intercept turn them into floats, so their size is taken from the header.
 std::uint64_t bytesOnDisk(const MetaData& niftiHeader, std::size_t voxelCount, std::size_t bytesInMemory)
 {
   const std::string* bits = find(niftiHeader, "bitpix");
@@ -308,7 +308,8 @@ Volume readVolume(const std::string& file)
   Volume volume;
   volume.file = file;
   volume.metaData = readMetaData(*io);
-  // Other formats may carry a NIfTI header's entries on, from a file they were converted from: there they mean nothing.
+  // Files of other formats may contain entries of the NIfTI header that they were converted from, which must be
+  // ignored.
   const bool isNifti = dynamic_cast<const itk::NiftiImageIO*>(io.GetPointer()) != nullptr;
   const MetaData niftiHeader = isNifti ? volume.metaData : MetaData();
   static_cast<CanonicalGrid&>(volume) = canonicalGrid(fileGrid(*io, niftiHeader, file));
@@ -369,7 +370,8 @@ void visitData(const Volume& volume, Function function)
   }
 }
 
-/// convert(const T* voxel) of every voxel, in the order of the canonical grid. Of those that throw the first is heard.
+/// Returns convert(const T* voxel) of every voxel, in the order of the canonical grid. Of several slices that throw,
+/// the exception of the first is rethrown.
 template <typename Out, typename Convert>
 std::vector<Out> gather(const Volume& volume, Convert convert)
 {
@@ -395,7 +397,7 @@ std::vector<Out> gather(const Volume& volume, Convert convert)
   return values;
 }
 
-/// The label that a voxel value stands for; throws for values that are none.
+/// The label that a voxel value stands for; throws InputError for values that are no label.
 template <typename T>
 Label toLabel(T value, const std::string& file)
 {
@@ -428,8 +430,8 @@ long segmentNumber(const Volume& volume, const std::string& key, long minimum, l
   return number;
 }
 
-/// The segments that the header lists, in its order; none if the file is no segmentation. Headers older than shared
-/// layers name neither layer nor value: segment N is then the ones of layer N.
+/// The segments that the header lists, in its order; none if the file is no segmentation. Headers from before shared
+/// layers name neither layer nor value: segment N then consists of the voxels of value 1 in layer N.
 std::vector<Segment> readSegments(const Volume& volume)
 {
   std::vector<Segment> segments;
@@ -477,7 +479,7 @@ std::vector<Label> segmentLabels(const std::vector<Segment>& segments, int layer
 std::vector<Label> mergeLayers(const Volume& volume, const std::vector<Segment>& segments,
                                const std::vector<Label>& segmentLabel)
 {
-  std::vector<std::vector<int>> rank(volume.components); // by layer and value: segment + 1, or 0
+  std::vector<std::vector<int>> rank(volume.components); // by layer and value: index of the segment + 1; 0: none
   for (std::size_t n = 0; n < segments.size(); ++n)
   {
     std::vector<int>& layer = rank[segments[n].layer];
@@ -537,7 +539,7 @@ void writeVolume(const Grid& grid, itk::IOComponentEnum type, const void* data, 
   try
   {
     io->Write(data);
-    requireImageData(file, grid.voxelCount() * io->GetComponentSize()); // the libraries don't notice a full disk
+    requireImageData(file, grid.voxelCount() * io->GetComponentSize()); // the libraries do not report a full disk
   }
   catch (const InputError&)
   {
@@ -549,7 +551,7 @@ void writeVolume(const Grid& grid, itk::IOComponentEnum type, const void* data, 
   }
 }
 
-/// Names and colours as Slicer's segmentations carry them.
+/// Names, colours and tags in the form of Slicer's segmentations.
 MetaData segmentMetaData(const TissueTable& table)
 {
   MetaData metaData;
@@ -569,7 +571,7 @@ MetaData segmentMetaData(const TissueTable& table)
   return metaData;
 }
 
-/// One number per voxel; `noun` and `expected` say in messages what it is to be.
+/// Reads one number per voxel; `noun` and `expected` name the expected number in messages.
 ScalarImage readNumbers(const std::string& file, const std::string& noun, bool (*isAllowed)(float),
                         const std::string& expected)
 {

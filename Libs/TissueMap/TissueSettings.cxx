@@ -63,7 +63,7 @@ void readRole(const TextTableRow& row, TissueSetting& setting)
   else row.fail("role \"" + role + "\", expected mesh, group NAME, shell or leave");
 }
 
-/// An empty field leaves `value` alone.
+/// Reads a number; an empty field leaves `value` as it is.
 void readNumber(const TextTableRow& row, Column column, bool mayBeZero, double& value)
 {
   const std::string field = row.fields[column];
@@ -104,10 +104,10 @@ TissueSetting readSetting(const TextTableRow& row)
   return setting;
 }
 
-/// The smaller of two values that both may be left open.
+/// The smaller of two values, each of which may be `open`, that is, not set.
 double smaller(double a, double b, double open) { return a == open ? b : b == open ? a : std::min(a, b); }
 
-/// What a group asks for, of what two of its members do. An open minimum is a minimum of 0.
+/// The setting of a group, from those of two of its members. A minimum that is not set is a minimum of 0.
 TissueSetting joined(const TissueSetting& a, const TissueSetting& b)
 {
   TissueSetting both = a;
@@ -136,7 +136,7 @@ std::vector<TissueGroup> groupsOf(const TissueSettings& settings)
   return groups;
 }
 
-/// Which members of one group touch is what `groupOf`, by label, says of every two voxels with a common face.
+/// Finds the pieces of all groups: members of one group are connected where two of their voxels share a face.
 void findPieces(const TissueMap& map, std::vector<TissueGroup>& groups)
 {
   std::vector<std::size_t> groupOf(labelCount, groups.size());

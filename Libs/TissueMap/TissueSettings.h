@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What is asked of single tissues: which are meshed, together or apart, as solids or shells, and how finely.
+/// Settings of single tissues: which are meshed, together or apart, as solids or shells, and how finely.
 
 #include "TissueMap.h"
 
@@ -14,9 +14,9 @@ namespace surgicalmesher
 enum class TissueRole
 {
   Mesh,  ///< a tissue of its own
-  Group, ///< one tissue with the other members of its group
+  Group, ///< part of one tissue with the other members of its group
   Shell, ///< a surface of constant edge length, which the volume stage may leave hollow
-  Leave  ///< background
+  Leave  ///< not meshed: becomes background
 };
 
 struct TissueSetting
@@ -26,8 +26,8 @@ struct TissueSetting
   double minimumEdgeLength = 0; ///< mm; 0: no limit
   double maximumEdgeLength = 0; ///< mm; 0: no limit. A shell has one length: the two are the same
   bool isProtected = false;     ///< exempt from simplification
-  double islandVolume = -1;     ///< mm^3: smaller pieces of the tissue go; 0 keeps all, negative: the general value
-  double cavityVolume = -1;     ///< mm^3: the same for background enclosed by the tissue
+  double islandVolume = -1;     ///< mm^3; smaller pieces of the tissue are removed; 0: none; negative: general value
+  double cavityVolume = -1;     ///< mm^3; the same for background enclosed by the tissue
 };
 
 using TissueSettings = std::map<Label, TissueSetting>;
@@ -35,8 +35,9 @@ using TissueSettings = std::map<Label, TissueSetting>;
 /// Reads a CSV of one row per tissue. The header row names the columns, in any order: `label` or `name` (or both: the
 /// label counts), `role` (mesh, group NAME, shell, leave), `minimum`, `maximum`, `protected` (yes, no), `islands`,
 /// `cavities`; an empty field means the default. Lines that are empty or begin with # are skipped. Throws InputError
-/// with file and line for anything else than that: a column unknown or twice, none for the tissue, a tissue unknown,
-/// absent from the map or listed twice, values out of range, a minimum above the maximum, no tissue left to mesh.
+/// with file and line for any other content: a column that is unknown or repeated, no column for the tissue, a tissue
+/// that is unknown, absent from the map or listed twice, values out of range, a minimum above the maximum, no tissue
+/// left to mesh.
 TissueSettings readTissueSettings(const std::string& file, const TissueMap& map);
 
 /// One tissue that stands for several.
@@ -45,22 +46,22 @@ struct TissueGroup
   Label label = 0; ///< the smallest of its members
   std::string name;
   std::vector<Label> members; ///< ascending
-  /// The members by contiguity: those of one piece are joined by common voxel faces, from tissue to tissue. Pieces by
-  /// their smallest member.
+  /// The members by contiguity: those of one piece are connected by common voxel faces, from tissue to tissue. Ordered
+  /// by the smallest member of each piece.
   std::vector<std::vector<Label>> pieces;
 };
 
-/// What became of the tissues of a map.
+/// What selectTissues() did to the tissues of a map.
 struct TissueSelection
 {
-  std::vector<TissueGroup> groups;         ///< by label
-  std::map<Label, std::size_t> voxelsLeft; ///< tissues left out
-  TissueTable tableOfInput;                ///< names and colours before
+  std::vector<TissueGroup> groups;         ///< ordered by label
+  std::map<Label, std::size_t> voxelsLeft; ///< number of voxels of each tissue that was left out
+  TissueTable tableOfInput;                ///< names and colours before the selection
 };
 
-/// Joins groups, and makes background of the tissues left out; map.table and `settings` follow: a group has the
-/// smallest edge lengths and volumes that its members ask for, and is protected if one of them is. Shells are marked in
-/// map.table.
+/// Joins the members of each group, and turns the tissues left out into background. Updates map.table and `settings`: a
+/// group has the smallest edge lengths and volumes of its members, is protected if one member is, and is null
+/// displacement if all are. Shells are marked in map.table.
 TissueSelection selectTissues(TissueMap& map, TissueSettings& settings);
 
 } // namespace surgicalmesher

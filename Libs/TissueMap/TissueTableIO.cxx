@@ -26,7 +26,7 @@ bool parseNumbers(const std::vector<std::string>& words, std::size_t from, std::
   return true;
 }
 
-/// The words [from, to), with the underscores that colour tables write for blanks turned back.
+/// Joins words [from, to), and turns the underscores that colour tables write for blanks back into blanks.
 std::string joined(const std::vector<std::string>& words, std::size_t from, std::size_t to)
 {
   std::string name;
@@ -35,7 +35,7 @@ std::string joined(const std::vector<std::string>& words, std::size_t from, std:
   return name;
 }
 
-/// One line in one of three forms, told apart by where the numbers are:
+/// Parses a line of one of three forms, distinguished by the position of the numbers:
 ///   label R G B A visible mesh "name"   ITK-SNAP: colours to 255, A to 1
 ///   label name R G B A                  Slicer: colours to 255
 ///   label name                          atlases; a number after the name is dropped
@@ -53,7 +53,7 @@ bool parseTissue(const std::vector<std::string>& words, Tissue& tissue)
   return count >= 2;
 }
 
-/// Lines of words, without a row that names columns.
+/// Reads lines of words, without a header row.
 void readWords(const std::string& file, const TissueRow& take)
 {
   const std::vector<std::string> lines = text::splitLines(text::readTextFile(file));

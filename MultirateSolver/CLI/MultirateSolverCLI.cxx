@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// MultirateSolverCLI: parent and children of a mesh and recorded tools in; forces, displacements and their rate out.
+// MultirateSolverCLI: replays recorded tools in a mesh of parent and children; writes forces, displacements and rates.
 
 #include "CommandLine.h"
 #include "Errors.h"
@@ -24,7 +24,7 @@ using namespace surgicalmesher;
 namespace
 {
 
-constexpr double kMetre = 1e3; ///< mm; stiffness in N/m over it is N/mm
+constexpr double kMetre = 1e3; ///< mm; a stiffness in N/m divided by it is in N/mm
 
 ReplayOptions readOptions(const CommandLine& line)
 {
@@ -56,7 +56,7 @@ std::map<Label, TissueMaterial> readMaterials(CommandLine& line, const MeshFile&
   return materials;
 }
 
-/// That the two files are not each other's. Files without SubMesh don't tell.
+/// Throws InputError if parent and child file are interchanged. Files without SubMesh cannot be checked.
 void requireParts(const CommandLine& line, const MeshFile& parent, const MeshFile& child)
 {
   const auto isChilds = [](std::int32_t subMesh) { return subMesh > 0; };
@@ -66,7 +66,7 @@ void requireParts(const CommandLine& line, const MeshFile& parent, const MeshFil
     throw InputError(line.text("childMesh") + ": all tetrahedra are the parent's (SubMesh), expected a child's");
 }
 
-/// A part's file once more, to be written with displacements.
+/// The file of a part, to be written again with displacements.
 class DisplacedPart
 {
 public:
@@ -79,7 +79,7 @@ public:
     m_Grid->GetPointData()->AddArray(m_Displacement);
   }
 
-  /// `displacements` of the whole's points, LPS.
+  /// `displacements`: of the points of the whole mesh, LPS.
   void write(const CoupledMesh& mesh, const std::vector<Vec3>& displacements, const std::string& file)
   {
     vtkDataArray* ids = m_Grid->GetPointData()->GetArray("VolumePointId");
@@ -100,7 +100,7 @@ private:
   vtkNew<vtkDoubleArray> m_Displacement;
 };
 
-/// The collection of the child's files, one an exchange.
+/// The collection of the child's files, one per exchange.
 class Motion
 {
 public:
@@ -147,7 +147,7 @@ void writeForces(const std::vector<ReplayStep>& steps, const std::string& file)
   writeBytes(table, file);
 }
 
-/// 0 of none.
+/// 0 if there are no values.
 double quantile(std::vector<double> values, double share)
 {
   if (values.empty()) return 0;

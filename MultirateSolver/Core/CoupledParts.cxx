@@ -15,9 +15,9 @@ namespace
 {
 
 constexpr double kHeldShare = 0.05;
-constexpr double kSamePlace = 1e-4; ///< mm; files of single precision a metre from the origin
+constexpr double kSamePlace = 1e-4; ///< mm; single precision at a metre from the origin
 
-/// The pieces of the child's mesh, per tetrahedron, from 1, in descending order of size.
+/// Returns the face-connected component of each tetrahedron, numbered from 1 in descending order of size.
 std::vector<std::int32_t> piecesBySize(const TetMesh& mesh, std::int32_t& count)
 {
   std::vector<std::int32_t> piece = faceRegions(faceAdjacency(mesh), [](std::int32_t, int) { return true; });
@@ -91,7 +91,7 @@ public:
   }
 
 private:
-  /// Of each point of the file: its number in the whole.
+  /// Adds the points of the file; returns, for each of them, its number in the whole mesh.
   std::vector<std::int32_t> place(const MeshFile& file)
   {
     std::vector<std::int32_t> number;

@@ -42,8 +42,8 @@ Eigen::Matrix3d deformationGradient(const ElasticBody& body, std::size_t t, cons
   return result;
 }
 
-/// Of the neo-Hookean law at deformation gradient F: with h_a = F^-T g_a, V (mu g_a.g_b I + lambda h_a h_b' +
-/// (mu - lambda ln J) h_b h_a').
+/// Element tangent of the neo-Hookean law at deformation gradient F: with h_a = F^-T g_a, block (a, b) is V (mu g_a.g_b
+/// I + lambda h_a h_b' + (mu - lambda ln J) h_b h_a').
 ElementMatrix elementTangent(const Element& element, const LameConstants& lame, const Eigen::Matrix3d& F)
 {
   const Gradients h = F.inverse().transpose() * element.gradients;

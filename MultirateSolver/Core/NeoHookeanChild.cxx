@@ -71,7 +71,7 @@ Convergence NeoHookeanChild::settle(const Hold& hold, const Eigen::VectorXd& pul
     const Eigen::VectorXd step = newtonStep(residual, springs);
     const double before = energy(m_Displacement, springs), slope = residual.dot(step);
     double share = 1;
-    // Rounding of the energy hides what a last, tiny step gains.
+    // The tolerance covers rounding of the energy, which exceeds the gain of a last, tiny step.
     const double rounding = 1e-12 * std::abs(before);
     for (int k = 0; k < kMostHalvings; ++k, share /= 2)
       if (energy(m_Displacement + share * step, springs) <= before - 1e-4 * share * slope + rounding) break;

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A child whose tissue is neo-Hookean, within surroundings that are linear.
+/// A child of neo-Hookean tissue within linear surroundings.
 
 #include "Grasp.h"
 
 namespace surgicalmesher
 {
 
-/// What a step of Newton's method has come to.
+/// Outcome of Newton's method.
 struct Convergence
 {
   int iterations = 0;
-  double residual = 0; ///< of the largest force of those that are in balance
+  double residual = 0; ///< largest residual force, relative to the largest of the forces in balance
 };
 
-/// Its displacements are those of the whole mesh with the surroundings linear and the child neo-Hookean, to the
-/// tolerance.
+/// Computes, to a tolerance, the displacements of the child within the whole mesh, with linear surroundings and a
+/// neo-Hookean child.
 class NeoHookeanChild
 {
 public:
-  /// As LinearChild; the norton equivalent is kept.
+  /// Same parameters as LinearChild; keeps a copy of `norton`.
   NeoHookeanChild(Part part, std::vector<std::int32_t> interface, NortonEquivalent norton, Eigen::VectorXd forces);
 
   const Part& part() const { return m_Part; }
@@ -27,13 +27,13 @@ public:
 
   void setNortonForce(const Eigen::VectorXd& force) { m_Norton.force = force; }
 
-  /// Springs of `stiffness` together (N/mm) draw the held unknowns to displacements `pull` (mm). From the last
-  /// displacement, by Newton's method with halved steps, until the residual is under `tolerance` of the largest force.
-  /// Throws EngineError if that takes over a hundred iterations.
+  /// Finds equilibrium when springs of total stiffness `stiffness` (N/mm) draw the held unknowns to displacements
+  /// `pull` (mm). Starts from the last displacement and uses Newton's method with step halving, until the residual is
+  /// at most `tolerance` times the largest force. Throws EngineError after a hundred iterations.
   Convergence settle(const Hold& hold, const Eigen::VectorXd& pull, double stiffness, double tolerance);
   Convergence settle(double tolerance) { return settle({}, Eigen::VectorXd(), 1, tolerance); }
 
-  /// What the springs do to the held unknowns, N.
+  /// Returns the forces of the springs on the held unknowns, N.
   Eigen::VectorXd springForces(const Hold& hold, const Eigen::VectorXd& pull, double stiffness) const;
 
 private:

@@ -18,7 +18,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr std::size_t kMostHeldPoints = 32; ///< their columns are read at every step
+constexpr std::size_t kMostHeldPoints = 32; ///< every step reads their columns of the inverse
 
 class Stopwatch
 {
@@ -30,7 +30,7 @@ private:
   Clock::time_point m_Start = Clock::now();
 };
 
-/// A child, what is around it, and the tool that has hold of it.
+/// A child, its surroundings, and the tool that holds it.
 class Domain
 {
 public:
@@ -95,7 +95,7 @@ public:
     return result;
   }
 
-  /// What the tools of other children do is part of the load on the surroundings.
+  /// Adds the forces of the tools at other children to the load on the surroundings.
   void loadByOthers(const std::vector<Domain>& domains)
   {
     Eigen::VectorXd forces = m_AroundWeight;
@@ -154,7 +154,7 @@ private:
     }
   }
 
-  /// The dense matrix, its factor, and the entries by which it joins the child's.
+  /// Memory for the dense matrix, its factor, and its entries in the child's matrix.
   static void requireMemory(std::size_t interface)
   {
     const double needed = 60.0 * double(interface) * double(interface);
@@ -188,7 +188,7 @@ void checkOptions(const ReplayOptions& options)
   if (!(options.toolStiffness > 0)) throw UsageError("the tool's stiffness has to be over 0");
 }
 
-/// Gives the tool to the child it is nearest to.
+/// Assigns the tool to the nearest child.
 void takeHold(std::vector<Domain>& domains, const ToolPath& tool, std::size_t number, const ReplayOptions& options)
 {
   const Vec3& tip = tool.tips.front();
@@ -214,14 +214,14 @@ std::vector<Vec3> displacementsOf(const CoupledMesh& mesh, const std::vector<Dom
 {
   std::vector<Vec3> whole(mesh.whole.mesh.points.size(), Vec3{ 0, 0, 0 });
   domains.front().addDisplacementsAround(whole);
-  // Where children touch, what a tool does to one is worth more than how the other follows.
+  // Where children touch, the displacement of a child with a tool takes precedence.
   for (const bool hasTool : { false, true })
     for (const Domain& domain : domains)
       if (domain.hasTool() == hasTool) domain.addDisplacements(whole);
   return whole;
 }
 
-/// From the first place of any tool to the last: a recorder's clock may have begun long before.
+/// Returns the times of the first and the last position of any tool: a recorder's clock need not start at 0.
 std::array<double, 2> spanOf(const std::vector<ToolPath>& tools)
 {
   if (tools.empty()) return {};
@@ -255,7 +255,7 @@ ReplayResult replay(const CoupledMesh& mesh, const std::vector<ToolPath>& tools,
 
   const auto stepsBetween = std::int64_t(std::round(options.childRate / options.parentRate));
   const auto [first, last] = spanOf(tools);
-  // Of a clock that counts from long ago the last digits of a time are lost.
+  // Times far from zero have lost their last digits.
   const double lost = 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(first), std::abs(last));
   const auto steps = std::int64_t(std::floor((last - first + lost) * options.childRate + 1e-6));
   for (std::int64_t k = 0; k <= steps; ++k)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A recorded tool drawn through a coupled mesh: children step at their own rate, parent and children exchange Norton
-/// equivalents at a slower one (Audette et al., Computer Aided Surgery 12(1), 2007, after Astley and Hayward).
+/// Replay of recorded tools in a coupled mesh: children step at their own rate, and parent and children exchange Norton
+/// equivalents at a lower rate (Audette et al., Computer Aided Surgery 12(1), 2007, after Astley and Hayward).
 
 #include "CoupledParts.h"
 #include "Progress.h"
@@ -20,12 +20,13 @@ struct ReplayOptions
 {
   ChildLaw law = ChildLaw::Linear;
   double childRate = 500;     ///< steps per second
-  double parentRate = 25;     ///< exchanges per second; the child's rate is a multiple of it
-  double toolRadius = 2;      ///< mm: the tool takes hold of the child's points so near to its first place
-  double toolStiffness = 0.1; ///< N/mm
-  double reach = 5;           ///< mm: the nearest point may be so far away
-  Vec3 weight{ 0, 0, -4e-7 }; ///< N/mm^3; a brain in cerebrospinal fluid, 40 kg/m^3 more than that, LPS
-  double tolerance = 1e-6;    ///< of the neo-Hookean child's largest force
+  double parentRate = 25;     ///< exchanges per second; childRate must be a multiple of it
+  double toolRadius = 2;      ///< mm: the tool holds the child's points within this distance of its first position
+  double toolStiffness = 0.1; ///< N/mm, of all springs of a tool together
+  double reach = 5;           ///< mm: largest distance of the nearest point from the tool's first position
+  /// N/mm^3, LPS. Default: a brain in cerebrospinal fluid, which it exceeds by 40 kg/m^3.
+  Vec3 weight{ 0, 0, -4e-7 };
+  double tolerance = 1e-6; ///< of the neo-Hookean child's equilibrium, relative to its largest force
 };
 
 /// One step of one child with a tool.
@@ -36,10 +37,10 @@ struct ReplayStep
   Vec3 tip;                       ///< mm
   Vec3 force;                     ///< N, of the tool on the child
   double largestDisplacement = 0; ///< mm, of the child's points
-  int iterations = 0;             ///< of Newton's method
+  int iterations = 0;             ///< of Newton's method; 0 for a linear child
 };
 
-/// Wall time, s: what a machine can keep up with, and no part of the result.
+/// Wall times (s), to tell whether the machine keeps up; not part of the result.
 struct ReplayTimes
 {
   double preparation = 0;
@@ -59,17 +60,17 @@ struct ReplaySizes
 struct ReplayResult
 {
   std::vector<ReplayStep> steps;
-  std::vector<Vec3> displacements; ///< mm, per point of the whole, at the end
+  std::vector<Vec3> displacements; ///< mm, per point of the whole mesh, at the end
   ReplaySizes sizes;
   ReplayTimes times;
 };
 
-/// Is told, at every exchange, the displacements of all points of the whole.
+/// Called at every exchange with the displacements (mm) of all points of the whole mesh.
 using FrameObserver = std::function<void(double seconds, const std::vector<Vec3>& displacements)>;
 
-/// From the first time of any path to the last of all. Throws InputError, naming the tool by its number from 1, if it is
-/// out of every child's reach, or two take hold of one child; as Surroundings does; if memory does not suffice for the
-/// interface's dense matrix. UsageError if the options are out of their ranges.
+/// Replays the tools from the first time of any path to the last time of all. Throws InputError, with the number of the
+/// tool from 1, if a tool is out of reach of every child or is the second one at a child; as Surroundings does; and if
+/// memory does not suffice for the dense matrix of an interface. Throws UsageError for options out of range.
 ReplayResult replay(const CoupledMesh& mesh, const std::vector<ToolPath>& tools, const ReplayOptions& options,
                     const FrameObserver& observer = {}, const Progress& progress = {});
 

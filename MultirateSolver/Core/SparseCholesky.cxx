@@ -14,7 +14,7 @@ namespace
 
 using Order = std::vector<int>;
 
-/// CHOLMOD's view of a matrix that stays where it is.
+/// CHOLMOD's view of a matrix, without a copy; the matrix must outlive it.
 cholmod_sparse viewOf(const SymmetricMatrix& matrix)
 {
   cholmod_sparse view{};
@@ -44,7 +44,7 @@ cholmod_dense viewOf(const Eigen::Ref<const Eigen::MatrixXd>& matrix)
   return view;
 }
 
-/// Of all unknowns but `last`, ascending.
+/// Returns all unknowns except `last`, ascending.
 Order others(Eigen::Index size, const std::vector<std::int32_t>& last)
 {
   std::vector<bool> isLast(std::size_t(size), false);
@@ -55,7 +55,7 @@ Order others(Eigen::Index size, const std::vector<std::int32_t>& last)
   return result;
 }
 
-/// Rows and columns of `kept` (ascending) alone.
+/// Returns the submatrix of the rows and columns `kept` (ascending).
 SymmetricMatrix submatrix(const SymmetricMatrix& matrix, const Order& kept)
 {
   std::vector<int> number(std::size_t(matrix.rows()), -1);
@@ -96,7 +96,7 @@ struct SparseCholesky::Private
       throw EngineError("out of memory at the factor of the stiffness matrix");
   }
 
-  /// What reduces the fill of a factor.
+  /// Returns a fill-reducing order.
   Order fillReducing(const SymmetricMatrix& pattern)
   {
     cholmod_sparse view = viewOf(pattern);
@@ -108,7 +108,8 @@ struct SparseCholesky::Private
     return result;
   }
 
-  /// As given, without the postordering that would take others between or behind the last.
+  /// Analyses with the given order. Postordering is off, as it would move other unknowns between or behind the last
+  /// ones.
   void analyze(const SymmetricMatrix& pattern, Order& order)
   {
     cholmod_sparse view = viewOf(pattern);
@@ -167,7 +168,7 @@ Eigen::MatrixXd SparseCholesky::condensed() const
     for (int column = std::max(super[s], begin); column < super[s + 1]; ++column)
     {
       const int within = column - super[s];
-      for (int r = within; r < height; ++r) // above its diagonal, a supernode's columns hold nothing
+      for (int r = within; r < height; ++r) // the upper triangle of a supernode is empty
         corner(rows[rowStart[s] + r] - begin, column - begin) = values[valueStart[s] + r + within * height];
     }
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Direct solution of sparse symmetric positive definite equations, by CHOLMOD's supernodal factor (Chen, Davis, Hager,
-/// Rajamanickam, ACM Transactions on Mathematical Software 35(3), 2008).
+/// Direct solver for sparse symmetric positive definite systems, by CHOLMOD's supernodal factorisation (Chen, Davis,
+/// Hager, Rajamanickam, ACM Transactions on Mathematical Software 35(3), 2008).
 
 #include "Elasticity.h"
 
@@ -13,22 +13,22 @@ namespace surgicalmesher
 class SparseCholesky
 {
 public:
-  /// Orders the unknowns of all matrices with this pattern, those of `last` at the end and in their order: then the end
-  /// of the factor is that of the matrix condensed onto them.
+  /// Determines the elimination order for all matrices with this pattern. The unknowns `last` come at the end, in their
+  /// given order, so that the last block of the factor is the factor of the matrix condensed onto them.
   explicit SparseCholesky(const SymmetricMatrix& pattern, const std::vector<std::int32_t>& last = {});
   ~SparseCholesky();
 
-  /// Of a matrix with the pattern given. False if it is not positive definite. Throws EngineError if memory does not
-  /// suffice.
+  /// Factorises a matrix with the given pattern. Returns false if it is not positive definite. Throws EngineError if
+  /// memory does not suffice.
   bool factorize(const SymmetricMatrix& matrix);
 
-  /// For one right side or several, a column each.
+  /// Solves for one or several right-hand sides, a column each.
   Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& rightSides) const;
 
   /// The matrix condensed onto `last` (its Schur complement).
   Eigen::MatrixXd condensed() const;
 
-  /// Entries of the factor: what one solution reads twice.
+  /// Number of entries of the factor; a solution reads each of them twice.
   std::size_t entries() const;
 
 private:

@@ -18,14 +18,14 @@ Surroundings::Surroundings(Part part, std::vector<std::int32_t> interface)
 void Surroundings::load(const Eigen::VectorXd& forces)
 {
   m_Forces = forces;
-  // Without the child, the interface goes to w with S w = g.
+  // Without the child, the displacement w of the interface satisfies S w = g.
   m_Norton.force = m_Norton.stiffness * m_Factor.solve(forces).col(0)(m_Interface);
 }
 
 Eigen::VectorXd Surroundings::displacement(const Eigen::VectorXd& interface) const
 {
   Eigen::VectorXd forces = m_Forces;
-  forces(m_Interface) += m_Norton.stiffness * interface - m_Norton.force; // what the child does to it
+  forces(m_Interface) += m_Norton.stiffness * interface - m_Norton.force; // force of the child on the surroundings
   return m_Factor.solve(forces);
 }
 

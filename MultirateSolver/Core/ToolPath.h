@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Where the tip of a tool is, over time.
+/// Position of a tool's tip over time.
 
 #include "Vec3.h"
 
@@ -16,11 +16,11 @@ struct ToolPath
   std::vector<Vec3> tips;      ///< mm, LPS
 };
 
-/// Reads a CSV whose header row names its columns seconds, x, y, z (mm, LPS), in any order. Throws InputError with file
-/// and line for anything else than two rows or more of finite numbers, with ascending times.
+/// Reads a CSV whose header row names the columns seconds, x, y, z (mm, LPS), in any order. Throws InputError with file
+/// and line unless there are two or more rows of finite numbers with ascending times.
 ToolPath readToolPath(const std::string& file);
 
-/// Straight from row to row, still before the first and after the last.
+/// Returns the position at a time: linear between rows, constant before the first and after the last.
 Vec3 tipAt(const ToolPath& path, double seconds);
 
 } // namespace surgicalmesher

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// BalloonSurfaceCLI: label map and seeds in; closed surfaces grown from the seeds, and the voxels they enclose, out.
+// BalloonSurfaceCLI reads a label map and seeds, and writes closed surfaces grown from the seeds and the voxels they
+// enclose.
 
 #include "Balloon.h"
 #include "BalloonSurfaceCLIXML.h"
@@ -73,7 +74,7 @@ std::set<Label> readStops(const CommandLine& line, const TissueMap& map)
   return stops;
 }
 
-/// Seeds in the grid frame, with labels of their own, which `map.table` gets names for.
+/// Returns the seeds in the grid frame, each with a free label, whose name and colour are added to `map.table`.
 std::vector<BalloonSeed> placeSeeds(const std::vector<Seed>& seeds, const std::string& file,
                                     const std::set<Label>& stops, TissueMap& map)
 {
@@ -127,7 +128,7 @@ std::string evolutionCSV(const std::vector<BalloonStep>& steps)
   return out.str();
 }
 
-/// What the user should know of a balloon.
+/// Warns if balloons were held by something else than stopping tissues or did not come to rest.
 void warn(CommandLine& line, const BalloonResult& result, const TissueMap& map, const BalloonOptions& options)
 {
   for (const auto& [label, halt] : result.halts)
@@ -168,7 +169,7 @@ void writeTissue(JsonWriter& json, Label label, const BalloonHalt& halt, const B
   json.EndObject();
 }
 
-/// Lengths in mm, areas and volumes in mm^2 and mm^3.
+/// Returns the report: lengths in mm, areas in mm^2, volumes in mm^3.
 std::string reportJSON(const CommandLine& line, const BalloonResult& result, const std::map<Label, std::size_t>& voxels,
                        const TissueTable& table)
 {
@@ -198,7 +199,7 @@ std::string reportJSON(const CommandLine& line, const BalloonResult& result, con
   return jsonText(writeMembers, { 6 });
 }
 
-/// Gives the enclosed voxels that no balloon stops at to the balloons; returns their numbers.
+/// Assigns the enclosed voxels, except those of stopping tissues, to the balloons; returns their numbers.
 std::map<Label, std::size_t> fill(TissueMap& map, const BalloonResult& result, const std::set<Label>& stops)
 {
   std::map<Label, std::size_t> counts;
@@ -228,7 +229,7 @@ SurfaceFile surfaceFile(const SurfaceComplex& surface, const TissueMap& map, con
   return content;
 }
 
-/// Where balloons lie against each other, gives them one interface.
+/// Gives balloons that lie against each other a common interface.
 void shareInterfaces(BalloonResult& result, const TissueMap& map, const std::set<Label>& stops,
                      const BalloonOptions& options, const Progress& progress)
 {

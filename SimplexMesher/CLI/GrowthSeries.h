@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What `--growth FILE.pvd` writes: the balloons after every tenth motion, FILE-10.vtp, FILE-20.vtp and so on, each in
-/// place as soon as it is complete, to be looked at while the run goes on; in the end the index of all, a ParaView
-/// collection with the motions as times.
+/// The output of `--growth FILE.pvd`: the balloons after every tenth motion, in FILE-10.vtp, FILE-20.vtp and so on.
+/// Each file appears as soon as it is complete, so that it can be viewed during the run; at the end, FILE.pvd is
+/// written as an index, a ParaView collection with the motions as times.
 
 #include "Balloon.h"
 #include "CommandLine.h"
@@ -18,20 +18,21 @@ namespace surgicalmesher
 class GrowthSeries
 {
 public:
-  /// `index`: the final name of `--growth`, if it was given; nothing is written without. Claims the files' names
-  /// (CommandLine::alsoWritesMany).
+  /// `index` holds the final name of `--growth` if it was given; otherwise nothing is written. Registers the names of
+  /// the files (CommandLine::alsoWritesMany).
   GrowthSeries(CommandLine& line, const std::vector<std::string>& index);
 
-  /// `content` puts a surface of the map's grid frame into the form of the files. Null unless `--growth` was given.
+  /// Returns the callback that writes the files, null unless `--growth` was given. `content` converts a surface in the
+  /// map's grid frame to the content of a file.
   BalloonWatch watch(std::function<SurfaceFile(const SurfaceComplex&)> content);
 
   void writeIndex(const std::string& file) const;
 
 private:
-  std::string fileAfter(int motion) const; ///< without folder
+  std::string fileAfter(int motion) const; ///< name without folder
 
   CommandLine& m_Line;
-  std::string m_Folder, m_Stem; ///< the stem is empty if nothing is wanted
+  std::string m_Folder, m_Stem; ///< the stem is empty if nothing is to be written
   std::vector<int> m_Motions;
 };
 

@@ -14,7 +14,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// LPS mm, to a hundredth.
+/// Writes a position in LPS mm, rounded to a hundredth.
 void writePlace(JsonWriter& json, const Vec3& place)
 {
   json.StartArray();
@@ -96,7 +96,7 @@ void writePreparation(JsonWriter& json, const SurfaceReport& report)
   json.EndObject();
 }
 
-/// The pieces of one tissue and kind.
+/// The changes of one tissue and kind.
 struct PieceRange
 {
   std::vector<MapChange>::const_iterator begin, end;
@@ -154,7 +154,7 @@ void writeSimplification(JsonWriter& json, const SurfaceReport& report)
   json.EndObject();
 }
 
-/// Pieces of one kind that labels have lost.
+/// Writes the number of pieces of one kind that labels have lost, and their voxels.
 void writeRoughness(JsonWriter& json, const char* key, const SurfaceReport& report,
                     const std::function<bool(const MapChange&)>& holds)
 {
@@ -172,7 +172,7 @@ void writeRoughness(JsonWriter& json, const char* key, const SurfaceReport& repo
   json.EndObject();
 }
 
-/// Without places: they are as many as the map is rough.
+/// Places are left out: there can be very many.
 void writeSmoothing(JsonWriter& json, const SurfaceReport& report)
 {
   json.Key("smoothing");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The edge lengths that a program of this module is asked for.
+/// The edge lengths requested on the command line of a program of this module.
 
 #include "ScaleField.h"
 
@@ -9,8 +9,8 @@
 namespace surgicalmesher
 {
 
-/// What --scale, a file, or --edgeLength, above 0, says. Throws UsageError unless one of them is given, InputError
-/// unless the scale covers the grid.
+/// Returns the scale given by --scale (a file) or --edgeLength (above 0). Throws UsageError unless exactly one of them
+/// is given, InputError unless the scale covers the grid.
 ScaleField readScaleOption(const std::string& file, double uniform, const Grid& grid);
 
 } // namespace surgicalmesher

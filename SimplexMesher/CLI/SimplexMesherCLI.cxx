@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SimplexMesherCLI: label map and scale in; prepared map, shared surface of all tissues and its ambient tetrahedra out.
+// SimplexMesherCLI reads a label map and a scale, and writes the prepared map, the common surface of all tissues and
+// its ambient tetrahedra.
 
 #include "AvailableMemory.h"
 #include "BoundaryDistance.h"
@@ -34,7 +35,7 @@ using namespace surgicalmesher;
 namespace
 {
 
-/// Every tissue of the mesh has the Betti numbers it has in the map.
+/// Throws EngineError unless every tissue of the mesh has the Betti numbers that it has in the map.
 void requireTopology(const TetMesh& mesh, const std::map<Label, Betti>& wanted)
 {
   const auto got = meshTopology(mesh);
@@ -52,7 +53,7 @@ TetMesh toWorld(TetMesh mesh, const Grid& grid)
   return mesh;
 }
 
-/// Marks the labels that are to be held still, before groups are joined.
+/// Marks the labels to be held fixed; must precede the joining of groups.
 void markNullDisplacement(CommandLine& line, TissueMap& map)
 {
   const std::string labels = line.text("nullDisplacementLabels");
@@ -69,7 +70,7 @@ void markNullDisplacement(CommandLine& line, TissueMap& map)
   }
 }
 
-/// The surroundings as a tissue, before the table of tissues, which may say more of it.
+/// Makes the surroundings a tissue; must precede the reading of the tissue table, which may refer to it.
 void fillSurroundings(const CommandLine& line, TissueMap& map)
 {
   const auto label = Label(line.integer("background"));
@@ -79,7 +80,7 @@ void fillSurroundings(const CommandLine& line, TissueMap& map)
                      ", expected a label that no voxel has");
 }
 
-/// The map and what is asked of its tissues; groups are joined, and tissues left out are gone.
+/// Reads the map and the settings of its tissues; joins groups and removes tissues that are left out.
 TissueMap readMap(CommandLine& line, SurfaceReport& results)
 {
   TissueMap map = readTissueMap(line.text("labelMap"));
@@ -104,8 +105,8 @@ std::string spacingText(const Grid& grid)
   return (x == y && y == z ? x : x + " x " + y + " x " + z) + " mm";
 }
 
-/// Takes voxels that repeat coarser ones back to these. The surroundings, where they are a tissue, are filled by now: they
-/// reach to the border, whose blocks must be whole then.
+/// Replaces voxels that repeat coarser ones by these. Surroundings that are a tissue must already be filled, since they
+/// reach to the border, whose blocks must be complete.
 void takeRepeatsOut(CommandLine& line, const ScaleField& asked, TissueMap& map, SurfaceReport& results)
 {
   results.repeats = findRepeats(map, *std::min_element(asked.lengths.begin(), asked.lengths.end()));
@@ -160,7 +161,7 @@ void warnOfProximity(CommandLine& line, const MeshedMap& mesh)
   line.warning(text.str());
 }
 
-/// Makes the map what the surface is to be faithful to.
+/// Prepares the map to which the surface is to be faithful.
 void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const FeatureOptions& features,
              const Progress& progress, SurfaceReport& results)
 {
@@ -177,7 +178,7 @@ void prepare(CommandLine& line, TissueMap& map, const ScaleField& scale, const F
   for (const Structure& structure : results.structures) results.topology[structure.label] += structure.topology;
 }
 
-/// The lengths that the surface follows on the prepared map.
+/// Returns the edge lengths that the surface follows on the prepared map.
 ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField& asked,
                       const TissueMesherOptions& options, SurfaceReport& results)
 {
@@ -185,7 +186,7 @@ ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField&
   ScaleField scale = followTissues(asked, map, results.settings, gradation);
   results.thickness = measureThickness(map, scale);
   results.followsThickness = line.flag("followThickness");
-  if (results.followsThickness) // the bounds of the table hold all the same
+  if (results.followsThickness) // the bounds of the table apply after this as well
   {
     scale = followThickness(scale, map, results.thickness.thinVoxels, gradation);
     scale = followTissues(scale, map, results.settings, gradation);
@@ -200,7 +201,7 @@ ScaleField lengthsFor(CommandLine& line, const TissueMap& map, const ScaleField&
   return scale;
 }
 
-/// What is written of a surface in the grid frame of `map`, which lies at `world`.
+/// Returns the file content of a surface in the grid frame of `map`, transformed to its place in `world`.
 SurfaceFile surfaceFile(const TetMesh& ambient, const TissueMap& map, const Grid& world, const ScaleField& scale)
 {
   SurfaceFile content;
@@ -229,7 +230,7 @@ PolygonFile simplexMeshFile(const SurfaceFile& surface)
   return content;
 }
 
-/// One file per tissue, named after the index and the label, beside the index.
+/// Writes one file per tissue beside the index, named after the index and the label.
 void writeTissueSurfaces(CommandLine& line, const SurfaceFile& content)
 {
   const std::string index = line.outputFile("tissueSurfaces");
@@ -257,7 +258,7 @@ void writeAmbient(CommandLine& line, const MeshedMap& mesh, const Grid& world, c
   writeMesh(ambient, file);
 }
 
-/// All files of the surface but reports.
+/// Writes all files of the surface except reports.
 void writeSurfaces(CommandLine& line, const SurfaceFile& content)
 {
   writeSurface(content, line.outputFile("surface"));
@@ -266,7 +267,7 @@ void writeSurfaces(CommandLine& line, const SurfaceFile& content)
   if (!simplexMesh.empty()) writePolygons(simplexMeshFile(content), simplexMesh);
 }
 
-/// What the command line alone can tell.
+/// Checks what the command line alone determines.
 void requireUsableOptions(CommandLine& line)
 {
   for (const std::string& index : line.outputNames("tissueSurfaces"))
@@ -276,7 +277,7 @@ void requireUsableOptions(CommandLine& line)
   }
 }
 
-/// Only for runs that ask for figures: it takes a good second for a million voxel faces.
+/// Assesses distances, only if figures are requested: it takes more than a second per million voxel faces.
 void assessDistances(CommandLine& line, const SurfaceComplex& surface, const TissueMap& map, const Grid& world,
                      SurfaceReport& results)
 {
@@ -293,7 +294,7 @@ void assessDistances(CommandLine& line, const SurfaceComplex& surface, const Tis
   for (const std::string& warning : warningsOfDistance(results.fidelity, bound, world)) line.warning(warning);
 }
 
-/// Whether `tissue` has a voxel thinner than L at a place in the map's own frame, or beside it.
+/// Whether `tissue` has a voxel thinner than L at or next to a position in the map's own frame.
 bool isThinAt(const TissueMap& map, const std::vector<ThinVoxel>& thinVoxels, Label tissue, const Vec3& place)
 {
   std::array<int, 3> at;
@@ -310,7 +311,7 @@ bool isThinAt(const TissueMap& map, const std::vector<ThinVoxel>& thinVoxels, La
   return false;
 }
 
-/// Only for the report; `map` in its own frame.
+/// Assesses folds and ears, for the report only; `map` is in its own frame.
 void assessShape(const BackgroundMesh& background, const TissueMap& map, SurfaceReport& results)
 {
   const auto isThin = [&](Label tissue, const Vec3& place)
@@ -372,7 +373,7 @@ void run(CommandLine& line)
 
   report(progress, 0.9, "checks and files");
   const SurfaceFile content = surfaceFile(mesh.background.mesh, map, world, scale);
-  const bool isReported = !line.outputFile("report").empty(); // the names of others are asked for beside it
+  const bool isReported = !line.outputFile("report").empty(); // outputFile() must not be called in parallel
   runInParallel({ [&]
                   {
                     requireSound(mesh.background.mesh, "surface");

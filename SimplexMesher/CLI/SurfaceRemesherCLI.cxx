@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// SurfaceRemesherCLI: closed surfaces in; the same surfaces at other densities out.
+// SurfaceRemesherCLI reads closed surfaces and writes the same surfaces at other densities.
 
 #include "CommandLine.h"
 #include "Errors.h"
@@ -27,14 +27,14 @@ using namespace surgicalmesher;
 namespace
 {
 
-/// What the command line alone can tell.
+/// Checks what the command line alone determines.
 void requireUsableOptions(const CommandLine& line)
 {
   if (!line.text("scale").empty() && line.number("edgeLength") > 0)
     throw UsageError("--scale and --edgeLength are both given, expected one of them");
 }
 
-/// Labelled, closed around every tissue and free of self-intersections.
+/// Reads a surface that is labelled, closed around every tissue and free of self-intersections.
 SurfaceFile readOriginal(CommandLine& line)
 {
   const std::string file = line.text("surface");
@@ -77,7 +77,7 @@ SizingFunction readEdgeLength(const CommandLine& line, const SurfaceFile& origin
   if (!(line.number("chordError") > 0))
     throw UsageError("no --scale, neither --edgeLength nor --chordError above 0, and " + line.text("surface") +
                      " has no point array TargetEdgeLength, expected one of them");
-  constexpr double longest = 0.1; // of the diagonal
+  constexpr double longest = 0.1; // relative to the diagonal
   return [length = longest * diagonalOf(original.surface)](const Vec3&) { return length; };
 }
 
@@ -87,7 +87,7 @@ struct Comparison
   SurfaceDistance toOriginal, fromOriginal;
 };
 
-/// Throws EngineError if a tissue is not what it was.
+/// Throws EngineError if a tissue has changed its topology.
 Comparison compare(const SurfaceComplex& original, const SurfaceComplex& remeshed)
 {
   requireSound(remeshed, "remeshing");
@@ -123,7 +123,7 @@ void writeTriangles(JsonWriter& json, const char* key, const SurfaceComplex& sur
   json.EndObject();
 }
 
-/// Lengths in mm, angles in degrees, volumes in mm^3, places LPS.
+/// Returns the report: lengths in mm, angles in degrees, volumes in mm^3, positions in LPS.
 std::string reportJSON(const CommandLine& line, const SurfaceFile& original, const RemeshedSurface& remeshed,
                        const Comparison& comparison)
 {
@@ -158,7 +158,7 @@ std::string reportJSON(const CommandLine& line, const SurfaceFile& original, con
   return jsonText(writeMembers, { 6 });
 }
 
-/// The guards let no operation go beyond the chord error, but the samples that they ask are centroids and corners.
+/// The guards enforce the chord error only at samples, and accept triangles no worse than those they replace.
 void warnOfChordError(CommandLine& line, const Comparison& comparison)
 {
   const double bound = line.number("chordError");

@@ -13,7 +13,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// From a voxel in every few: lengths vary slowly.
+/// Returns the shortest length at a subset of the voxels: lengths vary slowly.
 double shortestLength(const TissueMap& map, const ScaleField& scale)
 {
   constexpr int mostSamplesPerAxis = 128;
@@ -90,7 +90,7 @@ std::vector<std::string> warningsOfDistance(const std::map<Label, TissueFidelity
 
 std::string warningOfVolumes(const std::map<Label, TissueFidelity>& fidelity, const TissueMap& map)
 {
-  constexpr double most = 0.25, leastVoxels = 27; // fewer are more often noise than tissue
+  constexpr double most = 0.25, leastVoxels = 27; // smaller tissues are more often noise
   constexpr std::size_t listedMost = 5;
   const Vec3& h = map.grid.spacing;
   const double least = (leastVoxels - 0.5) * h.x * h.y * h.z;

@@ -12,7 +12,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// The sum of of(from, to) over parts of a fixed size: it does not depend on the threads.
+/// Returns the sum of of(from, to) over parts of a fixed size, which does not depend on the number of threads.
 template <class F>
 auto sumOfParts(std::size_t count, F&& of)
 {
@@ -27,7 +27,7 @@ auto sumOfParts(std::size_t count, F&& of)
 struct Distances
 {
   double sum = 0, maximum = 0; ///< mm
-  std::size_t beyond = 0;      ///< the samples' tolerances
+  std::size_t beyond = 0;      ///< samples beyond their tolerances
 
   void operator+=(const Distances& other)
   {
@@ -37,7 +37,7 @@ struct Distances
   }
 };
 
-/// Of samples `from` to `to` to their faces.
+/// Returns the distances of samples `from` to `to` from their faces.
 Distances distancesOf(const BackgroundMesh& background, std::size_t from, std::size_t to)
 {
   Distances result;
@@ -52,7 +52,8 @@ Distances distancesOf(const BackgroundMesh& background, std::size_t from, std::s
   return result;
 }
 
-/// Between two labels, of tetrahedra `from` to `to`, each at the first of its two.
+/// Returns the number of faces between two labels of tetrahedra `from` to `to`; each face counts at its lower
+/// tetrahedron.
 std::size_t facesOf(const BackgroundMesh& background, std::size_t from, std::size_t to)
 {
   const auto& labels = background.mesh.labels;
@@ -72,7 +73,7 @@ EvolutionStep evolutionStep(const BackgroundMesh& background, const std::string&
   step.operations = operations;
   const auto& labels = background.mesh.labels;
   step.tetrahedra = std::size_t(std::count_if(labels.begin(), labels.end(), [](Label l) { return l != 0; }));
-  step.faces = sumOfParts(background.neighbours.size(), // none before the first sweep
+  step.faces = sumOfParts(background.neighbours.size(), // 0 before the first sweep
                           [&](std::size_t from, std::size_t to) { return facesOf(background, from, to); });
   const Distances distances = sumOfParts(background.samples.size(), [&](std::size_t from, std::size_t to)
                                          { return distancesOf(background, from, to); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// How a mesh evolves from sweep to sweep.
+/// Record of how the mesh changes from sweep to sweep.
 
 #include "BackgroundMesh.h"
 #include "GuardedOperations.h"
@@ -11,20 +11,20 @@
 namespace surgicalmesher
 {
 
-/// The mesh after one step.
+/// Figures of the mesh after one step.
 struct EvolutionStep
 {
   std::string stage;
   std::size_t tetrahedra = 0; ///< of tissues
   std::size_t faces = 0;      ///< between labels
-  double meanDistance = 0;    ///< mm, of the map's smoothed boundary to the surface
+  double meanDistance = 0;    ///< mm, from the map's smoothed boundary to the surface
   double maximumDistance = 0; ///< mm
-  std::size_t beyond = 0;     ///< samples farther than their tolerance
-  OperationCounts operations; ///< since the step before
+  std::size_t beyond = 0;     ///< samples farther from the surface than their tolerance
+  OperationCounts operations; ///< since the previous step
 };
 
-/// What `background` is like now, after `operations` of a stage called `stage`; with no faces if it does not know its
-/// neighbours.
+/// Returns the figures of `background` after `operations` of the stage `stage`; `faces` is 0 if the mesh has no
+/// adjacency yet.
 EvolutionStep evolutionStep(const BackgroundMesh& background, const std::string& stage,
                             const OperationCounts& operations);
 

@@ -13,7 +13,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// The two voxels whose common face has its centre at p.
+/// Returns the labels of the two voxels whose common face has its centre at p.
 std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
 {
   std::array<std::array<int, 3>, 2> voxels;
@@ -26,7 +26,7 @@ std::array<Label, 2> labelsBeside(const TissueMap& map, const Vec3& p)
   return { labelAt(map, voxels[0]), labelAt(map, voxels[1]) };
 }
 
-/// Voxel faces between two labels inside the map.
+/// Returns the number of voxel faces between two labels inside the map.
 std::size_t boundaryFaces(const TissueMap& map)
 {
   return sumOverBoundarySlices<std::size_t>(map,
@@ -42,13 +42,13 @@ std::size_t boundaryFaces(const TissueMap& map)
                                             });
 }
 
-/// What share of the usual tolerance a map allows: the voxels that a drift of the surfaces puts into wrong tissues are
-/// as many as their area times the drift, so that a large map whose surfaces lie close together must have less of it.
-/// In a small one they lie close because its bodies are small.
+/// Returns the share of the usual tolerance that a map allows. The number of voxels that a drift of the surfaces puts
+/// into wrong tissues is their area times the drift, so that a large map with closely spaced surfaces must have smaller
+/// drifts. In a small map, surfaces are closely spaced because its bodies are small.
 double roomIn(const TissueMap& map)
 {
   constexpr std::size_t large = 600000; // faces between tissues
-  constexpr double usual = 3.0;         // voxels of tissue for each
+  constexpr double usual = 3.0;         // tissue voxels per face
   const std::size_t faces = boundaryFaces(map);
   if (faces < large) return 1;
   const auto tissue = std::count_if(map.labels.begin(), map.labels.end(), [](Label l) { return l != 0; });
@@ -56,9 +56,9 @@ double roomIn(const TissueMap& map)
   return std::clamp(ratio * ratio, 0.5, 1.0);
 }
 
-/// How far the boundary of each tissue may drift, mm: what nobody sees on a thick tissue takes a third of a thin one's
-/// volume. A thin tissue that simplification has left is held the less closely, as what is of its size elsewhere has
-/// gone.
+/// Returns how far the boundary of each tissue may drift, mm: a drift that is invisible on a thick tissue takes a third
+/// of the volume of a thin one. Thin tissues that simplification has kept are held less closely, since other features
+/// of that size have been removed.
 std::map<Label, double> mostDrifts(const std::map<Label, double>& thickness, double voxel,
                                    const FeatureOptions& features)
 {
@@ -72,7 +72,7 @@ std::map<Label, double> mostDrifts(const std::map<Label, double>& thickness, dou
   return result;
 }
 
-/// As L is between its least and its most, so is the proximity.
+/// Returns the proximity, interpolated in L between `shortest` and `longest`.
 double proximityAt(double length, const ToleranceOptions& options)
 {
   const double range = options.longest - options.shortest;
@@ -87,10 +87,12 @@ void setTolerances(BackgroundMesh& background, const TissueMap& map, const std::
 {
   const double voxel = map.grid.largestSpacing(), room = roomIn(map), bound = options.maximumDistance;
   const std::map<Label, double> drifts = mostDrifts(thickness, map.grid.largestSpacing(), options.features);
-  const double ofVoxel = options.isSmooth ? 0.24 : 0.42;     // steps take up most of the latter
-  const double ofLength = options.isSmooth ? 0.053 : 0.095;  // without roughness to follow, closer costs no tetrahedra
-  const double ofLengthAlone = options.isSmooth ? 0.085 : 0; // of eight voxels or more: finer maps have no finer meshes
-  constexpr double mostAlone = 2; // voxels: beyond, ends of tissues hang by single tetrahedra
+  const double ofVoxel = options.isSmooth ? 0.24 : 0.42; // the steps of voxels alone take up most of the latter
+  // Without roughness to follow, a closer fit needs no more tetrahedra.
+  const double ofLength = options.isSmooth ? 0.053 : 0.095;
+  // Takes effect where L is eight voxels or more: finer maps do not give finer meshes.
+  const double ofLengthAlone = options.isSmooth ? 0.085 : 0;
+  constexpr double mostAlone = 2; // voxels; beyond this, ends of tissues hang by single tetrahedra
   const auto usual = [&](double at)
   { return std::max(ofVoxel * voxel + ofLength * at, std::min(ofLengthAlone * at, mostAlone * voxel)); };
   parallelFor(background.samples.size(),

@@ -26,17 +26,17 @@ namespace
 
 bool isBounded(const TissueMesherOptions& options) { return options.maximumDistance > 0; }
 
-/// mm, of spikes that are cut.
+/// Returns the height, mm, up to which spikes may be cut.
 double mostOfSpikes(const TissueMesherOptions& options)
 {
   if (isBounded(options)) return options.maximumDistance;
   return options.proximity.isAsked() ? options.proximity.near : std::numeric_limits<double>::infinity();
 }
 
-/// The map whose boundary is meshed.
+/// Returns the map whose boundary is meshed.
 SmoothedLabels withoutRoughness(const TissueMap& map, const ScaleField& scale, const TissueMesherOptions& options)
 {
-  constexpr double wider = 1.7; // a crack of one voxel is still there after the Gaussian that makes walls smooth
+  constexpr double wider = 1.7; // a crack of one voxel survives the Gaussian that smooths walls
   if (!leavesVoxels(options)) return { map, {} };
   return smoothLabels(map, scale,
                       { .sigma = wider * options.smoothing, .protectedLabels = options.features.protectedLabels });
@@ -48,13 +48,14 @@ MeshSizes sizesOf(const TissueMap& map, const ScaleField& scale, const TissueMes
            mostOfSpikes(options) };
 }
 
-/// How many samples of `map` a triangle of length L gets. Fewer cost accuracy, but where voxels are fine and the tissues
-/// beside the face are not much thinner than L in their mean.
+/// Returns the number of samples of `map` for a triangle of edge length L. Fewer samples cost accuracy, except where
+/// voxels are fine and the tissues beside the face are not much thinner than L on average.
 SampleTransferOptions samplingOf(const TissueMap& map, const std::map<Label, double>& thickness, bool isFine)
 {
-  constexpr double usual = 16, few = 10, thin = 0.5; // the last a share of L
+  constexpr double usual = 16, few = 10, thin = 0.5; // `thin` relative to L
   if (!isFine) return { [=](const VoxelFace&, double) { return usual; } };
-  std::vector<double> thicknessOf(labelCount, std::numeric_limits<double>::infinity()); // every face looks up two
+  // An array, since every face looks up two labels.
+  std::vector<double> thicknessOf(labelCount, std::numeric_limits<double>::infinity());
   for (const auto& [label, mm] : thickness) thicknessOf[label] = mm;
   return { [=, &map](const VoxelFace& face, double length)
            {
@@ -64,12 +65,12 @@ SampleTransferOptions samplingOf(const TissueMap& map, const std::map<Label, dou
            } };
 }
 
-/// The lattice of `map`: of its voxels where these are not much smaller than L, of blocks of them elsewhere. Samples stay
-/// those of the map, so many a triangle.
+/// Returns the lattice of `map`: of its voxels where these are not much smaller than L, of blocks of voxels elsewhere.
+/// Samples are still those of `map`, limited in number per triangle.
 KuhnLattice latticeOf(const TissueMap& map, const ScaleField& scale, const std::map<Label, double>& thickness,
                       const SizingFunction& length, const TissueMesherOptions& options, const Progress& progress)
 {
-  constexpr double blockSize = 0.34; // a larger one costs smoothness
+  constexpr double blockSize = 0.34; // larger blocks cost smoothness
   if (!leavesVoxels(options)) return kuhnLattice(map, scale, {}, progress);
   const TissueMap blocks = withUniformBlocks(map, scale, { blockSize, options.features.protectedLabels });
   const SampleTransferOptions sampling = samplingOf(map, thickness, hasFineVoxels(sizesOf(map, scale, options)));
@@ -78,11 +79,11 @@ KuhnLattice latticeOf(const TissueMap& map, const ScaleField& scale, const std::
 
 struct StartingMesh
 {
-  BackgroundMesh background; ///< does not know its neighbours
+  BackgroundMesh background; ///< without adjacency
   std::size_t faces = 0;     ///< between labels
 };
 
-/// That lattice, its samples with tolerances and its interface smooth.
+/// Returns that lattice with a smooth interface and with tolerances of its samples.
 StartingMesh startingMesh(const TissueMap& map, const ScaleField& scale, const std::map<Label, double>& thickness,
                           const SizingFunction& length, const TissueMesherOptions& options, const Progress& progress)
 {
@@ -100,16 +101,16 @@ StartingMesh startingMesh(const TissueMap& map, const ScaleField& scale, const s
 
 RemesherOptions remesherOptions(const TissueMesherOptions& options, double voxel)
 {
-  constexpr double betweenFaces = 0.8; // of a voxel: half the diagonal of a face, and what its sample has moved
+  constexpr double betweenFaces = 0.8; // voxels: half the diagonal of a face, plus the motion of its sample
   RemesherOptions result;
-  if (options.smoothing > 0) result.sampleSpacing = betweenFaces * voxel; // tolerances are narrower then
+  if (options.smoothing > 0) result.sampleSpacing = betweenFaces * voxel; // tolerances are then narrower
   result.tolerancesAreHard = isBounded(options) || options.proximity.isAsked();
   result.separatedFactor = 2;
   result.rigidity = options.rigidity;
   return result;
 }
 
-/// Keeps the map's volumes: half a voxel at most.
+/// Returns a balance that keeps the volumes of the map by displacements of at most half a voxel.
 VolumeBalance balanceOf(const TissueMap& map)
 {
   const Vec3 h = map.grid.spacing;
@@ -118,11 +119,11 @@ VolumeBalance balanceOf(const TissueMap& map)
   return { std::move(volumes), 0.5 * map.grid.smallestSpacing() };
 }
 
-/// A remesher that keeps a record of what it does, and tissues' volumes where it is asked to.
+/// A remesher that records its steps and, unless the distance is bounded, keeps the volumes of tissues.
 class TissueRemesher
 {
 public:
-  /// `map`: whose volumes tissues keep.
+  /// `map` gives the volumes to keep.
   TissueRemesher(StartingMesh start, const TissueMap& map, const SizingFunction& length,
                  const TissueMesherOptions& options, const Progress& progress, std::size_t sweeps)
     : m_Remesher(std::move(start.background), length, remesherOptions(options, map.grid.smallestSpacing()), progress,
@@ -142,10 +143,10 @@ public:
   {
     for (const Sweep& sweep : sweeps) run(sweep);
   }
-  /// Balances the volumes of tissues before each.
+  /// Balances the volumes of tissues before each sweep.
   void balanceAndRun(const std::vector<Sweep>& sweeps)
   {
-    constexpr double gain = 1.5; // angles hold vertices back
+    constexpr double gain = 1.5; // since angles hold vertices back
     for (const Sweep& sweep : sweeps)
     {
       if (m_Balances) m_Balance.apply(m_Remesher.background(), gain);
@@ -153,10 +154,10 @@ public:
     }
   }
 
-  /// Moves the boundaries themselves for what tissues still lack.
+  /// Moves whole boundaries by the volume that tissues still lack.
   void offsetTissues(const MeshTargets& targets)
   {
-    constexpr double leastShare = 0.0002; // of a volume
+    constexpr double leastShare = 0.0002; // of the volume of a tissue
     for (std::size_t round = 0; m_Balances && round < offsetRounds; ++round)
     {
       TissueOffsets offsets = m_Balance.offsets(m_Remesher.background(), leastShare);
@@ -178,7 +179,8 @@ private:
   std::vector<EvolutionStep> m_Evolution;
 };
 
-/// Level by level, straight to the last one once features turn out to be unresolved. Returns what to improve to.
+/// Coarsens level by level, or directly to the last level once features turn out to be unresolved. Returns the targets
+/// of the improvement.
 MeshTargets coarsen(TissueRemesher& remesher, const MeshSizes& sizes)
 {
   const std::vector<double> levels = sizeLevels(sizes);
@@ -212,7 +214,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   const SizingFunction length = [&](const Vec3& p) { return double(float(scale(grid.gridToWorld(p)))); };
   const MeshSizes sizes = sizesOf(prepared, scale, options);
   StartingMesh start = startingMesh(smoothed.map, scale, thickness, length, options, subProgress(progress, 0, 0.06));
-  smoothed.map = {}; // memory: it is as large as `prepared`
+  smoothed.map = {}; // frees memory: it is as large as `prepared`
   TissueRemesher remesher(std::move(start), prepared, length, options, subProgress(progress, 0.1, 1),
                           surfaceSweepCount(sizes));
 
@@ -227,7 +229,7 @@ MeshedMap meshTissues(const TissueMap& prepared, const ScaleField& wanted, const
   if (keepsProximity) remesher.run(proximitySweeps(targets, sizes));
   remesher.run(secondRepairSweeps(targets, sizes));
   const std::vector<Sweep> last{ finishingSweep(targets, sizes) };
-  if (keepsProximity) remesher.run(last); // a balance sends samples farther off than was asked for
+  if (keepsProximity) remesher.run(last); // balancing would move samples beyond the requested distance
   else remesher.balanceAndRun(last);
   remesher.offsetTissues(targets);
   MeshedMap result = std::move(remesher).result(targets.keptAngle);

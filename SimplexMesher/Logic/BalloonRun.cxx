@@ -42,7 +42,7 @@ vtkMRMLMarkupsNode* seedsOf(Node* parameters)
   return vtkMRMLMarkupsNode::SafeDownCast(parameters->GetNodeReference(Node::BalloonSeedsRole()));
 }
 
-/// As `--stop` takes them; tissues that are gone, or have no voxel, are left out.
+/// Returns the value of `--stop`; tissues that are gone or have no voxel are left out.
 std::string stopsOf(Node* parameters)
 {
   std::string labels;
@@ -57,7 +57,7 @@ std::string nameAfterMap(Node* parameters, const std::string& what)
   return parameters->GetNodeReference(Node::TissueMapRole())->GetName() + (" " + what);
 }
 
-/// What the run left in a hidden label map, in the one that is chosen, or in a new one.
+/// Moves the voxels of the hidden result to the chosen label map, or to a new one.
 vtkMRMLLabelMapVolumeNode* handOver(vtkMRMLLabelMapVolumeNode* result, Node* parameters)
 {
   if (vtkMRMLLabelMapVolumeNode* chosen = parameters->GetLabelMapNode(Node::BalloonLabelMapRole()))
@@ -72,7 +72,7 @@ vtkMRMLLabelMapVolumeNode* handOver(vtkMRMLLabelMapVolumeNode* result, Node* par
   return made;
 }
 
-/// Files are in LPS, the scene is in RAS.
+/// Files are in LPS, the scene in RAS.
 void turnIntoRAS(vtkPolyData* surface)
 {
   vtkPoints* points = surface->GetPoints();
@@ -159,7 +159,7 @@ void BalloonRun::prepareOutputs(vtkMRMLSimplexMesherNode* parameters)
 bool BalloonRun::showGrowth()
 {
   if (!m_Growth || !m_Run->IsBusy()) return false;
-  constexpr int interval = 10; // of the motions that BalloonSurfaceCLI writes
+  constexpr int interval = 10; // motions between the files of BalloonSurfaceCLI
   const std::string stem = vtksys::SystemTools::GetFilenamePath(m_GrowthIndex) + "/" +
                            vtksys::SystemTools::GetFilenameWithoutLastExtension(m_GrowthIndex) + "-";
   const auto fileAfter = [&](int motion) { return stem + std::to_string(motion) + ".vtp"; };

@@ -42,7 +42,7 @@ rapidjson::Document readReport(const std::string& file)
 
 using Value = rapidjson::Value;
 
-/// Members of a path; an empty array where the report lacks one.
+/// Returns the array at a path; an empty one if the report lacks it.
 const Value& itemsOf(const Value& report, std::initializer_list<const char*> path)
 {
   static const Value nothing(rapidjson::kArrayType);
@@ -67,7 +67,7 @@ std::string textOf(const Value& item, const char* name)
   return found != item.MemberEnd() && found->value.IsString() ? found->value.GetString() : std::string();
 }
 
-/// The object of that name, or an empty one.
+/// Returns the member object, or an empty one.
 const Value& memberOf(const Value& item, const char* name)
 {
   static const Value nothing(rapidjson::kObjectType);
@@ -79,7 +79,7 @@ struct Report
 {
   std::array<double, 3> topology{}; ///< components, tunnels, cavities
   std::array<double, 3> changes{};  ///< islands removed, voxels lost, voxels gained
-  double thinShare = 0;             ///< of the area
+  double thinShare = 0;             ///< fraction of the area
   double smallestThickness = 0;     ///< mm
   double area = 0;                  ///< mm^2
   std::array<double, 2> volumes{};  ///< mm^3: map, mesh
@@ -140,7 +140,7 @@ std::map<Label, Report> reportByTissue(const Value& report, vtkPolyData* surface
   return tissues;
 }
 
-/// Columns are added one after the other, with their names in the user's language.
+/// Adds columns to a table one after the other, with names in the user's language.
 class TableFiller
 {
 public:
@@ -168,7 +168,7 @@ private:
   vtkNew<vtkTable> m_Table;
 };
 
-/// Of the evolution table; plots refer to columns by name.
+/// Column names of the evolution table, to which plots refer.
 struct EvolutionColumns
 {
   std::string step = vtkMRMLTr("SimplexMesher", "Step");
@@ -198,7 +198,7 @@ struct ShapeRow
   double volume = 0; ///< mm^3
 };
 
-/// What smoothing took from the map.
+/// Adds the roughness that smoothing removed from the map.
 void addRoughness(const Value& report, std::vector<ShapeRow>& rows)
 {
   const std::array<std::pair<const char*, std::string>, 3> kinds{
@@ -213,7 +213,7 @@ void addRoughness(const Value& report, std::vector<ShapeRow>& rows)
   }
 }
 
-/// The report's words for a reason, in the user's language.
+/// Returns the reason given in the report in the user's language.
 std::string reasonText(const std::string& reason)
 {
   const std::array<std::pair<const char*, std::string>, 5> reasons{
@@ -254,7 +254,7 @@ std::string tissueName(const TissueTable& names, Label label)
   return found != names.end() && !found->second.name.empty() ? found->second.name : std::to_string(label);
 }
 
-/// "a, b" of the item's labels.
+/// Returns the names of the item's labels, as "a, b".
 std::string tissueNames(const Value& item, const TissueTable& names)
 {
   std::string text;
@@ -263,7 +263,7 @@ std::string tissueNames(const Value& item, const TissueTable& names)
   return text;
 }
 
-/// Of `place`, which the report has in LPS; the host shows RAS.
+/// Returns a coordinate of `place`, converted from the report's LPS to Slicer's RAS.
 double coordinateOf(const Value& item, int axis)
 {
   const auto place = itemsOf(item, { "place" }).GetArray();
@@ -317,7 +317,7 @@ void fillChart(vtkMRMLPlotChartNode* chart, vtkMRMLTableNode* table, const Plot&
   chart->SetXAxisTitle(EvolutionColumns().step.c_str());
   chart->SetYAxisTitle(plot.axis.c_str());
   chart->SetLegendVisibility(plot.columns.size() > 1);
-  chart->SetLegendFontSize(12); // it lies on the curves
+  chart->SetLegendFontSize(12); // it lies over the curves
   for (std::size_t i = 0; i < plot.columns.size(); ++i)
   {
     vtkMRMLPlotSeriesNode* series = chart->GetNthPlotSeriesNode(int(i));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Nodes that runs of the module take and fill.
+/// Nodes for runs of the module.
 
 #include <string>
 
@@ -11,10 +11,11 @@ class vtkSurgicalMesherRun;
 namespace surgicalmesher
 {
 
-/// The host's own unique names count those of nodes that are gone, as after a cancelled run.
+/// Returns `name`, made unique only if a node has it. Slicer's own unique names also count removed nodes, as after a
+/// cancelled run.
 std::string unusedName(vtkMRMLScene* scene, const std::string& name);
 
-/// `chosen`, or a new node in its place, as an output of `run`, in the world's frame.
+/// Returns `chosen`, or a new node if it is null, registered as output of `run`, without a parent transform.
 vtkMRMLModelNode* outputModel(vtkMRMLModelNode* chosen, vtkMRMLScene* scene, const std::string& name,
                               vtkSurgicalMesherRun* run);
 

@@ -26,13 +26,13 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr const char* kTissueModels = "tissueModels";        // reference role of the surface
+constexpr const char* kTissueModels = "tissueModels";        // role on the surface node
 constexpr const char* kLabel = "SurgicalMesher.TissueLabel"; // attribute of a tissue's model
-constexpr const char* kFolder = "SurgicalMesher.Tissues";    // attribute of their folder
+constexpr const char* kFolder = "SurgicalMesher.Tissues";    // attribute of the folder
 constexpr const char* kTargetEdgeLength = "TargetEdgeLength";
 
-/// The complex of a model that the surface stage filled; empty if the model holds anything else. The frame stays the
-/// model's: RAS and LPS differ by a rotation, which leaves every triangle's winding.
+/// Returns the complex of a model filled by the surface stage; empty for any other model. The frame of the model is
+/// kept: RAS and LPS differ by a rotation, which preserves the orientation of triangles.
 SurfaceFile complexOf(vtkPolyData* data)
 {
   SurfaceFile content;
@@ -94,7 +94,7 @@ std::map<Label, vtkMRMLModelNode*> earlierModels(vtkMRMLModelNode* surface)
   return models;
 }
 
-/// The item above a node's; the scene's for a node that has none.
+/// Returns the parent item of a node, or the item of the scene.
 vtkIdType itemAbove(vtkMRMLSubjectHierarchyNode* hierarchy, vtkMRMLNode* node)
 {
   const vtkIdType item = hierarchy->GetItemByDataNode(node);
@@ -103,7 +103,7 @@ vtkIdType itemAbove(vtkMRMLSubjectHierarchyNode* hierarchy, vtkMRMLNode* node)
   return above == vtkMRMLSubjectHierarchyNode::INVALID_ITEM_ID ? hierarchy->GetSceneItemID() : above;
 }
 
-/// The folder that one of these models is in; INVALID_ITEM_ID if the user has moved them all elsewhere.
+/// Returns the folder that contains one of these models; INVALID_ITEM_ID if the user has moved all of them.
 vtkIdType earlierFolder(vtkMRMLSubjectHierarchyNode* hierarchy, const std::map<Label, vtkMRMLModelNode*>& models)
 {
   for (const auto& [label, model] : models)

@@ -54,7 +54,7 @@ std::vector<TissueRow> listLabels(vtkMRMLLabelMapVolumeNode* map)
   return rows;
 }
 
-/// Segments may share an image, each with a value of its own, so images are counted once.
+/// Segments may share an image with different values, so that each image is counted only once.
 std::vector<TissueRow> listSegments(vtkSegmentation* segmentation)
 {
   std::map<vtkOrientedImageData*, std::map<Label, std::int64_t>> counted;

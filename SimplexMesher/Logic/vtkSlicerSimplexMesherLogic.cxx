@@ -43,7 +43,8 @@ using Node = vtkMRMLSimplexMesherNode;
 using Problem = vtkSlicerSimplexMesherLogic::Problem;
 using Check = vtkSlicerSimplexMesherLogic::Check;
 
-/// Whether the volume of `scale`, with the outer halves of its voxels, holds that of `map`, as requireCover() asks.
+/// Whether the volume of `scale`, up to the outer faces of its voxels, contains that of `map`, as requireCover()
+/// demands.
 bool covers(vtkMRMLVolumeNode* scale, vtkMRMLVolumeNode* map)
 {
   vtkNew<vtkMatrix4x4> toScale;
@@ -62,15 +63,15 @@ bool covers(vtkMRMLVolumeNode* scale, vtkMRMLVolumeNode* map)
     toScale->MultiplyPoint(p, p);
     for (int axis = 0; axis < 3; ++axis)
     {
-      constexpr double tolerance = 1e-3; // voxels
+      constexpr double tolerance = 1e-3; // in voxels
       if (p[axis] < -0.5 - tolerance || p[axis] > scaleSize[axis] - 0.5 + tolerance) return false;
     }
   }
   return true;
 }
 
-/// Of a segmentation, or a map to be resampled, the voxel grid is known only once it is exported: SimplexMesherCLI
-/// looks at it then.
+/// The voxel grid of a segmentation, or of a map to be resampled, is known only after its export: SimplexMesherCLI
+/// checks it then.
 Problem scaleProblem(Node* parameters)
 {
   if (!parameters->GetUseScale()) return parameters->GetEdgeLength() > 0 ? Problem::None : Problem::NoEdgeLength;
@@ -91,7 +92,7 @@ Problem lengthProblem(const TissueSetting& setting)
   return differ ? Problem::LengthsOfShellDiffer : Problem::None;
 }
 
-/// What SimplexMesherCLI refuses.
+/// Checks what SimplexMesherCLI would refuse.
 Problem proximityProblem(Node* parameters)
 {
   const double near = parameters->GetProximityNear();
@@ -135,7 +136,7 @@ Check surfaceProblem(Node* parameters, const std::vector<TissueRow>& tissues)
   return check;
 }
 
-/// The host's writer of tables has no way to write a double quote.
+/// Slicer's writer of tables cannot write double quotes.
 std::string withoutQuotes(std::string text)
 {
   std::replace(text.begin(), text.end(), '"', '\'');
@@ -153,11 +154,11 @@ std::string roleText(const TissueSetting& setting)
   }
 }
 
-/// Empty for a value that is left open.
+/// Returns an empty text for an open value.
 std::string numberText(double value, bool isOpen) { return isOpen ? std::string() : text::rounded(value, 17); }
 
-/// What --tissues reads: a row for every tissue of the map that isn't to be meshed as it is; null if there is none.
-/// SimplexMesherCLI refuses tissues without voxels.
+/// Returns the input of --tissues: a row for every tissue of the map with settings; null if there is none.
+/// SimplexMesherCLI refuses tissues without voxels, so they are left out.
 vtkSmartPointer<vtkMRMLTableNode> settingsTable(Node* parameters, const std::vector<TissueRow>& tissues,
                                                 vtkImageData* exported)
 {
@@ -187,7 +188,8 @@ vtkSmartPointer<vtkMRMLTableNode> settingsTable(Node* parameters, const std::vec
   return node;
 }
 
-/// Kept for the volume stage only: nobody wants to see millions of tetrahedra on both sides of every surface.
+/// Ambient tetrahedra are kept for the volume stage only and not displayed: there are millions on both sides of every
+/// surface.
 vtkMRMLModelNode* ambientNode(vtkMRMLModelNode* surface, vtkSurgicalMesherRun* run)
 {
   const std::string name = surface->GetName() + (" " + vtkMRMLTr("SimplexMesher", "ambient tetrahedra"));
@@ -200,7 +202,7 @@ vtkMRMLModelNode* ambientNode(vtkMRMLModelNode* surface, vtkSurgicalMesherRun* r
   return node;
 }
 
-/// A node that the parameter node refers to, made on first use.
+/// Returns a node referenced by the parameter node, created on first use.
 template <class Wanted>
 Wanted* ownNode(Node* parameters, const char* role, const std::string& name)
 {
@@ -265,7 +267,7 @@ void vtkSlicerSimplexMesherLogic::SetMRMLSceneInternal(vtkMRMLScene* scene)
   this->SetAndObserveMRMLSceneEventsInternal(scene, events);
 }
 
-/// Nobody else could remove what is hidden, and nobody would finish the results of a run without its parameters.
+/// A hidden node can be removed by nobody else, and the results of a run cannot be finished without its parameters.
 void vtkSlicerSimplexMesherLogic::OnMRMLSceneNodeRemoved(vtkMRMLNode* node)
 {
   if (node == this->Parameters) this->Run->Cancel();
@@ -374,7 +376,7 @@ void vtkSlicerSimplexMesherLogic::FinishRun()
     if (!this->ReportFile.empty()) this->FinishReport(surface);
     parameters->EndModify(wasModifying);
   }
-  else if (!surface->GetNodeReference(Node::AmbientTetrahedraRole())) // the run took it along
+  else if (!surface->GetNodeReference(Node::AmbientTetrahedraRole())) // it was removed with the run
   {
     surface->SetNodeReferenceID(Node::AmbientTetrahedraRole(), nullptr);
   }
@@ -393,7 +395,7 @@ void vtkSlicerSimplexMesherLogic::FinishVolumes()
 
 void vtkSlicerSimplexMesherLogic::FinishSurface(vtkMRMLModelNode* surface)
 {
-  vtkMRMLColorTableNode* colors = showTissueColors(surface, "BoundaryLabels"); // by the higher label of the two
+  vtkMRMLColorTableNode* colors = showTissueColors(surface, "BoundaryLabels"); // by the higher of the two labels
   vtkMRMLLabelMapVolumeNode* prepared = this->Parameters->GetLabelMapNode(Node::PreparedLabelMapRole());
   if (prepared && prepared->GetDisplayNode()) prepared->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
   if (vtkMRMLModelNode* mesh = this->Parameters->GetModelNode(Node::SimplexMeshRole()))
@@ -402,7 +404,7 @@ void vtkSlicerSimplexMesherLogic::FinishSurface(vtkMRMLModelNode* surface)
   if (!this->Parameters->GetKeepAmbient()) removeFromScene(surface->GetNodeReference(Node::AmbientTetrahedraRole()));
   if (this->Parameters->GetTissueModels()) makeTissueModels(surface);
   else removeTissueModels(surface);
-  surface->SetDisplayVisibility(!this->Parameters->GetTissueModels()); // the same triangles twice would flicker
+  surface->SetDisplayVisibility(!this->Parameters->GetTissueModels()); // coincident triangles would flicker
 }
 
 void vtkSlicerSimplexMesherLogic::FinishReport(vtkMRMLModelNode* surface)

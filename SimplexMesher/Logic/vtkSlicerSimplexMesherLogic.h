@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Runs SimplexMesherCLI for a parameter node, and turns what it leaves into nodes that can be seen, read and plotted.
+/// Runs SimplexMesherCLI for a parameter node, and presents its results as models, tables and plots.
 
 #include "BalloonRun.h"
 #include "TissueMapInput.h"
@@ -30,24 +30,24 @@ public:
   vtkTypeMacro(vtkSlicerSimplexMesherLogic, vtkSlicerModuleLogic);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The scene's first parameter node, made if there is none; null without a scene.
+  /// Returns the first parameter node of the scene, created if there is none; null without a scene.
   vtkMRMLSimplexMesherNode* ParameterNode();
 
-  /// What keeps a parameter node from being run.
+  /// Reasons why a parameter node cannot be run.
   enum class Problem
   {
     None,
-    NoModule,            ///< SimplexMesherCLI isn't loaded
-    TissueMap,           ///< see `tissueMap`
-    NoScale,             ///< neither a scale volume with voxels nor one length is chosen
-    ScaleWarped,         ///< the scale volume is under a transform that isn't linear
-    ScaleTooSmall,       ///< the scale volume leaves out part of the map
-    NoEdgeLength,        ///< the one length isn't positive
-    ProximityUnfit,      ///< nearest where the edge length is least: 0, or more than where it is most
-    LabelTaken,          ///< `tissue` has the label that the surroundings are to have
-    NothingToMesh,       ///< every tissue is left out
+    NoModule,            ///< SimplexMesherCLI is not loaded
+    TissueMap,           ///< see Check::tissueMap
+    NoScale,             ///< the scale volume is missing or has no voxels
+    ScaleWarped,         ///< the scale volume is under a nonlinear transform
+    ScaleTooSmall,       ///< the scale volume does not cover the whole map
+    NoEdgeLength,        ///< the uniform edge length is not positive
+    ProximityUnfit,      ///< the proximity at the smallest edge length is 0 or above that at the largest
+    LabelTaken,          ///< `tissue` has the label chosen for the surroundings
+    NothingToMesh,       ///< all tissues are left out
     LengthsContradict,   ///< `tissue` has a minimum above its maximum
-    LengthsOfShellDiffer ///< `tissue` is a shell with two lengths
+    LengthsOfShellDiffer ///< `tissue` is a shell with two different lengths
   };
   struct Check
   {
@@ -56,22 +56,22 @@ public:
     surgicalmesher::TissueRow tissue;
   };
 
-  /// `tissues` as surgicalmesher::listTissues gives them for the parameter node's map; without any, only what balloons
-  /// need as well is looked at.
+  /// `tissues` is the result of surgicalmesher::listTissues for the parameter node's map; if it is empty, only what
+  /// balloons also need is checked.
   Check FindProblem(vtkMRMLSimplexMesherNode* parameters, const std::vector<surgicalmesher::TissueRow>& tissues);
 
-  /// Starts a run, unless there is a problem or a run is busy. A surface that isn't chosen is made for it, and put into
-  /// the parameter node once the run completes. False if it could not be started: GetRun()->GetErrorText() has the
-  /// reason.
+  /// Starts a run, unless there is a problem or a run is busy. If no surface node is chosen, one is created, and set in
+  /// the parameter node once the run completes. Returns false if the run could not be started: FindProblem() or
+  /// GetRun()->GetErrorText() has the reason.
   bool Start(vtkMRMLSimplexMesherNode* parameters);
-  /// The same, waiting for its end in this thread.
+  /// The same, but waits in this thread for the end of the run.
   bool StartAndWait(vtkMRMLSimplexMesherNode* parameters);
 
-  /// The one run of this logic: its status, its error, its end. By the time that others see its CompletedEvent, if they
-  /// observe it with the default priority, the results have been finished.
+  /// The only run of this logic, with its status, error and end. Observers of its CompletedEvent with the default
+  /// priority see finished results.
   vtkSurgicalMesherRun* GetRun() const { return this->Run; }
 
-  /// What runs BalloonSurfaceCLI for the same parameter nodes.
+  /// Returns the object that runs BalloonSurfaceCLI for the same parameter nodes.
   surgicalmesher::BalloonRun& GetBalloons() { return this->Balloons; }
 
 protected:
@@ -96,10 +96,10 @@ private:
 
   vtkNew<vtkSurgicalMesherRun> Run;
   vtkNew<vtkCallbackCommand> RunEnded;
-  vtkWeakPointer<vtkMRMLSimplexMesherNode> Parameters; ///< of the run
-  vtkWeakPointer<vtkMRMLModelNode> Surface;            ///< of the run
-  std::string ReportFile;                              ///< of the run; empty if none is wanted
+  vtkWeakPointer<vtkMRMLSimplexMesherNode> Parameters; ///< of the current run
+  vtkWeakPointer<vtkMRMLModelNode> Surface;            ///< of the current run
+  std::string ReportFile;                              ///< of the current run; empty if not wanted
   surgicalmesher::BalloonRun Balloons{ this };
-  /// Volumes that the run is to fill, each with the hidden one that the host reads into.
+  /// Volumes to be filled by the run, each with the hidden volume that Slicer reads into.
   std::vector<std::pair<vtkWeakPointer<vtkMRMLVolumeNode>, vtkSmartPointer<vtkMRMLVolumeNode>>> Volumes;
 };

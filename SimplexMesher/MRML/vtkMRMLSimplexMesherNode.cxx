@@ -16,7 +16,7 @@ using surgicalmesher::TissueSetting;
 namespace
 {
 
-constexpr std::array<const char*, 4> roleNames{ "mesh", "group", "shell", "leave" }; // by TissueRole
+constexpr std::array<const char*, 4> roleNames{ "mesh", "group", "shell", "leave" }; // indexed by TissueRole
 
 std::string escaped(const std::string& text)
 {
@@ -34,7 +34,7 @@ std::string escaped(const std::string& text)
 std::string unescaped(std::string text)
 {
   const std::array<std::pair<const char*, const char*>, 3> codes{ { { "%7C", "|" }, { "%3B", ";" }, { "%25", "%" } } };
-  for (const auto& [code, character] : codes) // the percent sign last: it makes no new codes then
+  for (const auto& [code, character] : codes) // the percent sign last, so that it forms no new codes
   {
     for (std::size_t at = text.find(code); at != std::string::npos; at = text.find(code, at + 1))
       text.replace(at, 3, character);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the panel of Simplex Mesher shows: the map, what is asked of its tissues, and which results are wanted. It
-/// lives in the scene and is saved with it. Lengths are in mm, volumes in mm^3; 0 means what it means to
-/// SimplexMesherCLI.
+/// Parameter node of Simplex Mesher, saved with the scene: the map, the settings of its tissues, and the wanted
+/// results. Lengths in mm, volumes in mm^3; 0 has the same meaning as in SimplexMesherCLI.
 
 #include "TissueSettings.h"
 #include "vtkMRMLSurgicalMesherParameterNode.h"
@@ -21,26 +20,26 @@ public:
   vtkMRMLNode* CreateNodeInstance() override;
   const char* GetNodeTagName() override { return "SimplexMesher"; }
 
-  /// Roles of the nodes referred to.
+  /// Roles of the referenced nodes.
   static const char* TissueMapRole() { return "tissueMap"; }               ///< label map or segmentation
   static const char* ScaleRole() { return "scale"; }                       ///< scalar volume of edge lengths
-  static const char* SurfaceRole() { return "surface"; }                   ///< model; a new one where there is none
+  static const char* SurfaceRole() { return "surface"; }                   ///< model; created if there is none
   static const char* PreparedLabelMapRole() { return "preparedLabelMap"; } ///< label map; none: not wanted
   static const char* SimplexMeshRole() { return "simplexMesh"; }           ///< model; none: not wanted
   static const char* FollowedScaleRole() { return "followedScale"; }       ///< scalar volume; none: not wanted
-  static const char* TissueTableRole() { return "tissueTable"; }           ///< table: the report by tissue
-  static const char* EvolutionTableRole() { return "evolutionTable"; }     ///< table: the report step by step
-  static const char* ShapeTableRole() { return "shapeTable"; }             ///< table: what is rough, folded, or hangs
+  static const char* TissueTableRole() { return "tissueTable"; }           ///< table: report by tissue
+  static const char* EvolutionTableRole() { return "evolutionTable"; }     ///< table: report step by step
+  static const char* ShapeTableRole() { return "shapeTable"; }             ///< table: roughness, folds and ears
   static const char* FoldTableRole() { return "foldTable"; }               ///< table: the longest folds
   static const char* EarTableRole() { return "earTable"; }                 ///< table: the largest ears
-  static const char* EvolutionChartRole() { return "evolutionChart"; }     ///< plot of the latter
+  static const char* EvolutionChartRole() { return "evolutionChart"; }     ///< plots of the evolution table
   static const char* BalloonSeedsRole() { return "balloonSeeds"; }         ///< list of points
-  static const char* BalloonSurfaceRole() { return "balloonSurface"; }     ///< model; a new one where there is none
-  static const char* BalloonLabelMapRole() { return "balloonLabelMap"; }   ///< label map; a new one where there is none
-  /// Of the *surface* node: model of the tetrahedra around it.
+  static const char* BalloonSurfaceRole() { return "balloonSurface"; }     ///< model; created if there is none
+  static const char* BalloonLabelMapRole() { return "balloonLabelMap"; }   ///< label map; created if there is none
+  /// Role on the *surface* node: model of the tetrahedra around it.
   static const char* AmbientTetrahedraRole() { return "ambientTetrahedra"; }
 
-  /// Whether edge lengths come from the scale volume; otherwise EdgeLength holds everywhere.
+  /// Whether edge lengths come from the scale volume; otherwise EdgeLength applies everywhere.
   vtkGetMacro(UseScale, bool);
   vtkSetMacro(UseScale, bool);
   vtkBooleanMacro(UseScale, bool);
@@ -57,7 +56,7 @@ public:
   vtkSetMacro(Smoothing, double);
   vtkGetMacro(Rigidity, double);
   vtkSetMacro(Rigidity, double);
-  /// What the internal force of the simplex mesh asks for.
+  /// Continuity of the internal force of the simplex mesh.
   enum ContinuityType
   {
     EvenEdges,     ///< C0
@@ -69,14 +68,14 @@ public:
   void SetContinuity(int continuity);
   vtkGetMacro(MaximumDistance, double);
   vtkSetMacro(MaximumDistance, double);
-  /// Where the edge length is least, and where it is most; none is asked for where both are 0.
+  /// Proximity where the edge length is smallest, and where it is largest; both 0: not requested.
   vtkGetMacro(ProximityNear, double);
   vtkSetMacro(ProximityNear, double);
   vtkGetMacro(ProximityFar, double);
   vtkSetMacro(ProximityFar, double);
   vtkGetMacro(ChordError, double);
   vtkSetMacro(ChordError, double);
-  /// The label that the surroundings become a tissue with; 0 leaves them out.
+  /// Label of the surroundings as a tissue; 0: they are not meshed.
   vtkGetMacro(Background, int);
   vtkSetMacro(Background, int);
   vtkGetMacro(FollowThickness, bool);
@@ -87,21 +86,21 @@ public:
   vtkGetMacro(Threads, int);
   vtkSetMacro(Threads, int);
 
-  /// Whether there is to be a model for every tissue too.
+  /// Whether to create a model for every tissue as well.
   vtkGetMacro(TissueModels, bool);
   vtkSetMacro(TissueModels, bool);
   vtkBooleanMacro(TissueModels, bool);
-  /// Whether the tetrahedra around the surface are kept for the volume stage.
+  /// Whether to keep the tetrahedra around the surface for the volume stage.
   vtkGetMacro(KeepAmbient, bool);
   vtkSetMacro(KeepAmbient, bool);
   vtkBooleanMacro(KeepAmbient, bool);
-  /// Whether there are to be tables and a plot.
+  /// Whether to create tables and plots.
   vtkGetMacro(Report, bool);
   vtkSetMacro(Report, bool);
   vtkBooleanMacro(Report, bool);
 
-  /// Balloons: the tissues that stop them, by segment ID or, in a label map, by the label's digits; the largest distance
-  /// from their seeds; the width of the openings that they close over.
+  /// Balloons: the tissues that stop them, by segment ID or, in a label map, by the label as text; the largest distance
+  /// from their seeds; the width of the openings that they do not enter.
   const std::set<std::string>& GetBalloonStops() const { return this->BalloonStops; }
   void SetBalloonStops(const std::set<std::string>& ids);
   vtkGetMacro(BalloonLimit, double);
@@ -109,7 +108,7 @@ public:
   vtkGetMacro(BalloonRigidity, double);
   vtkSetMacro(BalloonRigidity, double);
 
-  /// What is asked of tissues, by segment ID or, in a label map, by the label's digits. Tissues that aren't listed are
+  /// Settings of tissues, by segment ID or, in a label map, by the label as text. Tissues that are not listed are
   /// meshed as they are.
   using Settings = std::map<std::string, surgicalmesher::TissueSetting>;
   const Settings& GetTissueSettings() const { return this->TissueSettings; }
@@ -125,11 +124,12 @@ protected:
 
   std::vector<Value> GetValues() override;
 
-  /// The settings as one line of text: records end with ';', fields with '|', and both and '%' are written as %XX.
+  /// The settings as one line of text: records end with ';', fields with '|'; these characters and '%' are written as
+  /// %XX.
   std::string GetTissues() const;
   void SetTissues(const std::string& text);
 
-  /// The IDs, as in GetTissues.
+  /// The IDs of the stops, encoded as in GetTissues.
   std::string GetStops() const;
   void SetStops(const std::string& text);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// SurgicalPathScaleCLI: label map, targets and paths in; scale volume, null-displacement map and size estimate out.
+// SurgicalPathScaleCLI reads a label map, targets and paths, and writes the scale volume, the null-displacement map and
+// an estimate of the mesh size.
 
 #include "CommandLine.h"
 #include "Errors.h"
@@ -27,7 +28,7 @@ using namespace surgicalmesher;
 namespace
 {
 
-/// What the run found out, besides its outputs.
+/// Results of the run for the report and for return values.
 struct Results
 {
   std::size_t tissueCount = 0;
@@ -35,11 +36,11 @@ struct Results
   float longest = 0;
   NullDisplacement nullDisplacement;
   MeshSizeEstimate estimate;
-  MeshingSize meshing;                                    ///< without what repeats
+  MeshingSize meshing;                                    ///< without repeated voxels
   std::uint64_t surfaceMemory = 0, tetrahedralMemory = 0; ///< bytes
 };
 
-/// To three significant digits, without an exponent.
+/// Returns the count rounded to three significant digits, without an exponent.
 std::string roundedCount(double count)
 {
   const double unit = count < 1000 ? 1 : std::pow(10.0, std::floor(std::log10(count)) - 2);
@@ -53,7 +54,7 @@ Combination readCombination(const CommandLine& line)
   return combine == "path" ? Combination::Paths : Combination::Smaller;
 }
 
-/// The range by areas, where they are given; lengths as they are by default then count as not given.
+/// Reads the range from the areas, if they are given; edge lengths equal to the defaults then count as not given.
 void readAreas(const CommandLine& line, SurgicalScaleOptions& options)
 {
   const double minimum = line.number("minimumArea"), maximum = line.number("maximumArea");
@@ -71,7 +72,7 @@ void readAreas(const CommandLine& line, SurgicalScaleOptions& options)
   options.rising = RisingQuantity::Area;
 }
 
-/// Everything but the tissues' own lengths, which need the map's names.
+/// Reads all options except the lengths of single tissues, which need the names of the map.
 SurgicalScaleOptions readOptions(const CommandLine& line)
 {
   const auto orElse = [](double value, double fallback) { return value > 0 ? value : fallback; };
@@ -143,7 +144,7 @@ void warnOfOddities(CommandLine& line, const TissueMap& map, const Focus& focus,
   }
 }
 
-/// To two significant digits, and never more than `length`.
+/// Returns the length rounded down to two significant digits.
 std::string roundedDown(double length)
 {
   const double unit = std::pow(10.0, std::floor(std::log10(length)) - 1);
@@ -229,7 +230,7 @@ void writeResults(JsonWriter& json, const Results& results, const std::vector<st
   writeWarnings(json, warnings);
 }
 
-/// Lengths in mm, points in LPS, volumes in mm^3.
+/// Writes lengths in mm, points in LPS, volumes in mm^3.
 void writeReport(const std::string& file, const CommandLine& line, const Focus& focus,
                  const SurgicalScaleOptions& options, const Results& results, const Grid& map, const Grid& scale)
 {
@@ -244,7 +245,7 @@ void writeReport(const std::string& file, const CommandLine& line, const Focus& 
   writeBytes(jsonText(writeMembers, { 6 }), file);
 }
 
-/// The map that is written has its voxels as often as the file.
+/// Marks null-displacement tissue. The written map has repeated voxels as often as the input file.
 void markFarTissue(CommandLine& line, TissueMap& map, const Focus& focus, const std::set<Label>& named,
                    const VoxelRepeats& repeats, Results& results)
 {
@@ -274,7 +275,7 @@ void returnEstimate(CommandLine& line, const MeshSizeEstimate& estimate)
                roundedCount(estimate.tetrahedra) + " tetrahedra");
 }
 
-/// Completes the map's names; returns the labels that have names anywhere.
+/// Completes the names of the map; returns the labels that have names in the map or in the file.
 std::set<Label> nameTissues(CommandLine& line, TissueMap& map)
 {
   TissueTable all = map.table;

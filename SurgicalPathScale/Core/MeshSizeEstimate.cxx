@@ -12,15 +12,18 @@ namespace surgicalmesher
 namespace
 {
 
-// The model's constants, fitted to the project's meshes of the maps that the header names.
-constexpr double tetrahedronVolume = 0.12;     ///< c: mean volume at unit edge; regular ones have 0.118, BCC ones 0.110
+// Constants of the model, fitted to the project's meshes of the maps in Docs/Benchmarks.md#estimates.
+/// c: mean volume at unit edge length; regular tetrahedra have 0.118, BCC ones 0.110.
+constexpr double tetrahedronVolume = 0.12;
 constexpr double tetrahedraPerTriangle = 0.95; ///< b
-constexpr double surfaceEdge = 0.83;           ///< s: edge of interface triangles at unit edge, shorter than inside
-constexpr double smoothArea = 2.0 / 3.0;       ///< smooth area per area of voxel faces, mean over directions
-constexpr double edgePerThickness = 1.4;       ///< longest edge in a tissue of unit thickness 4 V / A
-constexpr double blockSide = 4;                ///< mm; thickness is measured over 3 x 3 x 3 blocks
+/// s: edge length of interface triangles at unit edge length, shorter than inside.
+constexpr double surfaceEdge = 0.83;
+/// Area of the smooth interface per area of voxel faces, mean over directions.
+constexpr double smoothArea = 2.0 / 3.0;
+constexpr double edgePerThickness = 1.4; ///< longest edge length in a tissue of unit thickness 4 V / A
+constexpr double blockSide = 4;          ///< mm; thickness is measured over 3 x 3 x 3 blocks
 
-/// What one tissue has in one block.
+/// Volume and boundary area of a tissue in a block.
 struct Share
 {
   Label label;
@@ -31,7 +34,7 @@ struct Share
 using Index = std::array<int, 3>;
 using Shares = std::vector<Share>; ///< of one block
 
-/// The map in blocks of about 4 mm side.
+/// The map divided into blocks with sides of about 4 mm.
 class Blocks
 {
 public:
@@ -53,11 +56,11 @@ public:
   double voxelVolume() const { return m_VoxelVolume; }
   double faceArea(int axis) const { return m_FaceArea[axis]; }
 
-  /// The first voxel of a block, and the one after its last, along an axis.
+  /// Returns the first voxel of a block along an axis, and the one after its last.
   int begin(int block, int axis) const { return block * m_Side[axis]; }
   int end(int block, int axis) const { return std::min((block + 1) * m_Side[axis], m_Grid.size[axis]); }
 
-  /// The number within its layer of the block of a voxel.
+  /// Returns the index, within its layer, of the block that contains a voxel.
   std::size_t inLayer(const Index& voxel) const
   {
     return std::size_t(voxel[1] / m_Side[1]) * m_Size[0] + voxel[0] / m_Side[0];
@@ -81,7 +84,7 @@ Share& shareOf(Shares& shares, Label label)
   return shares.back();
 }
 
-/// Adds the voxels of a block's layer to their tissues' volumes.
+/// Adds the voxels of a layer of blocks to the volumes of their tissues.
 void addVolumes(const TissueMap& map, const Blocks& blocks, int layer, Shares* shares)
 {
   for (int k = blocks.begin(layer, 2); k < blocks.end(layer, 2); ++k)
@@ -100,7 +103,7 @@ void addVolumes(const TissueMap& map, const Blocks& blocks, int layer, Shares* s
       }
 }
 
-/// Adds the faces of a block's layer to the areas of the tissues in it.
+/// Adds the faces of a layer of blocks to the areas of the tissues in it.
 void addAreas(const TissueMap& map, const Blocks& blocks, int layer, Shares* shares)
 {
   const int begin = blocks.begin(layer, 2), end = blocks.end(layer, 2);
@@ -115,7 +118,7 @@ void addAreas(const TissueMap& map, const Blocks& blocks, int layer, Shares* sha
                         });
 }
 
-/// What is in the block of that number and those around it.
+/// Returns the sums over a block and those around it.
 Shares neighbourhood(const Blocks& blocks, const std::vector<Shares>& shares, std::size_t block)
 {
   Shares sum;
@@ -133,7 +136,7 @@ Shares neighbourhood(const Blocks& blocks, const std::vector<Shares>& shares, st
   return sum;
 }
 
-/// The longest edge that the tissue's thickness allows; background outside the map allows any.
+/// Returns the longest edge that the thickness of the tissue allows; background outside the map allows any.
 double longestEdge(const Shares& shares, Label label)
 {
   for (const Share& share : shares)
@@ -143,12 +146,12 @@ double longestEdge(const Shares& shares, Label label)
   return HUGE_VAL;
 }
 
-/// Tetrahedra inside the tissues of a layer, from some of its voxels where these are many to a millimetre: L varies
-/// slowly.
+/// Returns the number of tetrahedra inside the tissues of a layer, sampled at a subset of the voxels where they are
+/// small: L varies slowly.
 double tetrahedraInside(const TissueMap& map, const ScaleField& scale, const Blocks& blocks, int layer,
                         const std::vector<Shares>& around)
 {
-  constexpr int samplesPerSide = 4; // of a block
+  constexpr int samplesPerSide = 4; // of a block, per side
   Index step;
   for (int axis = 0; axis < 3; ++axis) step[axis] = std::max(1, blocks.side()[axis] / samplesPerSide);
   const Grid& grid = map.grid;
@@ -166,7 +169,7 @@ double tetrahedraInside(const TissueMap& map, const ScaleField& scale, const Blo
   return sum * step[0] * step[1] * step[2] * blocks.voxelVolume() / tetrahedronVolume;
 }
 
-/// Triangles of the faces whose inner, or else lower, voxel is in a layer.
+/// Returns the number of triangles of the faces whose inner, or otherwise lower, voxel is in a layer.
 double trianglesOf(const TissueMap& map, const ScaleField& scale, const Blocks& blocks, int layer,
                    const std::vector<Shares>& around)
 {
@@ -211,7 +214,7 @@ MeshSizeEstimate estimateMeshSize(const TissueMap& map, const ScaleField& scale)
                     parts[layer] = { trianglesOf(map, scale, blocks, int(layer), around),
                                      tetrahedraInside(map, scale, blocks, int(layer), around) };
                   });
-  MeshSizeEstimate sum; // in the order of the layers, whatever the threads
+  MeshSizeEstimate sum; // in the order of the layers, independent of the number of threads
   for (const MeshSizeEstimate& part : parts)
   {
     sum.triangles += part.triangles;

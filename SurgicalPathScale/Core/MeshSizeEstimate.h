@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// How large the mesh of a map will be, before anything is meshed.
+/// Estimate of the size of the mesh of a label map, before anything is meshed.
 
 #include "ScaleField.h"
 #include "TissueMap.h"
@@ -14,17 +14,18 @@ struct MeshSizeEstimate
   double tetrahedra = 0; ///< inside tissue
 };
 
-/// Expected numbers for this map at this scale; the aim is a factor of 1.5.
+/// Returns the expected numbers of elements for this map at this scale; the aim is an accuracy within a factor of 1.5.
 ///
-/// Elements have edge L, or less where a tissue is thinner than that: a tissue's thickness near a voxel is taken as 4 V
-/// / A, with V its volume and A its boundary area in the 12 mm around (a plate of thickness h gives 2 h, a rod or ball
-/// of radius r gives 2 r or 4/3 r). Then, with A_s the area of smooth interface that a voxel face stands for,
+/// Elements have edge length L, or less where a tissue is thinner than L. The thickness of a tissue near a voxel is
+/// estimated as 4 V / A, with its volume V and its boundary area A in the 12 mm around the voxel (a plate of thickness
+/// h gives 2 h, a rod or ball of radius r gives 2 r or 4/3 r). Then, with A_s the area of smooth interface that a voxel
+/// face represents,
 ///
 ///     triangles  = sum over interface faces of A_s / (sqrt(3)/4 (s L)^2)
 ///     tetrahedra = sum over tissue voxels of dV / (c L^3) + b * triangles
 ///
-/// The last term counts the tetrahedra of thin sheets and small tissues, which have surface but hardly volume. The
-/// constants are at the top of MeshSizeEstimate.cxx; what the estimate reaches is in Docs/Benchmarks.md#estimates.
+/// The last term counts the tetrahedra of thin sheets and small tissues, which have surface but hardly any volume. The
+/// constants are at the top of MeshSizeEstimate.cxx; the accuracy reached is in Docs/Benchmarks.md#estimates.
 MeshSizeEstimate estimateMeshSize(const TissueMap& map, const ScaleField& scale);
 
 } // namespace surgicalmesher

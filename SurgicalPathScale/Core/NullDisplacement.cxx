@@ -34,7 +34,7 @@ void checkOptions(const NullDisplacementOptions& options, const std::vector<Vec3
     throw UsageError("a null-displacement path distance is given, but no path");
 }
 
-/// Which points of the grid frame are near a target or path.
+/// Tests whether points of the grid frame are near a target or path.
 class Neighbourhood
 {
 public:

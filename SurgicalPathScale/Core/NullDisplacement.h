@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Tissue that the simulation holds still: far from every target and path it is not worth elements of its own
-/// (null-displacement tissue: Audette et al., Computer Aided Surgery 12(1), 2007, fig. 8).
+/// Null-displacement tissue: tissue far from every target and path, which the simulation holds fixed because it is not
+/// worth elements of its own (Audette et al., Computer Aided Surgery 12(1), 2007, fig. 8).
 
 #include "Distance.h"
 #include "TissueMap.h"
@@ -15,13 +15,13 @@ namespace surgicalmesher
 
 struct NullDisplacementOptions
 {
-  double targetRadius = 0; ///< mm; voxels this near to a target keep their label; 0: targets don't count
-  double pathDistance = 0; ///< mm; voxels this near to a path keep their label; 0: paths don't count
-  /// mm; the path distance goes linearly with arc length from pathDistance at the entry to this at the target end; 0:
-  /// it is the same all along.
+  double targetRadius = 0; ///< mm; voxels within this distance of a target keep their label; 0: targets are ignored
+  double pathDistance = 0; ///< mm; voxels within this distance of a path keep their label; 0: paths are ignored
+  /// Path distance at the target end of paths, mm; along a path, the distance varies linearly with arc length from
+  /// pathDistance at the entry to this value. 0: constant along the path.
   double pathDistanceAtTarget = 0;
-  std::set<Label> tissues; ///< that may become null displacement; empty: all but background
-  std::set<Label> named{}; ///< labels that a table has names for, in the map or not
+  std::set<Label> tissues; ///< tissues that may become null displacement; empty: all but background
+  std::set<Label> named{}; ///< labels with names in a table, whether or not they occur in the map
 };
 
 struct NullDisplacement
@@ -30,10 +30,10 @@ struct NullDisplacement
   std::size_t voxelCount = 0;
 };
 
-/// Gives one label, marked and named as null displacement in map.table, to all voxels of the tissues that take part
+/// Gives a single label, named and marked as null displacement in map.table, to all voxels of the selected tissues
 /// whose centres are farther than the radius from every target AND outside the tube around every path (see
-/// distanceToTube). The label is a free one (see freeLabels). Throws UsageError if neither criterion is used, one
-/// is used without a target or path, or a distance is negative or not finite; InputError if no label is free.
+/// distanceToTube). The label is a free one (see freeLabels). Throws UsageError if no criterion is used, if one is used
+/// without a target or path, or if a distance is negative or not finite; InputError if no label is free.
 NullDisplacement markNullDisplacement(TissueMap& map, const std::vector<Vec3>& targets, const std::vector<Path>& paths,
                                       const NullDisplacementOptions& options);
 

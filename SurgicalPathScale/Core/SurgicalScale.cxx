@@ -58,17 +58,17 @@ void checkFocus(Combination combination, const std::vector<Vec3>& targets, const
   }
 }
 
-/// Of the scale volume along an axis. A surface goes up to a sixth of the map's voxel beyond the map, which has to be
-/// covered, too.
+/// Returns the number of voxels of the scale volume along an axis. Surfaces extend up to a sixth of a map voxel beyond
+/// the map, which must be covered too.
 double voxelsAlong(const Grid& map, int axis, double spacing)
 {
-  constexpr double beyond = 0.2, tolerance = 1e-4; // rounded headers of one map must not differ here
+  constexpr double beyond = 0.2, tolerance = 1e-4; // rounding in headers of the same map must not matter here
   const double extent = map.size[axis] * map.spacing[axis];
   const double margin = std::max(1.0, std::ceil(beyond * map.spacing[axis] / spacing - tolerance));
   return std::ceil(extent / spacing - tolerance) + 2 * margin;
 }
 
-/// Lengths at one distance from the targets and one from the paths.
+/// Lengths at a point, from its distances to the targets and paths.
 class LengthFunction
 {
 public:
@@ -99,8 +99,8 @@ private:
   double m_ToPath = HUGE_VAL;
 };
 
-/// The labels of the map in the box of two scale voxels' side around a point of the map's grid frame, each at least
-/// once.
+/// Collects the labels of the map, each once and without background, in the box with sides of two scale voxels around a
+/// point of the map's grid frame.
 void labelsInBox(const TissueMap& map, const Vec3& centre, double halfSide, std::vector<Label>& labels)
 {
   std::array<int, 3> from;
@@ -192,7 +192,7 @@ ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& t
   ScaleField scale;
   scale.grid = scaleGrid(map.grid, options.spacing);
   scale.lengths.resize(scale.grid.voxelCount());
-  // In the grid frame a map and its rotated copy have the same coordinates to rounding.
+  // In the grid frame, a map and its rotated copy have the same coordinates up to rounding.
   const std::vector<Vec3> gridTargets = toGridFrame(map.grid, targets);
   std::vector<Path> gridPaths;
   for (const Path& path : paths) gridPaths.push_back(toGridFrame(map.grid, path));
@@ -231,7 +231,7 @@ ScaleField computeSurgicalScale(const TissueMap& map, const std::vector<Vec3>& t
 namespace
 {
 
-/// How far from a target the length is at most half again the minimum.
+/// Returns the distance from a target up to which the length is at most 1.5 times the minimum.
 double reach(const LengthRange& range, const Falloff& falloff, RisingQuantity rising)
 {
   const double power = rising == RisingQuantity::Area ? 2 : 1;
@@ -255,7 +255,7 @@ double sufficientSpacing(const SurgicalScaleOptions& options, const std::vector<
     for (const auto& tissue : options.tissues)
       least = std::min(least, reach(tissue.second.range, falloff, options.rising));
   }
-  return least / std::sqrt(3); // the diagonal of a voxel: all eight around a place are within it
+  return least / std::sqrt(3); // the diagonal of a voxel: all eight voxel centres around a point are within it
 }
 
 } // namespace surgicalmesher

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A parameter node in the terms of the host-independent core.
+/// Conversion of a parameter node to the options of the host-independent core.
 
 #include "NullDisplacement.h"
 #include "SurgicalScale.h"
@@ -10,10 +10,10 @@ class vtkMRMLSurgicalPathScaleNode;
 namespace surgicalmesher
 {
 
-/// Where the mesh has to be fine, in LPS mm.
+/// Returns the targets and paths around which the mesh must be fine, in LPS mm.
 Focus focusOf(vtkMRMLSurgicalPathScaleNode* parameters);
 
-/// Throws InputError if the table of lengths by tissue cannot be used with the tissues' `names`.
+/// Throws InputError if the table of lengths by tissue cannot be read or does not fit `names`.
 SurgicalScaleOptions scaleOptions(vtkMRMLSurgicalPathScaleNode* parameters, const TissueTable& names);
 
 /// Throws InputError for a tissue that is neither a label nor a name, or a name that several tissues have.

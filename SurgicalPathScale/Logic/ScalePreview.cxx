@@ -45,7 +45,7 @@ constexpr double labelVoxels = 5e5;
 constexpr double overlayOpacity = 0.5;
 constexpr const char* scaleColors = "vtkMRMLColorTableNodeFileHotToColdRainbow.txt";
 
-/// The spacing asked for, or what makes a volume of so many voxels.
+/// Returns the requested spacing, or the one that yields a volume of about `voxels` voxels if that is larger.
 double coarseSpacing(const Grid& grid, double asked, double voxels)
 {
   double volume = 1;
@@ -58,7 +58,7 @@ TissueMap thinned(const TissueMap& map, double voxels)
   return everyNth(map, std::max(1, int(std::ceil(std::cbrt(double(map.grid.voxelCount()) / voxels)))));
 }
 
-/// A volume node with its display node, both hidden. It has its voxels before anything in the scene can ask for them.
+/// Adds a volume node with its display node, both hidden. The volume has its voxels before the scene can access them.
 template <typename Volume, typename Display>
 vtkSmartPointer<Volume> addHiddenVolume(vtkMRMLScene* scene, const char* name, const Grid& grid, vtkImageData* image)
 {
@@ -95,7 +95,7 @@ vtkSmartPointer<vtkImageData> makeImage(const Grid& grid, const std::vector<T>& 
 
 std::string textOf(const char* id) { return id ? id : ""; }
 
-/// The id, or null if there is no such node any more.
+/// Returns the id, or null if the scene has no such node any more.
 const char* idInScene(vtkMRMLScene* scene, const std::string& id)
 {
   return scene->GetNodeByID(id) ? id.c_str() : nullptr;
@@ -143,11 +143,12 @@ void setScaleColors(vtkMRMLScalarVolumeNode* node, double shortest, double longe
   const int wasModifying = display->StartModify();
   display->SetAndObserveColorNodeID(scaleColors);
   display->SetAutoWindowLevel(false);
-  const double lower = shortest - 0.005 * std::max(longest - shortest, 1e-3); // the table's first entry is no colour
+  // The first entry of the colour table is no colour.
+  const double lower = shortest - 0.005 * std::max(longest - shortest, 1e-3);
   display->SetWindowLevelMinMax(lower, longest);
   display->SetInterpolate(true);
   display->EndModify(wasModifying);
-  if (!node->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // the host's module is missing
+  if (!node->GetScene()->IsNodeClassRegistered("vtkMRMLColorLegendDisplayNode")) return; // without Slicer's legends
   vtkMRMLColorLegendDisplayNode* legend = vtkSlicerColorLogic::AddDefaultColorLegendDisplayNode(display);
   legend->SetTitleText(vtkMRMLTr("vtkSlicerSurgicalPathScaleLogic", "Edge length (mm)"));
   legend->SetLabelFormat("%.1f");
@@ -223,7 +224,7 @@ void ScalePreview::showNullDisplacement(vtkMRMLSurgicalPathScaleNode* parameters
   m_NullDisplacement->GetDisplayNode()->SetAndObserveColorNodeID(colors->GetID());
 }
 
-/// The views are remembered when the first overlay comes, and views that come later when it is their turn.
+/// The layers of a view are saved before its first overlay, also for views that are added later.
 void ScalePreview::putIntoSliceViews(vtkMRMLScene* scene)
 {
   for (vtkMRMLSliceCompositeNode* view : sliceViews(scene))

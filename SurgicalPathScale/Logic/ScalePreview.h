@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The scale and the null displacement of a parameter node as overlays in the slice views, coarse enough to follow a
-/// slider, and the size of mesh to expect.
+/// Overlays of the scale and the null displacement of a parameter node in the slice views, coarse enough to follow a
+/// slider, and the expected size of the mesh.
 
 #include "MeshSizeEstimate.h"
 
@@ -30,9 +30,9 @@ public:
   ~ScalePreview();
 
   /// Computes the overlays and shows them. The volumes are hidden nodes that are not saved with the scene. Throws an
-  /// Error with a sentence if the parameters cannot be used.
+  /// Error with a message if the parameters cannot be used.
   void show(vtkMRMLSurgicalPathScaleNode* parameters);
-  /// Takes the overlays away; what the slice views showed before is there again.
+  /// Removes the overlays and restores what the slice views showed before.
   void hide();
   bool isShown() const { return m_Scale != nullptr; }
   vtkMRMLScalarVolumeNode* scaleNode() const { return m_Scale; }
@@ -41,7 +41,7 @@ public:
   /// Throws as show does.
   MeshSizeEstimate estimate(vtkMRMLSurgicalPathScaleNode* parameters);
 
-  /// The parameter node's tissue map, read again only after a change. Throws InputError.
+  /// Returns the tissue map of the parameter node, read again only after a change. Throws InputError.
   const TissueMap& tissueMap(vtkMRMLNode* input);
   void forgetTissueMap() { m_Map.reset(); }
 
@@ -67,10 +67,10 @@ private:
   std::map<std::string, Layers> m_Before; ///< by id of the slice view's composite node
 };
 
-/// Puts it over every slice view.
+/// Shows the volume as foreground of every slice view.
 void showInSliceViews(vtkMRMLScalarVolumeNode* scale);
 
-/// Where a volume node's voxels lie: those of `grid`, which is in LPS.
+/// Sets the voxel grid of a volume node from `grid`, which is in LPS.
 void setGrid(vtkMRMLVolumeNode* node, const Grid& grid);
 
 /// Colours edge lengths from short (hot) to long (cold), with a legend.

@@ -27,7 +27,7 @@ using Node = vtkMRMLSurgicalPathScaleNode;
 namespace
 {
 
-// Others look columns up by their names: they aren't translated.
+// Columns are looked up by these names elsewhere, so that they are not translated.
 constexpr const char* distanceColumn = "Distance (mm)";
 constexpr const char* targetColumn = "Around targets (mm)";
 constexpr const char* pathColumn = "Around paths (mm)";
@@ -38,7 +38,7 @@ struct Profile
   Falloff targets;
   Falloff paths;
   bool areSame() const { return targets.childRadius == paths.childRadius && targets.decayLength == paths.decayLength; }
-  /// Where all but a fiftieth of the way to the maximum is gone.
+  /// Distance at which less than a fiftieth of the rise to the maximum remains.
   double reach() const
   {
     return std::max(targets.childRadius + 4 * targets.decayLength, paths.childRadius + 4 * paths.decayLength);

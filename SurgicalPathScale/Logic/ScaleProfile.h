@@ -10,12 +10,12 @@ class vtkMRMLSurgicalPathScaleNode;
 namespace surgicalmesher
 {
 
-/// Fills the parameter node's chart, its table and its two series; makes those that are missing in the parameter node's
-/// scene. The series of paths is there if paths have distances of their own.
+/// Fills the parameter node's chart with its table and its two series, and creates in the scene those that are missing.
+/// The series of paths is visible only if paths have distances of their own.
 VTK_SLICER_SURGICALPATHSCALE_MODULE_LOGIC_EXPORT vtkMRMLPlotChartNode*
 plotProfile(vtkMRMLSurgicalPathScaleNode* parameters);
 
-/// Removes all of them from the scene.
+/// Removes the chart, its series and its tables from the scene.
 VTK_SLICER_SURGICALPATHSCALE_MODULE_LOGIC_EXPORT void removeProfile(vtkMRMLSurgicalPathScaleNode* parameters);
 
 } // namespace surgicalmesher

@@ -33,7 +33,7 @@ using Node = vtkMRMLSurgicalPathScaleNode;
 namespace
 {
 
-/// A node for the user, which has its voxels before it enters the scene, where others look at it.
+/// Adds an output node for the user. It has its voxels before it enters the scene, where observers access it.
 vtkMRMLVolumeNode* addOutput(vtkMRMLSurgicalPathScaleNode* parameters, const char* role, vtkMRMLVolumeNode* result,
                              const std::string& what)
 {
@@ -61,7 +61,7 @@ vtkSlicerSurgicalPathScaleLogic::vtkSlicerSurgicalPathScaleLogic() : Preview(std
   this->RunEnded->SetClientData(this);
   this->RunEnded->SetCallback([](vtkObject*, unsigned long, void* self, void*)
                               { static_cast<vtkSlicerSurgicalPathScaleLogic*>(self)->FinishRun(); });
-  this->Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, this->RunEnded, 1); // before the panel
+  this->Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, this->RunEnded, 1); // before those of default priority
 }
 
 vtkSlicerSurgicalPathScaleLogic::~vtkSlicerSurgicalPathScaleLogic() { this->Run->RemoveObserver(this->RunEnded); }
@@ -184,7 +184,7 @@ bool vtkSlicerSurgicalPathScaleLogic::Prepare(vtkMRMLSurgicalPathScaleNode* para
   catch (const Error& error)
   {
     this->StartProblem = { Problem::Refused, TissueMapProblem::None, error.what() };
-    run->SetCommandLineLogic(nullptr); // lets go of the nodes
+    run->SetCommandLineLogic(nullptr); // releases the nodes
     return false;
   }
   run->SetParameter("minimumEdgeLength", parameters->GetMinimumEdgeLength());
@@ -202,7 +202,7 @@ bool vtkSlicerSurgicalPathScaleLogic::Prepare(vtkMRMLSurgicalPathScaleNode* para
   return true;
 }
 
-/// Throws InputError if there is no room for the files.
+/// Throws InputError if the files cannot be written.
 void vtkSlicerSurgicalPathScaleLogic::PrepareFocus(vtkMRMLSurgicalPathScaleNode* parameters)
 {
   const auto hand = [this](const char* parameter, const std::vector<std::vector<Vec3>>& markups)
@@ -260,7 +260,7 @@ void vtkSlicerSurgicalPathScaleLogic::FinishScale(vtkMRMLSurgicalPathScaleNode* 
   setScaleColors(parameters->GetScalarVolumeNode(Node::ScaleRole()), range[0], range[1]);
 }
 
-/// The file that the module writes has names and colours, but the host reads them from segmentations only.
+/// The file written by the CLI module has names and colours, but Slicer reads them from segmentations only.
 void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNode* parameters)
 {
   if (parameters->GetLabelMapNode(Node::OutputLabelMapRole()))
@@ -284,7 +284,7 @@ void vtkSlicerSurgicalPathScaleLogic::FinishLabelMap(vtkMRMLSurgicalPathScaleNod
   }
   catch (const Error&)
   {
-    // The input has gone or changed meanwhile: the names that are known will do.
+    // The input has been removed or changed meanwhile: the known names must do.
   }
   keepNullDisplacement(labelMap, table);
   showTissueColors(labelMap, table);
@@ -315,7 +315,7 @@ vtkSlicerSurgicalPathScaleLogic::EstimateMesh(vtkMRMLSurgicalPathScaleNode* para
   }
   catch (const Error&)
   {
-    return {}; // the run will say why
+    return {}; // the run will report the error
   }
 }
 
@@ -330,7 +330,7 @@ bool vtkSlicerSurgicalPathScaleLogic::ShowPreview(vtkMRMLSurgicalPathScaleNode* 
     }
     catch (const Error&)
     {
-      // Nothing to show; the run will say why.
+      // There is nothing to show; the run will report the error.
     }
   }
   this->HidePreview();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Runs SurgicalPathScaleCLI for a parameter node, shows in the host's own process what the parameters mean, and makes
-/// its results legible.
+/// Runs SurgicalPathScaleCLI for a parameter node and names and colours its results; computes preview and estimate
+/// within Slicer's process.
 
 #include "TissueMapInput.h"
 #include "vtkSlicerSurgicalPathScaleModuleLogicExport.h"
@@ -33,24 +33,25 @@ public:
   vtkTypeMacro(vtkSlicerSurgicalPathScaleLogic, vtkSlicerModuleLogic);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The scene's first parameter node, made if there is none; null without a scene.
+  /// Returns the first parameter node of the scene, created if there is none; null without a scene.
   vtkMRMLSurgicalPathScaleNode* ParameterNode();
 
-  /// What keeps a parameter node from being run.
+  /// Reasons why a parameter node cannot be run.
   enum class Problem
   {
     None,
-    NoModule,               ///< SurgicalPathScaleCLI isn't loaded
-    TissueMap,              ///< see `tissueMap`
+    NoModule,               ///< SurgicalPathScaleCLI is not loaded
+    TissueMap,              ///< see Check::tissueMap
     NoFocus,                ///< no target is placed, and no path of two points or more
-    PathOfOnePoint,         ///< `name` has one point
-    NoTarget,               ///< only targets are to count, and there is none
-    NoPath,                 ///< only paths are to count, and there is none
+    PathOfOnePoint,         ///< the path `name` has only one point
+    NoTarget,               ///< only targets are to be used, and there is none
+    NoPath,                 ///< only paths are to be used, and there is none
     LengthsContradict,      ///< the minimum is above the maximum
-    NoTissueLengths,        ///< the file `name` cannot be read
-    NullDisplacementTarget, ///< a radius from targets is given, and there is no target
-    NullDisplacementPath,   ///< a distance from paths is given, and there is no path
-    Refused                 ///< the core's own sentence is `name`: a table that doesn't fit, an unknown tissue
+    NoTissueLengths,        ///< the file `name` does not exist
+    NullDisplacementTarget, ///< a radius around targets is given, but no target
+    NullDisplacementPath,   ///< a distance from paths is given, but no path
+    /// Refused by the core with the message `name`: a table that does not fit, an unknown tissue.
+    Refused
   };
   struct Check
   {
@@ -60,42 +61,41 @@ public:
   };
   Check FindProblem(vtkMRMLSurgicalPathScaleNode* parameters);
 
-  /// Starts a run, unless there is a problem or a run is busy. The nodes chosen for results keep their contents until
-  /// the run completes; those that are wanted and not chosen are made then. False if it could not be started:
+  /// Starts a run, unless there is a problem or a run is busy. Output nodes keep their contents until the run
+  /// completes; wanted outputs without a node are created then. Returns false if the run could not be started;
   /// GetStartProblem() has the reason.
   bool Start(vtkMRMLSurgicalPathScaleNode* parameters);
-  /// The same, waiting for its end in this thread.
+  /// The same, but waits in this thread for the end of the run.
   bool StartAndWait(vtkMRMLSurgicalPathScaleNode* parameters);
 
-  /// What kept the last Start from starting; more is found out then than FindProblem looks for.
+  /// Why the last Start failed; it checks more than FindProblem does.
   const Check& GetStartProblem() const { return this->StartProblem; }
 
-  /// The one run of this logic. By the time that others see its CompletedEvent, if they observe it with the default
-  /// priority, the results have been finished.
+  /// The only run of this logic. Observers of its CompletedEvent with the default priority see finished results.
   vtkSurgicalMesherRun* GetRun() const { return this->Run; }
 
-  /// Puts the scale volume of the parameter node over the slice views, in the place of the preview.
+  /// Shows the scale volume of the parameter node in the slice views, replacing the preview.
   void ShowResult(vtkMRMLSurgicalPathScaleNode* parameters);
 
-  /// Numbers of elements to expect; negative if unknown.
+  /// Expected numbers of elements; negative if unknown.
   struct Estimate
   {
     double triangles = -1;
     double tetrahedra = -1;
   };
-  /// That of the run that completed last.
+  /// Estimate returned by the last completed run.
   Estimate GetEstimateOfRun() const;
-  /// That of the parameters as they are; unknown while there is a problem.
+  /// Estimate for the current parameters; unknown while there is a problem.
   Estimate EstimateMesh(vtkMRMLSurgicalPathScaleNode* parameters);
 
-  /// Shows edge lengths, and null displacement if it is wanted, over the slice views, or brings them up to date. False,
-  /// and nothing is shown, while there is a problem.
+  /// Shows edge lengths and, if wanted, null displacement over the slice views, or updates them. While there is a
+  /// problem, returns false and shows nothing.
   bool ShowPreview(vtkMRMLSurgicalPathScaleNode* parameters);
   void HidePreview();
   bool IsPreviewShown() const;
-  /// Lets go of the voxels that preview and estimate keep from one change to the next.
+  /// Frees the voxels that preview and estimate keep between changes.
   void ReleaseTissueMap();
-  /// Hidden nodes; null while the preview isn't shown.
+  /// Hidden nodes; null while the preview is not shown.
   vtkMRMLScalarVolumeNode* GetPreviewScaleNode() const;
   vtkMRMLLabelMapVolumeNode* GetPreviewNullDisplacementNode() const;
 
@@ -121,10 +121,10 @@ private:
   Check StartProblem;
   vtkNew<vtkSurgicalMesherRun> Run;
   vtkNew<vtkCallbackCommand> RunEnded;
-  vtkWeakPointer<vtkMRMLSurgicalPathScaleNode> Parameters; ///< of the run
-  // The host empties a volume before it reads a file into it, which slice views that show it complain of: it reads into
-  // hidden ones.
+  vtkWeakPointer<vtkMRMLSurgicalPathScaleNode> Parameters; ///< of the current run
+  // Slicer empties a volume before it reads a file into it, which causes errors in slice views that show it. Results
+  // are therefore read into hidden volumes.
   vtkSmartPointer<vtkMRMLScalarVolumeNode> ScaleResult;
-  vtkSmartPointer<vtkMRMLLabelMapVolumeNode> LabelMapResult; ///< null if it isn't wanted
+  vtkSmartPointer<vtkMRMLLabelMapVolumeNode> LabelMapResult; ///< null if not wanted
   std::unique_ptr<surgicalmesher::ScalePreview> Preview;
 };

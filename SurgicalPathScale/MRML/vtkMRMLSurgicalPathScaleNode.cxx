@@ -19,7 +19,7 @@ bool isPath(vtkMRMLMarkupsNode* node)
   return vtkMRMLMarkupsCurveNode::SafeDownCast(node) || vtkMRMLMarkupsLineNode::SafeDownCast(node);
 }
 
-/// All of `chosen`, and those of `further` that are paths or that are not.
+/// Returns all of `chosen`, and those of `further` that are paths or, if `paths` is false, that are not.
 std::vector<vtkMRMLMarkupsNode*> markupsOf(const std::vector<vtkMRMLNode*>& chosen,
                                            const std::vector<vtkMRMLNode*>& further, bool paths)
 {

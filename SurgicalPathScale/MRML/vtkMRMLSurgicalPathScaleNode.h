@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the panel of Surgical Path Scale shows. It lives in the scene and is saved with it. Names and defaults are
-/// those of SurgicalPathScaleCLI; lengths and distances in mm, and 0 means what it means to that module.
+/// Parameter node of Surgical Path Scale, saved with the scene. Names and defaults are those of SurgicalPathScaleCLI;
+/// lengths and distances in mm; 0 has the same meaning as in that module.
 
 #include "vtkMRMLSurgicalMesherParameterNode.h"
 #include "vtkSlicerSurgicalPathScaleModuleMRMLExport.h"
@@ -22,28 +22,28 @@ public:
 
   vtkMRMLNode* CreateNodeInstance() override;
   const char* GetNodeTagName() override { return "SurgicalPathScale"; }
-  /// Markups tell of their points by events of their own; all of them arrive here as InputModifiedEvent.
+  /// Forwards all events of input nodes (markups have events of their own for their points) as InputModifiedEvent.
   void ProcessMRMLEvents(vtkObject* caller, unsigned long event, void* callData) override;
 
   enum Events
   {
-    InputModifiedEvent = vtkCommand::UserEvent + 20 ///< an input's points, voxels, segments or transform changed
+    InputModifiedEvent = vtkCommand::UserEvent + 20 ///< points, voxels, segments or transform of an input changed
   };
 
-  /// Roles of the nodes referred to.
+  /// Roles of the referenced nodes.
   static const char* TissueMapRole() { return "tissueMap"; } ///< label map or segmentation
-  static const char* TargetsRole() { return "targets"; }     ///< markups, of which every point is a target
+  static const char* TargetsRole() { return "targets"; }     ///< markups; every point is a target
   static const char* PathRole() { return "path"; }           ///< markups from entry to target
-  /// Any number: curves and lines are paths, others targets.
+  /// Any number of markups: curves and lines are paths, others targets.
   static const char* FurtherMarkupsRole() { return "furtherMarkups"; }
-  static const char* ScaleRole() { return "scale"; } ///< scalar volume; a new one where there is none
-  /// Label map with null displacement; a new one where there is none.
+  static const char* ScaleRole() { return "scale"; } ///< scalar volume; created by the run if there is none
+  /// Label map with null displacement; created by the run if there is none.
   static const char* OutputLabelMapRole() { return "outputLabelMap"; }
   static const char* ProfileChartRole() { return "profileChart"; } ///< plot of length over distance; none: not wanted
 
-  /// All markups of which every point is a target; none that have left the scene.
+  /// Returns all markups whose points are targets; nodes that have left the scene are skipped.
   std::vector<vtkMRMLMarkupsNode*> GetTargetNodes();
-  /// All markups that are a path each.
+  /// Returns all markups that are paths, one path each.
   std::vector<vtkMRMLMarkupsNode*> GetPathNodes();
 
   vtkGetMacro(MinimumEdgeLength, double);
@@ -65,11 +65,11 @@ public:
   /// "smaller", "targets" or "path".
   vtkGetMacro(Combine, std::string);
   vtkSetMacro(Combine, std::string);
-  /// CSV file with lengths by tissue; empty for none.
+  /// CSV file with lengths by tissue; empty: none.
   vtkGetMacro(TissueLengths, std::string);
   vtkSetMacro(TissueLengths, std::string);
 
-  /// Whether tissue is to become null displacement: if either of the first two is positive.
+  /// Whether null displacement is wanted, i.e. whether the radius or the path distance is positive.
   bool WantsNullDisplacement() const;
   vtkGetMacro(NullDisplacementRadius, double);
   vtkSetMacro(NullDisplacementRadius, double);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the reports of both programs say about elements and distances.
+/// Members on elements and distances that the reports of both programs share.
 
 #include "ElementQuality.h"
 #include "JsonReport.h"
@@ -10,7 +10,7 @@
 namespace surgicalmesher
 {
 
-/// Into an object.
+/// Writes the members of the summary into the current object.
 inline void writeQuality(JsonWriter& json, const QualitySummary& quality)
 {
   writeMember(json, "elements", quality.elements);
@@ -31,7 +31,8 @@ inline void writeDistance(JsonWriter& json, const char* key, const DistanceSumma
   json.EndObject();
 }
 
-/// One object, whose members writeMembers(json) writes. Throws InputError unless it arrives whole.
+/// Writes a report of one object whose members writeMembers(json) writes. Throws InputError if it cannot be written in
+/// full.
 template <class WriteMembers>
 void writeReportFile(const std::string& file, const WriteMembers& writeMembers)
 {

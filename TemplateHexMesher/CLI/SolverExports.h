@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// --export of both programs, and what goes with it.
+/// The option --export of both programs, and the options that depend on it.
 
 #include "CommandLine.h"
 #include "Errors.h"
@@ -18,13 +18,13 @@ namespace surgicalmesher
 struct SolverExports
 {
   std::vector<std::string> files;
-  std::string materials;         ///< a table; empty for the default
+  std::string materials;         ///< material table; empty: the default
   std::vector<NodeChoice> nodes; ///< in mm
   Units units = Units::Millimetres;
 };
 
-/// What the command line asks for. Announces what is written beside the exports. Throws UsageError for sets of nodes
-/// or materials without an export; before anything is read.
+/// Reads the export options and announces the files written beside the exports. Does not read any file yet. Throws
+/// UsageError for node sets or materials without an export.
 inline SolverExports readExports(CommandLine& line)
 {
   SolverExports exports{ line.outputNames("export"), line.text("materials"),
@@ -45,7 +45,7 @@ inline SolverExports readExports(CommandLine& line)
   return exports;
 }
 
-/// `points` in mm; `file` is named in messages.
+/// Writes the exports. `points` in mm; `file` is the name used in messages.
 inline void writeExports(CommandLine& line, const SolverExports& exports, const ElementMeshFile& content,
                          const Points& points, const std::string& file)
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TemplateFitCLI: template, target and pairs of landmarks in; the template on the patient, and how good it is, out.
+// TemplateFitCLI: fits a template to a target by pairs of landmarks, and reports the quality of the fit.
 
 #include "Carrying.h"
 #include "CommandLine.h"
@@ -55,7 +55,7 @@ NamedPoints readLandmarks(const std::string& file, double unit)
   return landmarks;
 }
 
-/// Those of the template, and the patient's.
+/// Returns the landmarks of the template and of the patient.
 std::array<NamedPoints, 2> readLandmarks(const CommandLine& line, const Units& units)
 {
   const std::vector<std::string> files = line.texts("landmarks");
@@ -82,14 +82,14 @@ TriangleSurface readTarget(const CommandLine& line, double unit)
   return target;
 }
 
-/// What is carried along, and where it goes: beside the fitted mesh.
+/// A mesh that is deformed along with the template, and the file beside the fitted mesh to which it is written.
 struct Carried
 {
   std::string source, destination;
   ElementMeshFile content;
 };
 
-/// Announces where they go; before anything is read.
+/// Announces the files of the carried meshes. Does not read any file yet.
 std::vector<Carried> announceCarried(CommandLine& line)
 {
   const std::filesystem::path fitted = line.outputNames("fitted").at(0);
@@ -144,7 +144,7 @@ void writeQuality(JsonWriter& json, const char* key, const ElementMesh& mesh)
   json.EndObject();
 }
 
-/// Both ways, of the spline alone or of the fit.
+/// Distances in both directions, for the spline alone or for the fit.
 struct Distances
 {
   DistanceSummary toTarget, fromTarget;
@@ -187,7 +187,7 @@ struct Report
   Distances ofSpline, ofFit;
 };
 
-/// Lengths in mm, whatever the files' units.
+/// Lengths are in mm, whatever the units of the files.
 void writeReport(const std::string& file, const CommandLine& line, const Report& report)
 {
   writeReportFile(file,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// VolumetricHexCLI: a closed surface and its sides in; layers of hexahedra, and how good they are, out.
+// VolumetricHexCLI: fills a closed surface with known sides by layers of hexahedra, and reports their quality.
 
 #include "CommandLine.h"
 #include "ElementMeshIO.h"
@@ -51,7 +51,7 @@ HexOptions readOptions(const CommandLine& line)
   return options;
 }
 
-/// Triangles of a file with the side of each.
+/// The triangles of a file with their sides.
 struct Painted
 {
   TriangleSurface surface;
@@ -160,7 +160,7 @@ ElementMeshFile contentOf(const LayeredMesh& mesh)
   return { mesh.mesh, grid.GetPointer() };
 }
 
-/// Outer surface of the mesh against that of the envelope.
+/// Distances between the outer surface of the mesh and that of the envelope, in both directions.
 struct Distances
 {
   DistanceSummary toEnvelope, fromEnvelope;

@@ -15,7 +15,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Of the eight nodes next to the point, by inverse squared distance.
+/// Mean residual of the eight nodes closest to the point, weighted by inverse squared distance.
 Eigen::Vector3d nearResidual(const Eigen::Vector3d& point, const Points& nodes, const Points& residual,
                              vtkStaticPointLocator* locator)
 {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Surfaces and meshes that lie in a template, taken along with it.
+/// Deformation of surfaces and meshes along with a template in which they lie.
 
 #include "ElementMesh.h"
 
 namespace surgicalmesher
 {
 
-/// Where points beside or within a template go when its nodes go from `from` to `to`: a thin-plate spline of at most
-/// `centres` nodes, evenly chosen (the paper's section 3.1, third step), and what it leaves of the displacement of the
-/// nodes next to a point, by inverse distance.
+/// Moves points on, near or within a template as its nodes move from `from` to `to` (a column per node): by a
+/// thin-plate spline of at most `centres` evenly chosen nodes (the paper's section 3.1, third step), plus what the
+/// spline misses of the displacement of nearby nodes, weighted by inverse squared distance.
 Points carried(const Points& points, const Points& from, const Points& to, int centres = 1000);
 
 } // namespace surgicalmesher

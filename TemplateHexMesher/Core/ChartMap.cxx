@@ -20,7 +20,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Loop = std::vector<std::int32_t>;
 
-/// Edges of one triangle alone, chained as they are wound.
+/// Chains the border edges, each of a single triangle, into loops with the winding of the triangles.
 std::vector<Loop> borderLoops(const std::vector<Triangle>& triangles)
 {
   std::map<std::array<std::int32_t, 2>, int> seen;
@@ -47,7 +47,7 @@ std::vector<Loop> borderLoops(const std::vector<Triangle>& triangles)
   return loops;
 }
 
-/// Area of the box around a loop's coordinates: the chart's outer border has the greatest.
+/// Area of the bounding box of a loop's coordinates; it is largest for the outer border of the chart.
 double boxArea(const Loop& loop, const Eigen::Matrix2Xd& coordinates)
 {
   Vector2d low = coordinates.col(loop.front()), high = low;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// From coordinates on a surface back to its points.
+/// Inverse of a surface's parameterisation: from coordinates to points.
 
 #include "SlabParameterisation.h"
 
@@ -11,7 +11,8 @@ class vtkStaticCellLocator;
 namespace surgicalmesher
 {
 
-/// The inverse of a chart's coordinates. Holes of the chart are closed by a fan of triangles around their middle.
+/// Maps the coordinates of a chart to points of its surface. Each hole of the chart is closed by a fan of triangles
+/// around the mean of its border points.
 class ChartMap
 {
 public:
@@ -23,15 +24,15 @@ public:
     bool inHole;
   };
 
-  /// By the triangle at (u, w), or the one next to it.
+  /// Returns the point at (u, w), by the triangle of the chart there or else the nearest one.
   Place at(const Eigen::Vector2d& coordinates) const;
 
-  /// Borders of the chart's holes as closed loops of positions, the first not repeated.
+  /// Borders of the chart's holes as closed loops of positions; the first position is not repeated at the end.
   const std::vector<std::vector<Eigen::Vector3d>>& holes() const { return m_Holes; }
 
 private:
   Chart m_Chart;      ///< with the fans
-  std::size_t m_Real; ///< number of triangles before them
+  std::size_t m_Real; ///< number of triangles without the fans, which come last
   std::vector<std::vector<Eigen::Vector3d>> m_Holes;
   vtkSmartPointer<vtkStaticCellLocator> m_Locator;
 };

@@ -68,7 +68,7 @@ Face globalFace(const Face& local, const Element& element)
   return face;
 }
 
-/// The same for both elements at a face.
+/// Key of a face; the same in both elements that share the face.
 std::array<std::int32_t, 4> keyOf(const Face& face)
 {
   std::array<std::int32_t, 4> key = face.nodes;

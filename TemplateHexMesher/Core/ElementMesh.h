@@ -55,20 +55,21 @@ int nodeCount(ElementShape shape);
 bool isVolume(ElementShape shape);
 inline bool isVolume(const Element& element) { return isVolume(element.shape); }
 
-/// The sides of volume elements that no second element has, in the elements' order; of a mesh without volume elements,
-/// its elements.
+/// Returns the sides that belong to a single volume element, in the order of the elements. For a mesh without volume
+/// elements, returns its elements.
 std::vector<Face> outerFaces(const std::vector<Element>& elements);
 
-/// Each face as triangles, a quadrilateral divided along its shorter diagonal.
+/// Splits each face into triangles, a quadrilateral along its shorter diagonal.
 std::vector<Triangle> trianglesOf(const std::vector<Face>& faces, const Points& points);
 
-/// Pairs of nodes joined by an edge of an element, each once, ascending, the smaller id first.
+/// Returns the pairs of nodes joined by an edge of an element, each pair once, the smaller id first, sorted.
 std::vector<std::array<std::int32_t, 2>> edgesOf(const std::vector<Element>& elements);
 
-/// The points that triangles use, renumbered in their order.
+/// Returns the triangles with only the points that they use, renumbered in order.
 TriangleSurface compacted(const Points& points, const std::vector<Triangle>& triangles);
 
-/// Signed volume in cubed units of the points, by the tetrahedra over the divided sides; 0 for surface elements.
+/// Signed volume, in cubed units of the points; 0 for surface elements. Quadrilateral sides are split along the
+/// diagonal from their first node.
 double volumeOf(const Element& element, const Points& points);
 
 } // namespace surgicalmesher

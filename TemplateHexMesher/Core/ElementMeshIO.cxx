@@ -39,7 +39,7 @@ namespace
 
 std::string extensionOf(const std::string& file) { return text::extensionOf(file); }
 
-/// VTK's own reader parts the points of a file that has texture coordinates, and numbers them anew.
+/// Reads .obj files. VTK's reader splits and renumbers the points of files with texture coordinates.
 VTKFile readObj(const std::string& file)
 {
   vtkNew<vtkPoints> points;
@@ -84,7 +84,7 @@ int vtkTypeOf(ElementShape shape)
   return types[int(shape)];
 }
 
-/// Between VTK's numbering of a cell's points and Element's, either way.
+/// Permutation between VTK's numbering of a cell's points and that of Element; it is its own inverse.
 std::array<int, 8> vtkOrder(int type)
 {
   if (type == VTK_WEDGE) return { 0, 2, 1, 3, 5, 4, 6, 7 };
@@ -238,7 +238,7 @@ std::size_t countInsideOut(const ElementMesh& mesh, ElementShape shape, std::siz
   return count;
 }
 
-/// Not every program numbers wedges as VTK's documentation says.
+/// Swaps the numbering of all wedges if most are inside out: not every program follows VTK's documented numbering.
 void renumberWedges(ElementMesh& mesh)
 {
   std::size_t all = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Templates and surfaces in files. Everything here throws InputError with the file's name, what was found and what was
-/// expected. Coordinates are LPS in memory and in the files written, in the file's own unit; VTK, STL and PLY files
-/// that say SPACE=RAS are turned to LPS while reading. Writers write the file as named: atomic replacement is the
-/// caller's.
+/// Reading and writing of templates and surfaces. All functions throw InputError with the file's name, what was found
+/// and what was expected. Coordinates are LPS in memory and in written files, in the file's own unit; VTK, STL and PLY
+/// files that declare SPACE=RAS are converted to LPS on reading. Files are written in place; atomic replacement is left
+/// to the caller.
 
 #include "ElementMesh.h"
 
@@ -24,29 +24,30 @@ struct ElementMeshFile
   vtkSmartPointer<vtkPointSet> data;
 };
 
-/// Reads, by the extension, .vtu, .vtp, .vtk, .stl, .ply, .obj (points stay as they stand), .inp (Abaqus: C3D4, C3D6,
-/// C3D8, S3, S4 and their variants) or .node or .elem (Ansys: the other one lies beside it; hexahedra with repeated
-/// nodes are wedges and tetrahedra). Wedges of VTK files may be numbered either way round, if most are alike. Refused
-/// besides what can't be read: cells of other shapes, ids out of range, coordinates that are no finite numbers, no
-/// element.
+/// Reads a mesh or a surface; the extension selects the format: .vtu, .vtp, .vtk, .stl, .ply, .obj (coordinates are not
+/// converted), .inp (Abaqus: C3D4, C3D6, C3D8, S3, S4 and their variants) or .node or .elem (Ansys: the other file must
+/// lie beside it; hexahedra with repeated nodes are read as wedges and tetrahedra). Wedges of VTK files may have either
+/// numbering if most have the same. Besides unreadable files, cells of other shapes, ids out of range, coordinates that
+/// are not finite, and files without elements are refused.
 ElementMeshFile readElementMesh(const std::string& file);
 
-/// The same of `data` (LPS), which is kept and gets a field SPACE; `name` stands for the file in messages.
+/// Does the same for `data` (LPS), which is kept and gets a field SPACE. `name` stands for the file in messages.
 ElementMeshFile elementMeshOf(const vtkSmartPointer<vtkPointSet>& data, const std::string& name);
 
-/// The outer surface of a mesh, or the surface itself, as triangles, without duplicate points.
+/// Reads the outer surface of a mesh, or a surface, as triangles without duplicate points.
 TriangleSurface readSurfaceOf(const std::string& file);
 
-/// Throws InputError if more than a tenth of the volume elements are inside out. Single ones a fit can mend.
+/// Throws InputError if more than a tenth of the elements of one volume shape are inside out. Single inverted elements
+/// are accepted, as the fit can repair them.
 void requireRightSideOut(const ElementMesh& mesh, const std::string& file);
 
-/// Writes `content` with other coordinates, a column per point, everything else as it was: to .vtu (a mesh or a
-/// surface) or .vtp (a surface alone). A template from .inp or .node may also go to a file of its own kind, which is
-/// then a copy of `templateFile` but for the coordinates.
+/// Writes `content` with other coordinates (a column per point) and everything else unchanged: to .vtu (a mesh or a
+/// surface) or .vtp (a surface only). A template from .inp or .node can also be written to its own format; the file is
+/// then a copy of `templateFile` except for the coordinates.
 void writeElementMesh(const ElementMeshFile& content, const Points& points, const std::string& templateFile,
                       const std::string& file);
 
-/// Throws UsageError unless writeElementMesh knows how to write `file` from such a template.
+/// Throws UsageError if writeElementMesh() cannot write `file` from such a template.
 void requireWritable(const ElementMeshFile& content, const std::string& templateFile, const std::string& file);
 
 } // namespace surgicalmesher

@@ -43,7 +43,7 @@ const LocalCorners& localCorners(ElementShape shape)
   }
 }
 
-/// Edges of unit length as columns; zero where an edge has none.
+/// Jacobian with columns of unit length; a column is zero if its edge has no length.
 Eigen::Matrix3d unitJacobian(const Corner& corner, const Points& points)
 {
   Eigen::Matrix3d jacobian;

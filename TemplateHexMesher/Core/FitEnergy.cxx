@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using Sparse = Eigen::SparseMatrix<double>;
 using Factor = Eigen::SimplicialLDLT<Sparse>;
 
-constexpr double kLeastFacing = 0.05; ///< asked of corners that are turned over before the fit
+constexpr double kLeastFacing = 0.05; ///< least facing() required of corners that are turned over before the fit
 
 Sparse graphLaplacian(const ElementMesh& mesh)
 {
@@ -74,7 +74,7 @@ Points solved(const Factor& factor, const Points& right)
   return result;
 }
 
-/// Steps and changes of the gradient, latest last.
+/// The latest steps and changes of the gradient, the last one last.
 class Memory
 {
 public:
@@ -187,7 +187,7 @@ double FitEnergy::addQuality(const Points& points, Points& gradient) const
                    c = points.col(corner.third) - origin;
     const double aa = a.squaredNorm(), bb = b.squaredNorm(), cc = c.squaredNorm();
     const double lengths = std::sqrt(aa * bb * cc);
-    if (!(lengths > 0)) continue; // no direction helps; the smoothness parts the nodes
+    if (!(lengths > 0)) continue; // no gradient is defined here; the smoothness term separates the nodes
     const Vector3d bc = b.cross(c), ca = c.cross(a), ab = a.cross(b);
     const double s = a.dot(bc) / lengths;
     const double lack = std::max(0.0, t * corner.best - s) / t;
@@ -284,7 +284,7 @@ Sparse FitEnergy::preconditioner() const
       }
     }
   }
-  // Points of no element would leave a zero on the diagonal.
+  // The small diagonal keeps the matrix regular for points that no element uses.
   for (int i = 0; i < int(reference.cols()); ++i) entries.emplace_back(i, i, 1e-6 * (1 + largest));
   Sparse data(reference.cols(), reference.cols());
   data.setFromTriplets(entries.begin(), entries.end());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The energy whose minimum is a template fitted to a patient with valid elements: quality of all corners, smoothness
-/// of the displacements from a reference, and pulls towards the target, for all nodes at once.
+/// Energy that fits a template to a patient with valid elements. It combines the quality of all corners, the smoothness
+/// of the displacements from a reference, and pulls towards the target, and is minimised over all nodes at once.
 
 #include "ElementQuality.h"
 
@@ -13,8 +13,9 @@
 namespace surgicalmesher
 {
 
-/// A point fixed in the mesh, as weighted nodes, drawn to a goal: along (direction.d)^2 + all |d|^2, d its displacement
-/// from the goal. `along` may be negative down to -all: an edge along `direction` that may be slid on.
+/// Quadratic pull of a point, given as a weighted mean of nodes, to a goal: along (direction . d)^2 + all |d|^2, with d
+/// the displacement from the goal. `along` may be negative, down to -all: with along = -all the point slides freely
+/// along `direction`.
 struct Pull
 {
   std::array<std::int32_t, 4> nodes{};
@@ -27,29 +28,32 @@ struct Pull
   Eigen::Vector3d position(const Points& points) const;
 };
 
-/// A corner of a surface element, and the way it faced before the fit: its own, or the element's mean if it is folded
-/// against that.
+/// A corner of a surface element and its reference normal: the normal of the corner before the fit, or the mean normal
+/// of the element where the corner is folded against it.
 struct FacetCorner
 {
   std::int32_t node, first, second; ///< counter-clockwise seen against `normal`
   std::int32_t element;
   Eigen::Vector3d normal; ///< unit length
   double before;          ///< `facing` before the fit
-  double best;            ///< of the ideal element: 1, or sqrt(3)/2 in a triangle
+  double best;            ///< facing() of the ideal element: 1, or sqrt(3)/2 in a triangle
 };
 
-/// Of all surface elements, as they lie in `points`.
+/// Returns the corners of all surface elements; `points` are the nodes before the fit.
 std::vector<FacetCorner> facetCorners(const std::vector<Element>& elements, const Points& points);
 
-/// The scaled Jacobian with the former normal for a third edge: not above 0 where the corner is turned over.
+/// Scaled Jacobian of a surface corner, with the reference normal as third edge; at most 0 where the corner is turned
+/// over.
 double facing(const FacetCorner& corner, const Points& points);
 
 /// Weights of the terms, lengths in mm.
 struct EnergyWeights
 {
-  double smoothness = 1; ///< of |L (x - reference)|^2, L the graph Laplacian v_i - mean of v_j, j next to i
-  double hinge = 10;     ///< of max(0, threshold best - s)^2 / threshold^2, s the scaled Jacobian of a corner; in a
-                         ///< facet's corner at most half of s before the fit is asked for
+  /// Of |L (x - reference)|^2, with L the graph Laplacian: v_i minus the mean of its neighbours v_j.
+  double smoothness = 1;
+  /// Of max(0, threshold * best - s)^2 / threshold^2, with s the scaled Jacobian of a corner. For a corner of a surface
+  /// element, the required s is at most half of its value before the fit, but at least 0.05.
+  double hinge = 10;
   double threshold = 0.25;
   double mean = 0.2; ///< of best - s, in volume elements
 };
@@ -57,21 +61,22 @@ struct EnergyWeights
 class FitEnergy
 {
 public:
-  /// Elements' corners and edges define the quality and the Laplacian; a surface element faces as it does in `mesh`.
+  /// The corners and edges of the elements define quality and Laplacian. The reference normals of surface elements are
+  /// those in `mesh`.
   explicit FitEnergy(const ElementMesh& mesh);
 
   Points reference; ///< a column per node
   EnergyWeights weights;
   std::vector<Pull> pulls;
 
-  /// The energy, and its gradient with respect to each node.
+  /// Returns the energy and sets its gradient with respect to each node.
   double evaluate(const Points& points, Points& gradient) const;
 
-  /// Surface elements with a corner turned over that was not so before.
+  /// Counts the surface elements that have a corner turned over now but not before the fit.
   std::size_t turnedFacets(const Points& points) const;
 
-  /// 2 (smoothness L'L + pulls), by which the directions of descent are preconditioned, the same for all coordinates.
-  /// A pull along a direction counts with a third of its weight.
+  /// Returns 2 (smoothness L'L + pulls), the preconditioner of the descent, the same for all coordinates. The
+  /// directional part of a pull counts with a third of its weight.
   Eigen::SparseMatrix<double> preconditioner() const;
 
 private:
@@ -85,8 +90,9 @@ private:
   Eigen::SparseMatrix<double> m_Laplacian, m_LaplacianTransposed, m_Squared;
 };
 
-/// Limited-memory BFGS (Nocedal 1980), ten pairs, with the energy's preconditioner as first inverse Hessian and steps
-/// that satisfy Armijo's condition. Moves `points` by at most `iterations` steps and returns the number of steps taken.
+/// Minimises the energy by limited-memory BFGS (Nocedal 1980) with ten pairs, with the energy's preconditioner as
+/// initial inverse Hessian, and step lengths that satisfy Armijo's condition. Moves `points` by at most `iterations`
+/// steps and returns the number of steps taken.
 int minimise(const FitEnergy& energy, Points& points, int iterations);
 
 } // namespace surgicalmesher

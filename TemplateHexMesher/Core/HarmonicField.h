@@ -13,38 +13,41 @@
 namespace surgicalmesher
 {
 
-/// Positively wound, every point used.
+/// A tetrahedral mesh of positively oriented cells without unused points.
 struct Tetrahedra
 {
   Points points;
   std::vector<std::array<std::int32_t, 4>> cells;
 };
 
-/// The weights of Liao et al., "Volumetric parameterization and trivariate B-spline fitting using harmonic functions",
-/// 2009, as Kim et al. 2018, equation 3, use them: off the diagonal -w_ij with w_ij the sum over the tetrahedra at an
-/// edge of l cot(theta) / 6, l the length of the opposite edge and theta the dihedral angle there. Assembled from
-/// gradients of the linear shape functions, which is the same matrix.
+/// Returns the stiffness matrix with the weights of Liao et al., "Volumetric parameterization and trivariate B-spline
+/// fitting using harmonic functions", 2009, as used by Kim et al. 2018, equation 3. Off-diagonal entries are -w_ij,
+/// with w_ij the sum of l cot(theta) / 6 over the tetrahedra at edge ij, where l is the length of the opposite edge and
+/// theta the dihedral angle there. The matrix is assembled from gradients of the linear shape functions, which is
+/// equivalent.
 Eigen::SparseMatrix<double> harmonicWeights(const Tetrahedra& mesh);
 
-/// Of a field with a value per point: one column per tetrahedron.
+/// Returns the gradient of a field given by point: one column per tetrahedron.
 Points gradientOf(const Tetrahedra& mesh, const Eigen::VectorXd& field);
 
-/// What of each column of `gradient` is orthogonal to the same column of `other`. (Equation 4 of the paper, which as
-/// printed is identically zero: (g . d) d, d the unit vector along (other x g) x other.)
+/// Returns the component of each column of `gradient` that is orthogonal to the same column of `other`. (Equation 4 of
+/// the paper, which is identically zero as printed; meant is (g . d) d, with d the unit vector along (other x g) x
+/// other.)
 Points orthogonalised(const Points& gradient, const Points& other);
 
-/// Fields that take given values at some of the points.
+/// Solves for fields with given values at some of the points.
 class FieldSolver
 {
 public:
-  /// `known` has a flag per point, at least one set in every connected part. Throws EngineError if the weights can't be
-  /// factored.
+  /// `known` has a flag per point; at least one must be set in every connected component. `mesh` must outlive the
+  /// solver. Throws EngineError if the matrix cannot be factorised.
   FieldSolver(const Tetrahedra& mesh, std::vector<char> known);
 
-  /// The harmonic field that is `values` at the known points.
+  /// Returns the harmonic field with the given values at the known points.
   Eigen::VectorXd harmonic(const Eigen::VectorXd& values) const;
 
-  /// The field whose gradient is next to `gradient` in the sense of least squares, and `values` at the known points.
+  /// Returns the field whose gradient is closest to `gradient` in the least-squares sense, with the given values at the
+  /// known points.
   Eigen::VectorXd restored(const Points& gradient, const Eigen::VectorXd& values) const;
 
 private:
@@ -52,7 +55,7 @@ private:
 
   const Tetrahedra& m_Mesh;
   std::vector<char> m_Known;
-  std::vector<std::int32_t> m_Row; ///< per point: among the unknown ones, or -1
+  std::vector<std::int32_t> m_Row; ///< per point: row among the unknown points, -1 for a known one
   Eigen::SparseMatrix<double> m_Weights;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> m_Factor;
 };

@@ -20,16 +20,16 @@ constexpr int kRings = 3;
 constexpr int kRounds = 6;
 constexpr int kSteps = 15;
 constexpr double kPoor = 0.2;           ///< scaled Jacobian under which an element is improved
-constexpr double kPlaneWeight = 1;      ///< of the squared distance (mm) to the plane at the closest point of a side
-constexpr double kPointWeight = 0.02;   ///< of that to the point itself
-constexpr double kBorderWeight = 1;     ///< of that to a hole's border
-constexpr double kFaceWeight = 2;       ///< of that of a face's middle to the plane at its closest point
-constexpr double kHeldWeight = 1e3;     ///< of nodes that stay
-constexpr std::size_t kAllMove = 20000; ///< nodes; a finer mesh needs it less, and its equations grow
+constexpr double kPlaneWeight = 1;      ///< of the squared distance (mm) to the tangent plane at a side's closest point
+constexpr double kPointWeight = 0.02;   ///< of the squared distance to the closest point itself
+constexpr double kBorderWeight = 1;     ///< of the squared distance to a hole's border
+constexpr double kFaceWeight = 2;       ///< of the squared distance of a face's centre to such a plane
+constexpr double kHeldWeight = 1e3;     ///< of the squared distance of fixed nodes to their position
+constexpr std::size_t kAllMove = 20000; ///< nodes; finer meshes need this less, and the system grows with the mesh
 
 struct SidePatches
 {
-  std::array<std::optional<TargetSurface>, kSides> patches; ///< none: no triangle
+  std::array<std::optional<TargetSurface>, kSides> patches; ///< empty: the side has no triangle
 };
 
 SidePatches patchesOf(const Envelope& envelope)
@@ -47,7 +47,7 @@ SidePatches patchesOf(const Envelope& envelope)
   return result;
 }
 
-/// The sides of the envelope that a node belongs to.
+/// Returns the sides of the envelope on which a node lies.
 std::vector<Side> sidesOf(const LayeredMesh& mesh, std::size_t node)
 {
   constexpr Side low[3] = { Side::Right, Side::Outer, Side::Bottom }, high[3] = { Side::Left, Side::Inner, Side::Top };
@@ -81,7 +81,7 @@ Vector3d closestOn(const HoleBorders& borders, const Vector3d& point)
   return best;
 }
 
-/// The elements with a node that moves, and their nodes by themselves.
+/// The elements with a movable node, and their nodes, as a mesh of its own.
 class Region
 {
 public:
@@ -111,7 +111,7 @@ public:
   }
 
   ElementMesh part;
-  std::vector<std::int32_t> nodes; ///< of the whole mesh, per node of the part
+  std::vector<std::int32_t> nodes; ///< node of the whole mesh, by node of the part
   std::vector<char> held;
 
 private:
@@ -126,7 +126,7 @@ public:
   {
   }
 
-  /// Rounds over the elements that need it now; none may.
+  /// Runs rounds of descent over the region that currently needs it; does nothing if the region is empty.
   void rounds(int count, EnergyWeights weights)
   {
     const std::vector<char> moves = moving();
@@ -194,7 +194,8 @@ private:
     return result;
   }
 
-  /// Nodes on a curved surface leave the faces between them on its hollow side: their middles are drawn to it as well.
+  /// With only its nodes on a curved surface, a face lies on the concave side of the surface: its centre is drawn to
+  /// the surface as well.
   void addFacePulls(const Region& region, const Points& points, std::vector<Pull>& result) const
   {
     for (const Face& face : outerFaces(region.part.elements))
@@ -257,7 +258,7 @@ void fitToHoles(LayeredMesh& mesh, const Envelope& envelope, const std::array<Ho
   EnergyWeights weights{ 0.3, 10, 0.4, 0.2 };
   fit.rounds(kRounds, weights);
   Validity validity = validityOf(mesh.mesh.elements, mesh.mesh.points);
-  double before = -2; // the least of the round before
+  double before = -2; // least scaled Jacobian before the latest round
   for (int round = 0; round < repairRounds; ++round)
   {
     if (validity.invalid == 0 && (validity.minimum >= kPoor || validity.minimum <= before)) break;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Which points lie inside a closed surface.
+/// Point-in-surface test.
 
 #include "ElementMesh.h"
 
@@ -14,19 +14,19 @@ namespace surgicalmesher
 class InsideTest
 {
 public:
-  /// Throws InputError, naming `name`, unless every edge has an even number of triangles. How they are wound, and
-  /// whether they cross, does not matter.
+  /// Throws InputError with `name` if an edge has an odd number of triangles. The orientation of the triangles does not
+  /// matter, nor whether they intersect.
   InsideTest(const TriangleSurface& surface, const std::string& name);
 
-  /// Whether a ray along z leaves the surface an odd number of times. Exact but for points that lie on the surface to
-  /// within rounding: an edge is on the same side of a ray for all its triangles.
+  /// Whether a ray along z crosses the surface an odd number of times. Exact except for points on the surface to within
+  /// rounding: the side on which an edge passes a ray is the same for all its triangles.
   bool contains(const Eigen::Vector3d& point) const;
 
   const Eigen::AlignedBox3d& box() const { return m_Box; }
 
 private:
   std::array<int, 2> bucketOf(const Eigen::Vector3d& point) const;
-  /// On which side of the ray through `point` an edge passes; symmetric in the edge's ends.
+  /// Whether an edge crosses the line through `point` along x beyond it; the same for both directions of the edge.
   bool passesBeyond(const Eigen::Vector3d& point, std::int32_t a, std::int32_t b) const;
   bool isPierced(const Triangle& triangle, const Eigen::Vector3d& point) const;
   double heightAt(const Triangle& triangle, const Eigen::Vector3d& point) const;
@@ -37,7 +37,8 @@ private:
   std::vector<std::vector<std::int32_t>> m_Triangles; ///< by bucket
 };
 
-/// Volume inside a surface (cubed units of its points), cavities left out, however its triangles are wound.
+/// Volume inside a surface, without its cavities, in cubed units of its points; independent of the triangles'
+/// orientation.
 double volumeInside(const TriangleSurface& surface, const InsideTest& inside);
 
 } // namespace surgicalmesher

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Pairs of landmarks, and what a spline of them needs.
+/// Landmark pairs, and the checks that a spline through them needs.
 
 #include "ElementMesh.h"
 
@@ -25,19 +25,21 @@ struct LandmarkPairs
   Points source, target; ///< a column per name
 };
 
-/// Pairs by name, in the order of `source`. Throws InputError for a name that stands twice in a file, or in one alone.
+/// Pairs landmarks by name, in the order of `source`. Throws InputError if a name occurs twice in one list, or in one
+/// list only.
 LandmarkPairs pairedByName(const NamedPoints& source, const NamedPoints& target);
 
-/// The similarity (rotation, one scale, translation) that takes source to target best in the sense of least squares.
+/// Returns the similarity (rotation, one scale, translation) that best maps source to target in the least-squares
+/// sense.
 Eigen::Affine3d similarityOf(const LandmarkPairs& pairs);
 
-/// Throws InputError, naming both files, for fewer than four pairs; for points of which two coincide, or that lie in a
-/// line or a plane (either side: thinner than a hundredth of its size); for landmarks that a mirror image fits twice as
-/// well; and for sides whose sizes differ by more than a factor of four, as they do in different units.
+/// Throws InputError with both file names for fewer than four pairs; for coincident points; for points that lie in a
+/// line or a plane (on either side: thinner than a hundredth of their size); for landmarks that a mirror image fits at
+/// least twice as well; and for sizes that differ by more than a factor of four, as if the units differed.
 void requireUsable(const LandmarkPairs& pairs, const std::string& sourceFile, const std::string& targetFile);
 
-/// Throws InputError, naming both files, for a landmark farther from the box around `mesh` than half its diagonal: it is
-/// another mesh's, or in another frame.
+/// Throws InputError with both file names for a landmark whose distance from the bounding box of `mesh` exceeds half of
+/// the box's diagonal: it belongs to another mesh, or to another frame.
 void requireNear(const NamedPoints& landmarks, const Points& mesh, const std::string& meshFile);
 
 } // namespace surgicalmesher

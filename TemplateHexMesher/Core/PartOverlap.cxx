@@ -17,9 +17,9 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr int kSamples = 6; ///< along each edge of an element
+constexpr int kSamples = 6; ///< points along each edge of an element
 
-/// A point of the trilinear element and the volume that one unit of the reference cube has there.
+/// A point of a trilinear hexahedron and the Jacobian determinant there.
 struct Sample
 {
   Vector3d position;
@@ -65,7 +65,8 @@ double shareInside(const Element& element, const Points& points, const InsideTes
   return all > 0 ? within / all : 0;
 }
 
-/// The share above which elements have a volume next to the one asked for: half-way between two elements' shares.
+/// Returns the share above which the elements' volume is closest to `volume`, half-way between the shares of two
+/// elements.
 double cutOffFor(double volume, const std::vector<double>& shares, const std::vector<double>& volumes)
 {
   std::map<double, double, std::greater<>> volumeByShare;

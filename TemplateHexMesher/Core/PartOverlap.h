@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Which hexahedra belong to which part, muscles for one, by how much of each lies inside the part's closed surface
+/// Assignment of hexahedra to parts, such as muscles, by the share of each hexahedron inside a part's closed surface
 /// (Kim et al. 2018, section 3.2.2).
 
 #include "ElementMesh.h"
@@ -10,22 +10,22 @@
 namespace surgicalmesher
 {
 
-/// A closed surface, mm, and what it is called.
+/// A closed surface, mm, with its name and file.
 struct Part
 {
   std::string name, file;
   TriangleSurface surface;
 };
 
-/// What the elements of a part make of it. Volumes in mm^3.
+/// How well the elements of a part match it. Volumes in mm^3.
 struct PartMatch
 {
   std::size_t elements = 0;
-  double cutOff = 0;        ///< an element belongs to the part if a larger share of it lies inside
+  double cutOff = 0;        ///< an element can belong to the part only if a larger share of it lies inside
   double partVolume = 0;    ///< inside the surface
   double elementVolume = 0; ///< of the part's elements
-  double recall = 0;        ///< volume that part and elements share, of the part's
-  double precision = 0;     ///< and of the elements'
+  double recall = 0;        ///< shared volume of part and elements divided by the part's volume
+  double precision = 0;     ///< shared volume of part and elements divided by the elements' volume
 };
 
 struct Classification
@@ -34,11 +34,11 @@ struct Classification
   std::vector<PartMatch> matches; ///< per part
 };
 
-/// Elements go to the part that has most of them, the first of equal ones, among those whose cut-off (in (0, 1)) they
-/// exceed. A cut-off of 0 is chosen so that the elements above it have the part's volume, as nearly as they can: the
-/// paper's are 52, 50 and 45 % for fine to coarse meshes. Shares are those of 216 points in each hexahedron, by the
-/// volume they stand for. A part may end without an element. Throws InputError, naming the part's file, if a surface is
-/// not closed, or lies outside all elements.
+/// Assigns each element to the part that contains its largest share, the first one if equal, among the parts whose
+/// cut-off (in (0, 1)) the share exceeds. For a cut-off of 0, one is chosen so that the elements above it have the
+/// part's volume as closely as possible; the paper's cut-offs are 52, 50 and 45 % for fine to coarse meshes. Shares are
+/// computed from 216 points in each hexahedron, weighted by their volume. A part may end up without elements. Throws
+/// InputError with the part's file if its surface is not closed or lies outside all elements.
 Classification classified(const ElementMesh& mesh, const std::vector<Part>& parts, const std::vector<double>& cutOffs);
 
 } // namespace surgicalmesher

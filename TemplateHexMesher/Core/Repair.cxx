@@ -17,15 +17,15 @@ namespace
 
 // Of a patch whose mean edge is 1.
 constexpr EnergyWeights kWeights{ 1, 10, 0.2, 0 };
-constexpr double kPlaceWeight = 0.1; ///< of a node's squared distance to its place
-constexpr double kRimWeight = 1e5;   ///< the same of a node on the rim, which then goes back to its place
+constexpr double kPlaceWeight = 0.1; ///< of a node's squared distance to its original position
+constexpr double kRimWeight = 1e5;   ///< the same for a node on the rim, which afterwards is reset to its position
 
-constexpr int kSteps = 150;      ///< of a round
-constexpr double kEnough = 0.02; ///< scaled Jacobian at which an element is left
+constexpr int kSteps = 150;      ///< per round
+constexpr double kEnough = 0.02; ///< scaled Jacobian from which an element needs no repair
 
 using Elements = std::vector<Element>;
 
-/// The elements of each node.
+/// Returns the elements at each node.
 std::vector<std::vector<std::int32_t>> elementsAround(const Elements& elements, Eigen::Index nodes)
 {
   std::vector<std::vector<std::int32_t>> around(static_cast<std::size_t>(nodes));
@@ -37,12 +37,12 @@ std::vector<std::vector<std::int32_t>> elementsAround(const Elements& elements, 
   return around;
 }
 
-/// Some elements of a mesh with their nodes numbered anew, in a unit of their mean edge.
+/// Some elements of a mesh, with nodes renumbered and scaled to a mean edge of 1.
 struct Patch
 {
   ElementMesh mesh;
   std::vector<std::int32_t> nodes; ///< in the whole mesh
-  std::vector<bool> onRim;         ///< other elements have the node, too
+  std::vector<bool> onRim;         ///< whether elements outside the patch share the node
   Eigen::Vector3d middle;
   double unit;
 };
@@ -67,7 +67,7 @@ std::vector<Pull> rimPulls(const Patch& patch)
   return pulls;
 }
 
-/// Where descent from `start` ends, the rim exactly where it was.
+/// Returns the end of the descent from `start`, with the rim exactly where it was.
 Points minimum(const FitEnergy& energy, const Patch& patch, Points start)
 {
   minimise(energy, start, kSteps);
@@ -78,8 +78,8 @@ Points minimum(const FitEnergy& energy, const Patch& patch, Points start)
   return start;
 }
 
-/// Nodes spread over the patch as smoothly as its rim allows, wherever they were. An element that is wholly inside out
-/// has scaled Jacobians of -1, the least there is: descent has no slope there, and has to begin elsewhere.
+/// Returns nodes spread over the patch as smoothly as its rim allows, whatever their positions. A wholly inverted
+/// element has scaled Jacobians of -1, the minimum, where the gradient vanishes: descent has to start elsewhere.
 Points evened(const Patch& patch)
 {
   FitEnergy energy(patch.mesh);
@@ -97,8 +97,8 @@ public:
   {
   }
 
-  /// One round over all places with an invalid element, each with what lies within `rings` of it; false if there is
-  /// none.
+  /// Runs one round over all places with an element that needs repair, each with the elements within `rings` rings;
+  /// returns false if there is none.
   bool improve(Points& points, int rings, double hinge) const
   {
     const std::vector<ElementQuality> quality = elementQuality({ points, m_Mesh.elements });
@@ -116,7 +116,8 @@ public:
   }
 
 private:
-  /// Everything within so many rings of this element, or of another invalid one that is reached so.
+  /// Returns the elements within `rings` rings of this element, or of other elements in need of repair that are reached
+  /// so.
   std::vector<std::int32_t> around(std::int32_t seed, int rings, const std::vector<ElementQuality>& quality) const
   {
     std::map<std::int32_t, int> left{ { seed, rings } }; // rings still to go from an element
@@ -172,7 +173,7 @@ private:
     return patch;
   }
 
-  /// Each node is drawn to where it was in the first place. The patch is left alone if more elements became invalid.
+  /// Draws each node to its original position. Leaves the patch unchanged if more elements would be invalid.
   void improve(const Patch& patch, double hinge, Points& points) const
   {
     FitEnergy energy(patch.mesh);
@@ -205,7 +206,7 @@ private:
     return pulls;
   }
 
-  const ElementMesh& m_Mesh; ///< as it came
+  const ElementMesh& m_Mesh; ///< as passed to repaired()
   std::vector<std::vector<std::int32_t>> m_Around;
 };
 

@@ -20,7 +20,7 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kNormalScale = 4; ///< mm of distance that weigh as much as normals that differ by 1
+constexpr double kNormalScale = 4; ///< distance (mm) that weighs as much as a difference of normals of 1
 
 SurfaceComplex complexOf(const TriangleSurface& surface)
 {
@@ -39,7 +39,7 @@ Points pointsOf(const std::vector<Vec3>& points)
   return result;
 }
 
-/// The envelope as one tissue, wound outwards, with edges divided.
+/// Returns the envelope as one tissue, oriented outwards, with divided edges.
 SurfaceComplex closedComplex(const TriangleSurface& surface, double edgeLength, const std::string& name)
 {
   const SurfaceComplex closed = closedShellsToTissues(complexOf(surface), name);
@@ -51,7 +51,7 @@ SurfaceComplex closedComplex(const TriangleSurface& surface, double edgeLength, 
   return withDividedEdges(closed, [edgeLength](const Vec3&) { return edgeLength; });
 }
 
-/// Those inside the envelope; `ids` are the points of the surface among theirs.
+/// Returns the tetrahedra inside the envelope; `ids` maps points of the surface to points of the result.
 Tetrahedra insideOf(const TetMesh& filled, std::size_t surfacePoints, std::vector<std::int32_t>& ids)
 {
   Tetrahedra inside;
@@ -89,7 +89,7 @@ std::vector<char> pointsOn(Side side, const FilledEnvelope& filled)
   return on;
 }
 
-/// A problem with the value 0 on one side, and 1 on another.
+/// Boundary values: 0 on one side, 1 on another.
 struct BetweenSides
 {
   std::vector<char> known;

@@ -22,7 +22,8 @@ Cell cellOf(const Element& element)
   return cell;
 }
 
-/// Ids of cells or points become those in `renumbered`, -1 for those left out.
+/// Returns the arrays of bytes 0 and 1 as named sets. `renumbered` maps ids of cells or points to new ids, -1 for
+/// omitted ones.
 std::map<std::string, Ids> byteSets(vtkDataSetAttributes* data, const Ids& renumbered)
 {
   std::map<std::string, Ids> sets;

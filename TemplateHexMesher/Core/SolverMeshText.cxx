@@ -24,14 +24,14 @@ using Fields = std::vector<std::string>;
   throw InputError(file + ":" + std::to_string(line + 1) + ": \"" + text.substr(0, 60) + "\", expected " + expected);
 }
 
-/// 0 if it is none.
+/// Returns the id in a field; 0 if the field is not an id.
 std::int64_t idOf(const std::string& field)
 {
   long value = 0;
   return text::parseInteger(text::trimmed(field), 1, std::numeric_limits<std::int32_t>::max(), value) ? value : 0;
 }
 
-/// Ids of the file to indices from 0 on.
+/// Maps the ids of the file to indices from 0.
 class Numbering
 {
 public:
@@ -158,13 +158,13 @@ public:
   }
 
 private:
-  /// Sets may be listed before what they hold.
+  /// A member of a set. Members are resolved at the end of the file, as sets may precede their nodes and elements.
   struct SetEntry
   {
     bool ofNodes;
     std::string set;
     std::int64_t id = 0;
-    std::string otherSet; ///< instead of an id
+    std::string otherSet; ///< name of an included set, in place of an id
   };
 
   void beginBlock(const std::string& line)
@@ -197,7 +197,7 @@ private:
     addToSet(true, m_Keyword["NSET"], id);
   }
 
-  /// An element's nodes may run on over several lines.
+  /// The nodes of an element may continue over several lines.
   void readElement(const std::string& line, const Fields& fields)
   {
     for (const std::string& field : fields)
@@ -298,7 +298,7 @@ Fields columnsOf(const std::string& line, const std::vector<std::size_t>& widths
 
 bool isColumn(const std::string& field) { return field.find_first_of(" \t") == std::string::npos; }
 
-/// In columns, unless these would cut through a word or there is a tab.
+/// Splits a line by columns, unless they would cut a word or the line contains a tab.
 Fields nodeFields(const std::string& line)
 {
   const Fields columns = columnsOf(line, { 8, 20, 20, 20 });
@@ -318,7 +318,7 @@ Fields elementFields(const std::string& line)
   return fits ? columns : text::splitWords(line);
 }
 
-/// A hexahedron whose nodes coincide is what the distinct ones make.
+/// Returns the element that the distinct nodes of a hexahedron with repeated nodes form.
 std::optional<Element> elementOf(const std::array<std::int32_t, 8>& n)
 {
   const bool noBaseEdge = n[2] == n[3], noTopEdge = n[6] == n[7], isApex = n[4] == n[5] && n[5] == n[6] && n[6] == n[7];

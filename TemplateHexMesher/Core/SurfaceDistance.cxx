@@ -22,7 +22,8 @@ struct Sample
   double distance = 0;
 };
 
-/// n^2 congruent parts, n as many as the longest edge holds spacings.
+/// Divides a triangle into n^2 congruent parts, with n such that no edge is longer than `spacing` (at most 100), and
+/// adds their centroids.
 void addSamples(const Vector3d& a, const Vector3d& b, const Vector3d& c, double spacing, std::vector<Sample>& samples)
 {
   const double longest = std::sqrt(std::max({ (b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm() }));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// How far one surface lies from another.
+/// Distance from one surface to another.
 
 #include "TargetSurface.h"
 
@@ -12,8 +12,8 @@ struct DistanceSummary
   double mean = 0, percentile95 = 0, maximum = 0; ///< mm
 };
 
-/// Evenly spread over `from`: the centres of its triangles divided until no edge is longer than `spacing` (mm), each
-/// with its share of the area. Distances to the closest point of `to`, whatever its normal.
+/// Samples `from` evenly and summarises the distances to the closest points of `to`, whatever their normals. Samples
+/// are the centroids of the triangles of `from`, divided until no edge is longer than `spacing` (mm), weighted by area.
 DistanceSummary distanceBetween(const TriangleSurface& from, const TargetSurface& to, double spacing = 1);
 
 } // namespace surgicalmesher

@@ -30,7 +30,7 @@ Edge edgeOf(const Triangle& triangle, int corner)
   return { ends.first, ends.second };
 }
 
-/// The triangles at each edge, and the corner opposite to it in each.
+/// Returns the triangles at each edge, each with its corner opposite to the edge.
 std::map<Edge, std::vector<std::pair<std::int32_t, int>>> trianglesAtEdges(const std::vector<Triangle>& triangles)
 {
   std::map<Edge, std::vector<std::pair<std::int32_t, int>>> atEdges;
@@ -42,7 +42,7 @@ std::map<Edge, std::vector<std::pair<std::int32_t, int>>> trianglesAtEdges(const
   return atEdges;
 }
 
-/// Twice the area long.
+/// Normal with a length of twice the area.
 Vector3d normalOf(const TriangleSurface& surface, const Triangle& t)
 {
   const auto& p = surface.points;
@@ -88,7 +88,7 @@ vtkSmartPointer<vtkPolyData> linesOf(const Points& points, const std::vector<Edg
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(copy);
   data->SetLines(cells);
-  data->BuildCells(); // on demand it is done by the first of several threads
+  data->BuildCells(); // otherwise done on first use, by several threads at once
   return data;
 }
 
@@ -197,7 +197,7 @@ std::vector<Edge> creasesOf(const TriangleSurface& surface, double creaseDegrees
   return creases;
 }
 
-/// Boxes around triangles, and boxes around those.
+/// Bounding volume hierarchy of the triangles.
 class TargetSurface::Tree : public Eigen::KdBVH<double, 3, std::int32_t>
 {
 public:

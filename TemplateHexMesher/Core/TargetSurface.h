@@ -18,23 +18,24 @@ struct SurfacePoint
 {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit length, interpolated where the surface is smooth
-  Eigen::Vector3d weights = Eigen::Vector3d::Zero(); ///< barycentric, of the triangle's corners
-  std::int32_t triangle = -1;                        ///< -1: there is none
-  bool onBorder = false;                             ///< on an edge of one triangle alone
+  Eigen::Vector3d weights = Eigen::Vector3d::Zero(); ///< barycentric weights of the triangle's corners
+  std::int32_t triangle = -1;                        ///< -1: none found
+  bool onBorder = false;                             ///< on an edge with a single triangle
 };
 
-/// The same surface with points at one place made one, as they are not in STL files, and without triangles of no area.
+/// Returns the surface with points of equal position merged, as in STL files they are not, and without degenerate
+/// triangles.
 TriangleSurface withoutDuplicates(const TriangleSurface& surface);
 
-/// Normals of triangles' corners, the area-weighted mean over the triangles around a point that lie within
-/// `creaseDegrees` of this one: what changes faster is a crease. A column per corner, three for each triangle.
+/// Returns the normals at triangle corners: area-weighted means over the triangles around the point whose normals are
+/// within `creaseDegrees` of that of the corner's triangle. A column per corner, three per triangle.
 Points cornerNormals(const TriangleSurface& surface, double creaseDegrees);
 
-/// Makes triangles that share an edge wind alike wherever only two meet there, each connected part as its first
-/// triangle is, and returns the number of the part of each triangle.
+/// Orients triangles consistently across edges with exactly two triangles, each connected part like its first triangle.
+/// Returns the number of its part for each triangle.
 std::vector<std::int32_t> windAlike(std::vector<Triangle>& triangles);
 
-/// Edges, as pairs of ids, between two triangles whose normals differ by more than `creaseDegrees`.
+/// Returns the edges, as pairs of ids, with exactly two triangles whose normals differ by more than `creaseDegrees`.
 std::vector<std::array<std::int32_t, 2>> creasesOf(const TriangleSurface& surface, double creaseDegrees);
 
 constexpr double kCreaseDegrees = 50;
@@ -42,23 +43,24 @@ constexpr double kCreaseDegrees = 50;
 class TargetSurface
 {
 public:
-  /// Takes at least one triangle. Its points keep their ids; neighbours are made to wind alike.
+  /// Takes at least one triangle. Points keep their ids; triangles are oriented consistently.
   explicit TargetSurface(const TriangleSurface& surface);
 
-  /// Turns each connected part to agree with the template: with most of the normals of `points` (unit length) that are
-  /// nearest to it and within `reach`. Parts that attract none are turned by the sign of their enclosed volume.
+  /// Orients each connected part like the template: by the sum of agreements with the normals of those `points` (unit
+  /// length) that are closest to it and within `reach`. A part without such points is oriented by the sign of its
+  /// enclosed volume.
   void orientLike(const Points& points, const Points& normals, double reach);
 
-  /// Of the points of each triangle that are closest to p, the one q with normal m that minimises
-  /// |p - q|^2 + normalScale^2 |n - m|^2. `normalScale` in mm; 0 gives the closest point.
+  /// For the point q closest to p on each triangle, with normal m, returns the q that minimises
+  /// p - q|^2 + normalScale^2 |n - m|^2. `normalScale` in mm; 0 gives the closest point of the surface.
   SurfacePoint closest(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double normalScale) const;
 
-  /// The closest point of the creases within `reach`; weights and onBorder are unset and `normal` is the crease's
-  /// direction.
+  /// Returns the closest point on a crease within `reach`. `normal` is the direction of the crease, `triangle` the
+  /// index of its edge; weights and onBorder are unset.
   SurfacePoint closestOnCrease(const Eigen::Vector3d& point, double reach) const;
 
   const TriangleSurface& surface() const { return m_Surface; }
-  /// One column per corner, as cornerNormals gives them.
+  /// One column per corner, as returned by cornerNormals().
   const Points& normals() const { return m_Normals; }
 
 private:
@@ -68,10 +70,10 @@ private:
 
   TriangleSurface m_Surface;
   std::vector<std::int32_t> m_Parts;          ///< per triangle
-  std::vector<std::array<bool, 3>> m_Borders; ///< per triangle, of the edge opposite to each corner
+  std::vector<std::array<bool, 3>> m_Borders; ///< per triangle: whether the edge opposite to each corner is a border
   Points m_Normals;
   std::shared_ptr<const Tree> m_Tree;
-  vtkSmartPointer<vtkPolyData> m_Creases; ///< none: no creases
+  vtkSmartPointer<vtkPolyData> m_Creases; ///< null: no creases
   vtkSmartPointer<vtkStaticCellLocator> m_CreaseLocator;
 };
 

@@ -16,15 +16,15 @@ namespace
 
 using Eigen::Vector3d;
 
-constexpr double kNormalScale = 10;      ///< mm of distance that weigh as much as normals that differ by 1
-constexpr double kPlaneWeight = 1;       ///< of the squared distance (mm) to the plane at the closest point
-constexpr double kPointWeight = 0.3;     ///< of that to the point itself
-constexpr double kCreaseWeight = 0.3;    ///< of that to the nearest crease
+constexpr double kNormalScale = 10;      ///< distance (mm) that weighs as much as a difference of normals of 1
+constexpr double kPlaneWeight = 1;       ///< of the squared distance (mm) to the tangent plane at the closest point
+constexpr double kPointWeight = 0.3;     ///< of the squared distance to the closest point itself
+constexpr double kCreaseWeight = 0.3;    ///< of the squared distance to the nearest crease
 constexpr double kCreaseReach = 8;       ///< mm
 constexpr double kMutualTolerance = 2;   ///< mm, see mutuality
 constexpr double kOrientationReach = 20; ///< mm
 
-/// What stays the same of the template while it moves.
+/// The surface of the template; its topology does not change during the fit.
 struct Outline
 {
   std::vector<Face> faces;
@@ -48,7 +48,7 @@ Outline outlineOf(const ElementMesh& mesh)
   return outline;
 }
 
-/// Area vectors of the faces summed at their nodes, of unit length; a column per point of the mesh.
+/// Returns area-weighted unit normals at the nodes of the faces; a column per point of the mesh.
 Points nodeNormals(const std::vector<Face>& faces, const Points& points)
 {
   Points normals = Points::Zero(3, points.cols());
@@ -65,7 +65,8 @@ Points nodeNormals(const std::vector<Face>& faces, const Points& points)
   return normals.colwise().normalized();
 }
 
-/// A pull of one node for each of `nodes` that pullOf(node) gives a weight, in their order.
+/// Adds the pulls that pullOf(node) returns for single nodes, in the order of `nodes`; pulls without weight are left
+/// out.
 template <typename PullOf>
 void addPulls(const std::vector<std::int32_t>& nodes, const PullOf& pullOf, std::vector<Pull>& pulls)
 {
@@ -83,14 +84,14 @@ void addPulls(const std::vector<std::int32_t>& nodes, const PullOf& pullOf, std:
   }
 }
 
-/// What `closest` minimises.
+/// The cost that TargetSurface::closest() minimises.
 double costOf(const SurfacePoint& q, const Vector3d& point, const Vector3d& normal)
 {
   return (q.position - point).squaredNorm() + kNormalScale * kNormalScale * (q.normal - normal).squaredNorm();
 }
 
-/// 1 if nothing of the template is much closer to the goal than the node that it draws, 0 if something is: where sheets
-/// lie beside each other, as teeth in gums, none is drawn to what another one fits.
+/// Returns 1 if no other point of the template is much closer to the goal than the node drawn to it, 0 if one is. Where
+/// sheets lie side by side, such as teeth in gums, no sheet is then drawn to the goal of another.
 double mutuality(const TargetSurface& moved, const SurfacePoint& goal, const Vector3d& point, const Vector3d& normal)
 {
   const SurfacePoint back = moved.closest(goal.position, goal.normal, kNormalScale);
@@ -100,7 +101,7 @@ double mutuality(const TargetSurface& moved, const SurfacePoint& goal, const Vec
   return std::clamp((ratio - 0.3) / 0.4, 0.0, 1.0);
 }
 
-/// Nodes to the plane at the closest point that faces their way, and a little to the point itself.
+/// Pulls a node to the tangent plane at the closest point with a similar normal, and weakly to the point itself.
 Pull pullToSurface(const TargetSurface& target, const TargetSurface& moved, const Vector3d& point,
                    const Vector3d& normal)
 {
@@ -116,7 +117,7 @@ Pull pullToSurface(const TargetSurface& target, const TargetSurface& moved, cons
   return pull;
 }
 
-/// Nodes of sharp edges to the nearest sharp edge, on which they may slide.
+/// Pulls a node on a sharp edge to the nearest sharp edge of the target, along which it may slide.
 Pull pullToCrease(const TargetSurface& target, const Vector3d& point)
 {
   Pull pull;
@@ -127,15 +128,15 @@ Pull pullToCrease(const TargetSurface& target, const Vector3d& point)
   return pull;
 }
 
-/// A landmark's place in the mesh, which need not be where the landmark is.
+/// The attachment of a landmark to the mesh, at a point that may differ from the landmark.
 struct Attachment
 {
   Pull pull;
   Vector3d offset = Vector3d::Zero(); ///< from there to the landmark, after the spline
 };
 
-/// Each landmark at the closest point of the template's surface, or at a node that is closer, drawn to where the spline
-/// takes that point.
+/// Attaches each landmark to the closest point of the template's surface, or to a node if one is closer. The attached
+/// point is drawn to its position under the spline.
 std::vector<Attachment> attached(const ElementMesh& mesh, const Outline& outline, const LandmarkPairs& landmarks,
                                  const ThinPlateSpline& spline, double weight)
 {
@@ -189,10 +190,10 @@ public:
     m_Target.orientLike(places, theirNormals, kOrientationReach);
   }
 
-  /// From now on smoothness is that of the displacements from the present shape.
+  /// Makes the present shape the reference for smoothness.
   void relax() { m_Energy.reference = m_Points; }
 
-  /// Closest points anew, then the energy's descent.
+  /// Finds closest points, then minimises the energy.
   void round(const EnergyWeights& weights)
   {
     m_Energy.weights = weights;
@@ -232,11 +233,11 @@ private:
   std::vector<Attachment> m_Landmarks;
 };
 
-/// Of the corners' mean quality. Better shapes are paid for by nodes that slide on the target: 0.2 in place of 0.1 gives
-/// 0.02 more mean scaled Jacobian and 0.08 mm more error under known warps.
+/// Weight of the mean quality of corners. Better shapes come at the cost of nodes that slide on the target: 0.2 instead
+/// of 0.1 gives 0.02 more mean scaled Jacobian and 0.08 mm more error under known warps.
 constexpr double kMeanWeight = 0.1;
 
-/// From stiff to soft, each weight twice.
+/// Rounds from stiff to soft, two for each weight.
 std::vector<EnergyWeights> fittingRounds(double alpha)
 {
   std::vector<EnergyWeights> rounds;
@@ -247,10 +248,11 @@ std::vector<EnergyWeights> fittingRounds(double alpha)
   return rounds;
 }
 
-/// For the elements' quality, and for closeness: each round forgives what the last one bent.
+/// Weights of the rounds that improve quality and closeness; the reference is reset before each round, so that earlier
+/// deformation costs nothing.
 EnergyWeights polishing(double alpha) { return { alpha, 60, 0.5, kMeanWeight }; }
 
-/// A surface has no corners to improve, and slides the farther the longer it is polished.
+/// Fewer rounds for a surface: it has no volume corners to improve, and slides farther with every round.
 int polishingRounds(const ElementMesh& mesh)
 {
   return std::any_of(mesh.elements.begin(), mesh.elements.end(), [](const Element& e) { return isVolume(e); }) ? 6 : 3;
@@ -280,7 +282,7 @@ FitResult fitTemplate(const ElementMesh& mesh, const LandmarkPairs& landmarks, T
   }
   int repairRounds = 0;
   Validity validity = fit.validity();
-  double before = -2; // the least of the round before
+  double before = -2; // least scaled Jacobian before the latest round
   for (; repairRounds < options.repairRounds; ++repairRounds)
   {
     const bool valid = validity.invalid == 0 && fit.turnedFacets() == 0;

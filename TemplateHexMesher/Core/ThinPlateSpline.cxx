@@ -16,7 +16,8 @@ namespace surgicalmesher
 namespace
 {
 
-/// The equations of a spline: kernel and affine part, then what makes the weights orthogonal to affine maps.
+/// Matrix of the spline's equations: kernel and affine part, and the rows that make the weights orthogonal to affine
+/// maps.
 Eigen::MatrixXd systemOf(const Points& centres)
 {
   const Eigen::Index n = centres.cols();

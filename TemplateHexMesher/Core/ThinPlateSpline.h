@@ -12,26 +12,28 @@ namespace surgicalmesher
 class ThinPlateSpline
 {
 public:
-  /// `goals` has a column per centre. The centres must span space and differ from each other, as requireUsable() of
-  /// Landmarks.h makes sure of landmarks; throws EngineError if the system has no solution.
+  /// `goals` has a column per centre. The centres must span space and differ from each other, which requireUsable() of
+  /// Landmarks.h ensures for landmarks. Throws EngineError if the system has no solution.
   ThinPlateSpline(const Points& centres, const Points& goals);
 
+  /// Maps points, a column each.
   Points operator()(const Points& points) const;
 
 private:
   Points m_Centres;
   Points m_Weights;                     ///< c_i
-  Eigen::Matrix<double, 3, 4> m_Affine; ///< of (x - middle, 1)
+  Eigen::Matrix<double, 3, 4> m_Affine; ///< acts on (x - middle, 1)
   Eigen::Vector3d m_Middle;
   double m_Size; ///< unit of length: keeps the system well scaled
 };
 
-/// How far each goal lies from where the spline of all other centres takes its centre, in the goals' unit: what a
-/// landmark that was mistaken stands out by. By one inverse of the equations (Rippa, Adv. Comput. Math. 11, 1999).
-/// Infinity where the other centres don't span space. The centres are as for ThinPlateSpline.
+/// Leave-one-out errors: the distance, in the unit of the goals, between each goal and the image of its centre under
+/// the spline of all other centres. Large errors reveal misplaced landmarks. Computed from one inverse (Rippa, Adv.
+/// Comput. Math. 11, 1999). Infinity where the other centres do not span space. Same preconditions as ThinPlateSpline.
 std::vector<double> leftOutErrors(const Points& centres, const Points& goals);
 
-/// `count` columns of `points`, or all: each the farthest from those before it, the first the farthest from the middle.
+/// Returns the indices of `count` columns of `points`, or of all: first the one farthest from the mean, then each the
+/// farthest from those before it.
 std::vector<std::int32_t> farthestPoints(const Points& points, int count);
 
 } // namespace surgicalmesher

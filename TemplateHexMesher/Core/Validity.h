@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Whether a mesh has an invalid element, and what is said then.
+/// Check for invalid elements, and the error they cause.
 
 #include "ElementMesh.h"
 
@@ -9,7 +9,7 @@
 namespace surgicalmesher
 {
 
-/// Elements with a corner whose scaled Jacobian is not positive, and the worst of all.
+/// The number of elements with a corner whose scaled Jacobian is not positive, and the worst element.
 struct Validity
 {
   std::size_t invalid = 0;
@@ -19,7 +19,7 @@ struct Validity
 
 Validity validityOf(const std::vector<Element>& elements, const Points& points);
 
-/// Throws EngineError with the worst element's place; `question` hints at what may be wrong.
+/// Throws EngineError with the position of the worst element; `question` hints at a possible cause.
 [[noreturn]] void refuseInvalid(const ElementMesh& mesh, const Validity& validity, int rounds,
                                 const std::string& question);
 

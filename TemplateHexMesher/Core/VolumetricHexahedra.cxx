@@ -15,9 +15,9 @@ namespace
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr int kSamples = 4; ///< along each side of a cell, that say how much of it lies in a hole
+constexpr int kSamples = 4; ///< samples along each side of a grid square, for its share in a hole
 
-/// Values for the squares between lines from right to left and lines from bottom to top, or for their crossings.
+/// Values for the squares of a grid, columns from right to left and rows from bottom to top, or for its crossings.
 template <class Value>
 struct Plane
 {
@@ -29,7 +29,7 @@ struct Plane
   const Value& at(int i, int k) const { return values[std::size_t(k) * columns + i]; }
 };
 
-/// Of each square, the share in a hole of the outer or the inner surface.
+/// Returns the share of each square that lies in a hole, averaged over the outer and the inner surface.
 Plane<double> holeShares(const ChartMap& outer, const ChartMap& inner, int columns, int rows)
 {
   Plane<double> shares(columns, rows);
@@ -49,7 +49,7 @@ Plane<double> holeShares(const ChartMap& outer, const ChartMap& inner, int colum
   return shares;
 }
 
-/// Fills squares until no two of the rest touch in a corner alone, where a mesh would be joined by an edge.
+/// Fills squares until no two kept squares touch only at a corner, where the mesh would be connected by an edge only.
 void withoutPinches(Plane<char>& kept, const Plane<double>& shares)
 {
   for (bool changed = true; changed;)
@@ -80,7 +80,7 @@ Plane<char> keptSquares(const ChartMap& outer, const ChartMap& inner, int column
   return kept;
 }
 
-/// The squares around a crossing: how many are kept, and how many there are.
+/// Counts the squares around a crossing: those kept, and all.
 std::array<int, 2> squaresAround(const Plane<char>& kept, int i, int k)
 {
   std::array<int, 2> count{};
@@ -150,7 +150,7 @@ void addElements(const Plane<char>& kept, const Plane<std::int32_t>& first, int 
   }
 }
 
-/// Which hand right, bottom and outside form is the envelope's matter.
+/// Inverts all elements if their total volume is negative: the handedness of the envelope's sides is not prescribed.
 void windPositively(ElementMesh& mesh)
 {
   double volume = 0;

@@ -32,7 +32,7 @@ rapidjson::Document readReport(const std::string& file)
   return report;
 }
 
-/// What stands at a path of members; null if it ends before.
+/// Returns the value at a path of members; null if a member is missing.
 const Json* at(const Json& json, const std::vector<const char*>& path)
 {
   const Json* found = &json;
@@ -83,7 +83,7 @@ std::vector<Row> rowsOf(const Json& report)
 
 struct Column
 {
-  const char* name; ///< by which others may look it up, so it isn't translated
+  const char* name; ///< not translated, as other code may look columns up by name
   std::vector<const char*> path;
   bool isDistance;
 };

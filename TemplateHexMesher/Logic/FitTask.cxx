@@ -58,7 +58,7 @@ FitCheck checkLandmarks(Node* parameters)
   return {};
 }
 
-/// The one that is chosen, or a new one.
+/// Returns the chosen result node, or adds a new one to the scene.
 template <class Result>
 Result* resultNode(Node* parameters, const char* role, int n, const char* className, const std::string& name)
 {
@@ -75,7 +75,7 @@ FitTask::FitTask()
 {
   m_Ended->SetClientData(this);
   m_Ended->SetCallback([](vtkObject*, unsigned long, void* self, void*) { static_cast<FitTask*>(self)->end(); });
-  m_Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, m_Ended, 1); // before the panel
+  m_Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, m_Ended, 1); // priority above that of the panel's observer
 }
 
 FitTask::~FitTask() { m_Run->RemoveObserver(m_Ended); }
@@ -96,7 +96,7 @@ FitCheck FitTask::start(vtkMRMLAbstractLogic* module, Node* parameters)
   }
   catch (const Error& error)
   {
-    m_Run->SetCommandLineLogic(nullptr); // lets go of the files
+    m_Run->SetCommandLineLogic(nullptr); // deletes the temporary files
     return { FitCheck::Refused, error.what() };
   }
   if (m_Run->Start()) return {};
@@ -174,7 +174,7 @@ void FitTask::end()
   }
   catch (const Error& error)
   {
-    m_Run->SetErrorText(error.what()); // somebody else took the files away
+    m_Run->SetErrorText(error.what()); // the result files are missing or unreadable
   }
 }
 
@@ -192,7 +192,7 @@ void FitTask::deliver(Node* parameters)
                                              fitted->GetName() + std::string(": ") +
                                                vtkMRMLTr("vtkSlicerTemplateHexMesherLogic", "quality"));
   fillQualityTable(m_ReportFile, table);
-  parameters->SetShowPreview(false); // it would stand in the fitted mesh
+  parameters->SetShowPreview(false); // it would overlap the fitted mesh
   parameters->Modified();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The fit of a parameter node's template, by TemplateFitCLI in a process of its own.
+/// Fits the template of a parameter node, by TemplateFitCLI in a process of its own.
 
 #include "FitResults.h"
 
@@ -19,7 +19,7 @@ class vtkSurgicalMesherRun;
 namespace surgicalmesher
 {
 
-/// What keeps a fit from being run.
+/// The reason why a fit cannot be started.
 struct FitCheck
 {
   enum Problem
@@ -28,11 +28,11 @@ struct FitCheck
     NoModule,    ///< TemplateFitCLI isn't loaded
     NoTemplate,  ///< no template is chosen
     NoTarget,    ///< no target is chosen
-    SameModel,   ///< the model `name` is chosen for both
-    NoCells,     ///< the model `name` has none
+    SameModel,   ///< the model `name` is chosen as both template and target
+    NoCells,     ///< the model `name` has no cells
     NoLandmarks, ///< one of the two lists isn't chosen, or is empty
-    SameList,    ///< the list `name` is chosen for both
-    Refused      ///< the core's own sentence is `name`
+    SameList,    ///< the list `name` is chosen as both landmark lists
+    Refused      ///< the input is invalid; `name` is the error message
   };
   Problem problem = None;
   std::string name;
@@ -47,12 +47,13 @@ public:
   FitTask& operator=(const FitTask&) = delete;
 
   vtkSurgicalMesherRun* run() const { return m_Run; }
-  /// Of the run that completed last; nothing if that was of other parameters, or of a scene that is closed.
+  /// Result of the last completed run; empty if that run had another parameter node, or its scene is closed.
   FitSummary found(vtkMRMLTemplateHexMesherNode* parameters) const;
 
+  /// Returns the first reason why a fit cannot be started; None if it can.
   static FitCheck findProblem(vtkMRMLTemplateHexMesherNode* parameters);
-  /// `module` is the command-line module's logic. By the time that others see the run's CompletedEvent, if they observe
-  /// it with the default priority, its results have been delivered.
+  /// Starts the run; `module` is the logic of the command-line module. Results are delivered before observers of the
+  /// run's CompletedEvent with the default priority are called.
   FitCheck start(vtkMRMLAbstractLogic* module, vtkMRMLTemplateHexMesherNode* parameters);
 
 private:
@@ -64,7 +65,7 @@ private:
   void deliver(vtkMRMLTemplateHexMesherNode* parameters);
   void deliverCarried(vtkMRMLTemplateHexMesherNode* parameters);
 
-  /// Where the module writes what goes along, and what it is called.
+  /// A carried mesh: the file to which the module writes it, and the name of its model.
   struct Carried
   {
     std::string file, name;
@@ -72,7 +73,7 @@ private:
 
   vtkNew<vtkSurgicalMesherRun> m_Run;
   vtkNew<vtkCallbackCommand> m_Ended;
-  vtkWeakPointer<vtkMRMLTemplateHexMesherNode> m_Parameters; ///< of the run
+  vtkWeakPointer<vtkMRMLTemplateHexMesherNode> m_Parameters; ///< parameter node of the current run
   std::string m_Name, m_FittedFile, m_ReportFile;
   std::vector<Carried> m_Carried;
   FitSummary m_Found;

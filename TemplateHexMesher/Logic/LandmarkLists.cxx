@@ -22,7 +22,7 @@ bool has(const std::vector<std::string>& names, const std::string& name)
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// The first of `there` that `here` lacks, or the first of L1, L2, ... that is new to both.
+/// Returns the first name of `there` that `here` lacks, or else the first of L1, L2, ... that neither has.
 std::string nextName(const std::vector<std::string>& here, const std::vector<std::string>& there)
 {
   for (const std::string& name : there)

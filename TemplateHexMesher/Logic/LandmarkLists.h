@@ -14,29 +14,30 @@ class vtkMRMLMarkupsNode;
 namespace surgicalmesher
 {
 
-/// The placed points of a list, LPS, mm; none for null.
+/// Returns the placed points of a list, LPS, mm; empty for a null list.
 NamedPoints namedPoints(vtkMRMLMarkupsNode* list);
 
-/// The landmarks that stand once in both lists, in the template's order.
+/// Returns the landmarks whose names occur exactly once in both lists, in the template's order.
 LandmarkPairs commonPairs(vtkMRMLMarkupsNode* onTemplate, vtkMRMLMarkupsNode* onTarget);
 
 struct LandmarkRow
 {
   std::string name;
   bool onTemplate = false, onTarget = false;
-  double leftOut = -1; ///< mm from where the spline of all other pairs would put it; below 0: unknown
+  double leftOut = -1; ///< distance (mm) from where the spline of all other pairs puts it; below 0: unknown
   double fitted = -1;  ///< mm from the patient's landmark after the last fit; below 0: unknown
 };
 
-/// All names of both lists, the template's first. `fitted` are residuals by name.
+/// Returns a row for every name in the two lists, those of the template first. `fitted` are residuals by name.
 VTK_SLICER_TEMPLATEHEXMESHER_MODULE_LOGIC_EXPORT std::vector<LandmarkRow>
 landmarkRows(vtkMRMLMarkupsNode* onTemplate, vtkMRMLMarkupsNode* onTarget, const std::map<std::string, double>& fitted);
 
-/// Whether a landmark of the template waits for its partner.
+/// Whether a landmark of the template has no partner on the target yet.
 VTK_SLICER_TEMPLATEHEXMESHER_MODULE_LOGIC_EXPORT bool isTurnOfTarget(vtkMRMLMarkupsNode* onTemplate,
                                                                      vtkMRMLMarkupsNode* onTarget);
 
-/// The point that is placed next in either list gets the name that has no partner yet, or else a new one.
+/// Names the next point to be placed in each list: after the first landmark without a partner there, or else by a new
+/// name.
 VTK_SLICER_TEMPLATEHEXMESHER_MODULE_LOGIC_EXPORT void nameNextLandmarks(vtkMRMLMarkupsNode* onTemplate,
                                                                         vtkMRMLMarkupsNode* onTarget);
 

@@ -23,7 +23,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// From LPS to RAS, and back.
+/// Converts points from LPS to RAS, or back.
 vtkSmartPointer<vtkPoints> turned(vtkPoints* points)
 {
   auto result = vtkSmartPointer<vtkPoints>::New();
@@ -71,7 +71,7 @@ ElementMeshFile meshInWorld(vtkMRMLModelNode* model)
   const auto mesh = vtkSmartPointer<vtkPointSet>::Take(model->GetMesh()->NewInstance());
   mesh->ShallowCopy(model->GetMesh());
   mesh->SetPoints(pointsInWorld(model));
-  vtkNew<vtkFieldData> fields; // the model's own gets no SPACE
+  vtkNew<vtkFieldData> fields; // a copy, so that the model's own field data get no SPACE
   fields->ShallowCopy(model->GetMesh()->GetFieldData());
   mesh->SetFieldData(fields);
   return elementMeshOf(mesh, model->GetName() ? model->GetName() : "model");

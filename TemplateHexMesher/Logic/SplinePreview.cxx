@@ -81,7 +81,7 @@ bool SplinePreview::fill(vtkMRMLTemplateHexMesherNode* parameters)
   }
   catch (const Error&)
   {
-    return false; // the foot of the panel says why
+    return false; // the reason is shown at the foot of the panel
   }
   return true;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The template's outer surface where the spline of the landmarks alone takes it.
+/// Preview of the template's outer surface, deformed by the spline of the landmarks alone.
 
 #include "ElementMesh.h"
 
@@ -17,10 +17,10 @@ namespace surgicalmesher
 class SplinePreview
 {
 public:
-  /// Shows the surface as the pairs placed so far have it, or hides it where it is not asked for, or they don't
-  /// suffice. The model is neither listed nor saved.
+  /// Updates the surface from the pairs placed so far. Hides it if the preview is off or the pairs are not sufficient.
+  /// The model is neither listed nor saved.
   void update(vtkMRMLTemplateHexMesherNode* parameters);
-  /// Null before it was shown.
+  /// Null until the preview is first shown.
   vtkMRMLModelNode* model() const;
 
 private:

@@ -25,7 +25,7 @@ vtkMRMLLayoutNode* layoutOf(vtkMRMLScene* scene)
   return vtkMRMLLayoutNode::SafeDownCast(scene->GetFirstNodeByClass("vtkMRMLLayoutNode"));
 }
 
-/// The id of a 3D view by its name in layouts, in a list; empty, which means all views, if there is none.
+/// Returns the id of the 3D view with this layout name, as a list; empty, which means all views, if there is none.
 std::vector<std::string> viewNamed(vtkMRMLScene* scene, const char* name)
 {
   vtkMRMLNode* view = scene->GetSingletonNode(name, "vtkMRMLViewNode");

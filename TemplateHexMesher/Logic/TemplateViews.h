@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Template and patient in a 3D view each.
+/// Layout with template and patient in separate 3D views.
 
 class vtkMRMLModelNode;
 class vtkMRMLScene;
@@ -9,19 +9,19 @@ class vtkMRMLTemplateHexMesherNode;
 namespace surgicalmesher
 {
 
-/// The layout of two 3D views: the template, its landmarks and what goes along in the first one; the patient, the
-/// preview and the results in the second one.
+/// Arranges two 3D views: the template, its landmarks and the carried models in the first; the patient, the preview and
+/// the results in the second.
 class TemplateViews
 {
 public:
-  /// Follows the parameter node: `isChosen` turns the layout on or off, and shows every node where it belongs, or in
-  /// all views again. `preview` may be null.
+  /// Applies the parameter node's SideBySide: switches the layout, and shows every node in its view, or in all views
+  /// again. `preview` may be null.
   void update(vtkMRMLTemplateHexMesherNode* parameters, vtkMRMLModelNode* preview);
 
 private:
   void arrange(vtkMRMLScene* scene, bool isSideBySide);
 
-  int m_FormerLayout = -1; ///< below 0: the layout is the user's
+  int m_FormerLayout = -1; ///< layout to restore; below 0: the user's layout is active
 };
 
 } // namespace surgicalmesher

@@ -24,25 +24,26 @@ public:
   vtkTypeMacro(vtkSlicerTemplateHexMesherLogic, vtkSlicerModuleLogic);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The scene's first parameter node, made if there is none; null without a scene.
+  /// Returns the scene's first parameter node; adds one if there is none. Null without a scene.
   vtkMRMLTemplateHexMesherNode* ParameterNode();
 
+  /// Returns the first reason why a fit cannot be started; None if it can.
   surgicalmesher::FitCheck FindProblem(vtkMRMLTemplateHexMesherNode* parameters);
-  /// Starts a fit. The nodes chosen for results keep their contents until it completes; those that are not chosen are
-  /// made then. Returns what kept it from starting; a run that is busy goes on, and nothing is said.
+  /// Starts a fit. The nodes chosen for results keep their contents until the run completes; where none is chosen, a
+  /// new node is added then. Returns the reason why the run could not be started. Does nothing if a run is in progress.
   surgicalmesher::FitCheck Start(vtkMRMLTemplateHexMesherNode* parameters);
-  /// The one run of this logic. By the time that others see its CompletedEvent, if they observe it with the default
-  /// priority, the results have been finished.
+  /// The run of this logic. Results are delivered before observers of its CompletedEvent with the default priority are
+  /// called.
   vtkSurgicalMesherRun* GetRun() const;
-  /// Of the fit that completed last; nothing if that was of other parameters.
+  /// Result of the last completed fit; empty if that fit had another parameter node.
   surgicalmesher::FitSummary GetFound(vtkMRMLTemplateHexMesherNode* parameters) const;
 
   /// The landmarks of both lists, with their residuals.
   std::vector<surgicalmesher::LandmarkRow> GetLandmarks(vtkMRMLTemplateHexMesherNode* parameters);
 
-  /// Preview, views and colours follow the parameter node. Nothing is shown or hidden while a run is being started.
+  /// Updates preview, views and colours from the parameter node. Does nothing while a run is being started.
   void UpdateDisplay(vtkMRMLTemplateHexMesherNode* parameters);
-  /// Null before it was shown.
+  /// Null until the preview is first shown.
   vtkMRMLModelNode* GetPreview() const;
 
 protected:

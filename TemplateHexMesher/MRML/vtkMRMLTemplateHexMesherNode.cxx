@@ -10,7 +10,7 @@
 vtkMRMLNodeNewMacro(vtkMRMLTemplateHexMesherNode);
 
 //----------------------------------------------------------------------------
-/// Models are not observed: the host warns when a node that it observes so has a second role.
+/// Models are not observed: Slicer warns when a node with observed events has a second role.
 vtkMRMLTemplateHexMesherNode::vtkMRMLTemplateHexMesherNode()
 {
   this->AddRoles({ TemplateLandmarksRole(), TargetLandmarksRole() }, {},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the panel of Template Hex Mesher shows. It lives in the scene and is saved with it.
+/// Parameters of the Template Hex Mesher panel. The node is part of the scene and saved with it.
 
 #include "vtkMRMLSurgicalMesherParameterNode.h"
 #include "vtkSlicerTemplateHexMesherModuleMRMLExport.h"
@@ -18,31 +18,31 @@ public:
 
   vtkMRMLNode* CreateNodeInstance() override;
   const char* GetNodeTagName() override { return "TemplateHexMesher"; }
-  /// Markups tell of their points by events of their own; all of them arrive here as InputModifiedEvent.
+  /// Forwards changes of the landmarks as InputModifiedEvent; markups report changes of their points by several events.
   void ProcessMRMLEvents(vtkObject* caller, unsigned long event, void* callData) override;
 
   enum Events
   {
-    InputModifiedEvent = vtkCommand::UserEvent + 20 ///< a landmark, or the transform of one, changed
+    InputModifiedEvent = vtkCommand::UserEvent + 20 ///< a landmark or the transform of a landmark list changed
   };
 
-  /// Roles of the nodes referred to.
+  /// Roles of the referenced nodes.
   static const char* TemplateRole() { return "template"; } ///< model: hexahedra, or a surface
   static const char* TargetRole() { return "target"; }     ///< model: the patient's surface, or a mesh
-  static const char* InnerRole() { return "inner"; }       ///< model: a second surface of the patient, or none
-  static const char* CarriedRole() { return "carried"; }   ///< models that go along, any number
+  static const char* InnerRole() { return "inner"; }       ///< model: second surface of the patient; optional
+  static const char* CarriedRole() { return "carried"; }   ///< models deformed along with the template, any number
   static const char* TemplateLandmarksRole() { return "templateLandmarks"; } ///< markups, matched by their labels
   static const char* TargetLandmarksRole() { return "targetLandmarks"; }
-  static const char* FittedRole() { return "fitted"; } ///< model; a new one where there is none
+  static const char* FittedRole() { return "fitted"; } ///< model; if empty, a new node is added
   static const char* CarriedResultRole() { return "carriedResult"; }
   static const char* QualityTableRole() { return "qualityTable"; }
 
   vtkMRMLMarkupsNode* GetMarkupsNode(const char* role);
 
-  /// Whether the template stands in one 3D view, the patient in another.
+  /// Whether template and patient are shown in separate 3D views.
   vtkGetMacro(SideBySide, bool);
   vtkSetMacro(SideBySide, bool);
-  /// Whether the template is shown as the spline of the landmarks takes it to the patient.
+  /// Whether the template is shown as deformed by the spline of the landmarks alone.
   vtkGetMacro(ShowPreview, bool);
   vtkSetMacro(ShowPreview, bool);
   /// Whether elements are coloured by their scaled Jacobian.
@@ -54,7 +54,7 @@ public:
   /// Steps of descent between two searches for closest points.
   vtkGetMacro(Iterations, int);
   vtkSetMacro(Iterations, int);
-  /// Of a landmark's squared distance, against 1 for a point of the surface.
+  /// Weight of a landmark's squared distance, relative to 1 for a point of the surface.
   vtkGetMacro(LandmarkWeight, double);
   vtkSetMacro(LandmarkWeight, double);
 

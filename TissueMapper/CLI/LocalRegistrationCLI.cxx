@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// LocalRegistrationCLI: two images of one head in; one of them on the other's grid out, and how it came there.
+// LocalRegistrationCLI: registers one image of a head to another, and resamples it to the other's grid.
 
 #include "AvailableMemory.h"
 #include "CommandLine.h"
@@ -52,7 +52,7 @@ void readLandmarks(const CommandLine& line, RegistrationOptions& options)
   }
 }
 
-/// The sphere of --sphere; none by default.
+/// Returns the sphere of --sphere; none if it is the default.
 std::optional<Sphere> readSphere(const CommandLine& line, const ScalarImage& fixed)
 {
   const std::vector<double> numbers = line.numbers("sphere");
@@ -81,7 +81,7 @@ std::vector<bool> readMask(const CommandLine& line, const ScalarImage& fixed)
   return mask;
 }
 
-/// Root mean square distance between where the landmarks go and where they belong, mm.
+/// Root mean square distance (mm) between the mapped fixed landmarks and the moving ones.
 double landmarkError(const RegistrationOptions& options, const LinearMap& map)
 {
   double sum = 0;
@@ -134,7 +134,7 @@ void writeReport(const std::string& file, const CommandLine& line, const Registr
 
 void requireMemory(const ScalarImage& fixed, const ScalarImage& moving, const std::string& file)
 {
-  constexpr double bytesPerVoxel = 24; // values, values without extremes, and what a blur needs
+  constexpr double bytesPerVoxel = 24; // the image, its copy without extremes, and the buffers of the blur
   const double needed = 50e6 + bytesPerVoxel * double(fixed.grid.voxelCount() + moving.grid.voxelCount());
   const std::optional<std::uint64_t> available = availableMemory();
   if (!available || needed <= double(*available)) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TissueMapperCLI: images of a head and training points in; the label map of their classes out.
+// TissueMapperCLI: classifies the tissues of a head from images and training points, and writes their label map.
 
 #include "AvailableMemory.h"
 #include "CommandLine.h"
@@ -19,7 +19,7 @@ using namespace surgicalmesher;
 namespace
 {
 
-/// Colours of an atlas's usual kind, in the order of the classes.
+/// Assigns colours as common in anatomical atlases, in the order of the labels.
 void colour(TissueTable& table)
 {
   constexpr std::array<std::array<double, 3>, 10> colours{ { { 0.30, 0.60, 0.85 },
@@ -48,7 +48,8 @@ const char* nameOf(Admission admission)
   }
 }
 
-/// What goes before a class's label in the name of its file, and what after.
+/// Splits the name of the probability file into what precedes a class's label in the names of the files beside it, and
+/// what follows it.
 std::pair<std::string, std::string> besideProbability(const std::filesystem::path& name)
 {
   const std::string file = name.filename().string();
@@ -105,7 +106,7 @@ void writeReport(const std::string& file, const CommandLine& line, const std::ve
 
 void requireMemory(const ScalarImage& image, std::size_t channels, const std::string& file)
 {
-  constexpr double bytesPerVoxel = 80, perChannel = 30; // features of the trees, and the maps they are made of
+  constexpr double bytesPerVoxel = 80, perChannel = 30; // features of the trees, and the images they are computed from
   const double needed = 50e6 + (bytesPerVoxel + perChannel * double(channels)) * double(image.grid.voxelCount());
   const std::optional<std::uint64_t> available = availableMemory();
   if (!available || needed <= double(*available)) return;
@@ -113,7 +114,7 @@ void requireMemory(const ScalarImage& image, std::size_t channels, const std::st
                    " MB of memory, found " + std::to_string(std::lround(double(*available) / 1e6)) + " MB available");
 }
 
-/// The probability of the class that every voxel has in one image, and one of every class beside it.
+/// Writes one image with the probability of each voxel's class, and beside it one image for every class.
 void writeProbabilities(CommandLine& line, const std::vector<TissueClass>& classes, Classification& found)
 {
   const std::string file = line.outputFile("probability");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// TubePathCLI: an image and a few points on a vessel or nerve in; its axis, radius and voxels out.
+// TubePathCLI: traces a vessel or nerve through a few points in an image, and writes its axis, radius and voxels.
 
 #include "AvailableMemory.h"
 #include "CommandLine.h"
@@ -22,12 +22,12 @@ using namespace surgicalmesher;
 namespace
 {
 
-/// What the run found out, besides its outputs.
+/// Results of the run besides its output files.
 struct Results
 {
   Label label = 1; ///< of the tube in the label map
   std::size_t voxels = 0;
-  double weakest = 1; ///< least flux along the path over the mean
+  double weakest = 1; ///< least flux along the path divided by the mean
   std::vector<std::string> warnings;
 };
 
@@ -91,7 +91,7 @@ std::vector<TubePath> readBlocked(const CommandLine& line)
   return tubes;
 }
 
-/// The map the tube joins; one of background, on the image's grid, if there is none.
+/// Reads the map of --addTo; without it, returns an empty map on the image's grid.
 TissueMap readMap(const CommandLine& line, const Grid& grid)
 {
   const std::string file = line.text("addTo");
@@ -102,7 +102,7 @@ TissueMap readMap(const CommandLine& line, const Grid& grid)
   return map;
 }
 
-/// The tissue's name and colour, which one that is there keeps.
+/// Sets name and colour of the tube's tissue; a tissue that is present already and named keeps its own.
 void nameTissue(const CommandLine& line, const TubePath& tube, TissueMap& map, Results& results)
 {
   const std::vector<Label> present = presentLabels(map);
@@ -149,7 +149,7 @@ void findOddities(const TubePath& tube, Results& results)
                              " LPS: a point there makes the path surer");
 }
 
-/// Least, mean and largest of the values.
+/// Writes minimum, mean and maximum of the values.
 void write(JsonWriter& json, const char* key, const std::vector<double>& values)
 {
   json.Key(key);

@@ -53,7 +53,8 @@ private:
     return weight;
   }
 
-  /// In [0, 1), from the generator's bits alone: the library's distributions differ between machines.
+  /// Uniform in [0, 1). Uses the generator's bits directly, as the distributions of the standard library differ between
+  /// platforms.
   double uniform() { return double(m_Random()) / 4294967296.0; }
 
   Split bestSplit(const std::vector<int>& members, const std::array<double, 2>& whole)
@@ -104,7 +105,8 @@ ExtraTrees::ExtraTrees(const FeatureRows& samples, const std::vector<bool>& isFi
   for (int tree = 0; tree < treeCount; ++tree) m_Roots.push_back(builder.build(all));
 }
 
-// Some rows at a time go down a tree, a step each: the processor then waits for none of them, and guesses no branch.
+// A bundle of rows descends each tree in lockstep, without branches, so that memory latency and branch mispredictions
+// are hidden.
 void ExtraTrees::probabilities(const float* rows, std::size_t count, float* shares) const
 {
   constexpr std::size_t together = 16;

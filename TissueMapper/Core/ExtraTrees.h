@@ -9,26 +9,26 @@
 namespace surgicalmesher
 {
 
-/// One row of features a sample.
+/// Feature vectors, one row per sample.
 using FeatureRows = std::vector<std::vector<float>>;
 
 class ExtraTrees
 {
 public:
-  /// `isFirst`: whether the sample is of the first class. Both classes weigh the same, whatever their numbers. The same
-  /// forest for the same samples, on any machine.
+  /// Trains the forest. `isFirst`: whether each sample belongs to the first class. Both classes have the same total
+  /// weight, whatever their sizes. The same samples give the same forest on any machine.
   ExtraTrees(const FeatureRows& samples, const std::vector<bool>& isFirst, int treeCount);
 
-  /// Of each of `count` rows of features that follow each other, the share of the trees' votes for the first class, in
-  /// [0, 1].
+  /// Writes to `shares` the probability of the first class for each of `count` consecutive rows of features, in [0, 1]:
+  /// the mean over the trees of the first class's share of the weight in the leaf reached.
   void probabilities(const float* rows, std::size_t count, float* shares) const;
 
 private:
   struct Node
   {
     int feature = 0;
-    float threshold = 0; ///< of a leaf, its share
-    int below = 0;       ///< steps to the child of what is below the threshold; of a leaf, none
+    float threshold = 0; ///< split threshold; in a leaf, the first class's share of the weight
+    int below = 0;       ///< offset to the child for values below the threshold; 0 in a leaf
     int above = 0;
   };
   std::vector<Node> m_Nodes;

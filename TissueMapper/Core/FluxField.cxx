@@ -17,9 +17,9 @@ namespace
 using Complex = std::complex<float>;
 
 constexpr double pi = 3.14159265358979323846;
-constexpr int padding = 8; ///< voxels between an image's end and its repetition, at least
+constexpr int padding = 8; ///< least distance (voxels) between the image's end and its periodic repetition
 
-/// A length of at least `minimum` that has no prime factor but 2, 3 and 5.
+/// Returns the least length of at least `minimum` without prime factors other than 2, 3 and 5.
 int transformLength(int minimum)
 {
   for (int length = minimum;; ++length)
@@ -59,10 +59,10 @@ std::size_t lineStart(const Spectrum& spectrum, int axis, vtkIdType n)
   return std::size_t(n % width) * spectrum.stride(first) + std::size_t(n / width) * spectrum.stride(second);
 }
 
-/// Discrete Fourier transform of all lines along one axis; direction -1 forward, 1 backward, neither divides.
+/// Discrete Fourier transform of all lines along one axis; direction -1: forward, 1: backward. Neither is normalised.
 void transformAlong(Spectrum& spectrum, int axis, int direction)
 {
-  constexpr int bundle = 16; // lines read together: neighbours in memory for axes 1 and 2
+  constexpr int bundle = 16; // lines processed together: for axes 1 and 2 they are neighbours in memory
   const int length = spectrum.size[axis];
   const std::size_t stride = spectrum.stride(axis);
   const vtkIdType lines = vtkIdType(spectrum.data.size()) / length;
@@ -94,7 +94,8 @@ void transform(Spectrum& spectrum, int direction)
   for (int axis = 0; axis < 3; ++axis) transformAlong(spectrum, axis, direction);
 }
 
-/// Fills lines along `axis` beyond `length` voxels, so that the image's end runs into its repetition without a step.
+/// Fills the lines along `axis` beyond `length` voxels by linear blending, so that the periodic image has no step at
+/// its ends.
 void closeAlong(Spectrum& spectrum, int axis, int length)
 {
   const int whole = spectrum.size[axis];
@@ -113,7 +114,7 @@ void closeAlong(Spectrum& spectrum, int axis, int length)
   }
 }
 
-/// The image less `offset`, which keeps single precision for what varies.
+/// Returns the padded image minus its mean, which leaves single precision to the variations.
 Spectrum paddedImage(const ScalarImage& image)
 {
   const std::array<int, 3>& size = image.grid.size;
@@ -135,7 +136,7 @@ Spectrum paddedImage(const ScalarImage& image)
   return spectrum;
 }
 
-/// -R dM/dR of a wave of this wave number, relative to the wave, blurred.
+/// Returns -R dM/dR of a blurred wave of this wave number, relative to the amplitude of the wave.
 double fluxTransfer(double waveNumber, double radius)
 {
   const double x = waveNumber * radius;
@@ -143,7 +144,7 @@ double fluxTransfer(double waveNumber, double radius)
   return (x < 1e-4 ? x * x / 3 : std::sin(x) / x - std::cos(x)) * std::exp(-0.5 * blur * blur);
 }
 
-/// fluxTransfer() by the square of the wave number, from a table.
+/// fluxTransfer() tabulated over the square of the wave number.
 class TransferTable
 {
 public:
@@ -178,8 +179,8 @@ std::vector<double> squaredWaveNumbers(int length, double spacing)
   return squares;
 }
 
-/// The flux of two radii at once: as their transfers are real and even, one is the real part and the other the
-/// imaginary.
+/// Computes the flux of two radii with one transform: both transfer functions are real and even, so one flux becomes
+/// the real part and the other the imaginary part.
 void computePair(const Spectrum& image, const Grid& grid, double first, double second, Spectrum& work,
                  std::vector<float>& firstFlux, std::vector<float>& secondFlux)
 {

@@ -39,7 +39,7 @@ std::vector<float> blurred(const ItkImage::Pointer& image, double sigma)
   return filtered<itk::SmoothingRecursiveGaussianImageFilter<ItkImage, ItkImage>>(image, sigma);
 }
 
-/// Dilation and erosion by a ball; what lies beyond the image counts as dilated. `outward` is the distance to the mask.
+/// Morphological closing by a ball. `outward` is the distance to the mask. Voxels beyond the image count as dilated.
 std::vector<bool> closed(const Grid& grid, const std::vector<bool>& mask, const std::vector<float>& outward,
                          float radius)
 {
@@ -68,7 +68,8 @@ void forFaceNeighbours(const Grid& grid, std::size_t n, Visit visit)
   if (k + 1 < std::size_t(grid.size[2])) visit(n + layer);
 }
 
-/// Soft tissue by the seeds from which it is reached through the widest ways: 1 outside, -1 inside, 0 not reached.
+/// Assigns voxels to the side from whose seeds they are reached through the widest passages: 1 outside, -1 inside, 0
+/// not reached.
 std::vector<signed char> widestWays(const Grid& grid, const std::vector<float>& width, const CompartmentSeeds& seeds)
 {
   struct Front
@@ -109,7 +110,7 @@ std::vector<signed char> widestWays(const Grid& grid, const std::vector<float>& 
   return side;
 }
 
-/// What the trees look at, by voxel.
+/// Features of the extremely randomised trees, by feature and voxel.
 struct Features
 {
   std::vector<std::vector<float>> values;
@@ -119,7 +120,7 @@ struct Features
   }
 };
 
-/// Of a CT among other images the bone says it all.
+/// A CT that accompanies MR images adds no features of its own: the bone mask holds what it contributes.
 Features featuresOf(const HeadImages& images, const std::vector<bool>& isBone, const std::vector<float>& boneDistance,
                     const std::vector<float>& depth)
 {
@@ -140,7 +141,7 @@ Features featuresOf(const HeadImages& images, const std::vector<bool>& isBone, c
   return features;
 }
 
-/// Probability of lying outside, by voxel of soft tissue; 1 elsewhere.
+/// Returns the probability of lying outside the skull for each voxel of soft tissue; 1 elsewhere.
 std::vector<float> outsideProbability(const Grid& grid, const Features& features, const std::vector<bool>& isSoft,
                                       const CompartmentSeeds& seeds)
 {
@@ -175,7 +176,7 @@ std::vector<float> outsideProbability(const Grid& grid, const Features& features
 }
 
 /// Minimises the integral of weight |grad u| + force u over 0 <= u <= 1, per voxel, by the primal-dual method with
-/// steps of 1 / sqrt(12). `force` is positive where u should be 0.
+/// primal and dual steps of 1 / sqrt(12). `force` is positive where u should be 0.
 std::vector<float> continuousCut(const Grid& grid, const std::vector<float>& weight, const std::vector<float>& force,
                                  std::vector<float> u, int iterations, const Progress& progress)
 {
@@ -238,8 +239,8 @@ std::vector<float> continuousCut(const Grid& grid, const std::vector<float>& wei
   return u;
 }
 
-/// What a ball reaches from the image's sides and upper end, and 6 mm of ways around it that the ball is too large for.
-/// `distance` is that to what was closed to `head`.
+/// Returns the voxels that a ball reaches from the image's sides and upper end, and those up to 6 mm further along
+/// passages too narrow for the ball. `distance` is the distance to the mask before it was closed to `head`.
 std::vector<bool> outsideOf(const Grid& grid, const std::vector<bool>& head, const std::vector<float>& distance)
 {
   constexpr float ballRadius = 3;
@@ -283,7 +284,7 @@ std::vector<bool> outsideOf(const Grid& grid, const std::vector<bool>& head, con
   return isReached;
 }
 
-/// Gives to orbits what a front from the seeds reaches of what lies outside the skull.
+/// Assigns to the orbits the extracranial voxels that a ball reaches from the seeds.
 void findOrbits(const Grid& grid, const std::vector<float>& boneDistance, const std::vector<std::array<int, 3>>& seeds,
                 std::vector<Compartment>& compartments)
 {
@@ -296,7 +297,7 @@ void findOrbits(const Grid& grid, const std::vector<float>& boneDistance, const 
   {
     const std::size_t n = grid.index(v[0], v[1], v[2]);
     if (compartments[n] != Compartment::Extracranial) continue;
-    isOpen[n] = true; // however near to bone
+    isOpen[n] = true; // seeds may lie next to bone
     starts.push_back(n);
   }
   if (starts.empty())
@@ -384,7 +385,7 @@ std::vector<Compartment> findCompartments(const HeadImages& images, const HeadSi
   for (std::size_t n = 0; n < head.size(); ++n) width[n] = isSoft[n] ? std::min(boneDistance[n], depth[n]) : 0;
   const std::vector<signed char> flood = widestWays(grid, width, seeds);
 
-  constexpr float least = 0.02f; // of a probability
+  constexpr float least = 0.02f; // bound of the probability, away from 0 and 1
   std::vector<float> force(head.size()), start(head.size());
   for (std::size_t n = 0; n < head.size(); ++n)
   {

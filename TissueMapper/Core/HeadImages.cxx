@@ -20,14 +20,14 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr float kAir = -500; // HU: halfway to soft tissue
+constexpr float kAir = -500; // HU, halfway between air and soft tissue
 constexpr std::size_t kMostChannels = 4;
 
 using Mask = itk::Image<unsigned char, 3>;
 
 bool isCt(const ScalarImage& image) { return *std::min_element(image.values.begin(), image.values.end()) < kAir; }
 
-/// The centre of the voxel at the other end of some axes (bits of `axes`).
+/// Centre (world) of the corner voxel that lies at the far end of the axes whose bits are set in `axes`.
 Vec3 cornerOf(const Grid& grid, int axes)
 {
   Vec3 p;
@@ -54,14 +54,14 @@ typename Image::Pointer shrunk(const typename Image::Pointer& image)
   return filter->GetOutput();
 }
 
-/// The logarithm of the drift at every voxel.
+/// Returns the logarithm of the bias field at every voxel.
 std::vector<float> logarithmOfBias(const Grid& grid, const std::vector<float>& values, const std::vector<bool>& head)
 {
   using N4 = itk::N4BiasFieldCorrectionImageFilter<ItkImage, Mask, ItkImage>;
-  std::vector<bool> counts = head; // a logarithm is taken
+  std::vector<bool> counts = head; // N4 takes logarithms: only positive values count
   for (std::size_t n = 0; n < counts.size(); ++n) counts[n] = counts[n] && values[n] > 0;
   const auto image = asItkImage<ItkImage>(inGridFrame(grid), values);
-  const OneWorkUnit ofOthersToo; // sums depend on their order
+  const OneWorkUnit ofOthersToo; // also for the filters that N4 creates: their sums depend on the number of work units
   const auto filter = N4::New();
   filter->SetInput(shrunk<ItkImage>(image));
   filter->SetMaskImage(shrunk<Mask>(asItkImage<Mask>(inGridFrame(grid), counts)));
@@ -87,7 +87,8 @@ std::vector<float> logarithmOfBias(const Grid& grid, const std::vector<float>& v
   return result;
 }
 
-/// Standard deviation of white noise, from what the values of four neighbours along the first axis leave of a cubic.
+/// Standard deviation of white noise, from third differences of four neighbours along the first axis, which vanish for
+/// smooth brightness.
 double noiseOf(const ScalarImage& image)
 {
   std::vector<float> left;
@@ -106,7 +107,7 @@ double noiseOf(const ScalarImage& image)
   return medianToDeviation * left[left.size() / 2] / gainOfResidual;
 }
 
-/// The channels as vectors in units of `noise`, smoothed.
+/// Smooths the channels as one vector image in units of `noise`.
 template <unsigned channelCount>
 void denoiseTogether(HeadImages& images, const std::vector<double>& noise)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Images of one head on one grid: MR of any contrast, one CT at most.
+/// Images of one head on one grid: MR images of any contrast, and at most one CT.
 
 #include "ScalarImage.h"
 
@@ -16,21 +16,22 @@ struct HeadImages
   int ct = -1;                       ///< the channel in Hounsfield units; -1: none
 
   const Grid& grid() const { return channels.front().grid; }
-  /// The first MR image, or the CT where there is no other.
+  /// The first MR image, or the CT if it is the only image.
   const ScalarImage& structural() const { return channels[ct == 0 && channels.size() > 1 ? 1 : 0]; }
   bool isCtAlone() const { return ct >= 0 && channels.size() == 1; }
 };
 
-/// An image with values below -500 is taken for a CT: there is air around a head. Throws InputError for none or more than
-/// four channels, for grids that differ, and for two CTs.
+/// Collects the channels. An image with values below -500 is taken for a CT, as a CT of a head contains air. Throws
+/// InputError for no image or more than four, for grids that differ, and for two CTs.
 HeadImages headImages(std::vector<ScalarImage> channels);
 
-/// Takes the smooth drift of brightness out of every MR channel (N4: Tustison et al., IEEE Trans. Med. Imaging 29(6),
-/// 2010, on every fourth voxel of the head). The same on any number of threads.
+/// Removes the smooth brightness drift (bias field) from every MR channel by N4 (Tustison et al., IEEE Trans. Med.
+/// Imaging 29(6), 2010), estimated within the head on every fourth voxel along each axis. The result is the same for
+/// any number of threads.
 void correctBias(HeadImages& images, const std::vector<bool>& head);
 
-/// Smooths noise within regions, all channels alike and each in units of its own noise, so that what is an edge in one
-/// is kept in all (vector-valued anisotropic diffusion; Whitaker and Xue, ICIP 2001).
+/// Smooths noise within regions by vector-valued anisotropic diffusion (Whitaker and Xue, ICIP 2001). All channels are
+/// smoothed together, each in units of its own noise, so that an edge in one channel is kept in all.
 void denoise(HeadImages& images);
 
 } // namespace surgicalmesher

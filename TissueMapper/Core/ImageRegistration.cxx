@@ -16,7 +16,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// Rotation and scale as found on coarse images, made sharper on finer ones.
+/// Refines rotation, shift and scale from coarse images on finer ones.
 void refineGlobally(const std::vector<Level>& levels, const PoseSearch& search, LinearParameters pose,
                     Registration& result)
 {
@@ -40,7 +40,7 @@ void refineGlobally(const std::vector<Level>& levels, const PoseSearch& search, 
   result.global = mapOf(pose, extent.centre);
 }
 
-/// All twelve parameters, by what lies around the target.
+/// Refines all twelve parameters with samples around the target.
 void refineAround(const std::vector<Level>& levels, const Extent& extent, Registration& result)
 {
   Matrix3 matrix;

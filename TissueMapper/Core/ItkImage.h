@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Voxel fields as images of ITK, and back.
+/// Conversion between voxel fields and ITK images.
 
 #include "Grid.h"
 
@@ -14,7 +14,7 @@ namespace surgicalmesher
 
 using ItkImage = itk::Image<float, 3>;
 
-/// The grid as ITK sees it in its grid frame: the origin at voxel (0, 0, 0), no rotation.
+/// The grid in its own frame: the origin at the centre of voxel (0, 0, 0), no rotation.
 inline Grid inGridFrame(const Grid& grid)
 {
   Grid result;
@@ -23,7 +23,7 @@ inline Grid inGridFrame(const Grid& grid)
   return result;
 }
 
-/// A copy of the values, where the grid lies in the world.
+/// Returns an ITK image with a copy of the values, in the grid's position in the world.
 template <typename Image, typename Values>
 typename Image::Pointer asItkImage(const Grid& grid, const Values& values)
 {

@@ -11,7 +11,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// The rotation by the length (radians) of a vector about it.
+/// Rotation about a vector by the vector's length (radians).
 Matrix3 rotationBy(const Vec3& vector)
 {
   itk::Versor<double> versor;

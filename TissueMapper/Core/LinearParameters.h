@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Linear maps as registration varies them: twelve parameters about a centre, and charts of few steps.
+/// Parametrisations of linear maps for registration: twelve parameters about a centre, and charts with fewer
+/// parameters.
 
 #include "LinearMap.h"
 #include "Vec3.h"
@@ -16,10 +17,11 @@ namespace surgicalmesher
 
 using Matrix3 = itk::Matrix<double, 3, 3>;
 
-/// Twelve parameters of a linear map about a centre: the matrix, row by row, and where the centre goes, less the centre.
+/// Twelve parameters of a linear map about a centre: the matrix, row by row, and the displacement of the centre (mm).
 using LinearParameters = std::array<double, 12>;
 
-/// Linear maps as a function of a few steps, each of which moves points of interest by about its length (mm).
+/// A local parametrisation of linear maps by a few steps, each of which moves points of interest by about its length
+/// (mm).
 using LinearChart = std::function<LinearParameters(const std::vector<double>&)>;
 
 LinearParameters withMatrix(const Matrix3& matrix, const Vec3& shift);
@@ -30,10 +32,11 @@ double scaleOf(const LinearParameters& parameters);
 /// The rotation by an angle (radians) about an axis of the world.
 Matrix3 turned(int axis, double angle);
 
-/// Turns, shifts and one scale from a map on: seven steps. `radius`: the lever of turns and of the scale, mm.
+/// Similarities about `start`: three rotations, three shifts and one scale, seven steps in all. `radius` (mm) is the
+/// distance from the centre at which a step of rotation or scale moves a point by its length.
 LinearChart similaritiesFrom(const LinearParameters& start, double radius);
 
-/// All linear maps: twelve steps.
+/// All linear maps about `start`: twelve steps.
 LinearChart linearMapsFrom(const LinearParameters& start, double radius);
 
 } // namespace surgicalmesher

@@ -43,7 +43,7 @@ std::vector<std::array<int, 3>> voxelsAround(const Grid& grid, const Vec3& p)
 
 Image::IndexType asItkIndex(const std::array<int, 3>& voxel) { return { { voxel[0], voxel[1], voxel[2] } }; }
 
-/// A time no voxel is without, even where the front has not been: what the descent sees as a wall.
+/// Arrival time, at most `wall`: to the descent, voxels that the front has not reached are a wall of that height.
 float finiteTime(const std::vector<float>& times, std::size_t n, float wall) { return std::min(times[n], wall); }
 
 /// Gradient of the trilinear interpolant of T, with `wall` in place of infinite times.
@@ -79,7 +79,7 @@ Vec3 timeGradient(const Grid& grid, const std::vector<float>& times, const Vec3&
   return gradient;
 }
 
-/// The neighbour of least time, for places where the interpolated gradient leads nowhere.
+/// Returns the neighbour of least time, for places where the interpolated gradient does not lead downwards.
 std::array<int, 3> lowestNeighbour(const Grid& grid, const std::vector<float>& times, const std::array<int, 3>& voxel)
 {
   std::array<int, 3> best = voxel;

@@ -15,9 +15,9 @@ namespace
 
 using Vector = vnl_vector<double>;
 
-/// The least value of a function by Broyden, Fletcher, Goldfarb and Shanno's steps, each shortened until the value falls
-/// enough (Armijo). f(x, gradient) gives value and gradient; arguments are in units that make steps of 1 reasonable.
-/// VNL's own, translated from Fortran, keep their state in static variables: several at once disturb one another.
+/// Minimises a function by BFGS with backtracking: each step is shortened until the value falls enough (Armijo). f(x,
+/// gradient) returns the value and sets the gradient; arguments are scaled so that steps of about 1 are reasonable. The
+/// optimisers of VNL, translated from Fortran, keep their state in static variables and are not thread safe.
 template <typename Function>
 Vector leastOf(Function f, Vector x)
 {
@@ -46,7 +46,7 @@ Vector leastOf(Function f, Vector x)
     if (!(next < value))
     {
       if (isFresh) break;
-      inverse.set_identity(); // the slope breaks between voxels: what is known of it may mislead
+      inverse.set_identity(); // the gradient jumps between voxels: the curvature found so far may mislead
       isFresh = true;
       continue;
     }
@@ -57,7 +57,7 @@ Vector leastOf(Function f, Vector x)
     value = next;
     gradient = nextGradient;
     if (isSmall) break;
-    if (curvature < 1e-10) // the slope grows: the valley is farther away
+    if (curvature < 1e-10) // negative curvature: the minimum is farther away
     {
       inverse *= 3;
       continue;
@@ -123,7 +123,8 @@ double MutualInformation::at(const LinearParameters& map, LinearParameters& grad
     Metric::MeasureType value = 0;
     Metric::DerivativeType derivative(unsigned(map.size()));
     m_Metric->GetValueAndDerivative(value, derivative);
-    // ITK's derivative points where its value, minus the information, falls.
+    // ITK's derivative is the descent direction of its value, which is minus the information: the gradient of the
+    // information.
     std::copy(derivative.begin(), derivative.end(), gradient.begin());
     return -value;
   }
@@ -137,7 +138,7 @@ double MutualInformation::overlap() const { return double(m_Metric->GetNumberOfV
 
 LinearParameters MutualInformation::maximise(const LinearChart& chart, int dimension)
 {
-  constexpr double scale = 100; // information changes by some hundredths a mm
+  constexpr double scale = 100; // information changes by some hundredths of a nat per mm
   constexpr double little = 1e-3;
   const auto loss = [&](const Vector& steps, Vector& gradient)
   {

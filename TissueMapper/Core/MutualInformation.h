@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Mutual information of two images at samples of the fixed one, and its maximum over linear maps.
+/// Mutual information of two images at sample points of the fixed one, and its maximisation over linear maps.
 
 #include "ItkImage.h"
 #include "LinearParameters.h"
@@ -13,7 +13,7 @@
 namespace surgicalmesher
 {
 
-/// While it lives, the filters and metrics of ITK that are made use one thread each.
+/// Limits ITK filters and metrics created during its lifetime to one thread each.
 class SingleThread
 {
 public:
@@ -34,18 +34,19 @@ class MutualInformation
 public:
   using Samples = itk::PointSet<float, 3>;
 
-  /// Construct and use it within a SingleThread: what several threads of ITK add up depends on which comes first. The
-  /// images are read only, and must have no pipeline behind them. Maps are from fixed points to moving ones.
+  /// Construct and use within the lifetime of a SingleThread: with several ITK threads the sums depend on the order of
+  /// summation. The images are only read, and must not be connected to a pipeline. Maps go from fixed points to moving
+  /// ones.
   MutualInformation(const ItkImage* fixed, const ItkImage* moving, const Samples* samples, const Vec3& centre);
 
-  /// In nats; 0 where no sample meets the moving image.
+  /// Mutual information in nats; 0 if no sample falls in the moving image.
   double at(const LinearParameters& map);
-  /// In nats, with its gradient.
+  /// The same, with its gradient.
   double at(const LinearParameters& map, LinearParameters& gradient);
-  /// Share of the samples that met the moving image when it was last evaluated.
+  /// Share of the samples that fell in the moving image at the last evaluation.
   double overlap() const;
 
-  /// The map of the nearest maximum, from that of no step on, by quasi-Newton steps.
+  /// Returns the map at the local maximum reached by quasi-Newton steps from the chart's origin.
   LinearParameters maximise(const LinearChart& chart, int dimension);
 
 private:

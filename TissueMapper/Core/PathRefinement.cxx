@@ -16,7 +16,7 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
-/// Two unit vectors across a unit tangent.
+/// Two orthogonal unit vectors across a unit tangent.
 std::array<Vec3, 2> acrossOf(const Vec3& tangent)
 {
   int least = 0;
@@ -37,7 +37,7 @@ struct Centroid
   double peak = 0;
 };
 
-/// Of what is over `share` of the largest value in a disc across the path.
+/// Centroid of what exceeds `share` of the largest value in a disc across the path.
 Centroid centroidAcross(const std::function<double(const Vec3&)>& ridge, const Vec3& p, const Vec3& tangent,
                         double discRadius)
 {
@@ -69,7 +69,8 @@ Centroid centroidAcross(const std::function<double(const Vec3&)>& ridge, const V
   return result;
 }
 
-/// The path with straight ends of this length, in the direction of as long a stretch before.
+/// Extends the path at both ends by a straight segment of this length, in the direction of the chord over as long a
+/// stretch of the path.
 std::vector<Vec3> carriedOn(const std::vector<Vec3>& path, double length)
 {
   const auto beyond = [&](const Vec3& end, auto begin, auto last)
@@ -84,7 +85,8 @@ std::vector<Vec3> carriedOn(const std::vector<Vec3>& path, double length)
   return result;
 }
 
-/// Radius of curvature by point, of points at equal distances.
+/// Radius of curvature at each of some points at equal distances, over chords of about two units on either side;
+/// `points` and `step` are in the same unit.
 std::vector<double> bendRadii(const std::vector<Vec3>& points, double step)
 {
   const int count = int(points.size());
@@ -104,7 +106,7 @@ std::vector<double> bendRadii(const std::vector<Vec3>& points, double step)
   return radii;
 }
 
-/// The least of the values within `reach` on either side.
+/// Sliding minimum: the least value within `reach` indices on either side.
 std::vector<double> windowMinimum(const std::vector<double>& values, int reach)
 {
   const int count = int(values.size());
@@ -117,14 +119,14 @@ std::vector<double> windowMinimum(const std::vector<double>& values, int reach)
   return result;
 }
 
-/// Stiffness (voxel^3) that moves a bend of this radius (voxels) by a fiftieth of a voxel, within bounds.
+/// Stiffness (voxel^3) at which smoothing moves a bend of this radius (voxels) by a fiftieth of a voxel, within bounds.
 double stiffnessOf(double bendRadius)
 {
   constexpr double movement = 0.02;
   return std::clamp(movement * bendRadius * bendRadius * bendRadius, 1.5, 30.0);
 }
 
-/// exp(-x) I1(x), I1 the modified Bessel function, for x >= 0.
+/// exp(-x) I1(x) for x >= 0, with I1 the modified Bessel function of the first kind.
 double scaledBesselI1(double x)
 {
   constexpr int steps = 256;
@@ -137,14 +139,14 @@ double scaledBesselI1(double x)
   return sum / steps;
 }
 
-/// -dI/d(rho) of a disc of radius r and height 1, blurred by a Gaussian.
+/// -dI/d(rho) of the image I of a disc of radius r and height 1, blurred by a Gaussian.
 double blurredDiscSlope(double rho, double r, double sigma)
 {
   const double variance = sigma * sigma;
   return r / variance * std::exp(-(rho - r) * (rho - r) / (2 * variance)) * scaledBesselI1(rho * r / variance);
 }
 
-/// -R dM/dR on the axis of a straight blurred tube of contrast 1.
+/// -R dM/dR for a sphere of radius R = `radius` on the axis of a straight blurred tube of contrast 1.
 double modelFlux(double tubeRadius, double radius, double sigma)
 {
   constexpr int steps = 96;
@@ -158,11 +160,11 @@ double modelFlux(double tubeRadius, double radius, double sigma)
   return radius * sum * (pi / 2) / steps;
 }
 
-/// What a flux into the sphere for a radius counts. Small spheres hold few voxels: what noise, and interpolation between
-/// voxels, do to their flux would make thick tubes too thin.
+/// Weight of the flux into the sphere for a tube radius. Small spheres hold few voxels: noise and interpolation in
+/// their flux would bias the radii of thick tubes downwards.
 double certainty(double radius) { return radius; }
 
-/// Fluxes by radius of sphere, for tubes of a row of radii.
+/// Flux profiles, by sphere radius, of tubes with radii first, first + step, ...
 struct ProfileTable
 {
   double first = 0;
@@ -172,7 +174,7 @@ struct ProfileTable
 
 ProfileTable makeProfiles(const std::vector<double>& radii, double voxel)
 {
-  const double variance = voxel * voxel / 12; // of the mean over a voxel
+  const double variance = voxel * voxel / 12; // variance of the mean over a voxel
   ProfileTable table{ 0.3 * radii.front(), 0.05 * voxel, {} };
   for (double r = table.first; r < 1.3 * radii.back(); r += table.step)
   {
@@ -187,7 +189,7 @@ ProfileTable makeProfiles(const std::vector<double>& radii, double voxel)
   return table;
 }
 
-/// Squared residual of the profile that is nearest to `found` up to a factor.
+/// Squared residual of fitting `model`, scaled by a factor of at least 0, to `found`.
 double residualOf(const std::vector<double>& model, const std::vector<double>& found)
 {
   const double product = std::inner_product(model.begin(), model.end(), found.begin(), 0.0);
@@ -210,7 +212,8 @@ double fittedRadius(const ProfileTable& table, const std::vector<double>& found)
   return table.first + (double(best) + offset) * table.step;
 }
 
-/// Gaussian means along the path; shorter windows at its ends.
+/// Calls add(m, weight) with Gaussian weights (not normalised) for the points within 2.5 sigma of point n. The window
+/// is shorter at the ends of the path.
 template <typename Value, typename Add>
 void averageAlong(int count, double sigmaInSteps, int n, Add add)
 {
@@ -265,7 +268,7 @@ std::vector<Vec3> tangentsOf(const std::vector<Vec3>& points)
   return tangents;
 }
 
-// The normal matrix has five diagonals; it is positive definite as long as two weights are.
+// The normal matrix has five diagonals; it is positive definite if at least two weights are positive.
 std::vector<Vec3> smoothed(const std::vector<Vec3>& y, const std::vector<double>& weights,
                            const std::vector<double>& stiffness, double step)
 {
@@ -288,7 +291,7 @@ std::vector<Vec3> smoothed(const std::vector<Vec3>& y, const std::vector<double>
     first[n + 1] -= 2 * s;
     second[n + 1] += s;
   }
-  for (int n = 0; n < count; ++n) // L D L^T in place
+  for (int n = 0; n < count; ++n) // LDL^T factorisation in place
   {
     if (n >= 2) second[n] /= diagonal[n - 2];
     if (n >= 1)

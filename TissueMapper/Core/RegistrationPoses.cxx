@@ -30,7 +30,7 @@ Point toItk(const Vec3& p)
   return result;
 }
 
-/// What is brighter than the background: its centre and principal axes (rows), which are a rotation.
+/// The region brighter than the background: its centroid and its principal axes (rows), which form a rotation.
 struct Body
 {
   Vec3 centre;
@@ -68,14 +68,14 @@ Body bodyOf(const ItkImage::Pointer& image)
   return body;
 }
 
-/// A pose turned by `angle` about an axis, and moved.
+/// Returns a pose rotated by `angle` about a world axis and shifted.
 Pose beside(const Pose& pose, int axis, double angle, const Vec3& shift)
 {
   const LinearParameters& from = pose.parameters;
   return { withMatrix(turned(axis, angle) * matrixOf(from), Vec3{ from[9], from[10], from[11] } + shift), 0 };
 }
 
-/// Calls run(n) for every n below count, in a fixed number of blocks.
+/// Calls run(n) for every n below `count`, in parallel.
 template <typename Run>
 void inParallel(std::size_t count, Run run)
 {
@@ -98,7 +98,7 @@ std::vector<Matrix3> firstRotations(RegistrationStart start, const Body& fixed, 
   return rotations;
 }
 
-/// Poses that bring the two bodies together, give or take 40 mm.
+/// Poses that align the two bodies, with shifts of up to 40 mm along each axis.
 std::vector<Pose> posesOfBodies(RegistrationStart start, const Level& level, const Extent& extent)
 {
   const Body fixed = bodyOf(level.fixed);
@@ -137,7 +137,7 @@ Pose poseOfLandmarks(const RegistrationOptions& options, const Vec3& centre)
 
 void PoseSearch::measure(std::vector<Pose>& poses) const
 {
-  constexpr std::size_t blocks = 16; // a metric reads both images when it is made
+  constexpr std::size_t blocks = 16; // one metric per block, not per pose: its construction reads both images
   inParallel(blocks,
              [&](std::size_t block)
              {
@@ -208,7 +208,7 @@ std::vector<Pose> startingPoses(const RegistrationOptions& options, const PoseSe
 
 Agreement requireThatItConverges(const PoseSearch& search, const Pose& found, const std::vector<Pose>& others)
 {
-  constexpr double near = 3; // mm, in voxels of 5
+  constexpr double near = 3; // mm, on images with voxels of 5 mm
   for (const Pose& other : others)
   {
     if (search.distance(found.parameters, other.parameters) < 3 * near) continue;
@@ -231,7 +231,7 @@ Agreement requireThatItConverges(const PoseSearch& search, const Pose& found, co
   const auto agreeing =
     std::count_if(back.begin(), back.end(),
                   [&](const Pose& pose) { return search.distance(pose.parameters, found.parameters) < near; });
-  const Agreement agreement{ int(agreeing) - 1, int(back.size()) - 1 }; // the best is one of them itself
+  const Agreement agreement{ int(agreeing) - 1, int(back.size()) - 1 }; // `found` is one of `others`
   if (agreement.count < 4)
   {
     failToConverge("of " + std::to_string(agreement.of) + " other starts, six of them beside the best pose, " +

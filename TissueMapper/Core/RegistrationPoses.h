@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The pose that brings two images together, by a search among many on coarse images.
+/// Search for the pose that aligns two coarse images.
 
 #include "ImageRegistration.h"
 #include "LinearParameters.h"
@@ -12,7 +12,8 @@
 namespace surgicalmesher
 {
 
-/// A pose and how good it is. Information is weighed by overlap: of a few samples at a corner it is always large.
+/// A pose and its quality: mutual information (nats) times overlap. Unweighted, the information of a few samples in a
+/// corner would always be large.
 struct Pose
 {
   LinearParameters parameters{};
@@ -24,11 +25,13 @@ class PoseSearch
 public:
   PoseSearch(Level level, const Extent& extent) : m_Level(std::move(level)), m_Extent(extent) {}
 
+  /// Sets the quality of each pose.
   void measure(std::vector<Pose>& poses) const;
-  /// Each pose's nearest maximum.
+  /// Moves each pose to its nearest maximum and sets its quality.
   void follow(std::vector<Pose>& poses) const;
-  /// The best poses, no two within `apart` (mm).
+  /// Returns the best poses, up to `count`, no two closer than `apart` (mm).
   std::vector<Pose> best(std::vector<Pose> poses, std::size_t count, double apart) const;
+  /// Root mean square distance (mm) between the two poses of the search's extent.
   double distance(const LinearParameters& a, const LinearParameters& b) const;
 
   const Level& level() const { return m_Level; }
@@ -39,18 +42,18 @@ private:
   Extent m_Extent;
 };
 
-/// The best few poses to start from.
+/// Returns the best initial poses, up to six.
 std::vector<Pose> startingPoses(const RegistrationOptions& options, const PoseSearch& search);
 
-/// Starts that lead to the best pose.
+/// How many of the other starts lead to the best pose.
 struct Agreement
 {
   int count = 0;
   int of = 0;
 };
 
-/// That other starts, and poses 6 mm and 6 degrees beside it, lead to the pose, and to no other place nearly as good.
-/// Throws InputError otherwise.
+/// Checks that other starts, and poses 6 mm and 6 degrees beside `found`, converge to `found`, and that no distant pose
+/// is nearly as good. `others` are the converged starts, with `found` among them. Throws InputError otherwise.
 Agreement requireThatItConverges(const PoseSearch& search, const Pose& found, const std::vector<Pose>& others);
 
 /// Throws InputError with the reason.

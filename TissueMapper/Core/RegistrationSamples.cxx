@@ -19,7 +19,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// The same numbers on any machine, which the standard's distributions don't promise.
+/// Random numbers that are the same on any machine, which the distributions of the standard library do not guarantee.
 class Random
 {
 public:
@@ -34,8 +34,8 @@ private:
   std::mt19937 m_Engine{ 20 };
 };
 
-/// Whether a place (grid frame) counts: not off the voxel centres' box, where nothing can be interpolated, or outside
-/// the mask.
+/// Whether a point (grid frame) qualifies as a sample: it lies in the box of the voxel centres, where interpolation is
+/// possible, and in the mask.
 bool counts(const Grid& grid, const std::vector<bool>& mask, const Vec3& inGrid)
 {
   const Vec3 index = toIndex(grid, inGrid);
@@ -47,7 +47,8 @@ bool counts(const Grid& grid, const std::vector<bool>& mask, const Vec3& inGrid)
   return mask.empty() || mask[grid.index(v[0], v[1], v[2])];
 }
 
-/// Calls draw(random) until `count` of its places count; throws if hardly one in a thousand does.
+/// Calls draw(random) until `count` of the points qualify. Throws InputError if fewer than about one in a thousand
+/// does.
 template <typename Draw>
 std::vector<Vec3> drawSamples(const Grid& grid, const std::vector<bool>& mask, int count, const char* where, Draw draw)
 {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What registration compares: the two images at one coarseness, and random places of the fixed one.
+/// Input of the registration: both images at one resolution, and random sample points of the fixed one.
 
 #include "Grid.h"
 #include "LinearMap.h"
@@ -12,34 +12,37 @@
 namespace surgicalmesher
 {
 
-/// The image without its extremes, which would leave the tissues few of the histogram's bins. Throws InputError for one
-/// of a single value or of fewer than eight voxels along an axis; `which` names it.
+/// Clamps the image to its quantiles of 0.2 % and 99.8 %: extreme values would leave few histogram bins to the tissues.
+/// Throws InputError if these quantiles are equal, or if an axis has fewer than eight voxels; `which` names the image
+/// in the message.
 ItkImage::Pointer withoutExtremes(const ScalarImage& image, const char* which);
 
-/// The image in voxels of about `spacing` (mm), blurred as they ask; itself if its own are as large.
+/// Blurs and subsamples the image to voxels of about `spacing` (mm). Returns the image itself if its largest voxel edge
+/// is at least `spacing`.
 ItkImage::Pointer coarser(const ItkImage::Pointer& image, double spacing);
 
-/// `count` random places (world) between the fixed image's voxels where the mask, if it isn't empty, is set; the same
-/// on any machine. Throws InputError if hardly a place counts.
+/// Returns `count` random points (world), uniform in the box of the fixed image's voxel centres, where the mask is set;
+/// an empty mask is set everywhere. The points are the same on any machine. Throws InputError if hardly any point
+/// qualifies.
 std::vector<Vec3> samplesEverywhere(const Grid& grid, const std::vector<bool>& mask, int count);
 
-/// The same, as dense as a Gaussian of this deviation (mm) around a place of the world.
+/// The same, with the density of a Gaussian of this standard deviation (mm) around a point of the world.
 std::vector<Vec3> samplesAround(const Grid& grid, const std::vector<bool>& mask, const Vec3& centre, double deviation,
                                 int count);
 
-/// Where the samples are, and how far they scatter: what a turn or a stretch moves them by.
+/// Centroid and spread of points; the spread is the lever of rotations and stretches.
 struct Extent
 {
   Vec3 centre;
-  double radius = 0; ///< root mean square distance, mm
+  double radius = 0; ///< root mean square distance to the centroid, mm
 };
 
 Extent extentOf(const std::vector<Vec3>& points);
 
-/// Root mean square distance between what two maps make of points that scatter as the extent says, mm.
+/// Root mean square distance (mm) between the images of points under two maps, for points distributed as `extent` says.
 double distanceBetween(const LinearMap& a, const LinearMap& b, const Extent& extent);
 
-/// Images and samples at one coarseness.
+/// Images and samples at one resolution.
 struct Level
 {
   ItkImage::Pointer fixed;
@@ -49,7 +52,7 @@ struct Level
   MutualInformation information(const Vec3& centre) const { return { fixed, moving, samples, centre }; }
 };
 
-/// Both images in voxels of about `spacing` (mm), with samples there.
+/// Returns both images in voxels of about `spacing` (mm), with the samples.
 Level levelOf(const ItkImage::Pointer& fixed, const ItkImage::Pointer& moving, double spacing,
               const std::vector<Vec3>& samples);
 

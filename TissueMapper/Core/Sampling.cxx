@@ -7,8 +7,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// `count` neighbours along one axis with their weights, the first of them at voxel `first`, which may lie off the
-/// grid.
+/// `count` neighbouring voxels along one axis, clamped to the grid, and their interpolation weights.
 template <int count>
 struct Stencil
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Values of a voxel field between its voxel centres. Positions are in the grid frame (mm); beyond the grid the field
-/// goes on as at its border.
+/// Interpolation of a voxel field. Positions are in the grid frame (mm); beyond the grid the field is constant, as at
+/// its border.
 
 #include "Grid.h"
 
@@ -19,7 +19,7 @@ inline Vec3 toIndex(const Grid& grid, const Vec3& p)
   return { p.x / grid.spacing.x, p.y / grid.spacing.y, p.z / grid.spacing.z };
 }
 
-/// The voxel nearest to a position in the grid frame, on the grid.
+/// The voxel nearest to a position in the grid frame; positions off the grid are clamped to it.
 inline std::array<int, 3> nearestVoxel(const Grid& grid, const Vec3& p)
 {
   std::array<int, 3> voxel;
@@ -34,7 +34,7 @@ inline Vec3 voxelCentre(const Grid& grid, const std::array<int, 3>& voxel)
   return { voxel[0] * grid.spacing.x, voxel[1] * grid.spacing.y, voxel[2] * grid.spacing.z };
 }
 
-/// Whether a position lies in the volume of the voxels.
+/// Whether a position in the grid frame lies in the volume that the voxels cover.
 inline bool isInVolume(const Grid& grid, const Vec3& p)
 {
   const Vec3 index = toIndex(grid, p);
@@ -45,13 +45,13 @@ inline bool isInVolume(const Grid& grid, const Vec3& p)
   return true;
 }
 
-/// Edge of the cube that has a voxel's volume, mm.
+/// Edge length (mm) of a cube with the volume of a voxel.
 inline double voxelLength(const Grid& grid) { return std::cbrt(grid.spacing.x * grid.spacing.y * grid.spacing.z); }
 
 /// Trilinear interpolation.
 double linearValue(const Grid& grid, const std::vector<float>& values, const Vec3& p);
 
-/// Interpolation by Catmull and Rom's cubic along each axis.
+/// Catmull-Rom cubic interpolation along each axis.
 double cubicValue(const Grid& grid, const std::vector<float>& values, const Vec3& p);
 
 } // namespace surgicalmesher

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// How many threads the libraries beneath may use.
+/// Number of threads of the underlying libraries.
 
 namespace surgicalmesher
 {
 
-/// Of VTK and of ITK; 0 for all processors.
+/// Sets the number of threads of VTK and ITK; 0 leaves both at their defaults, all processors.
 void setThreadCount(int count);
 
-/// While it lives, ITK's filters begin with one part of their work: what they sum up depends on how many there are. For
-/// filters that make others, which their own number of work units does not reach.
+/// Limits ITK filters created during its lifetime to one work unit, as their sums depend on the number of work units.
+/// Meant for filters that create other filters, to which their own number of work units does not apply.
 class OneWorkUnit
 {
 public:

@@ -74,7 +74,7 @@ std::vector<TissueClass>::iterator findClass(std::vector<TissueClass>& classes, 
                       [&](const TissueClass& tissue) { return text::lowerCase(tissue.name) == text::lowerCase(name); });
 }
 
-/// `source` is where the training points come from.
+/// Applies the rows of the table to the classes. `source` names the origin of the training points in messages.
 void applyTable(std::vector<TissueClass>& classes, const std::string& classesFile, const std::string& source)
 {
   const TextTable table =

@@ -53,12 +53,12 @@ int boneClass(const std::vector<TissueClass>& classes)
   return bone;
 }
 
-/// In one channel, where bone is darker than all soft tissue, or brighter (CT).
+/// Returns the contrast of bone in one channel, where bone is darker than all soft tissue (in a CT: brighter).
 BoneContrast boneContrast(const HeadImages& images, const std::vector<TrainingValues>& training, int bone,
                           const std::vector<TissueClass>& classes, std::size_t channel)
 {
   const bool isCt = int(channel) == images.ct;
-  const float sign = isCt ? -1 : 1; // as if bone were dark
+  const float sign = isCt ? -1 : 1; // treats the CT as if bone were dark
   const auto medianIn = [&](std::size_t c) { return sign * medianOf(valuesOf(training[c], channel)); };
   float boneMedian = medianIn(std::size_t(bone)), softMedian = std::numeric_limits<float>::infinity();
   for (std::size_t c = 0; c < training.size(); ++c)
@@ -73,7 +73,7 @@ BoneContrast boneContrast(const HeadImages& images, const std::vector<TrainingVa
     contrast.threshold = 0.5f * (contrast.boneMedian + contrast.softMedian);
     return contrast;
   }
-  // Against the class that is next in brightness, and all whose medians lie near it.
+  // Threshold against the class next in brightness to bone, together with all classes whose medians are near it.
   std::vector<float> soft;
   for (std::size_t c = 0; c < training.size(); ++c)
   {
@@ -93,7 +93,7 @@ bool isAdmitted(Admission admission, Compartment compartment)
   return admission == Admission::Extracranial && compartment != Compartment::Intracranial;
 }
 
-/// Classes of soft tissue that may be in a compartment; every one if compartments don't count.
+/// Classes of soft tissue that a compartment admits; all of them if compartments are not used.
 std::vector<int> admitted(const std::vector<TissueClass>& classes, Compartment compartment, bool useCompartments)
 {
   std::vector<int> result;
@@ -138,7 +138,7 @@ std::vector<Compartment> withoutCompartments(const HeadSigns& signs)
   return compartments;
 }
 
-/// The models of soft tissue within the skull, outside, and in the orbits.
+/// Brightness models of soft tissue: intracranial, extracranial, intraorbital.
 using Models = std::array<BrightnessModel, 3>;
 
 Models makeModels(const std::vector<TissueClass>& classes, const std::vector<TrainingValues>& training,
@@ -157,8 +157,8 @@ const BrightnessModel& modelOf(const Models& models, Compartment compartment)
 /// Whether contiguity or a limit holds for a class.
 bool isBound(const TissueClass& tissue) { return tissue.isContiguous || tissue.limit > 0; }
 
-/// What contiguity and limit leave to a class: a front starts at each of its points, whatever is there, and runs through
-/// its voxels.
+/// Returns the voxels that contiguity and limit leave to a class: those that a front from its training points reaches
+/// through its voxels. A front starts at each training point, whatever the class of the voxel there.
 std::vector<bool> reachedByClass(const Grid& grid, const TissueClass& tissue, const std::vector<int>& classOf,
                                  int number)
 {
@@ -174,8 +174,8 @@ std::vector<bool> reachedByClass(const Grid& grid, const TissueClass& tissue, co
   return reachedFrom(grid, seeds, isOpen, tissue.limit);
 }
 
-/// Squared distances (in units of 5 mm) to what is certain of every class: what its own front reaches, or all that
-/// brightness gives to a class that needs none.
+/// Squared distance (in units of 5 mm) from each voxel to the certain voxels of each class: those that the class's
+/// front reaches, or, for a class without contiguity and limit, all that brightness assigns to it.
 class Proximity
 {
 public:
@@ -201,8 +201,8 @@ private:
   std::vector<std::vector<float>> m_Distances;
 };
 
-/// Takes away what contiguity and limits forbid, and gives it to the class next in brightness and place, until all that
-/// each class has is reached. Where every class has been refused, the last one stays.
+/// Reassigns voxels that contiguity or a limit takes from a class to the next class in brightness and proximity, until
+/// every class reaches all its voxels. A voxel that all classes have been refused keeps its last class.
 void enforceContiguity(const HeadImages& images, const std::vector<TissueClass>& classes, const Models& models,
                        const std::optional<Proximity>& proximity, std::vector<int>& classOf, Classification& result)
 {

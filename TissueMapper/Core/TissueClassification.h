@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Tissues of a head from MR images, a CT, or both, and a few training points a class (Audette et al., section 2.2:
-/// structure-preserving classification).
+/// Classification of the tissues of a head from MR images, a CT, or both, and a few training points per class (Audette
+/// et al., section 2.2: structure-preserving classification).
 
 #include "HeadCompartments.h"
 #include "TissueMap.h"
@@ -12,14 +12,14 @@
 namespace surgicalmesher
 {
 
-/// Where a class may be.
+/// Where a class is admitted.
 enum class Admission
 {
   Anywhere, ///< in soft tissue
   Intracranial,
-  Extracranial, ///< in orbits or not
+  Extracranial, ///< in orbits or elsewhere outside the skull
   Intraorbital,
-  Bone ///< the class that the skull is made of
+  Bone ///< in bone; exactly one class
 };
 
 struct TissueClass
@@ -27,25 +27,25 @@ struct TissueClass
   std::string name;
   Label label = 1;
   Admission admission = Admission::Anywhere;
-  bool isContiguous = false; ///< only where it is joined to one of its training points by voxels of its own
-  double limit = 0;          ///< mm: largest way from the training points through its own voxels; 0: none
+  bool isContiguous = false; ///< keep only voxels connected to a training point through voxels of this class
+  double limit = 0;          ///< longest path (mm) from a training point through voxels of this class; 0: no limit
   std::vector<Vec3> points;  ///< training points, world frame
 };
 
-/// Each of the paper's constraints can be left out.
+/// The paper's constraints, each of which can be switched off.
 struct ClassificationOptions
 {
   bool useCompartments = true;
-  bool useContiguity = true; ///< contiguity and spatial limit
-  bool useProximity = true;  ///< to what is certain, where these take a voxel from its class
+  bool useContiguity = true; ///< apply contiguity and limit of each class
+  bool useProximity = true;  ///< where these take a voxel from its class, prefer classes that are certain nearby
   bool correctBias = false;
   bool denoise = false;
   bool withProbabilities = false;
 };
 
-/// What a head is usually made of: skull and bone are bone; CSF, grey and white matter lie within the skull; eyes, optic
-/// nerves and what has orbit, orbital, ocular or rectus in its name within the orbits; fat, muscle, skin and connective
-/// tissue outside the skull. Anywhere for other names.
+/// Returns the admission implied by a class name: Bone for skull and bone; Intracranial for CSF, grey and white matter
+/// and brain; Intraorbital for eyes, optic nerves and names with orbit, ocular or rectus; Extracranial for fat, muscle,
+/// skin and connective tissue; Anywhere for other names.
 Admission usualAdmission(const std::string& name);
 
 struct Classification
@@ -53,18 +53,19 @@ struct Classification
   TissueMap map; ///< labels and names of the classes; 0 outside the head
   std::vector<Compartment> compartments;
   float boneThreshold = 0;
-  std::vector<std::size_t> invalidated; ///< by class: voxels that contiguity took away
-  /// If asked for, by class and voxel: by brightness, among the classes that its compartment admits.
+  std::vector<std::size_t> invalidated; ///< by class: voxels taken from the class by contiguity or limit
+  /// By class and voxel, if asked for: probability by brightness among the classes that the voxel's compartment admits.
   std::vector<std::vector<float>> probabilities;
 };
 
-/// Compartments as tissues: label (their number), name and colour.
+/// Returns the compartments as a tissue table: label (the number of the compartment), name and colour.
 TissueTable compartmentTable();
 
-/// Bone is told by the CT, or else by the first image, an MR in which bone is dark. Throws InputError for fewer than two
-/// classes, a class without points, a point outside the image, no class or several of bone, bone that isn't darker than
-/// the rest (denser in a CT), compartments without training points on both sides, and a compartment in which no class
-/// may be. The same bytes whatever the number of threads.
+/// Classifies every voxel of the head. Bone is detected in the CT, or, without a CT, in the first image, an MR image in
+/// which bone is dark. Throws InputError for fewer than two classes; a class without points; a point outside the image;
+/// no class or several classes of bone; bone that is not darker (in a CT: denser) than the rest; compartments without
+/// training points on both sides of the skull; and a compartment that admits no class. The result is bitwise the same
+/// for any number of threads.
 Classification classifyTissues(HeadImages images, const std::vector<TissueClass>& classes,
                                const ClassificationOptions& options, const Progress& progress = {});
 

@@ -27,7 +27,8 @@ Voxel stepped(const Voxel& voxel, const std::array<int, 3>& step)
   return { voxel[0] + step[0], voxel[1] + step[1], voxel[2] + step[2] };
 }
 
-/// Which of the 27 voxels around one belong to the tube, by (dk + 1) * 9 + (dj + 1) * 3 + di + 1; 13 is the one itself.
+/// Which of the 27 voxels around a voxel belong to the tube, by index (dk + 1) * 9 + (dj + 1) * 3 + di + 1; 13 is the
+/// middle.
 using Neighbourhood = std::array<bool, 27>;
 
 Neighbourhood neighbourhoodOf(const std::set<Voxel>& tube, const Voxel& voxel)
@@ -47,7 +48,7 @@ bool areCorners(int a, int b)
   return std::abs(a % 3 - b % 3) <= 1 && std::abs(a / 3 % 3 - b / 3 % 3) <= 1 && std::abs(a / 9 - b / 9) <= 1;
 }
 
-/// Pieces of the members under an adjacency that hold a voxel next to the middle by that adjacency.
+/// Counts the connected components of the members, under an adjacency, that contain a voxel adjacent to the middle.
 template <typename Adjacent, typename Member>
 int piecesAtMiddle(Member isMember, Adjacent areAdjacent)
 {
@@ -74,8 +75,9 @@ int piecesAtMiddle(Member isMember, Adjacent areAdjacent)
   return pieces;
 }
 
-/// Whether adding the middle changes nothing in the topology of the tube under face neighbours and of the rest under
-/// corner neighbours: one piece of the tube within the 18 voxels that share a face or an edge, and one of the rest.
+/// Whether the middle is a simple point: adding it changes neither the topology of the tube under face adjacency nor
+/// that of the rest under corner adjacency. Equivalent to one component of the tube among the 18 neighbours across
+/// faces and edges, and one component of the rest.
 bool isSimple(const Neighbourhood& around)
 {
   const auto inTube = [&](int n) { return n != 13 && around[n] && distanceSum(n, 13) <= 2; };
@@ -84,13 +86,13 @@ bool isSimple(const Neighbourhood& around)
          piecesAtMiddle(inRest, [](int a, int b) { return a != b && areCorners(a, b); }) == 1;
 }
 
-/// Whether two voxels of the tube, or of the rest, meet along an edge or at a corner alone in a block of 2 x 2 x 2
-/// voxels, given by i + 2 j + 4 k.
+/// Whether two voxels of the tube, or of the rest, meet only along an edge or at a corner in a block of 2 x 2 x 2
+/// voxels with index i + 2 j + 4 k.
 bool isPinched(const std::array<bool, 8>& block)
 {
   for (int n = 0; n < 8; ++n)
   {
-    for (const int edge : { 3, 5, 6 }) // the two directions in which neighbours across an edge differ
+    for (const int edge : { 3, 5, 6 }) // each value: the two axes along which voxels that share an edge differ
     {
       const int first = edge & -edge;
       const bool a = block[n];
@@ -101,7 +103,7 @@ bool isPinched(const std::array<bool, 8>& block)
   return false;
 }
 
-/// Whether one of the eight blocks that hold the middle is pinched once it is added.
+/// Whether adding the middle pinches one of the eight blocks that contain it.
 bool touchesItself(Neighbourhood around)
 {
   around[13] = true;
@@ -115,7 +117,7 @@ bool touchesItself(Neighbourhood around)
   return false;
 }
 
-/// Voxels of all pinched blocks of a tube.
+/// Voxels of all pinched blocks.
 std::set<Voxel> pinchedBlocks(const std::set<Voxel>& tube)
 {
   std::set<Voxel> pinched;
@@ -137,7 +139,7 @@ std::set<Voxel> pinchedBlocks(const std::set<Voxel>& tube)
   return pinched;
 }
 
-/// Voxels in the order in which the path goes through them, neighbours across faces throughout.
+/// Returns the voxels in the order in which the path runs through them, each sharing a face with the next.
 std::vector<Voxel> voxelsAlong(const Grid& grid, const std::vector<Vec3>& points)
 {
   std::vector<Voxel> chain;
@@ -150,7 +152,7 @@ std::vector<Voxel> voxelsAlong(const Grid& grid, const std::vector<Vec3>& points
       chain.push_back(next);
       continue;
     }
-    while (chain.back() != next) // the axis that is farthest behind goes first
+    while (chain.back() != next) // step first along the axis that is farthest behind
     {
       Voxel here = chain.back();
       int axis = 0;
@@ -169,7 +171,7 @@ std::vector<Voxel> voxelsAlong(const Grid& grid, const std::vector<Vec3>& points
   return chain;
 }
 
-/// A shortest chain of voxels across faces through a set, from one to another.
+/// Returns a shortest face-connected chain of voxels within `all`, from `first` to `last`.
 std::vector<Voxel> shortestChain(const std::set<Voxel>& all, const Voxel& first, const Voxel& last)
 {
   std::map<Voxel, Voxel> towards;
@@ -193,7 +195,8 @@ std::vector<Voxel> shortestChain(const std::set<Voxel>& all, const Voxel& first,
   return chain;
 }
 
-/// A chain from end to end that touches itself nowhere: where it would, it goes straight on and leaves out the turn.
+/// Returns a chain from end to end that touches itself nowhere: where it would, it takes the short cut and omits the
+/// turn.
 std::set<Voxel> simpleChain(const Grid& grid, const std::vector<Vec3>& points)
 {
   const std::vector<Voxel> along = voxelsAlong(grid, points);
@@ -211,7 +214,7 @@ std::set<Voxel> simpleChain(const Grid& grid, const std::vector<Vec3>& points)
   }
 }
 
-/// Voxels in the tube with their distance from the axis over the radius, nearest first.
+/// Returns the voxels in the tube, each with its distance from the axis divided by the radius, nearest first.
 std::vector<std::pair<double, Voxel>> voxelsWithin(const Grid& grid, const std::vector<Vec3>& points,
                                                    const std::vector<double>& radii)
 {
@@ -241,7 +244,8 @@ std::vector<std::pair<double, Voxel>> voxelsWithin(const Grid& grid, const std::
   return voxels;
 }
 
-/// A tube's part on the grid, with points close enough together for its finest voxel.
+/// Samples the part of the tube on the grid (grid frame), with points close enough together for the shortest voxel
+/// edge.
 void sampleOnGrid(const Grid& grid, const TubePath& tube, std::vector<Vec3>& points, std::vector<double>& radii)
 {
   const double fine = 0.2 * std::min({ grid.spacing.x, grid.spacing.y, grid.spacing.z });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// A tube as voxels of a label map.
+/// Conversion of a tube to voxels of a label map.
 
 #include "TissueMap.h"
 #include "TubePath.h"
@@ -11,11 +11,12 @@
 namespace surgicalmesher
 {
 
-/// Indices of the voxels of a tube in `grid`, ascending. They begin as a chain of voxels from end to end, each sharing
-/// a face with the next, and grow outward by the voxels whose centres lie in the tube, nearest to the axis first, as
-/// long as each leaves the topology as it is (simple points: Bertrand and Malandain, Pattern Recognition Letters 15(2),
-/// 1994) and touches no other along an edge or at a corner alone. The tube is then one piece without tunnel or cavity,
-/// even where its turns come closer than a voxel. The part outside the grid is left out; empty if none of it is inside.
+/// Returns the indices of the voxels of a tube in `grid`, ascending. The tube starts as a face-connected chain of
+/// voxels from end to end. It then grows by voxels whose centres lie in the tube, nearest to the axis first, as long as
+/// each is a simple point, so that the topology is kept (Bertrand and Malandain, Pattern Recognition Letters 15(2),
+/// 1994), and touches no other voxel of the tube along an edge or at a corner only. The result is one piece without
+/// tunnels or cavities, even where turns come closer than a voxel. The part of the tube outside the grid is left out;
+/// the result is empty if all of it is outside.
 std::vector<std::size_t> tubeVoxels(const Grid& grid, const TubePath& tube);
 
 } // namespace surgicalmesher

@@ -24,9 +24,9 @@ namespace
 {
 
 constexpr int radiusCount = 8;
-constexpr float leastSpeed = 0.03f; // of the speed on the tube: what gaps are crossed with
+constexpr float leastSpeed = 0.03f; // relative to the speed on the tube: lets the front cross gaps
 
-/// A box of voxels, ends included.
+/// A box of voxels, from `low` to `high` inclusive.
 struct Box
 {
   std::array<int, 3> low;
@@ -82,14 +82,15 @@ std::vector<double> tubeRadii(const Grid& grid, const TubePathOptions& options)
   return radiiBetween(smallest, largest, radiusCount);
 }
 
-/// The radius that fits best may lie beyond the radii tried.
+/// Clamps a radius to the range asked for, which the best fit may leave.
 double withinAsked(double radius, const TubePathOptions& options)
 {
   const double largest = options.maximumRadius > 0 ? options.maximumRadius : std::numeric_limits<double>::infinity();
   return std::clamp(radius, options.minimumRadius, largest);
 }
 
-/// The place of the highest value near p, less the farther away; p itself if snapDistance is 0.
+/// Returns the position with the highest value within `snapDistance` of p, with a penalty on distance; p itself if
+/// snapDistance is 0.
 Vec3 snapped(const Grid& grid, const std::vector<float>& ridge, const Vec3& p, double snapDistance)
 {
   if (!(snapDistance > 0)) return p;
@@ -127,7 +128,7 @@ std::vector<float> filtered(const ScalarImage& image, double sigma)
   return valuesOf(*filter->GetOutput());
 }
 
-/// What the path follows where that isn't the flux, at least 0, by voxel.
+/// Potential for Gradient and Intensity, at least 0, by voxel.
 std::vector<float> ridgeOf(const ScalarImage& image, int sign, Potential potential)
 {
   const double sigma = 0.7 * voxelLength(image.grid);
@@ -142,7 +143,7 @@ std::vector<float> ridgeOf(const ScalarImage& image, int sign, Potential potenti
   return values;
 }
 
-/// 1 or -1: as the flux at the places has it.
+/// Returns 1 for a bright tube, -1 for a dark one; if automatic, by the flux at the places.
 int signOf(const FluxField& field, const std::vector<Vec3>& places, const TubePathOptions& options)
 {
   if (options.polarity != Polarity::Automatic) return options.polarity == Polarity::Bright ? 1 : -1;
@@ -198,7 +199,8 @@ std::vector<bool> voxelsIn(const Grid& grid, const std::vector<TubePath>& tubes)
   return isIn;
 }
 
-/// Speed of the front: the ridge relative to its value at two places, at most 1, over a floor; 0 in blocked voxels.
+/// Speed of the front: the ridge relative to its mean at two positions, at most 1, plus leastSpeed; 0 in blocked
+/// voxels.
 std::vector<float> speedBetween(const Grid& grid, const std::vector<float>& ridge, const std::vector<bool>& isBlocked,
                                 const Vec3& first, const Vec3& second)
 {
@@ -219,7 +221,7 @@ void requirePlaces(const ScalarImage& image, const std::vector<Vec3>& places)
   }
 }
 
-/// What a front follows and a path is refined by; grid frame.
+/// The field that the front and the refinement follow; grid frame.
 struct Ridge
 {
   const Grid& grid;
@@ -227,7 +229,8 @@ struct Ridge
   std::function<double(const Vec3&)> at; ///< between voxels
 };
 
-/// The flux into spheres of some radii. The largest of interpolated fluxes is smoother than the interpolated largest one.
+/// Ridge of the strongest flux over a range of radii. Between voxels, the maximum of interpolated fluxes is used: it is
+/// smoother than the interpolated maximum.
 Ridge fluxRidge(const FluxField& field, int sign, const RadiusRange& range)
 {
   const auto at = [&field, sign, range](const Vec3& p)
@@ -240,7 +243,7 @@ Ridge fluxRidge(const FluxField& field, int sign, const RadiusRange& range)
   return { field.grid, strongestFlux(field, sign, range), at };
 }
 
-/// Points side by side on a tube are one place of it.
+/// Rejects points that coincide along the tube, such as points side by side across it.
 void requireLength(const Grid& grid, const std::vector<Vec3>& path)
 {
   if (polylineLength(path) > 0.01 * voxelLength(grid)) return;
@@ -248,7 +251,7 @@ void requireLength(const Grid& grid, const std::vector<Vec3>& path)
                    " LPS, expected two or more apart");
 }
 
-/// The axis of the tube that runs through these places, at half a voxel's steps.
+/// Returns the axis of the tube that runs through the places, in steps of half a voxel length.
 std::vector<Vec3> axisThrough(const Ridge& ridge, const std::vector<bool>& isBlocked, const std::vector<Vec3>& places,
                               const char* polarity, const TubePathOptions& options, const Progress& progress)
 {
@@ -276,8 +279,8 @@ std::vector<Vec3> axisThrough(const Ridge& ridge, const std::vector<bool>& isBlo
   return resampled(path, 0.5 * voxelLength(grid));
 }
 
-/// The radii near that of the tube where it comes nearest to the places: those that a tube can have that runs from one
-/// to the next.
+/// Returns the range of radii around those of the path where it is nearest to the places: the plausible radii of a tube
+/// that runs from one place to the next.
 RadiusRange radiiNearPlaces(const FluxField& field, const std::vector<Vec3>& path, const std::vector<double>& radii,
                             const std::vector<Vec3>& places)
 {

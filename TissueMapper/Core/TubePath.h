@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Vessels and nerves as paths between a few points: minimal paths through the flux of the image's gradient, drawn to
+/// Vessels and nerves traced between a few points: minimal paths through the flux of the image's gradient, refined to
 /// the axis of the tube, with its radius (Audette et al., MICCAI 2003 workshop paper, section 4).
 
 #include "Progress.h"
@@ -13,27 +13,27 @@ namespace surgicalmesher
 
 enum class Polarity
 {
-  Bright,   ///< the tube is brighter than what is around it
-  Dark,     ///< or darker
-  Automatic ///< whichever of the two the flux at the points says
+  Bright,   ///< the tube is brighter than its surroundings
+  Dark,     ///< the tube is darker than its surroundings
+  Automatic ///< chosen by the flux at the given points
 };
 
 /// What the front runs along.
 enum class Potential
 {
   Flux,     ///< flux of the gradient into spheres: axes of tubes
-  Gradient, ///< magnitude of the gradient: edges, as minimal paths had it before flux
-  Intensity ///< the smoothed image between its median and its value at the points
+  Gradient, ///< magnitude of the gradient: edges, the classical potential of minimal paths
+  Intensity ///< the smoothed image, from its median to its value at the points
 };
 
 struct TubePathOptions
 {
-  double minimumRadius = 0; ///< of tubes, mm; 0: half a voxel
-  double maximumRadius = 0; ///< of tubes, mm; 0: three and a half voxels
+  double minimumRadius = 0; ///< of tubes, mm; 0: half a voxel length
+  double maximumRadius = 0; ///< of tubes, mm; 0: three and a half voxel lengths
   Polarity polarity = Polarity::Automatic;
   Potential potential = Potential::Flux;
-  double snapDistance = 2; ///< mm: how far a point may be moved to the tube; 0 leaves points where they are
-  double margin = 30;      ///< mm: the path is sought in the box of its points, larger by this on each side
+  double snapDistance = 2; ///< largest distance (mm) by which a point is moved to the tube; 0: points stay
+  double margin = 30;      ///< enlargement (mm) on each side of the bounding box of the points, which limits the search
 };
 
 /// A tube along a polyline; world frame, mm.
@@ -45,13 +45,14 @@ struct TubePath
   bool isBright = true;
 };
 
-/// `places`: two or more, in the order in which the tube runs through them. No front enters `blocked` tubes. Throws
-/// InputError for places outside the image, all in one place along the tube, where there is none at all, or where blocked
-/// tubes leave no way from one to the next. The same bytes whatever the number of threads.
+/// Traces a tube through `places` (world, mm), two or more in the order of the tube. The path enters no tube in
+/// `blocked`. Throws InputError for places outside the image, places that coincide along the tube, a place where no
+/// tube is found, and if blocked tubes leave no way from one place to the next; UsageError if the smallest radius is
+/// above the largest. The result is bitwise the same for any number of threads.
 TubePath traceTube(const ScalarImage& image, const std::vector<Vec3>& places, const std::vector<TubePath>& blocked,
                    const TubePathOptions& options, const Progress& progress = {});
 
-/// Bytes that traceTube() needs at its peak.
+/// Peak memory of traceTube(), bytes.
 double tubePathMemory(const Grid& grid, const std::vector<Vec3>& places, const TubePathOptions& options);
 
 } // namespace surgicalmesher

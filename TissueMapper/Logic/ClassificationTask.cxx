@@ -63,7 +63,8 @@ TaskCheck checkTraining(Node* parameters)
   return {};
 }
 
-/// Every second or third voxel, so that they are about 2 mm apart: means would mix what thresholds have to part.
+/// Subsamples the volume to voxels of about 2 mm. Takes every second or third voxel, not means, which would mix the
+/// brightnesses that thresholds have to separate.
 vtkSmartPointer<vtkMRMLScalarVolumeNode> coarseCopyForRun(vtkMRMLScalarVolumeNode* volume)
 {
   const auto copy = copyForRun(volume);
@@ -151,7 +152,8 @@ void ClassificationTask::deliverCompartments(vtkMRMLTissueMapperNode* parameters
   showTissueColors(compartments, compartmentTable());
 }
 
-/// The file of the label map has names and colours as well, but the host reads them from segmentations only.
+/// Names and colours are taken from the file of names: the host reads those in the label map's file for segmentations
+/// only.
 void ClassificationTask::deliverTissues(vtkMRMLTissueMapperNode* parameters)
 {
   const std::vector<vtkMRMLScalarVolumeNode*> images = parameters->GetImages();

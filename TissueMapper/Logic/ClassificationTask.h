@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Tissues from images and training points, or only the compartments that they may be in, by TissueMapperCLI.
+/// Finds tissues from images and training points, or only the compartments that admit them, by TissueMapperCLI.
 
 #include "PanelTask.h"
 #include "VolumeNodes.h"
@@ -13,7 +13,7 @@ class vtkMRMLScalarVolumeNode;
 namespace surgicalmesher
 {
 
-/// What keeps an image from being read in a run.
+/// Returns the reason why an image cannot be used as input of a run.
 TaskCheck checkImage(vtkMRMLScalarVolumeNode* image);
 
 class ClassificationTask : public PanelTask
@@ -22,12 +22,12 @@ public:
   enum Wanted
   {
     Tissues,
-    Compartments ///< from images in voxels of 2 mm, for a look
+    Compartments ///< for a preview, from images in voxels of about 2 mm
   };
   explicit ClassificationTask(Wanted wanted) : PanelTask("TissueMapperCLI"), m_Wanted(wanted) {}
 
   TaskCheck findProblem(vtkMRMLTissueMapperNode* parameters) override;
-  /// Of the run that completed last: the classes that no voxel is of.
+  /// Classes without any voxel in the last completed run.
   const std::vector<std::string>& emptyClasses() const { return m_EmptyClasses; }
 
 protected:

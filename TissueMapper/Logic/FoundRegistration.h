@@ -4,10 +4,10 @@
 namespace surgicalmesher
 {
 
-/// What LocalRegistrationCLI reports of a registration.
+/// Result of a registration, as reported by LocalRegistrationCLI.
 struct FoundRegistration
 {
-  int agreeingStarts = 0; ///< of the other starts, how many lead to the same pose
+  int agreeingStarts = 0; ///< how many of the other starts lead to the same pose
   int otherStarts = 0;
   double scale = 1; ///< from the fixed image to the moving one
 };

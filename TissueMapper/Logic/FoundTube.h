@@ -7,7 +7,7 @@
 namespace surgicalmesher
 {
 
-/// What TubePathCLI reports of a tube; lengths in mm.
+/// Result of tracing a tube, as reported by TubePathCLI; lengths in mm.
 struct FoundTube
 {
   bool isBright = false;

@@ -14,7 +14,7 @@ PanelTask::PanelTask(const std::string& module) : m_Module(module)
 {
   m_Ended->SetClientData(this);
   m_Ended->SetCallback([](vtkObject*, unsigned long, void* self, void*) { static_cast<PanelTask*>(self)->end(); });
-  m_Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, m_Ended, 1); // before the panel
+  m_Run->AddObserver(vtkSurgicalMesherRun::CompletedEvent, m_Ended, 1); // priority above that of the panel's observer
 }
 
 PanelTask::~PanelTask() { m_Run->RemoveObserver(m_Ended); }
@@ -29,7 +29,7 @@ TaskCheck PanelTask::start(vtkMRMLAbstractLogic* module, vtkMRMLTissueMapperNode
   }
   catch (const Error& error)
   {
-    m_Run->SetCommandLineLogic(nullptr); // lets go of the nodes
+    m_Run->SetCommandLineLogic(nullptr); // releases the nodes
     this->forgetResults();
     return { TaskCheck::Refused, error.what() };
   }
@@ -46,7 +46,7 @@ void PanelTask::end()
   }
   catch (const Error& error)
   {
-    m_Run->SetErrorText(error.what()); // somebody else took the files away
+    m_Run->SetErrorText(error.what()); // the result files are missing or unreadable
   }
   this->forgetResults();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the panel can do, each by a command-line module in a process of its own.
+/// A task of the panel, run by a command-line module in a process of its own.
 
 #include <vtkNew.h>
 #include <vtkWeakPointer.h>
@@ -15,7 +15,7 @@ class vtkSurgicalMesherRun;
 namespace surgicalmesher
 {
 
-/// What keeps a task from being run.
+/// The reason why a task cannot be started.
 struct TaskCheck
 {
   enum Problem
@@ -25,15 +25,15 @@ struct TaskCheck
     NoImage,     ///< no image is chosen
     NoVoxels,    ///< the image `name` has none
     UnderWarp,   ///< a transform of the volume `name` isn't linear
-    OtherGrid,   ///< the image `name` has other voxels than the first
+    OtherGrid,   ///< the image `name` has another grid than the first
     NoTraining,  ///< no training point is placed
     NoClassFile, ///< the file `name` cannot be read
     FewPoints,   ///< less than two points on a tube are placed
-    RadiiOdd,    ///< the smallest radius is above the largest, or there is one without the other
-    NoMoving,    ///< no image to be moved is chosen
-    SameImage,   ///< the image `name` is to be moved onto itself
+    RadiiOdd,    ///< the smallest radius is above the largest, or only one of them is given
+    NoMoving,    ///< no moving image is chosen
+    SameImage,   ///< the image `name` is chosen as both fixed and moving image
     NoTissues,   ///< no label map that a tube could join
-    Refused      ///< the core's own sentence is `name`
+    Refused      ///< the input is invalid; `name` is the error message
   };
   Problem problem = None;
   std::string name;
@@ -50,16 +50,18 @@ public:
   const std::string& module() const { return m_Module; }
   vtkSurgicalMesherRun* run() const { return m_Run; }
 
+  /// Returns the first reason why the task cannot be started; None if it can.
   virtual TaskCheck findProblem(vtkMRMLTissueMapperNode* parameters) = 0;
-  /// `module` is the command-line module's logic. By the time that others see the run's CompletedEvent, if they observe
-  /// it with the default priority, its results have been delivered.
+  /// Starts the run; `module` is the logic of the command-line module. Results are delivered before observers of the
+  /// run's CompletedEvent with the default priority are called.
   TaskCheck start(vtkMRMLAbstractLogic* module, vtkMRMLTissueMapperNode* parameters);
 
 protected:
-  /// Fills the run. Throws an Error if there is no room for its files.
+  /// Sets the inputs and outputs of the run. Throws an Error if its temporary files cannot be written.
   virtual void prepare(vtkMRMLTissueMapperNode* parameters) = 0;
-  /// The run has completed.
+  /// Called when the run has completed: puts its results into the scene.
   virtual void deliver(vtkMRMLTissueMapperNode* parameters) = 0;
+  /// Called when the run has ended or could not be prepared.
   virtual void forgetResults() = 0;
 
 private:
@@ -68,7 +70,7 @@ private:
   std::string m_Module;
   vtkNew<vtkSurgicalMesherRun> m_Run;
   vtkNew<vtkCallbackCommand> m_Ended;
-  vtkWeakPointer<vtkMRMLTissueMapperNode> m_Parameters; ///< of the run
+  vtkWeakPointer<vtkMRMLTissueMapperNode> m_Parameters; ///< parameter node of the current run
 };
 
 } // namespace surgicalmesher

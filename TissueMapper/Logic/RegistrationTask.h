@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// One image brought onto another, by LocalRegistrationCLI.
+/// Registers one image to another, by LocalRegistrationCLI.
 
 #include "FoundRegistration.h"
 #include "PanelTask.h"
@@ -15,7 +15,7 @@ public:
   RegistrationTask() : PanelTask("LocalRegistrationCLI") {}
 
   TaskCheck findProblem(vtkMRMLTissueMapperNode* parameters) override;
-  /// Of the run that completed last.
+  /// Result of the last completed run.
   const FoundRegistration& found() const { return m_Found; }
 
 protected:

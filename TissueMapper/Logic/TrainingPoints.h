@@ -18,11 +18,11 @@ struct TrainedClass
   int pointCount;
 };
 
-/// The classes of the points that are placed, in the order of first appearance; points without a label are of the class
-/// "". Case doesn't count. None for null.
+/// Counts the placed points by class, in the order of first appearance, ignoring case; points without a label have the
+/// class "". Returns an empty vector for a null node.
 VTK_SLICER_TISSUEMAPPER_MODULE_LOGIC_EXPORT std::vector<TrainedClass> countTrainingPoints(vtkMRMLMarkupsNode* training);
 
-/// The classes that a head is usually made of, and whose compartments are known by their names.
+/// The usual classes of a head, whose compartments are known by their names.
 VTK_SLICER_TISSUEMAPPER_MODULE_LOGIC_EXPORT std::vector<std::string> usualClasses();
 
 } // namespace surgicalmesher

@@ -47,7 +47,7 @@ FoundTube readReport(const std::string& file)
   return found;
 }
 
-/// Those that voxels are of.
+/// Returns the tissues that have voxels.
 TissueTable tissuesOf(vtkMRMLLabelMapVolumeNode* labelMap)
 {
   const TissueTable table = tissueTable(labelMap);
@@ -60,7 +60,7 @@ TissueTable tissuesOf(vtkMRMLLabelMapVolumeNode* labelMap)
   return present;
 }
 
-/// A curve that shows its course, not its many points.
+/// Adds a curve that is displayed as a line, with inconspicuous points.
 vtkMRMLMarkupsCurveNode* addCurve(vtkMRMLScene* scene, const std::string& name)
 {
   auto* curve = vtkMRMLMarkupsCurveNode::SafeDownCast(
@@ -113,7 +113,7 @@ void TubeTask::prepare(vtkMRMLTissueMapperNode* parameters)
   if (m_Wanted == PathAndTissue) this->prepareTissues(parameters);
 }
 
-/// The label is that of the tissue of this name, or the first that is free after all others.
+/// The label is that of the tissue with the tube's name, or else the one after the largest label in use.
 void TubeTask::prepareTissues(vtkMRMLTissueMapperNode* parameters)
 {
   vtkMRMLLabelMapVolumeNode* tissues = parameters->GetLabelMapNode(Node::LabelMapRole());
@@ -146,7 +146,7 @@ void TubeTask::deliverPath(vtkMRMLTissueMapperNode* parameters)
   if (!curve) curve = addCurve(parameters->GetScene(), m_Name);
   const int wasModifying = curve->StartModify();
   curve->SetAndObserveTransformNodeID(nullptr);
-  curve->SetCurveTypeToLinear(); // its points are close to each other
+  curve->SetCurveTypeToLinear(); // the points are dense
   curve->RemoveAllControlPoints();
   for (const Vec3& p : points) curve->AddControlPoint(-p.x, -p.y, p.z);
   curve->EndModify(wasModifying);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Vessels and nerves from points on them, by TubePathCLI.
+/// Traces vessels and nerves from points on them, by TubePathCLI.
 
 #include "FoundTube.h"
 #include "PanelTask.h"
@@ -16,12 +16,12 @@ public:
   enum Wanted
   {
     Path,
-    PathAndTissue ///< the tube joins the parameter node's label map as well
+    PathAndTissue ///< also adds the tube to the parameter node's label map
   };
   explicit TubeTask(Wanted wanted) : PanelTask("TubePathCLI"), m_Wanted(wanted) {}
 
   TaskCheck findProblem(vtkMRMLTissueMapperNode* parameters) override;
-  /// Of the run that completed last.
+  /// Result of the last completed run.
   const FoundTube& found() const { return m_Found; }
 
 protected:
@@ -38,7 +38,7 @@ private:
   std::string m_PathFile, m_ReportFile;
   std::string m_Name;
   VolumeResult m_LabelMap;
-  TissueTable m_Tissues; ///< those that there were
+  TissueTable m_Tissues; ///< of the label map before the run
   Label m_Label = 0;
   FoundTube m_Found;
 };

@@ -22,7 +22,7 @@ using namespace surgicalmesher;
 namespace
 {
 
-/// What each slice view shows.
+/// Returns the nodes that define what each slice view shows.
 std::vector<vtkMRMLSliceCompositeNode*> sliceViews(vtkMRMLScene* scene)
 {
   std::vector<vtkMRMLNode*> nodes;

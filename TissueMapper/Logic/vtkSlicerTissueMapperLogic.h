@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Runs the command-line modules of Tissue Mapper for a parameter node, and makes their results legible.
+/// Runs the command-line modules of Tissue Mapper for a parameter node, and displays their results.
 
 #include "FoundRegistration.h"
 #include "FoundTube.h"
@@ -30,36 +30,38 @@ public:
   vtkTypeMacro(vtkSlicerTissueMapperLogic, vtkSlicerModuleLogic);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The scene's first parameter node, made if there is none; null without a scene.
+  /// Returns the scene's first parameter node; adds one if there is none. Null without a scene.
   vtkMRMLTissueMapperNode* ParameterNode();
 
   enum Task
   {
-    Classify,         ///< the parameter node's label map from its images and training points
-    FindCompartments, ///< where the classes may be, in coarse voxels, as a label map
-    Register,         ///< the moving image onto the fixed one
-    TraceTube,        ///< the curve along a tube from its points
-    AddTube           ///< the same, and the tube becomes a tissue of the label map
+    Classify,         ///< finds the label map of the tissues from images and training points
+    FindCompartments, ///< finds the compartments, in coarse voxels, as a label map
+    Register,         ///< registers the moving image to the fixed one
+    TraceTube,        ///< finds the curve along a tube from its points
+    AddTube           ///< the same, and adds the tube to the label map as a tissue
   };
 
+  /// Returns the first reason why a task cannot be started; None if it can.
   surgicalmesher::TaskCheck FindProblem(Task task, vtkMRMLTissueMapperNode* parameters);
-  /// Starts a run. The nodes chosen for results keep their contents until it completes; those that are not chosen are
-  /// made then. Returns what kept it from starting; a run that is busy goes on, and nothing is said.
+  /// Starts a run. The nodes chosen for results keep their contents until the run completes; where none is chosen, a
+  /// new node is added then. Returns the reason why the run could not be started. Does nothing if a run of the task is
+  /// in progress.
   surgicalmesher::TaskCheck Start(Task task, vtkMRMLTissueMapperNode* parameters);
-  /// The one run of a task. By the time that others see its CompletedEvent, if they observe it with the default
-  /// priority, the results have been finished.
+  /// The run of a task; there is one per task. Results are delivered before observers of its CompletedEvent with the
+  /// default priority are called.
   vtkSurgicalMesherRun* GetRun(Task task) const;
 
-  /// Puts a label map, tissues or compartments, half transparent over every slice view; null for none.
+  /// Shows a label map (tissues or compartments) in every slice view, half transparent; null: none.
   void ShowLabelMap(vtkMRMLNode* labelMap);
-  /// Puts the registered image half transparent over the fixed one in every slice view.
+  /// Shows the registered image over the fixed one in every slice view, half transparent.
   void ShowRegistered(vtkMRMLTissueMapperNode* parameters);
 
-  /// Of the classification that completed last: the classes that no voxel is of.
+  /// Classes without any voxel in the last completed classification.
   std::vector<std::string> GetEmptyClasses() const;
-  /// Of the registration that completed last.
+  /// Result of the last completed registration.
   const surgicalmesher::FoundRegistration& GetFoundRegistration() const;
-  /// Of the tube that a task has followed last.
+  /// Result of the last completed run of TraceTube or AddTube.
   const surgicalmesher::FoundTube& GetFoundTube(Task task) const;
 
 protected:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What the panel of Tissue Mapper shows. It lives in the scene and is saved with it.
+/// Parameters of the Tissue Mapper panel. The node is part of the scene and saved with it.
 
 #include "vtkMRMLSurgicalMesherParameterNode.h"
 #include "vtkSlicerTissueMapperModuleMRMLExport.h"
@@ -20,7 +20,7 @@ public:
 
   vtkMRMLNode* CreateNodeInstance() override;
   const char* GetNodeTagName() override { return "TissueMapper"; }
-  /// Markups tell of their points by events of their own; all of them arrive here as InputModifiedEvent.
+  /// Forwards changes of the inputs as InputModifiedEvent; markups report changes of their points by several events.
   void ProcessMRMLEvents(vtkObject* caller, unsigned long event, void* callData) override;
 
   enum Events
@@ -28,36 +28,34 @@ public:
     InputModifiedEvent = vtkCommand::UserEvent + 20 ///< an input's points, voxels or transform changed
   };
 
-  /// Roles of the nodes referred to.
+  /// Roles of the referenced nodes.
   static const char* ImageRole() { return "image"; }        ///< scalar volume: MR of a head, or a CT
-  static const char* SecondImageRole() { return "image2"; } ///< further ones on the same grid
+  static const char* SecondImageRole() { return "image2"; } ///< further images on the same grid
   static const char* ThirdImageRole() { return "image3"; }
   static const char* FourthImageRole() { return "image4"; }
   static const char* TrainingRole() { return "training"; } ///< markups; each point's label is the name of its class
-  static const char* LabelMapRole() { return "labelMap"; } ///< the tissues; a new one where there is none
+  static const char* LabelMapRole() { return "labelMap"; } ///< label map of the tissues; if empty, a new node is added
 
-  static const char* CompartmentsRole()
-  {
-    return "compartments";
-  } ///< label map: where classes may be, in coarse voxels
+  /// Label map of the compartments, in coarse voxels.
+  static const char* CompartmentsRole() { return "compartments"; }
 
-  static const char* FixedImageRole() { return "fixedImage"; } ///< scalar volumes: one stays, the other comes onto it
+  /// Scalar volumes: the moving image is registered to the fixed one.
+  static const char* FixedImageRole() { return "fixedImage"; }
   static const char* MovingImageRole() { return "movingImage"; }
-  static const char* TargetRole()
-  {
-    return "target";
-  } ///< markups; the first point is what counts most; none: all alike
-  static const char* RegisteredImageRole() { return "registeredImage"; } ///< a new one where there is none
+  /// Markups; the first point is the target. If empty, the whole image counts equally.
+  static const char* TargetRole() { return "target"; }
+  static const char* RegisteredImageRole() { return "registeredImage"; } ///< if empty, a new node is added
 
-  static const char* TubeImageRole() { return "tubeImage"; }   ///< where a tube is followed; none: the first image
-  static const char* TubePointsRole() { return "tubePoints"; } ///< markups: points on the tube, in its order
-  static const char* TubePathRole() { return "tubePath"; }     ///< curve along its axis; a new one where there is none
+  /// Image in which the tube is traced; if empty, the first image.
+  static const char* TubeImageRole() { return "tubeImage"; }
+  static const char* TubePointsRole() { return "tubePoints"; } ///< markups: points on the tube, in order along it
+  static const char* TubePathRole() { return "tubePath"; }     ///< curve along the axis; if empty, a new node is added
 
-  /// Those that are chosen, the first one first.
+  /// Returns the chosen images, the first image first.
   std::vector<vtkMRMLScalarVolumeNode*> GetImages();
   vtkMRMLMarkupsNode* GetMarkupsNode(const char* role);
 
-  /// The class of which points are placed.
+  /// Class of the points being placed.
   vtkGetMacro(TrainingClass, std::string);
   vtkSetMacro(TrainingClass, std::string);
   /// CSV file with the table of classes; empty for none.
@@ -70,30 +68,30 @@ public:
   /// Whether each class is admitted in its compartment only.
   vtkGetMacro(UseCompartments, bool);
   vtkSetMacro(UseCompartments, bool);
-  /// Whether contiguity and limits of the table count.
+  /// Whether the contiguity and limits of the table are applied.
   vtkGetMacro(UseContiguity, bool);
   vtkSetMacro(UseContiguity, bool);
-  /// Whether what contiguity takes away goes only to classes that are near.
+  /// Whether voxels that contiguity takes from a class go to classes nearby.
   vtkGetMacro(UseProximity, bool);
   vtkSetMacro(UseProximity, bool);
 
-  /// Whether compartments follow the points and options at once.
+  /// Whether compartments are updated at once when points or options change.
   vtkGetMacro(CompartmentsAtOnce, bool);
   vtkSetMacro(CompartmentsAtOnce, bool);
 
-  /// Of the sphere around the target, mm.
+  /// Radius of the sphere around the target, mm.
   vtkGetMacro(TargetRadius, double);
   vtkSetMacro(TargetRadius, double);
-  /// "centre" or "principal": what the first guesses of registration lay on each other.
+  /// "centre" or "principal": what the initial poses of the registration align.
   vtkGetMacro(RegistrationStart, std::string);
   vtkSetMacro(RegistrationStart, std::string);
 
-  /// The image that a tube is followed in; null if there is none.
+  /// Returns the image in which a tube is traced; null if there is none.
   vtkMRMLScalarVolumeNode* GetTubeImage();
-  /// Of the tube, as a tissue and as a curve.
+  /// Name of the tube, as a tissue and as a curve.
   vtkGetMacro(TubeName, std::string);
   vtkSetMacro(TubeName, std::string);
-  /// mm; 0 for both: half a voxel to three and a half voxels.
+  /// Bounds of the radius, mm; 0 for both: from half a voxel to three and a half voxels.
   vtkGetMacro(MinimumRadius, double);
   vtkSetMacro(MinimumRadius, double);
   vtkGetMacro(MaximumRadius, double);
@@ -101,15 +99,15 @@ public:
   /// "auto", "bright" or "dark".
   vtkGetMacro(Polarity, std::string);
   vtkSetMacro(Polarity, std::string);
-  /// "flux", "gradient" or "intensity": what the path follows.
+  /// "flux", "gradient" or "intensity": the potential that the path follows.
   vtkGetMacro(TubePotential, std::string);
   vtkSetMacro(TubePotential, std::string);
-  /// mm; how far points may be moved onto the tube, and by how much the box that the path lies in is larger than theirs.
+  /// Largest distance by which points are moved to the tube, and margin of the search box around the points, mm.
   vtkGetMacro(TubeSnap, double);
   vtkSetMacro(TubeSnap, double);
   vtkGetMacro(TubeMargin, double);
   vtkSetMacro(TubeMargin, double);
-  /// Whether the path follows the points at once.
+  /// Whether the path is updated at once when the points change.
   vtkGetMacro(TraceAtOnce, bool);
   vtkSetMacro(TraceAtOnce, bool);
 

@@ -14,10 +14,10 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr std::size_t kNumberLength = 20; ///< of a data field that CalculiX reads
+constexpr std::size_t kNumberLength = 20; ///< length of a data field that CalculiX reads
 constexpr std::size_t kIdsPerLine = 16;
 
-/// Abaqus's number of the face opposite to each corner: S1 has the corners 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1.
+/// Abaqus's number of the face opposite each corner: S1 has the corners 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1.
 constexpr int kFaceNumber[4] = { 3, 4, 2, 1 };
 
 int faceNumber(const Cell& element, int face)
@@ -27,7 +27,8 @@ int faceNumber(const Cell& element, int face)
 
 std::string number(double value) { return textOf(value, kNumberLength); }
 
-/// One card for all cells of each of the types that occur: each cell by its number, from `first` on, and its nodes.
+/// Appends one card for the cells of each type that occurs; each cell with its number, counted from `first`, and its
+/// nodes.
 void appendCells(std::string& text, const std::vector<Cell>& cells, std::size_t first, const std::string& set,
                  const std::map<std::size_t, std::string>& types)
 {
@@ -95,7 +96,7 @@ void appendSets(std::string& text, const FiniteElementModel& model)
   }
 }
 
-/// Neo-Hooke: U = C10 (I1 - 3) + (J - 1)^2 / D1 with C10 half the shear modulus, D1 two over the bulk modulus.
+/// Neo-Hooke: U = C10 (I1 - 3) + (J - 1)^2 / D1, where C10 is half the shear modulus and D1 two over the bulk modulus.
 void appendMaterial(std::string& text, const Material& material)
 {
   const double E = material.youngsModulus, nu = material.poissonsRatio;
@@ -105,7 +106,7 @@ void appendMaterial(std::string& text, const Material& material)
   text += "*DENSITY\n" + number(material.density) + "\n";
 }
 
-/// Of the axes and the diagonals, the one farthest from all edges: what the sides of a section are turned to.
+/// Returns the axis or diagonal whose smallest angle to the edges is largest, to orient the sides of a section.
 Vec3 acrossAll(const Beam& beam, const std::vector<Vec3>& points)
 {
   Vec3 best;
@@ -125,7 +126,7 @@ Vec3 acrossAll(const Beam& beam, const std::vector<Vec3>& points)
   return best;
 }
 
-/// A beam's section is a square of the same second moment of area: of round ones, Abaqus reads the radius and CalculiX
+/// Uses a square section with the same second moment of area: for round sections, Abaqus reads the radius and CalculiX
 /// the diameter.
 void appendBeamSection(std::string& text, const Beam& beam, const FiniteElementModel& model)
 {

@@ -16,10 +16,10 @@ namespace
 
 constexpr std::size_t kLongestComponent = 32;
 constexpr std::size_t kNodeColumns = 9, kIdColumns = 10;
-constexpr std::size_t kIdsPerLine = 8; ///< in components, and in the first line of an element
+constexpr std::size_t kIdsPerLine = 8; ///< in components, and in the first line of an element's nodes
 constexpr std::size_t kCoordinateColumns = 21;
 
-/// An element type and its nodes: some elements are degenerate ones of more nodes.
+/// An element type and the order of its nodes; some elements are degenerate forms of types with more nodes.
 struct Type
 {
   int number;
@@ -44,7 +44,7 @@ std::string right(const std::string& text, std::size_t width)
 
 std::string whole(std::size_t number, std::size_t width) { return right(std::to_string(number), width); }
 
-/// Numbers of the element types that occur, counted from 1, by Ansys's own.
+/// The numbers of the element types that occur, counted from 1, by Ansys's own numbers.
 using Types = std::map<int, std::size_t>;
 
 Types typesOf(const FiniteElementModel& model)
@@ -78,7 +78,7 @@ void appendNodes(std::string& text, const std::vector<Vec3>& points)
   text += "N,R5.3,LOC,       -1,\n";
 }
 
-/// What an element's line has before its nodes.
+/// The fields of an element's line before its nodes.
 struct Head
 {
   std::size_t number, type, material, section;
@@ -98,7 +98,7 @@ void appendElement(std::string& text, const Head& head, const std::vector<int>& 
   text += "\n";
 }
 
-/// Sections are numbered: one that is not there, as solids need none, then those of shells, then those of curves.
+/// Section numbers: 1 is undefined, as solids need no section; then follow those of shells, then those of curves.
 std::size_t sectionOfShell(std::size_t shell) { return shell + 2; }
 std::size_t sectionOfBeam(const FiniteElementModel& model, std::size_t beam)
 {
@@ -143,7 +143,7 @@ void appendElements(std::string& text, const FiniteElementModel& model, const Ty
   text += right("-1", kNodeColumns) + "\n";
 }
 
-/// Of a neo-Hookean material the shear modulus and two over the bulk modulus.
+/// For a neo-Hookean material, the constants are the shear modulus and two over the bulk modulus.
 void appendMaterials(std::string& text, const std::vector<Material>& materials)
 {
   for (std::size_t m = 0; m < materials.size(); ++m)
@@ -169,7 +169,7 @@ void appendSections(std::string& text, const FiniteElementModel& model)
             "\nSECDATA," + textOf(model.shells[s].thickness) + "," + std::to_string(model.shells[s].material + 1) +
             "\n";
   }
-  for (std::size_t b = 0; b < model.beams.size(); ++b) // of a beam the radius, of a truss the area
+  for (std::size_t b = 0; b < model.beams.size(); ++b) // the radius of a beam, the area of a truss
   {
     const Beam& beam = model.beams[b];
     text += "SECTYPE," + std::to_string(sectionOfBeam(model, b)) + (beam.isTruss ? ",LINK,," : ",BEAM,CSOLID,") +

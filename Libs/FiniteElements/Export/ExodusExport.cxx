@@ -19,13 +19,13 @@ namespace
 
 using Ids = std::vector<int>;
 
-/// Cells of one shape, with numbers from 1 in the mesh's order; solids before shells and these before curves.
+/// Cells of one shape, numbered from 1: solids in the order of the mesh, then shells, then curves.
 struct Block
 {
   std::string name, type;
   std::vector<Cell> cells;
   Ids numbers;
-  std::string attribute; ///< what `value` is, if there is one
+  std::string attribute; ///< name of `value`; empty if there is none
   double value = 0;
 };
 
@@ -34,7 +34,7 @@ const std::map<std::string, std::string> kSolids{
 };
 const std::map<std::size_t, std::string> kFaces{ { 3, "TRI3" }, { 4, "SHELL4" }, { 6, "TRI6" } };
 
-/// The sides of Exodus by the number of the face: tetrahedra, wedges, hexahedra.
+/// Returns the side number of Exodus for a face of a tetrahedron, wedge or hexahedron.
 int sideOf(const Cell& element, int face)
 {
   constexpr int kTetrahedron[4] = { 2, 3, 1, 4 }, kWedge[5] = { 4, 5, 1, 2, 3 }, kHexahedron[6] = { 5, 6, 1, 2, 3, 4 };
@@ -87,7 +87,7 @@ std::vector<Block> blocksOf(const FiniteElementModel& model)
   return blocks;
 }
 
-/// Names as the library takes them.
+/// Names in the form that the library requires.
 class Names
 {
 public:
@@ -104,13 +104,13 @@ private:
   std::vector<char*> m_Pointers;
 };
 
-/// An Exodus file that is being written.
+/// An Exodus file being written.
 class ExodusFile
 {
 public:
   ExodusFile(const std::string& file, const std::string& place) : m_File(file)
   {
-    ex_opts(EX_DEFAULT); // failures are told by what calls return
+    ex_opts(EX_DEFAULT); // failures are reported by return values only
     int wordInMemory = sizeof(double), wordInFile = sizeof(double);
     m_Id = ex_create(place.c_str(), EX_CLOBBER | EX_LARGE_MODEL, &wordInMemory, &wordInFile);
     require(m_Id);
@@ -182,7 +182,7 @@ public:
   void end() { require(ex_close(std::exchange(m_Id, -1))); }
 
 private:
-  static constexpr int kLongest = 100; ///< a set's name and a shape
+  static constexpr int kLongest = 100; ///< for the name of a set plus that of a shape
 
   void require(int status) const
   {
@@ -231,7 +231,7 @@ void writeExodus(const FiniteElementModel& model, const std::string& file, const
   const std::vector<Block> blocks = blocksOf(model);
   Ids numbers;
   for (const Block& block : blocks) numbers.insert(numbers.end(), block.numbers.begin(), block.numbers.end());
-  Ids place(numbers.size()); // of elements in the file, from 1
+  Ids place(numbers.size()); // position of each element in the file, from 1
   for (std::size_t i = 0; i < numbers.size(); ++i) place[numbers[i] - 1] = static_cast<int>(i + 1);
 
   ExodusFile exodus(file, destination(file));

@@ -7,10 +7,10 @@
 namespace surgicalmesher
 {
 
-/// A block for each section, of one shape, each shell and each curve, with the attribute thickness or radius (mm); sets
-/// of elements, sides and nodes, all with their names. Blocks come one after another, so that elements have another order
-/// than in the mesh, whose numbers are in the element map. The format has no place for materials and boundary
-/// conditions. Classic netCDF files with offsets of 64 bits.
+/// Writes a block for each section and shape, each shell and each curve, the latter two with the attribute thickness or
+/// radius, and sets of elements, sides and nodes, all with their names. Elements are ordered by block; the element map
+/// holds their numbers in the mesh. The format has no materials and boundary conditions. The files are classic netCDF
+/// with 64-bit offsets.
 void writeExodus(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 
 } // namespace surgicalmesher

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Text that reads back as the same numbers, whatever the host's locale.
+/// Text output that reads back as the same numbers, independent of the host's locale.
 
 #include "Cell.h"
 #include "TextNumbers.h"
@@ -24,7 +24,7 @@ inline std::ostream& operator<<(std::ostream& out, const Vec3& p)
   return out << textOf(p.x) << ' ' << textOf(p.y) << ' ' << textOf(p.z);
 }
 
-/// Point ids, counted from 1, with a blank before each.
+/// Writes point ids counted from 1, each preceded by a blank.
 struct FromOne
 {
   const Cell& ids;

@@ -33,7 +33,7 @@ std::string typeOfFace(const Cell& face) { return face.size() == 3 ? "tri3" : fa
 
 std::string beamMaterialName(const Beam& beam) { return beam.name + "_material"; }
 
-/// FEBio has a beam's section in its material. A round one's shear area is 0.9 of its area.
+/// FEBio stores the section of a beam in its material. The shear area of a round section is 0.9 of its area.
 void appendBeamMaterial(std::string& text, const Beam& beam, const FiniteElementModel& model, std::size_t id)
 {
   const Material& material = model.materials[beam.material];
@@ -86,7 +86,7 @@ void appendNodes(std::string& text, const std::vector<Vec3>& points)
   text += "    </Nodes>\n";
 }
 
-/// Parts: an element belongs to exactly one, the one of its section or shell.
+/// Appends the parts; every element belongs to exactly one, that of its section, shell or curve.
 void appendParts(std::string& text, const FiniteElementModel& model)
 {
   for (const Section& section : model.sections)
@@ -127,7 +127,7 @@ void appendSets(std::string& text, const FiniteElementModel& model)
     for (std::size_t i = 0; i < set.cells.size(); ++i) appendRow(text, typeOfFace(set.cells[i]), set.cells[i], i + 1);
     text += "    </Surface>\n";
   }
-  std::set<std::int32_t> parts; // are element sets of the same name already
+  std::set<std::int32_t> parts; // these are already element sets of the same name
   for (const Section& section : model.sections)
   {
     if (portionsOf(model, model.elementSets[section.elementSet]).size() == 1) parts.insert(section.elementSet);

@@ -16,7 +16,7 @@ namespace surgicalmesher
 namespace
 {
 
-// Gmsh's element types.
+// Element types of Gmsh.
 constexpr int kLine = 1, kPoint = 15;
 int typeOf(const Cell& element)
 {
@@ -25,7 +25,7 @@ int typeOf(const Cell& element)
 }
 int typeOfFace(const Cell& face) { return face.size() == 3 ? 2 : face.size() == 6 ? 9 : 3; }
 
-/// Gmsh has the middle of the edge 23 before that of 13.
+/// In Gmsh, the midpoint of edge 23 precedes that of edge 13.
 Cell inOrderOfGmsh(Cell element)
 {
   if (element.size() == 10) std::swap(element.begin()[8], element.begin()[9]);
@@ -48,7 +48,7 @@ void writeHeader(std::ostream& out, const char* version, const std::vector<Physi
 
 // ---- 4.1 ------------------------------------------------------------------------------------------------------------
 
-/// Entities are beams and pieces, numbered from 1 in their order, and one point for all null-displacement nodes.
+/// Entities are beams and pieces, numbered from 1 in their order, and one point entity for all null-displacement nodes.
 class Gmsh41
 {
 public:
@@ -104,7 +104,7 @@ private:
   {
     m_Out << tags.size();
     for (const std::int32_t tag : tags) m_Out << ' ' << tag;
-    m_Out << " 0\n"; // entities that bound this one: not said
+    m_Out << " 0\n"; // bounding entities are not given
   }
 
   void writeEntities()
@@ -140,7 +140,8 @@ private:
     m_Out << "$EndEntities\n";
   }
 
-  /// The first surface that a point lies on, or else the first volume: index of the piece, volumes after all surfaces.
+  /// Returns for each point the piece that owns it: the first surface on which it lies, otherwise the first volume;
+  /// volumes are indexed after all surfaces.
   Ids owners() const
   {
     Ids owner(m_Points.size(), -1);
@@ -181,7 +182,7 @@ private:
     m_Out << "$EndNodes\n";
   }
 
-  /// Elements of one type in one entity, each after its number.
+  /// Elements of one type in one entity, each with its number.
   struct Block
   {
     int dimension = 0, type = 0;
@@ -189,7 +190,7 @@ private:
     std::vector<std::pair<std::size_t, Cell>> rows;
   };
 
-  /// A block for each type that an entity has.
+  /// Appends a block for each element type of an entity.
   static void addBlocks(std::vector<Block>& blocks, int dimension, std::size_t entity,
                         const std::vector<std::pair<std::size_t, Cell>>& rows)
   {
@@ -309,7 +310,7 @@ std::string gmsh22(const FiniteElementModel& model)
 
 constexpr std::int32_t kFirstElectrode = 100, kFacesOfTissue = 1000;
 
-/// The lower the number, the more a face between two tissues belongs to this one; 0 is outside.
+/// Returns the rank of a tissue: a face between two tissues belongs to the one of lower rank. Label 0 is outside.
 std::int32_t rankInSimnibs(std::int32_t label)
 {
   constexpr std::int32_t kRanked[] = { 1, 2, 9, 3, 4, 8, 7, 6, 10, 5 };
@@ -340,7 +341,7 @@ std::string simnibs(const FiniteElementModel& model)
     names.push_back({ 3, set.ids[0], set.name });
     names.push_back({ 2, set.ids[0] + kFacesOfTissue, set.name });
   }
-  std::vector<std::pair<std::int32_t, Cell>> faces; // after their tags
+  std::vector<std::pair<std::int32_t, Cell>> faces; // each with its tag
   for (const SurfaceSet& surface : model.surfaces)
   {
     if (surface.kind != SetKind::TissueInterface || rankInSimnibs(surface.ids[0]) > rankInSimnibs(surface.ids[1]))

@@ -14,15 +14,15 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr std::size_t kElementColumns = 8; ///< of numbers in nodes and elements
+constexpr std::size_t kElementColumns = 8; ///< per number in nodes and elements
 constexpr std::size_t kColumns = 10;       ///< elsewhere
 constexpr std::size_t kCoordinateColumns = 16;
 constexpr std::size_t kIdsPerLine = 8;
 constexpr std::size_t kShellForm = 16;
 constexpr std::size_t kBeamForm = 1, kTrussForm = 3;
 
-/// The shape of solids of so many nodes: their formulation, and the corners in the order of a hexahedron whose nodes
-/// may coincide.
+/// Formulation of solids with a given number of nodes, and their corners in the order of a hexahedron whose nodes may
+/// coincide.
 struct Solid
 {
   std::size_t form;
@@ -34,7 +34,7 @@ const std::map<std::size_t, Solid> kSolids{ { 4, { 10, { 0, 1, 2, 3, 3, 3, 3, 3 
                                             { 8, { 1, { 0, 1, 2, 3, 4, 5, 6, 7 } } },
                                             { 10, { 16, { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9 } } } };
 
-/// The elements of a section that have one shape.
+/// The elements of one shape in a section.
 struct Part
 {
   Portion portion;
@@ -52,7 +52,7 @@ std::vector<Part> partsOf(const FiniteElementModel& model)
   return parts;
 }
 
-/// A face as faces of no more than four nodes.
+/// Divides a face into faces of at most four nodes.
 std::vector<Cell> linear(const Cell& face)
 {
   if (face.size() != 6) return { face };
@@ -70,7 +70,7 @@ std::string right(const std::string& text, std::size_t width)
 std::string whole(std::size_t number, std::size_t width = kColumns) { return right(std::to_string(number), width); }
 std::string real(double number) { return right(textWithin(number, kColumns), kColumns); }
 
-/// Four nodes of a face, of a triangle the last one twice.
+/// Returns the four nodes of a face; the last node of a triangle is repeated.
 std::string nodesOfFace(const Cell& face, std::size_t width)
 {
   std::string text;
@@ -98,7 +98,7 @@ void appendNodes(std::string& text, const std::vector<Vec3>& points)
   }
 }
 
-/// Ten nodes have a line of their own.
+/// Ten-node elements have their nodes on a separate line.
 void appendSolids(std::string& text, const FiniteElementModel& model, const std::vector<Part>& parts)
 {
   std::vector<std::size_t> part(model.elements.size());
@@ -116,7 +116,7 @@ void appendSolids(std::string& text, const FiniteElementModel& model, const std:
   }
 }
 
-/// Returns the last number; faces of second order are several shells.
+/// Returns the last element number. A second-order face becomes several shells.
 std::size_t appendShells(std::string& text, const FiniteElementModel& model, std::size_t firstPart)
 {
   if (!model.shells.empty()) text += "*ELEMENT_SHELL\n";
@@ -133,7 +133,7 @@ std::size_t appendShells(std::string& text, const FiniteElementModel& model, std
   return next;
 }
 
-/// Beams with the vector that stands for their third node, which trusses don't need.
+/// Appends beams with an orientation vector instead of a third node; trusses need none.
 void appendBeams(std::string& text, const FiniteElementModel& model, std::size_t firstPart, std::size_t lastNumber)
 {
   const std::vector<Vec3>& points = model.content.mesh.points;
@@ -151,8 +151,8 @@ void appendBeams(std::string& text, const FiniteElementModel& model, std::size_t
   }
 }
 
-/// Of a beam the diameters at both ends and those of the hole, of a truss its area. A round section's shear area is 0.9
-/// of its area.
+/// For a beam, writes the outer and inner diameters at both ends, for a truss its area. The shear area of a round
+/// section is 0.9 of its area.
 void appendBeamSection(std::string& text, const Beam& beam, std::size_t number)
 {
   const double diameter = 2 * beam.radius;
@@ -161,7 +161,7 @@ void appendBeamSection(std::string& text, const Beam& beam, std::size_t number)
   else text += real(0.9) + whole(2) + real(1) + "\n" + real(diameter) + real(diameter) + real(0) + real(0) + "\n";
 }
 
-/// A part has a section of its own, with its number.
+/// Every part has a section of its own with the same number.
 void appendPart(std::string& text, const std::string& name, std::size_t number, std::int32_t material)
 {
   text += "*PART\n" + name + "\n" + whole(number) + whole(number) + whole(std::size_t(material) + 1) + "\n";
@@ -190,7 +190,7 @@ void appendParts(std::string& text, const FiniteElementModel& model, const std::
   }
 }
 
-/// Ogden's law with one term of the exponent 2 is the neo-Hookean, its coefficient the shear modulus.
+/// Ogden's law with a single term of exponent 2 is the neo-Hookean law; its coefficient is the shear modulus.
 void appendMaterials(std::string& text, const std::vector<Material>& materials)
 {
   for (std::size_t m = 0; m < materials.size(); ++m)
@@ -198,7 +198,7 @@ void appendMaterials(std::string& text, const std::vector<Material>& materials)
     const Material& material = materials[m];
     const std::string begin = "_TITLE\n" + material.name + "\n" + whole(m + 1) + real(material.density);
     const double E = material.youngsModulus;
-    const double nu = std::min(material.poissonsRatio, 0.49999999); // more digits would round to 0.5
+    const double nu = std::min(material.poissonsRatio, 0.49999999); // values closer to 0.5 would be rounded to 0.5
     if (material.law == MaterialLaw::LinearElastic) text += "*MAT_ELASTIC" + begin + real(E) + real(nu) + "\n";
     else
       text +=

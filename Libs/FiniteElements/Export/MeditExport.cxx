@@ -14,7 +14,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// A section of cells, each with a reference; nothing if there is none.
+/// Writes a section of cells, each with its reference; nothing if there are no cells.
 void writeSection(ExportText& out, const char* title, const std::vector<std::pair<Cell, std::int32_t>>& cells)
 {
   if (cells.empty()) return;

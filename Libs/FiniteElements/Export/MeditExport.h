@@ -7,8 +7,9 @@
 namespace surgicalmesher
 {
 
-/// References: of Vertices, the tag of null-displacement nodes (see SetTags.h) or 0; of Triangles and Quadrilaterals, the
-/// tag of their piece; of Tetrahedra, Prisms and Hexahedra, the label of their tissue. FreeFEM reads tetrahedra alone.
+/// References are the tag of null-displacement nodes (see SetTags.h) or 0 for Vertices, the tag of the curve for Edges,
+/// the tag of the piece for Triangles and Quadrilaterals, and the label of the tissue for Tetrahedra, Prisms and
+/// Hexahedra. Of these volume elements, FreeFEM reads only tetrahedra.
 void writeMedit(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 
 } // namespace surgicalmesher

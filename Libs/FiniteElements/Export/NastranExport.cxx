@@ -13,7 +13,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr std::size_t kWide = 16; ///< columns of a field of a card with an asterisk
+constexpr std::size_t kWide = 16; ///< columns of a field in the large-field format (asterisk)
 constexpr std::size_t kNarrow = 8;
 constexpr std::size_t kFieldsPerLine = 8;
 
@@ -28,13 +28,14 @@ std::string field(const std::string& text, std::size_t width)
 
 std::string wide(double value) { return field(textWithin(value, kWide), kWide); }
 
-/// A card of narrow fields, on as many lines as it needs.
+/// Appends a card in the small-field format, on as many lines as needed.
 void appendCard(std::string& text, const std::string& name, const std::vector<std::string>& fields)
 {
   text += field(name, kNarrow);
   for (std::size_t i = 0; i < fields.size(); ++i)
   {
-    if (i > 0 && i % kFieldsPerLine == 0) text += "+\n" + field("+", kNarrow); // the mark at the line's end is for Gmsh
+    // Gmsh requires the mark at the end of the line
+    if (i > 0 && i % kFieldsPerLine == 0) text += "+\n" + field("+", kNarrow);
     text += field(fields[i], kNarrow);
   }
   text += "\n";
@@ -69,7 +70,7 @@ void appendBar(std::string& text, std::size_t number, std::size_t property, cons
   appendCard(text, beam.isTruss ? "CROD" : "CBAR", fields);
 }
 
-/// Properties are numbered: sections first, then shells, then curves.
+/// Property numbers: sections first, then shells, then curves.
 void appendElements(std::string& text, const FiniteElementModel& model)
 {
   std::vector<std::size_t> property(model.elements.size());
@@ -93,14 +94,14 @@ void appendElements(std::string& text, const FiniteElementModel& model)
   }
 }
 
-/// Of a round section; a rod has no moments of area but that of torsion.
+/// Appends the property of a round section. A rod has only a torsional constant.
 void appendBarProperty(std::string& text, std::size_t number, const Beam& beam)
 {
   const double moment = secondMomentOfArea(beam);
   const std::string begin =
     field(std::to_string(number), kWide) + field(std::to_string(beam.material + 1), kWide) + wide(sectionArea(beam));
   text += "$ " + beam.name + "\n";
-  if (beam.isTruss) text += "PROD*   " + begin + wide(0) + "\n*\n"; // of large fields lines are even in number
+  if (beam.isTruss) text += "PROD*   " + begin + wide(0) + "\n*\n"; // large-field cards have an even number of lines
   else text += "PBAR*   " + begin + wide(moment) + "\n*       " + wide(moment) + wide(2 * moment) + "\n";
 }
 

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Element sets in formats whose parts have elements of one shape.
+/// Element sets divided by element shape, for formats whose parts have elements of a single shape.
 
 #include "FiniteElementModel.h"
 
 namespace surgicalmesher
 {
 
-/// A set's elements of one shape, and what they are called.
+/// The elements of one shape in a set.
 struct Portion
 {
-  std::string name, shape; ///< tet4, tet10, penta6 or hex8
+  std::string name, shape; ///< shape: tet4, tet10, penta6 or hex8
   std::vector<std::int32_t> elements;
 };
 
-/// One for each shape in the set, whose name has the shape's at its end if there are several.
+/// Returns one portion per shape in the set; if there are several shapes, the name is that of the set followed by the
+/// shape.
 std::vector<Portion> portionsOf(const FiniteElementModel& model, const ElementSet& set);
 
 } // namespace surgicalmesher

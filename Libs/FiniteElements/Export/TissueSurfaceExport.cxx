@@ -23,7 +23,7 @@ namespace
 
 using Triangles = std::vector<std::array<std::int32_t, 3>>;
 
-/// A quadrilateral is divided from its node of lowest id, on both sides of an interface alike.
+/// Splits a quadrilateral at its node of lowest id, so that both sides of an interface are split alike.
 void addTriangles(const Cell& face, Triangles& triangles)
 {
   const auto first = std::size_t(std::min_element(face.begin(), face.end()) - face.begin());
@@ -33,7 +33,8 @@ void addTriangles(const Cell& face, Triangles& triangles)
   triangles.push_back({ corner(0), corner(2), corner(3) });
 }
 
-/// By label: the faces of all interfaces that have the tissue behind them, wound out of it. 0: the outer boundary.
+/// Returns, by label, the faces of all interfaces with the tissue behind them, oriented out of it. Label 0 is the outer
+/// boundary.
 std::map<std::int32_t, Triangles> surfacesOf(const FiniteElementModel& model)
 {
   std::map<std::int32_t, Triangles> result;
@@ -46,7 +47,7 @@ std::map<std::int32_t, Triangles> surfacesOf(const FiniteElementModel& model)
   return result;
 }
 
-/// Points in the order of the mesh, those of the triangles alone.
+/// Returns the triangles with the points that they use, in the order of the mesh.
 SurfaceComplex surfaceOf(const std::vector<Vec3>& points, const Triangles& triangles)
 {
   SurfaceComplex result;
@@ -76,7 +77,7 @@ void writeSTL(const SurfaceComplex& surface, const std::string& file)
   }
 }
 
-/// Not by VTK, whose writer rounds to single precision, fails in silence, and in 9.1 leaves its string empty.
+/// VTK's writer is not used: it rounds to single precision, fails silently, and in 9.1 leaves its output string empty.
 void writePLY(const SurfaceComplex& surface, const std::string& file)
 {
   ExportText out;

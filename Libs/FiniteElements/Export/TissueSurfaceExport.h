@@ -7,9 +7,9 @@
 namespace surgicalmesher
 {
 
-/// For x.stl (binary, single precision) or x.ply (text, double precision), by the file's extension: the outer boundary
-/// of the mesh in the file itself, and beside it x.<name of the tissue>.stl or .ply for each tissue, wound outwards.
-/// The files say SPACE=LPS, which Slicer understands.
+/// Writes the outer boundary of the mesh to `file`, x.stl (binary, single precision) or x.ply (text, double precision)
+/// by its extension, and the surface of each tissue to x.<name of the tissue>.stl or .ply beside it, oriented outwards.
+/// The files contain SPACE=LPS, which Slicer understands.
 void writeTissueSurfaces(const FiniteElementModel& model, const std::string& file, const Destination& destination);
 
 } // namespace surgicalmesher

@@ -30,8 +30,8 @@ void named(Array& array, const char* name, vtkFieldData* owner)
   owner->AddArray(array);
 }
 
-/// Points of the mesh that shells use, in its order; `shellId` receives for each point of the mesh its place among
-/// them.
+/// Adds the points of the mesh that shells use, in the order of the mesh; `shellId` receives the index of each mesh
+/// point among them.
 void addPoints(vtkPolyData* data, const FiniteElementModel& model, std::vector<std::int32_t>& shellId)
 {
   const std::vector<Vec3>& meshPoints = model.content.mesh.points;
@@ -104,7 +104,7 @@ int typeOf(const Cell& element)
   return element.size() == 4 ? VTK_TETRA : element.size() == 6 ? VTK_WEDGE : VTK_HEXAHEDRON;
 }
 
-/// 1 for each member of a set, else 0.
+/// Adds an array with 1 for each member of a set and 0 for others.
 void addMembership(const std::string& name, const std::vector<std::int32_t>& members, std::size_t count,
                    vtkFieldData* data)
 {

@@ -16,7 +16,7 @@ namespace surgicalmesher
 namespace
 {
 
-/// An HDF5 handle, closed at the end of its life.
+/// An HDF5 handle that is closed on destruction.
 class Handle
 {
 public:
@@ -40,13 +40,13 @@ void require(bool done)
   if (!done) throw EngineError("HDF5: the exported mesh can't be composed");
 }
 
-/// A file in memory, so that failures of the disk are told by writeBytes() alone.
+/// An HDF5 file in memory, so that disk failures are reported by writeBytes() alone.
 class MemoryFile
 {
 public:
   MemoryFile() : m_Access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), m_File(create(m_Access), H5Fclose) {}
 
-  /// `values` as a table of `columns` columns, or as a list if there is one column only.
+  /// Adds `values` as a table of `columns` columns, or as a list if there is only one column.
   template <class Value>
   void add(const std::string& name, const Value* values, std::size_t rows, int columns)
   {
@@ -56,7 +56,7 @@ public:
     const hsize_t size[2]{ rows, static_cast<hsize_t>(columns) };
     const Handle space(H5Screate_simple(columns == 1 ? 1 : 2, size, nullptr), H5Sclose);
     const Handle plain(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    require(H5Pset_obj_track_times(plain, false) >= 0); // the same content, the same bytes
+    require(H5Pset_obj_track_times(plain, false) >= 0); // the same content yields the same bytes
     const Handle set(H5Dcreate2(m_File, name.c_str(), stored, space, H5P_DEFAULT, plain, H5P_DEFAULT), H5Dclose);
     require(H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
   }
@@ -93,7 +93,7 @@ std::string escaped(const std::string& text)
   return result;
 }
 
-/// XDMF's name and number of a cell's type.
+/// Name and number of a cell type in XDMF.
 struct XdmfType
 {
   const char* name;
@@ -113,7 +113,7 @@ XdmfType typeOf(const Cell& cell, int dimension)
   }
 }
 
-/// One .xdmf with one grid, and the .h5 that it refers to.
+/// An .xdmf file with one grid, and the .h5 file that it refers to.
 class XdmfFile
 {
 public:
@@ -124,8 +124,8 @@ public:
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"3.0\">\n<Domain>\n<Grid Name=\"" + grid + "\" GridType=\"Uniform\">\n";
   }
 
-  /// Elements (3), faces (2) or edges (1): of one type as a table, of several ("Mixed") as a list in which each follows its type's
-  /// number.
+  /// Adds elements (dimension 3), faces (2) or edges (1): a table if all have one type, otherwise ("Mixed") a list in
+  /// which the type number precedes each cell.
   void topology(const std::vector<Cell>& cells, int dimension)
   {
     const bool isMixed =

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The few places where Slicer 5.0 and later ones want different code, each behind one name.
+/// Differences between Slicer 5.0 and later versions, each behind one name.
 
 #include <string>
 
 #if __has_include(<vtkMRMLI18N.h>)
 #include <vtkMRMLI18N.h>
 #else
-/// `text` in the user's language, in code without Qt. Slicer has it since 5.6, and its tools collect texts by this
-/// name; before, text stays as it is.
+/// Returns `text` in the user's language, in code without Qt. Slicer provides this function since 5.6, and its tools
+/// collect texts by this name; in earlier versions, texts are not translated.
 inline std::string vtkMRMLTr(const char*, const char* text) { return text; }
 #endif
 
@@ -28,8 +28,8 @@ void keepColorNames(ColorNode* colors, long)
   colors->NamesInitialisedOn();
 }
 
-/// To be called before a colour table's names are set. Slicer 5.0 makes up names from the colours unless told that
-/// there are names. Later ones know for every entry whether it is defined, and take being told for an error.
+/// To be called before the names of a colour table are set. Slicer 5.0 generates names from the colours unless told
+/// that names exist. Later versions know for every entry whether it is defined and report the old call as an error.
 template <class ColorNode>
 void keepColorNames(ColorNode* colors)
 {
@@ -49,7 +49,7 @@ bool hasColorName(ColorNode* colors, int index, long)
   return std::string(noName ? noName : "") != colors->GetColorName(index);
 }
 
-/// Whether an entry of a colour table means something. Slicer 5.0 says so by its name.
+/// Whether an entry of a colour table is defined. Slicer 5.0 marks undefined entries by their name.
 template <class ColorNode>
 bool hasColorName(ColorNode* colors, int index)
 {
@@ -69,7 +69,8 @@ void showColumnNames(TableNode* table, long)
   table->SetUseColumnNameAsColumnHeader(true);
 }
 
-/// Table views show the columns' names rather than A, B, C. Later Slicers call them titles, and warn of the older name.
+/// Makes table views show column names instead of A, B, C. Later versions of Slicer call them titles and warn about the
+/// old call.
 template <class TableNode>
 void showColumnNames(TableNode* table)
 {

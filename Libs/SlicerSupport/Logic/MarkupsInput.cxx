@@ -21,7 +21,7 @@ namespace
 
 Vec3 fromRAS(const double p[3]) { return { -p[0], -p[1], p[2] }; }
 
-/// As a string of JSON.
+/// Returns a JSON string literal.
 std::string jsonString(const std::string& words)
 {
   std::string result = "\"";
@@ -57,7 +57,7 @@ Markup labelledPoints(vtkMRMLMarkupsNode* node)
   return markup;
 }
 
-/// The host labels new points by a format, in which "%" has a meaning; one that is being placed has its label already.
+/// Slicer labels new points by a format in which "%" is special; a point that is being placed already has its label.
 void labelNewPoints(vtkMRMLMarkupsNode* node, const std::string& label)
 {
   std::string format = text::legible(text::trimmed(label));

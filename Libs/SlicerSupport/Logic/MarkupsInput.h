@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Points and paths of markups nodes, in LPS mm as the project's files have them, with parent transforms applied.
+/// Points and paths of markups nodes in LPS mm, as in the project's files, with parent transforms applied.
 
 #include "TissueMapIO.h"
 #include "vtkSurgicalMesherSupportLogicExport.h"
@@ -13,26 +13,26 @@ class vtkMRMLMarkupsNode;
 namespace surgicalmesher
 {
 
-/// The placed control points; none for null.
+/// Returns the positions of the placed control points; none for null.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT std::vector<Vec3> markupsPoints(vtkMRMLMarkupsNode* node);
 
-/// The same with their labels.
+/// Returns the placed control points with their labels.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT Markup labelledPoints(vtkMRMLMarkupsNode* node);
 
-/// Points that are placed from now on, however they are placed, have this label, and so has one that is being placed.
+/// Sets the label of all points placed from now on, including the one being placed.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void labelNewPoints(vtkMRMLMarkupsNode* node, const std::string& label);
 
-/// A polyline from entry to target: the control points of a line, of a list of points or of a curve of straight pieces;
-/// of a smooth curve the points between which the host draws it. A closed curve ends with its first point again. Empty
-/// with fewer than two points.
+/// Returns the polyline from entry to target: the control points of a line, of a point list or of a piecewise linear
+/// curve; for a smooth curve, the points of the drawn polyline. A closed curve ends with its first point again. Empty
+/// if there are fewer than two points.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT std::vector<Vec3> markupsPath(vtkMRMLMarkupsNode* node);
 
-/// Writes lists of points, one markup each, as a .mrk.json from which readMarkups reads exactly the same lists again.
+/// Writes lists of points, one markup each, to a .mrk.json file from which readMarkups reads exactly the same lists.
 /// Throws InputError if the file cannot be written.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void writeMarkups(const std::vector<std::vector<Vec3>>& markups,
                                                           const std::string& file);
 
-/// The same with the points' labels, for readLabelledMarkups.
+/// The same with the labels of the points, for readLabelledMarkups.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT void writeLabelledMarkups(const std::vector<Markup>& markups,
                                                                   const std::string& file);
 

@@ -24,7 +24,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr const char* kColorsRole = "tissueColors"; // of the model; its display may show other colours meanwhile
+constexpr const char* kColorsRole = "tissueColors"; // role on the model; its display may use other colours meanwhile
 constexpr const char* kColorOwner =
   "SurgicalMesher.ColorsOf"; // attribute of a table: id of the label map it belongs to
 
@@ -61,7 +61,7 @@ TissueTable withDistinctColors(TissueTable tissues)
   for (auto& [label, tissue] : tissues)
   {
     if (!isPlain) break;
-    const double golden = 0.618033988749895; // steps around the circle of hues that never come near an earlier one
+    const double golden = 0.618033988749895; // golden ratio: steps around the hue circle stay far from earlier ones
     const double hue = label * golden - std::floor(label * golden);
     vtkMath::HSVToRGB(hue, label % 3 == 0 ? 0.35 : 0.6, label % 2 == 0 ? 0.95 : 0.8, &tissue.color[0], &tissue.color[1],
                       &tissue.color[2]);
@@ -75,7 +75,7 @@ void fillColorTable(const TissueTable& tissues, vtkMRMLColorTableNode* colors)
   const int highest = tissues.empty() ? 0 : tissues.rbegin()->first;
   colors->SetTypeToUser();
   colors->SetAttribute("Category", "User Generated");
-  colors->SetNumberOfColors(1); // forgets what was there
+  colors->SetNumberOfColors(1); // discards the previous entries
   colors->SetNumberOfColors(highest + 1);
   host::keepColorNames(colors);
   colors->SetColor(0, "background", 0, 0, 0, 0);

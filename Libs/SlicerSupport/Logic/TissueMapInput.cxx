@@ -40,13 +40,13 @@ namespace
 
 constexpr int largestLabel = 65535;
 constexpr const char* heldLabels = "SurgicalMesher.NullDisplacementLabels"; // attribute of a label map
-constexpr const char* roleTag = "SurgicalMesher.Role";                      // of a segment
+constexpr const char* roleTag = "SurgicalMesher.Role";                      // tag of a segment
 
 //--- Segmentations ----------------------------------------------------------
 
 const char* binaryLabelmap() { return vtkSegmentationConverter::GetSegmentationBinaryLabelmapRepresentationName(); }
 
-/// Whether a segment's own representation, of whatever kind, holds anything.
+/// Whether all representations of a segment, of whatever kind, are empty.
 bool isEmpty(vtkSegment* segment)
 {
   std::vector<std::string> names;
@@ -83,7 +83,7 @@ TissueMapProblem checkSegmentation(vtkMRMLSegmentationNode* node)
   return TissueMapProblem::None;
 }
 
-/// Labels go up with the segments' order, so that of two segments that overlap the larger label is the later's.
+/// Labels increase with the order of the segments, so that the larger label wins where two segments overlap.
 template <typename T>
 void paintLayer(vtkImageData* layer, const std::map<int, int>& newLabels, vtkImageData* merged, T*)
 {
@@ -128,7 +128,8 @@ void paintLayer(vtkImageData* layer, const std::map<int, int>& newLabels, vtkIma
   }
 }
 
-/// The segments that share an image, by their value in it; the label of the n-th segment is n + 1.
+/// Returns, for each image shared by segments, the labels by value in the image; the label of the n-th segment is n +
+/// 1.
 std::map<vtkOrientedImageData*, std::map<int, int>> layersOf(vtkSegmentation* segmentation)
 {
   std::map<vtkOrientedImageData*, std::map<int, int>> layers;
@@ -141,13 +142,13 @@ std::map<vtkOrientedImageData*, std::map<int, int>> layersOf(vtkSegmentation* se
   return layers;
 }
 
-/// All segments in one image of the reference geometry; null if the host cannot convert them.
+/// Returns all segments in one image of the reference geometry; null if Slicer cannot convert them.
 vtkSmartPointer<vtkOrientedImageData> mergeSegments(vtkSegmentation* source)
 {
   vtkSmartPointer<vtkSegmentation> segmentation = source;
   if (!source->ContainsRepresentation(binaryLabelmap()))
   {
-    segmentation = vtkSmartPointer<vtkSegmentation>::New(); // a conversion would be kept in the user's node
+    segmentation = vtkSmartPointer<vtkSegmentation>::New(); // the conversion would be kept in the user's node
     segmentation->DeepCopy(source);
     if (!segmentation->CreateRepresentation(binaryLabelmap())) return nullptr;
   }
@@ -174,7 +175,7 @@ vtkSmartPointer<vtkOrientedImageData> mergeSegments(vtkSegmentation* source)
   return merged;
 }
 
-/// Volume nodes hold images of unit spacing that begin at voxel (0, 0, 0), and the rest in a matrix.
+/// Volume nodes hold images of unit spacing that begin at voxel (0, 0, 0); the rest is in a matrix.
 void setImage(vtkMRMLLabelMapVolumeNode* node, vtkOrientedImageData* oriented)
 {
   const int* extent = oriented->GetExtent();
@@ -213,7 +214,7 @@ TissueMapProblem checkLabelMap(vtkMRMLLabelMapVolumeNode* node)
   return range[1] > 0 ? TissueMapProblem::None : TissueMapProblem::OnlyBackground;
 }
 
-/// A linear transform may shear the voxels, which no image file can say.
+/// A linear transform may shear the voxels, which no image file can represent.
 TissueMapProblem checkTransform(vtkMRMLTransformableNode* node)
 {
   vtkMRMLTransformNode* parent = node->GetParentTransformNode();
@@ -226,7 +227,7 @@ TissueMapProblem checkTransform(vtkMRMLTransformableNode* node)
   return arePerpendicular(columnsOf(matrix)) ? TissueMapProblem::None : TissueMapProblem::ShearingTransform;
 }
 
-/// Not in any scene; null if there is a problem, which is returned in `problem`.
+/// Returns a label map that is in no scene, or null and the problem in `problem`.
 vtkSmartPointer<vtkMRMLLabelMapVolumeNode> makeLabelMap(vtkMRMLNode* input, TissueMapProblem& problem)
 {
   problem = checkTissueMap(input);
@@ -261,7 +262,7 @@ vtkSmartPointer<vtkMRMLLabelMapVolumeNode> makeLabelMap(vtkMRMLNode* input, Tiss
   {
     vtkNew<vtkGeneralTransform> toWorld;
     parent->GetTransformToWorld(toWorld);
-    labelMap->ApplyTransform(toWorld); // resamples into a new image, nearest voxel
+    labelMap->ApplyTransform(toWorld); // resamples into a new image, by nearest voxel
   }
   vtkNew<vtkMatrix4x4> matrix;
   labelMap->GetIJKToRASMatrix(matrix);
@@ -343,7 +344,7 @@ Grid gridOf(vtkMRMLLabelMapVolumeNode* node)
   return grid;
 }
 
-/// False if a value is no label.
+/// Returns false if a value is not a label.
 template <typename T>
 bool gatherLabels(const T* voxels, const CanonicalGrid& order, std::vector<Label>& labels)
 {

@@ -38,7 +38,7 @@ vtkSmartPointer<vtkMatrix4x4> voxelsToWorld(vtkMRMLVolumeNode* volume)
 
 bool isOnSameGrid(vtkMRMLVolumeNode* a, vtkMRMLVolumeNode* b)
 {
-  constexpr double tolerance = 1e-3; // voxels, at the far corner
+  constexpr double tolerance = 1e-3; // in voxels, at the far corner
   int sizeA[3], sizeB[3];
   a->GetImageData()->GetDimensions(sizeA);
   b->GetImageData()->GetDimensions(sizeB);
@@ -60,7 +60,7 @@ vtkSmartPointer<vtkMRMLScalarVolumeNode> copyForRun(vtkMRMLScalarVolumeNode* vol
 {
   auto copy = vtkSmartPointer<vtkMRMLScalarVolumeNode>::New();
   copy->SetName(volume->GetName());
-  vtkNew<vtkImageData> image; // the host's writer, in its own thread, has an object of its own
+  vtkNew<vtkImageData> image; // a separate image object for Slicer's writer, which runs in its own thread
   image->ShallowCopy(volume->GetImageData());
   copy->SetAndObserveImageData(image);
   copy->SetIJKToRASMatrix(voxelsToWorld(volume));
@@ -77,7 +77,7 @@ void VolumeResult::request(vtkSurgicalMesherRun* run, const char* parameter, vtk
 
 bool VolumeResult::isRead() const { return hasVoxels(m_Hidden); }
 
-/// A new node has its voxels before it enters the scene, where others look at it.
+/// A new node has its voxels before it enters the scene, where observers access it.
 vtkMRMLVolumeNode* VolumeResult::deliver(vtkMRMLVolumeNode* chosen, vtkMRMLScene* scene, const std::string& name) const
 {
   if (chosen)

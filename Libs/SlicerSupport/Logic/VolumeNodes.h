@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Volumes of the scene as inputs and as results of a run.
+/// Volumes of the scene as inputs and results of a run.
 
 #include "vtkSurgicalMesherSupportLogicExport.h"
 
@@ -18,29 +18,30 @@ class vtkSurgicalMesherRun;
 namespace surgicalmesher
 {
 
-/// Whether a transform that isn't linear lies between `node` and the world.
+/// Whether a nonlinear transform lies between `node` and the world.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT bool isUnderWarp(vtkMRMLTransformableNode* node);
 
-/// From voxel indices to world, RAS; the parent transform has to be linear.
+/// Returns the matrix from voxel indices to world, RAS; the parent transform must be linear.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT vtkSmartPointer<vtkMatrix4x4> voxelsToWorld(vtkMRMLVolumeNode* volume);
 
-/// Whether both have the same voxels in the world; neither is under a warp.
+/// Whether both volumes have the same voxels in the world; neither may be under a nonlinear transform.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT bool isOnSameGrid(vtkMRMLVolumeNode* a, vtkMRMLVolumeNode* b);
 
-/// A node of its own with the voxels of `volume`, where the user sees them; not in the scene.
+/// Returns a separate node with the voxels of `volume` at their world position; it is not in the scene.
 VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT vtkSmartPointer<vtkMRMLScalarVolumeNode>
 copyForRun(vtkMRMLScalarVolumeNode* volume);
 
-/// A volume that a run makes. The host empties a node before it reads a file into it, which slice views that show it
-/// complain of: it reads into a hidden one, whose voxels go to the user's when the run has ended well.
+/// A volume that a run creates. Slicer empties a node before it reads a file into it, which causes errors in slice
+/// views that show it. The result is therefore read into a hidden node, whose voxels are moved to the user's node after
+/// a successful run.
 class VTK_SURGICALMESHER_SUPPORT_LOGIC_EXPORT VolumeResult
 {
 public:
-  /// `hidden` is a new node of the class that is wanted; `run` has it for its parameter of this name.
+  /// `hidden` is a new node of the required class; it becomes the value of `parameter` of the run.
   void request(vtkSurgicalMesherRun* run, const char* parameter, vtkSmartPointer<vtkMRMLVolumeNode> hidden);
-  /// Whether the host has read a file into it.
+  /// Whether Slicer has read a file into the hidden node.
   bool isRead() const;
-  /// Gives the voxels to `chosen`, or to a new node of `scene` of this name if that is null; returns it.
+  /// Gives the voxels to `chosen` or, if that is null, to a new node of `scene` with this name; returns the node.
   vtkMRMLVolumeNode* deliver(vtkMRMLVolumeNode* chosen, vtkMRMLScene* scene, const std::string& name) const;
   void forget();
 

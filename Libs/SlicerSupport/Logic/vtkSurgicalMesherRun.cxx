@@ -48,8 +48,8 @@ int processId()
 #endif
 }
 
-/// The host's files for nodes are named by the nodes' IDs, with letters for digits, which tells the user nothing: says
-/// the nodes' names instead.
+/// Replaces Slicer's file names of nodes by the names of the nodes. The files are named by node IDs, with letters for
+/// digits, which mean nothing to the user.
 std::string withNodeNames(std::string text, const std::vector<vtkSmartPointer<vtkMRMLNode>>& nodes,
                           const std::string& folder)
 {
@@ -69,8 +69,8 @@ std::string withNodeNames(std::string text, const std::vector<vtkSmartPointer<vt
   return text;
 }
 
-/// A module that was killed leaves its unfinished outputs, hidden, beside those that the host had asked for, which are
-/// named after the host's process: by its number, or by the same with letters for digits.
+/// Removes the unfinished, hidden outputs that a killed module leaves beside the requested ones. They contain the id of
+/// Slicer's process, in digits or with letters for digits.
 void removeUnfinishedOutputs(const std::string& folder)
 {
   const std::string number = std::to_string(processId());
@@ -86,9 +86,9 @@ void removeUnfinishedOutputs(const std::string& folder)
   }
 }
 
-/// Two tasks of the host's processing thread, scheduled around the module's own: they tell when the module's task has
-/// begun and when it has ended. The CLI node's status does not: it may say that the run is over while the thread still
-/// works, and a Cancel may be overwritten by the thread.
+/// Two tasks in Slicer's processing thread, scheduled before and after the module's own, which signal that the module's
+/// task has begun and ended. The status of the CLI node is not reliable for this: it may report the end of the run
+/// while the thread is still working, and the thread may overwrite a Cancel.
 class TaskFence : public vtkMRMLAbstractLogic
 {
 public:
@@ -109,7 +109,7 @@ public:
   void Begin(void*) { this->Begun = true; }
   void End(void*)
   {
-    // Here no other module of this host runs: the thread does one task after the other.
+    // No other module of this Slicer runs now: the thread executes one task after the other.
     const char* folder = this->ApplicationLogic->GetTemporaryPath();
     if (folder) removeUnfinishedOutputs(folder);
     this->Ended = true;
@@ -136,7 +136,7 @@ std::string numberText(double value)
   return text;
 }
 
-/// The last line of what the host kept of stderr, without its heading and the executable's name.
+/// Returns the last line of stderr as kept by Slicer, without its heading and the name of the executable.
 std::string moduleErrorLine(const std::string& errorText, const std::string& executable)
 {
   const std::string heading = "standard error:\n\n";
@@ -151,7 +151,7 @@ std::string moduleErrorLine(const std::string& errorText, const std::string& exe
   return last.compare(0, prefix.size(), prefix) == 0 ? last.substr(prefix.size()) : last;
 }
 
-/// A new empty folder for the files of one run.
+/// Creates a new empty folder for the files of one run.
 std::string makeFolder(const std::string& parent)
 {
   static std::atomic<int> count{ 0 };
@@ -197,7 +197,7 @@ public:
 
   std::vector<vtkSmartPointer<vtkMRMLNode>> Temporaries;
   std::vector<Output> Outputs;
-  std::vector<vtkSmartPointer<vtkMRMLNode>> Parameters; // nodes that parameters name
+  std::vector<vtkSmartPointer<vtkMRMLNode>> Parameters; // nodes set as parameters
   std::string Folder;
   Status CurrentStatus = Idle;
   std::string ErrorText;
@@ -233,7 +233,7 @@ vtkSurgicalMesherRun::~vtkSurgicalMesherRun()
 {
   Internal& d = *this->Private;
   d.EndNow();
-  if (this->IsBusy()) d.CleanUp(Cancelled, nullptr); // nobody is left to tell
+  if (this->IsBusy()) d.CleanUp(Cancelled, nullptr); // no observers are left
   d.Forget();
   delete this->Private;
 }
@@ -323,7 +323,7 @@ std::string vtkSurgicalMesherRun::NewTemporaryFile(const std::string& extension)
   do {
     file = d.Folder + "/" + std::to_string(++n) + extension;
   } while (vtksys::SystemTools::FileExists(file));
-  vtksys::SystemTools::Touch(file, true); // so that the next call gives another name
+  vtksys::SystemTools::Touch(file, true); // so that the next call returns another name
   return file;
 }
 
@@ -406,7 +406,7 @@ void vtkSurgicalMesherRun::Internal::Forget()
   this->IsCancelRequested = false;
 }
 
-/// Everything but starting the process. A second Start() of the same fill is refused: its temporary nodes are gone.
+/// Does everything except starting the process. A second Start() is refused, since the temporary nodes are gone.
 bool vtkSurgicalMesherRun::Internal::Prepare()
 {
   if (this->CurrentStatus == Running)
@@ -448,7 +448,7 @@ void vtkSurgicalMesherRun::Internal::Observe()
 {
   this->CommandLineNode->AddObserver(vtkCommand::ModifiedEvent, this->Callback);
   this->Fence->AddObserver(vtkCommand::ModifiedEvent, this->Callback);
-  constexpr float beforeOthers = 10; // which may remove nodes, that the host's thread still looks for
+  constexpr float beforeOthers = 10; // others may remove nodes that Slicer's thread still accesses
   this->Scene->AddObserver(vtkMRMLScene::StartCloseEvent, this->Callback, beforeOthers);
   this->Scene->AddObserver(vtkMRMLScene::NodeAboutToBeRemovedEvent, this->Callback);
   this->ApplicationLogic->AddObserver(vtkSlicerApplicationLogic::RequestProcessedEvent, this->Callback);
@@ -469,7 +469,7 @@ void vtkSurgicalMesherRun::Internal::SetStatus(Status status)
   this->Run->InvokeEvent(vtkSurgicalMesherRun::StatusChangedEvent);
 }
 
-/// Once the process has ended well its results are being read, and there is nothing left to cancel.
+/// Once the process has succeeded, its results are being read, and nothing is left to cancel.
 void vtkSurgicalMesherRun::Internal::RequestCancel()
 {
   if (this->NodeStatus() == vtkMRMLCommandLineModuleNode::Completing) return;
@@ -477,8 +477,8 @@ void vtkSurgicalMesherRun::Internal::RequestCancel()
   this->CommandLineNode->Cancel();
 }
 
-/// A request to cancel that comes while the host writes the inputs is forgotten when the process starts: the thread
-/// resets the status and the flag that it looks at, one after the other.
+/// A request to cancel that arrives while Slicer writes the inputs is lost when the process starts: the thread resets
+/// first the status and then the flag that it checks.
 void vtkSurgicalMesherRun::Internal::AskAgain()
 {
   if (this->NodeStatus() == vtkMRMLCommandLineModuleNode::Running) this->CommandLineNode->Cancel();
@@ -486,15 +486,16 @@ void vtkSurgicalMesherRun::Internal::AskAgain()
     this->CommandLineNode->GetModuleDescription().GetProcessInformation()->Abort = 1;
 }
 
-/// Ends the process and everything that the host still has to do for it, now. The host would dereference null on
-/// reading a result into a node that is gone, and works on the inputs' nodes in its thread.
+/// Ends the process and all pending work of Slicer for it immediately. Otherwise, Slicer would dereference null when
+/// reading a result into a removed node, and its thread would access removed input nodes.
 void vtkSurgicalMesherRun::Internal::EndNow()
 {
   if (this->CurrentStatus != Running) return;
   this->StopObserving();
   this->IsCancelRequested = true;
   this->CommandLineNode->Cancel();
-  const auto patience = std::chrono::minutes(5); // a busy machine may take its time, a broken host must not hang
+  // Enough for a busy machine, but finite so that a broken host does not hang.
+  const auto patience = std::chrono::minutes(5);
   const Clock::time_point start = Clock::now();
   while (this->Fence->Begun && !this->Fence->Ended && Clock::now() - start < patience)
   {
@@ -503,7 +504,7 @@ void vtkSurgicalMesherRun::Internal::EndNow()
   }
   const auto hasResults = [this]
   { return this->ApplicationLogic && this->ApplicationLogic->GetReadDataQueueSize() > 0; };
-  // The process may have ended well before it was asked to end; while results wait, the host insists on this status.
+  // The process may have succeeded before it was cancelled; while results wait, Slicer requires this status.
   if (hasResults() && this->NodeStatus() == vtkMRMLCommandLineModuleNode::Cancelling)
     this->CommandLineNode->SetStatus(vtkMRMLCommandLineModuleNode::Completing, false);
   while (hasResults()) this->ApplicationLogic->ProcessReadData();
@@ -521,7 +522,7 @@ void vtkSurgicalMesherRun::Internal::OnEvent(vtkObject* caller, unsigned long ev
 {
   auto* d = static_cast<Internal*>(self);
   if (d->CurrentStatus != Running) return;
-  const vtkSmartPointer<vtkSurgicalMesherRun> keep(d->Run); // an observer may let go of the run
+  const vtkSmartPointer<vtkSurgicalMesherRun> keep(d->Run); // an observer may release the run
   if (caller == d->Scene)
   {
     auto* leaving =
@@ -569,7 +570,7 @@ void vtkSurgicalMesherRun::Internal::Finish(vtkMRMLNode* leaving)
   removeFolder(folder);
 }
 
-/// `leaving`: a node that is being removed by somebody else.
+/// `leaving` is a node that is already being removed by the caller.
 void vtkSurgicalMesherRun::Internal::CleanUp(Status outcome, vtkMRMLNode* leaving)
 {
   std::vector<vtkSmartPointer<vtkMRMLNode>> nodes = this->Temporaries;

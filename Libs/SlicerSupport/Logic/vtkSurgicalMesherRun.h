@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// One run of one of the project's command-line modules, by Slicer's own CLI logic, in a process of its own.
+/// A single run of one of the project's command-line modules in a separate process, through Slicer's own CLI logic.
 ///
-/// A run is filled, started once, and thrown away (or filled again: SetCommandLineLogic empties it):
+/// A run is configured, started once, and discarded (or configured again: SetCommandLineLogic resets it):
 ///
 ///     vtkNew<vtkSurgicalMesherRun> run;
 ///     run->SetCommandLineLogic(logic->GetModuleLogic("SimplexMesherCLI"));
@@ -13,12 +13,12 @@
 ///     run->SetParameterNode("surface", model);
 ///     run->Start();                                // later: CompletedEvent, and GetStatus() says how it ended
 ///
-/// The run owns what it was given: temporary nodes leave the scene and temporary files the disk when it ends, however
-/// it ends, and new output nodes leave the scene unless it completes. Closing the scene, or removing a node that the
-/// run reads or writes, cancels it; deleting the run itself does too. Inputs should be hidden copies all the same,
-/// because the host writes them to files from another thread.
+/// The run owns its nodes and files: when it ends, in whatever way, temporary nodes are removed from the scene and
+/// temporary files from the disk; new output nodes are removed unless the run completes. Closing the scene or removing
+/// a node that the run reads or writes cancels it, as does deleting the run. Inputs should still be hidden copies,
+/// because Slicer writes them to files from another thread.
 ///
-/// Everything is called from, and every event comes on, the main thread.
+/// All functions must be called from the main thread, where all events are invoked.
 
 #include "vtkSurgicalMesherSupportLogicExport.h"
 
@@ -50,52 +50,54 @@ public:
   enum Events
   {
     StatusChangedEvent = vtkCommand::UserEvent + 1,
-    CompletedEvent ///< the run ended, well or not; after the last StatusChangedEvent, outputs loaded, temporaries gone
+    /// The run ended, in whatever way; follows the last StatusChangedEvent; outputs loaded, temporaries removed.
+    CompletedEvent
   };
 
-  /// The logic of the module's CLI, as vtkSlicerModuleLogic::GetModuleLogic returns it; null if the host doesn't have
-  /// the module. Parameters, nodes and files of an earlier run are forgotten. Ignored while running.
+  /// Sets the logic of the module's CLI, as returned by vtkSlicerModuleLogic::GetModuleLogic; null if the module is
+  /// missing. Discards parameters, nodes and files of an earlier run. Ignored while running.
   void SetCommandLineLogic(vtkMRMLAbstractLogic* logic);
 
-  /// Parameters by the name that the module's XML gives them. Numbers reach the module with all their digits.
+  /// Sets a parameter by its name in the module's XML. Numbers are passed with full precision.
   void SetParameter(const std::string& name, const std::string& value);
   void SetParameter(const std::string& name, const char* value);
   void SetParameter(const std::string& name, double value);
   void SetParameter(const std::string& name, int value);
   void SetParameter(const std::string& name, bool value);
-  /// For image, geometry and table parameters; the node is in the scene. Input nodes are written to files by the host.
+  /// Sets an image, geometry or table parameter; the node must be in the scene. Slicer writes input nodes to files.
   void SetParameterNode(const std::string& name, vtkMRMLNode* node);
 
-  /// A node that only this run needs. Added to the scene if it isn't in one, hidden from the user and from saved
-  /// scenes.
+  /// Adds a node that only this run needs. It is added to the scene if necessary, hidden from the user and not saved.
   void AddTemporaryNode(vtkMRMLNode* node);
-  /// A node that the run fills. `isNew`: made for this run, and removed again unless it completes.
+  /// Adds a node that the run fills. `isNew`: created for this run, and removed unless the run completes.
   void AddOutputNode(vtkMRMLNode* node, bool isNew);
-  /// Name of a file that doesn't exist yet, in a folder of this run's own; `extension` with its dot. What the module
-  /// wrote there can be read on CompletedEvent; then the folder goes.
+  /// Returns the name of a new, empty file in a folder of this run; `extension` includes its dot. What the module
+  /// writes to it can be read on CompletedEvent; then the folder is removed.
   std::string NewTemporaryFile(const std::string& extension);
 
-  /// False, with a sentence in GetErrorText(), if the run is busy, was never filled, or the host lacks the module.
+  /// Starts the run. Returns false, with a message in GetErrorText(), if the run is busy, was not configured or was
+  /// started before, or if the module is missing.
   bool Start();
-  /// The same in the calling thread, without an event loop; ends in Completed or Failed. For tests and scripts.
+  /// The same in the calling thread, without an event loop; ends as Completed or Failed. For tests and scripts.
   bool StartAndWait();
-  /// Ends the process; the status becomes Cancelled when it is gone. Nothing happens if the run isn't busy.
+  /// Ends the process; the status becomes Cancelled once it is gone. Does nothing if the run is not busy.
   void Cancel();
 
   Status GetStatus() const;
   bool IsBusy() const { return this->GetStatus() == Running; }
-  /// Busy, and the process has not begun: the host's thread looks for the nodes in the scene and writes them to files.
-  /// Its look-ups are not guarded: the scene should neither gain nor lose a node meanwhile.
+  /// Whether the run is busy but the process has not begun: Slicer's thread looks up the nodes in the scene and writes
+  /// them to files. These look-ups are not locked, so that no node should be added to or removed from the scene
+  /// meanwhile.
   bool IsStarting() const;
-  /// Why the run failed: the module's own line on stderr, with the names of nodes for the host's files; empty
-  /// otherwise.
+  /// Returns why the run failed or could not be started; empty otherwise. For a failed process, this is its last line
+  /// on stderr, with node names in place of Slicer's temporary files.
   std::string GetErrorText() const;
-  /// For an observer of StatusChangedEvent, with a priority over 0, that can say more.
+  /// Replaces the message; for observers of StatusChangedEvent with a priority above 0 that know more.
   void SetErrorText(const std::string& text);
-  /// Value that the module returned for a simple output parameter; empty before the end, or if there is none.
+  /// Returns the value of a simple output parameter of the module; empty before the end, or if there is none.
   std::string GetReturnedValue(const std::string& name) const;
   double GetElapsedSeconds() const;
-  /// For the host's progress bar; null before Start().
+  /// For Slicer's progress bar; null before SetCommandLineLogic().
   vtkMRMLCommandLineModuleNode* GetCommandLineNode() const;
 
 protected:

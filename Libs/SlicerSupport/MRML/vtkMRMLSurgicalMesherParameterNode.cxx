@@ -28,12 +28,12 @@ Overloaded(Visitors...) -> Overloaded<Visitors...>;
 
 } // namespace
 
-/// As the scene's file has it, before its special characters are written as entities.
+/// Returns the text stored in the scene file, before special characters are encoded as entities.
 std::string vtkMRMLSurgicalMesherParameterNode::TextOf(const Value& value)
 {
   std::ostringstream text;
   text.imbue(std::locale::classic());
-  text.precision(15); // lengths come back as they were
+  text.precision(15); // lengths are restored exactly
   std::visit(Overloaded{ [&](const bool* member) { text << (*member ? "true" : "false"); },
                          [&](const Choice& choice) { text << choice.names[*choice.index]; },
                          [&](const Text& access) { text << access.get(); },
@@ -132,7 +132,8 @@ void vtkMRMLSurgicalMesherParameterNode::SetNode(const char* role, vtkMRMLNode* 
 
 void vtkMRMLSurgicalMesherParameterNode::SetNodes(const char* role, const std::vector<vtkMRMLNode*>& nodes)
 {
-  const bool hasLeft = this->GetNumberOfNodeReferences(role) != int(nodes.size()); // one may be to a node that is gone
+  // A reference may be to a removed node.
+  const bool hasLeft = this->GetNumberOfNodeReferences(role) != int(nodes.size());
   if (!hasLeft && this->GetNodes(role) == nodes) return;
   MRMLNodeModifyBlocker blocker(this);
   this->RemoveNodeReferenceIDs(role);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// Base of the modules' parameter nodes. A derived class lists its values and its roles once; reading, writing, copying
-/// and printing follow from the lists.
+/// Base class of the modules' parameter nodes. A derived class lists its values and roles once; reading, writing,
+/// copying and printing are derived from these lists.
 
 #include "vtkSurgicalMesherSupportMRMLExport.h"
 
@@ -28,12 +28,12 @@ public:
   void WriteXML(ostream& of, int indent) override;
   void CopyContent(vtkMRMLNode* node, bool deepCopy = true) override;
 
-  /// Refers to `node`, which may be null, in `role`, and to no other.
+  /// Makes `node`, which may be null, the only node of `role`.
   void SetNode(const char* role, vtkMRMLNode* node);
   void SetNodes(const char* role, const std::vector<vtkMRMLNode*>& nodes);
-  /// Those that are in the scene.
+  /// Returns the nodes of a role that are in the scene.
   std::vector<vtkMRMLNode*> GetNodes(const char* role);
-  /// The first node of a role; null if there is none, or if it is of another class.
+  /// Returns the first node of a role; null if there is none or it has another class.
   vtkMRMLModelNode* GetModelNode(const char* role);
   vtkMRMLScalarVolumeNode* GetScalarVolumeNode(const char* role);
   vtkMRMLLabelMapVolumeNode* GetLabelMapNode(const char* role);
@@ -46,19 +46,19 @@ protected:
   vtkMRMLSurgicalMesherParameterNode(const vtkMRMLSurgicalMesherParameterNode&) = delete;
   void operator=(const vtkMRMLSurgicalMesherParameterNode&) = delete;
 
-  /// A value that is one of several, each with a name in the scene's file.
+  /// A value out of several, each with a name in the scene file.
   struct Choice
   {
     int* index;
     std::vector<const char*> names;
   };
-  /// A value of a type of its own, in the scene's file as text.
+  /// A value of a custom type, stored in the scene file as text.
   struct Text
   {
     std::function<std::string()> get;
     std::function<void(const std::string&)> set;
   };
-  /// A member of the node; scenes that are saved know it as `attribute`.
+  /// A member of the node, stored in scenes as `attribute`.
   struct Value
   {
     const char* attribute;
@@ -66,7 +66,7 @@ protected:
   };
   virtual std::vector<Value> GetValues() = 0;
 
-  /// Scenes that are saved know each role by its name and `suffix`. Of their nodes these `events` are observed.
+  /// Adds roles, stored in scenes by name and `suffix`, whose nodes are observed for `events`.
   void AddRoles(std::initializer_list<const char*> roles, const std::string& suffix,
                 std::initializer_list<int> events = {});
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// What keeps a panel from being run, in the user's language, and what a click can do about it.
+/// The reason why a panel cannot be run, in the user's language, and an action that fixes it.
 
 #include "TissueMapInput.h"
 #include "qSurgicalMesherSupportWidgetsExport.h"
@@ -17,16 +17,16 @@ namespace surgicalmesher
 
 struct PanelObstacle
 {
-  QString sentence;          ///< empty: nothing is in the way
-  QString fixText;           ///< of a button; empty: none
-  std::function<void()> fix; ///< what the button does
+  QString sentence;          ///< empty: no obstacle
+  QString fixText;           ///< text of the button; empty: no button
+  std::function<void()> fix; ///< action of the button
 };
 
-/// `map` is the tissue map with the problem, `selector` where the user chooses it; both outlive the obstacle.
+/// Returns the obstacle for a problem of the tissue map `map`; `selector` is where the user chooses it.
 Q_SURGICALMESHER_SUPPORT_WIDGETS_EXPORT PanelObstacle tissueMapObstacle(TissueMapProblem problem, vtkMRMLNode* map,
                                                                         qMRMLNodeComboBox* selector);
 
-/// Goes to another module of the host, if it is there; `input`, if there is one, is what it shows then.
+/// Switches to another module of Slicer, if it is loaded, and shows `input` in it, if given.
 Q_SURGICALMESHER_SUPPORT_WIDGETS_EXPORT void openModule(const QString& name, vtkMRMLNode* input = nullptr);
 
 } // namespace surgicalmesher

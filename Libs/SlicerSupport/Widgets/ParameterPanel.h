@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The controls of a panel and the values of its parameter node: what the user enters goes to the node, and what the
-/// node says is shown. The private part of a module's widget derives from it:
+/// Binds the controls of a panel to the values of its parameter node: user input is written to the node, and changes of
+/// the node are shown. The private part of a module's widget derives from this class:
 ///
 ///     this->bind(this->EdgeLengthSlider, &Node::GetEdgeLength, &Node::SetEdgeLength);
 ///     this->bind(this->SurfaceSelector, Node::SurfaceRole());
 ///
-/// bind() is called once for each control, after setupUi(); show() whenever the node has been modified.
+/// bind() is called once for each control, after setupUi(); show() is called whenever the node has been modified.
 
 #include "SceneNodes.h"
 
@@ -33,12 +33,12 @@
 namespace surgicalmesher
 {
 
-/// `Node` derives from vtkMRMLSurgicalMesherParameterNode.
+/// `Node` must derive from vtkMRMLSurgicalMesherParameterNode.
 template <class Node>
 class ParameterPanel
 {
 public:
-  vtkWeakPointer<Node> Parameters; ///< null while none is shown
+  vtkWeakPointer<Node> Parameters; ///< null while no node is shown
 
   template <class Get, class Set>
   void bind(ctkSliderWidget* slider, Get get, Set set)
@@ -60,13 +60,13 @@ public:
   {
     this->bindValue(button, &QAbstractButton::toggled, get, set, &QAbstractButton::setChecked);
   }
-  /// By the index of the item.
+  /// Binds the index of the item.
   template <class Get, class Set>
   void bind(QComboBox* box, Get get, Set set)
   {
     this->bindValue(box, QOverload<int>::of(&QComboBox::currentIndexChanged), get, set, &QComboBox::setCurrentIndex);
   }
-  /// By the text that is the item's data; the first item stands for any other text.
+  /// Binds the text stored as the item's data; the first item represents any other text.
   template <class Get, class Set>
   void bindData(QComboBox* box, Get get, Set set)
   {
@@ -75,7 +75,7 @@ public:
       [box] { return box->currentData().toString(); },
       [box](const QString& text) { box->setCurrentIndex(std::max(0, box->findData(text))); });
   }
-  /// `edited` is the signal that the node waits for: QLineEdit::textChanged or QLineEdit::editingFinished.
+  /// `edited` is the signal on which the node is updated: QLineEdit::textChanged or QLineEdit::editingFinished.
   template <class Signal, class Get, class Set>
   void bind(QLineEdit* edit, Signal edited, Get get, Set set)
   {
@@ -90,7 +90,7 @@ public:
       [edit](const QString& path) { edit->setCurrentPath(path); });
   }
 
-  /// The one node of a role.
+  /// Binds the single node of a role.
   void bind(qMRMLNodeComboBox* box, const char* role)
   {
     QObject::connect(box, QOverload<vtkMRMLNode*>::of(&qMRMLNodeComboBox::currentNodeChanged), box,
@@ -98,17 +98,17 @@ public:
                      {
                        if (this->isListening()) this->Parameters->SetNode(role, node);
                      });
-    // The box would go on to a neighbour, which the next run could overwrite.
+    // By default, the box would select a neighbouring node, which the next run could overwrite.
     QObject::connect(box, &qMRMLNodeComboBox::nodeAboutToBeRemoved, box,
                      [box](vtkMRMLNode* node)
                      {
                        if (box->currentNode() == node) box->setCurrentNode(nullptr);
                      });
-    // What the user makes by the box is shown, empty, before a run fills it.
+    // A node created with the box is shown before a run fills it.
     QObject::connect(box->nodeFactory(), &qMRMLNodeFactory::nodeInitialized, box, giveOneVoxel);
     this->onShow([this, box, role] { box->setCurrentNode(this->Parameters->GetNodeReference(role)); });
   }
-  /// All nodes of a role.
+  /// Binds all nodes of a role.
   void bind(qMRMLCheckableNodeComboBox* box, const char* role)
   {
     QObject::connect(box, &qMRMLCheckableNodeComboBox::checkedNodesChanged, box,
@@ -131,17 +131,17 @@ public:
       });
   }
 
-  /// Something else that follows the node, after the controls bound before; the node is not null then.
+  /// Adds an action that follows the node, after the controls bound before; the node is then not null.
   void onShow(std::function<void()> show) { m_Shown.push_back(std::move(show)); }
 
-  /// The controls follow the node, which is not null; none of them writes to it meanwhile.
+  /// Updates the controls from the node, which must not be null; meanwhile, no control writes to the node.
   void show()
   {
     const QScopedValueRollback<bool> showing(m_IsShowing, true);
     for (const auto& show : m_Shown) show();
   }
 
-  /// Whether a change of a control is the user's, for the node.
+  /// Whether a change of a control is user input that must be written to the node.
   bool isListening() const { return this->Parameters && !m_IsShowing; }
 
 private:
@@ -168,7 +168,7 @@ private:
       [this, get, read, show]
       {
         const QString text = QString::fromStdString((this->Parameters->*get)());
-        if (read() != text) show(text); // where it is the same already, the cursor stays
+        if (read() != text) show(text); // leaves the cursor in place if the text is unchanged
       });
   }
 

@@ -98,7 +98,7 @@ void qSurgicalMesherRunWidgetPrivate::setupUi()
   QObject::connect(this->FixButton, &QPushButton::clicked, q,
                    [this]
                    {
-                     const std::function<void()> fix = this->Fix; // the call may replace it
+                     const std::function<void()> fix = this->Fix; // the call may replace this->Fix
                      if (fix) fix();
                    });
   QObject::connect(this->ApplyButton, &QPushButton::clicked, q, &qSurgicalMesherRunWidget::apply);
@@ -113,7 +113,7 @@ QString qSurgicalMesherRunWidgetPrivate::errorSentence() const
                           : qSurgicalMesherRunWidget::tr("The module failed: %1").arg(reason);
 }
 
-/// What is missing counts more than what happened.
+/// A current problem takes precedence over the outcome of the last run.
 void qSurgicalMesherRunWidgetPrivate::showSentence()
 {
   Q_Q(qSurgicalMesherRunWidget);

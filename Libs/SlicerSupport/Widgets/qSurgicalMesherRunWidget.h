@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
-/// The foot of every panel of the project: a line that says what is missing, with a button that mends it, or why the
-/// last run failed; Apply and Cancel; the host's progress bar and the elapsed time while a run is busy.
+/// The bottom part of every panel of the project: a line with the current problem and a button that fixes it, or with
+/// the error of the last run; Apply and Cancel; Slicer's progress bar and the elapsed time while a run is busy.
 
 #include "qSurgicalMesherSupportWidgetsExport.h"
 
@@ -24,30 +24,30 @@ public:
   explicit qSurgicalMesherRunWidget(QWidget* parent = nullptr);
   ~qSurgicalMesherRunWidget() override;
 
-  /// Says `sentence` and disables Apply. With `fixText` a button of that text calls `fix`.
+  /// Shows `sentence` and disables Apply. If `fixText` is given, a button with that text calls `fix`.
   void setProblem(const QString& sentence, const QString& fixText = QString(), std::function<void()> fix = {});
   /// Enables Apply, unless a run is busy.
   void clearProblem();
-  /// The problem's sentence; empty if there is none.
+  /// Returns the sentence of the current problem; empty if there is none.
   QString problem() const;
 
-  /// The run to follow and to cancel; null for none. Forgets the last one's error.
+  /// Sets the run to observe and cancel; null for none. Clears the error of the previous run.
   void setRun(vtkSurgicalMesherRun* run);
   vtkSurgicalMesherRun* run() const;
 
-  /// A sentence on the last run, shown until the next one starts: what came out of it.
+  /// Sets a sentence on the result of the last run, shown until the next one starts.
   void setResult(const QString& sentence);
 
 public slots:
-  /// As the buttons do; apply() is ignored while Apply is disabled.
+  /// Same as the buttons; apply() is ignored while Apply is disabled.
   void apply();
   void cancel();
 
 signals:
   void applyRequested();
-  /// Cancel was pressed; the run has been told already.
+  /// Cancel was pressed; the run has already been notified.
   void cancelRequested();
-  /// The run ended, well or not (vtkSurgicalMesherRun::CompletedEvent).
+  /// The run ended, in whatever way (vtkSurgicalMesherRun::CompletedEvent).
   void runEnded();
 
 private slots:
