@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# From label map to finite elements: the 189 tissues of a brain atlas around a target, or a map of your own.
+# Makes a finite element mesh of a label map: the 189 tissues of a brain atlas around a target, or a map of your own.
 # usage: ./example.sh [OUTDIR]                             (default build/example)
 #        ./example.sh OUTDIR MAP [--OPTION VALUE]...       with --targets FILE or --path FILE, and any option of the
 #                                                          modules; --nullDisplacement... marks far tissue first
-# Says which Debian packages are missing and how large they are, installs them, builds the three modules, and leaves the
-# meshes, a report and pictures. Earlier results in OUTDIR go once the new ones are complete.
-# With SURGICALMESHER_BIN set to a folder of modules already built, it installs and builds nothing and uses these.
+# Lists the Debian packages that are missing and their size, installs them, builds the three modules, and writes meshes,
+# a report and pictures to OUTDIR. Earlier results there are deleted once the new ones are complete.
+# If SURGICALMESHER_BIN names a folder of built modules, it uses these and neither installs nor builds anything.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")" && pwd)
@@ -45,7 +45,7 @@ while IFS=$'\t' read -r _ _ value; do
   if [[ $value == /* && -f $value ]]; then inputs+=("$value"); fi
 done <<<"$options"
 
-# usage: refuse_inputs FOLDER FILE...       none of these files may be one that is read
+# usage: refuse_inputs FOLDER FILE...       ends the script if one of these files in FOLDER is an input
 refuse_inputs()
 {
   local into=$1 file input
@@ -57,7 +57,7 @@ refuse_inputs()
   done
 }
 
-# Results are made in a folder of their own beside the earlier ones, and take their place when all are there.
+# Results are made in a temporary folder inside $folder and replace the earlier ones when all are complete.
 [[ ! -e $folder || -d $folder ]] || refuse 1 "$folder: not a folder, expected one for the results"
 [[ -d $folder ]] || created=1
 mkdir -p "$folder" 2>/dev/null || refuse 1 "$folder: the folder cannot be made"
@@ -70,7 +70,7 @@ trap 'exit 130' INT
 trap 'exit 143' TERM
 cd "$work"
 
-# The modules' progress is for a terminal; elsewhere it goes to the log.
+# usage: stage NAME COMMAND...       runs a stage and records its time; its output goes to a terminal or to the log
 seconds=()
 stage()
 {
@@ -83,7 +83,7 @@ stage()
   return "$status"
 }
 
-# The options that $options deals out to a stage, in the array `words`.
+# usage: words_for STAGE       puts the options that $options assigns to a stage into the array `words`
 words_for()
 {
   local stage flag value
@@ -110,7 +110,7 @@ mesh_own_map()
     surface.vtp mesh.vtu
 }
 
-# Moves all results into the folder; what is there of an earlier run goes.
+# Moves all results into the folder and deletes those of an earlier run that the new run did not make.
 deliver()
 {
   local file

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds everything, warnings as errors, and runs all tests; installs Debian packages that are missing.
+# Installs the Debian packages that are missing, builds everything with warnings as errors, and runs all tests.
 set -euo pipefail
 cd "$(dirname "$0")"
 

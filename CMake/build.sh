@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Installs what is missing of debian-packages.txt, then builds into build/.
+# Installs the Debian packages of debian-packages.txt that are missing, then builds into build/.
 # usage: CMake/build.sh [--for SECTION[,SECTION]...] [TARGET]...
-# Without --for, the packages of all sections are installed. What is missing, and how large it is, is said before; at a
-# terminal one is asked. Without the section tests, a new build folder is made without the tests.
+# Without --for, the packages of all sections are installed. The script first lists the missing packages and their size,
+# and at a terminal it asks before it installs them. A new build folder has no tests unless the section tests is wanted.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -17,7 +17,7 @@ for section in $wanted; do
   [[ " $sections" == *" $section "* ]] || { echo "build.sh: --for $section: expected $sections" >&2; exit 2; }
 done
 
-# The packages of the sections wanted, each once.
+# The packages of the wanted sections, each listed once.
 packages=$(awk -v wanted=" $wanted " '
   /^# \[/ { name = $2; gsub(/[][]/, "", name); listed = index(wanted, " " name " ") }
   { sub(/#.*/, "") }
@@ -27,7 +27,7 @@ for package in $packages; do
   dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
 done
 
-# Both sizes as apt-get knows them, with what the packages need in turn.
+# Prints the sizes to download and on disk, as apt-get reports them, of the missing packages and their dependencies.
 sizes()
 {
   LC_ALL=C apt-get install --assume-no --no-install-recommends "${missing[@]}" 2>/dev/null |

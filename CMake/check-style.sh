@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Formatting of all sources by clang-format 14 and their licence lines; with a configured build folder, whose
-# compile_commands.json it reads, clang-tidy's list on the host-independent ones as well.
+# Checks the formatting of all C++ sources by clang-format 14, and their licence lines. With BUILD, a configured build
+# folder whose compile_commands.json is read, it also runs clang-tidy on the sources that do not depend on Slicer.
 # usage: CMake/check-style.sh [BUILD]
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -20,9 +20,9 @@ if [[ -z $build ]]; then
   exit
 fi
 
-# The analyzer follows calls of short functions only: farther it takes as long as everything else together.
+# The analyzer may follow only calls of short functions; otherwise it takes as long as all other checks together.
 shallow=(--extra-arg=-Xclang --extra-arg=-analyzer-config --extra-arg=-Xclang --extra-arg=mode=shallow)
-# Debian 12's ITK headers accept GCC only, and the host's are not here.
+# Leaves out sources that include ITK, whose headers in Debian 12 accept only GCC, or Slicer, whose headers are missing.
 sources | grep -E '^(Libs|Program|[A-Za-z]+/(Core|CLI))/.*\.cxx$' | grep -vE '/Testing/|^Libs/SlicerSupport/' \
   | xargs grep -LE 'itk|ItkImage' \
   | xargs -P "$(nproc)" -n 4 nice clang-tidy --quiet -p "$build" "${shallow[@]}" 2>/dev/null

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The documentation as a site, in FOLDER/html; ends with status 1 if a page or a link to one is missing.
+# Builds the documentation as a site in FOLDER/html. Ends with status 1 if a page, or the target of a link, is missing.
 # usage: Docs/build.sh [FOLDER]   (default build-site)
 set -euo pipefail
 folder=$(realpath -m "${1:-$(dirname "$0")/../build-site}")
@@ -12,7 +12,8 @@ cp -r Docs/images "$folder/pages/"
 cp Docs/mkdocs.yml "$folder/"
 source=$(sed -n 's|^repo_url: ||p' Docs/mkdocs.yml)/blob/main
 
-# Links from the top to pages, to other files of the project; then those of pages likewise.
+# Adapts the links of the pages in the top folder to the site: links to other pages become relative to the site, and
+# links to other files of the project point to the repository. The second loop does the same for the pages in Docs.
 for page in README CONTRIBUTING CHANGELOG; do
   sed -E -e 's#\]\(Docs/#](#g' -e 's#\]\(([A-Za-z]+/[^):]*|LICENSE|NOTICE|[a-z.]+\.sh)\)#](@\1)#g' \
     -e 's#\]\(@(images/[^)]*)\)#](\1)#g' -e "s#\]\(@#]($source/#g" "$page.md" >"$folder/pages/$page.md"

@@ -1,4 +1,4 @@
-"""All options of all programs as a page, from the descriptions that --help, manual pages and completion are made of.
+"""Prints a page of all options of all programs, made from the descriptions that --help and the manual pages come from.
 
 usage: options.py ROOT > Options.md
 """
@@ -9,7 +9,7 @@ import xml.etree.ElementTree as xml
 
 
 def accepted(parameter):
-    """What a value has to be, in words."""
+    """Describes the values that a parameter accepts: choices, a range, or file extensions."""
     choices = [element.text for element in parameter.findall("element")]
     limits = [parameter.findtext(f"constraints/{name}") for name in ("minimum", "maximum")]
     if choices:

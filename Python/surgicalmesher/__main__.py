@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The program surgicalmesher itself: on the path of an environment, or by `python -m surgicalmesher`."""
+"""Runs the program surgicalmesher: the command `surgicalmesher` of an environment, and `python -m surgicalmesher`."""
 import os
 import sys
 
@@ -7,7 +7,7 @@ from ._programs import program
 
 
 def main() -> None:
-    path = program()  # whole: the others are looked for beside it
+    path = program()  # the full path, because the program looks for the other programs in its own folder
     os.execv(path, [path, *sys.argv[1:]])
 
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Label maps as other packages hold them, none of which is imported before one of its objects is handed in."""
+"""Converts label maps of other packages to arrays and to files.
+
+A package is imported only after one of its objects has been passed in."""
 from dataclasses import dataclass
 from typing import Any, Optional, Sequence
 
@@ -8,14 +10,14 @@ import numpy.typing as npt
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
 ARRAYS_ONLY = "expected with numpy arrays only (the voxels of the scale volume have scaleSpacing)"
-# What a NIfTI header, 1 or 2, says of the places of its voxels.
+# The fields of a NIfTI-1 or NIfTI-2 header that give the positions of the voxels.
 NIFTI_PLACEMENT = ("pixdim", "xyzt_units", "qform_code", "quatern_b", "quatern_c", "quatern_d", "qoffset_x",
                    "qoffset_y", "qoffset_z", "sform_code", "srow_x", "srow_y", "srow_z")
 
 
 @dataclass(frozen=True)
 class LabelMap:
-    """Labels by voxel [i, j, k], and the matrix that takes (i, j, k, 1) to LPS mm."""
+    """Labels indexed by voxel [i, j, k], and the 4 x 4 matrix that maps (i, j, k, 1) to LPS coordinates in mm."""
 
     labels: npt.NDArray[np.uint16]
     affine: npt.NDArray[np.float64]
@@ -82,7 +84,7 @@ def _from_vtk(image: Any) -> "tuple[Any, npt.NDArray[np.float64]]":
 def _as_labels(values: Any) -> npt.NDArray[np.uint16]:
     values = np.asanyarray(values)
     if isinstance(values, np.ma.MaskedArray):
-        values = values.filled(0)  # what is under a mask is no label
+        values = values.filled(0)  # masked voxels are background
     if values.ndim == 4 and values.shape[3] == 1:
         values = values[..., 0]
     if values.ndim != 3:
@@ -95,9 +97,11 @@ def _as_labels(values: Any) -> npt.NDArray[np.uint16]:
 
 def label_map(image: Any, spacing: Optional[Sequence[float]], origin: Optional[Sequence[float]],
               directions: Any) -> LabelMap:
-    """Of a numpy array with the grid given, or of an image that has its own: nibabel, SimpleITK, VTK (pyvista).
+    """Returns the label map of a numpy array, or of an image of nibabel, SimpleITK, VTK or pyvista.
 
-    Raises ValueError for what is no map of labels, and for a grid given beside an image."""
+    The other arguments are the grid of an array, in mm and LPS; by default, the spacing is 1 mm, the origin is
+    (0, 0, 0), and i, j, k point along the axes of LPS. An image has its own grid. Raises ValueError if `image` is not a
+    label map, if the grid is not finite, or if a grid is given for an image."""
     given = [name for name, value in (("spacing", spacing), ("origin", origin), ("directions", directions))
              if value is not None]
     if not (_is_nibabel(image) or _is_simpleitk(image) or _is_vtk(image)):
@@ -114,7 +118,7 @@ def label_map(image: Any, spacing: Optional[Sequence[float]], origin: Optional[S
 
 
 def _write_nrrd(map_: LabelMap, file: str) -> None:
-    """Uncompressed, by the format's own definition; numbers in full."""
+    """Writes an uncompressed NRRD file, with all digits of the affine. No library is needed for that."""
     vectors = ["(%s)" % ",".join("%.17g" % x for x in map_.affine[:3, column]) for column in range(4)]
     header = ("NRRD0005\ntype: uint16\ndimension: 3\nspace: left-posterior-superior\nsizes: %d %d %d\n"
               "space directions: %s %s %s\nspace origin: %s\nendian: little\nencoding: raw\n\n")
@@ -134,13 +138,13 @@ def _write_nifti(map_: LabelMap, image: Any, file: str) -> None:
 
 
 def file_name(image: Any) -> str:
-    """Of the map that `write_map` writes."""
+    """Returns the name of the file that `write_map` should write for the image: its extension selects the format."""
     return "map.nii" if _is_nifti(image) else "map.nrrd"
 
 
 def write_map(map_: LabelMap, image: Any, file: str) -> None:
-    """The image's labels. Units and forms of a NIfTI header go to the program as they are, which reads them as it does
-    in the image's own file."""
+    """Writes the labels of `image`, converted to `map_`, to a file. The units, qform and sform of a NIfTI image are
+    copied unchanged, so that the program reads them as it would from the image's own file."""
     if _is_nifti(image):
         _write_nifti(map_, image, file)
     else:

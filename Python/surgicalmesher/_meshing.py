@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""From labels to a mesh."""
+"""The functions `mesh` and `estimate`, which translate their arguments into a command line and files and run it."""
 import contextlib
 import json
 import os
@@ -15,24 +15,25 @@ from ._programs import Progress, output_flags, run, vector_flags
 from ._tetrahedra import Mesh, read_mesh
 
 
-# Flags that make a program describe itself, or report in another way than `run` reads.
+# Flags that make a program describe itself, or report in a form that `run` does not read.
 QUESTIONS = {"help", "version", "xml", "echo", "progress"}
 
 
 def _plain(value: Any) -> Any:
-    """An array without axes is the number in it."""
+    """Returns the number in a zero-dimensional array, and any other value as it is."""
     return value[()] if isinstance(value, np.ndarray) and value.ndim == 0 else value
 
 
 def _to_read_again(value: Any) -> Any:
-    """What gives its values once only, as a generator, becomes a list of them, in a list or tuple, too."""
+    """Returns the value in a form that can be read more than once: iterators, such as generators, become lists, also
+    inside lists and tuples."""
     if hasattr(value, "__next__") or isinstance(value, (list, tuple)):
         return [_to_read_again(part) for part in value]
     return value
 
 
 def _word(value: Any) -> str:
-    """A value as the programs read it; a point as x,y,z."""
+    """Returns the value as the programs read it; a point becomes x,y,z."""
     value = _plain(value)
     if isinstance(value, (str, os.PathLike)):
         return os.fspath(value)
@@ -53,8 +54,10 @@ def _repeated(name: str, values: Iterable[Any]) -> List[str]:
 
 
 def option_arguments(command: str, options: Mapping[str, Any]) -> List[str]:
-    """`--name=value` of every option that is not None; a sequence repeats its flag, but where one value is several
-    numbers; True is a flag alone. Raises ValueError for what is a question, and no option of the command."""
+    """Returns `--name=value` for every option that is neither None nor False, and the flag alone for True.
+
+    A sequence repeats its flag, except where one value of the flag consists of several numbers. Raises ValueError for
+    the flags in QUESTIONS; all others are left to the program to check."""
     words: List[str] = []
     plain = {name: _plain(value) for name, value in options.items()}
     vectors = vector_flags(command) if any(map(_is_sequence, plain.values())) else set()
@@ -69,7 +72,8 @@ def option_arguments(command: str, options: Mapping[str, Any]) -> List[str]:
 
 
 def _place_arguments(flag: str, point_flag: str, places: Any) -> List[str]:
-    """Of files of markups, or of points."""
+    """Returns the arguments for `places`: markups files by `--flag`, or points (mm, LPS) by `--point_flag`. Raises
+    ValueError for anything else."""
     if places is None:
         return []
     places = _to_read_again(places)
@@ -84,7 +88,8 @@ def _place_arguments(flag: str, point_flag: str, places: Any) -> List[str]:
 
 
 def _lies_in_results(value: Any) -> bool:
-    """Whether one of an output's names has no folder of its own. Commas are part of a name to `surgicalmesher mesh`."""
+    """Returns whether the name of an output, or one of several, has no folder of its own. As for
+    `surgicalmesher mesh`, a comma is part of a name."""
     if isinstance(value, (str, os.PathLike)):
         return not os.path.dirname(value)
     value = _plain(value)
@@ -92,7 +97,7 @@ def _lies_in_results(value: Any) -> bool:
 
 
 def _require_kept(options: Mapping[str, Any]) -> None:
-    """Raises ValueError for outputs that would go with a temporary folder."""
+    """Raises ValueError if an output would be deleted together with the temporary folder."""
     names = [name for name, value in options.items() if _lies_in_results(value)]
     outputs = output_flags() if names else ()
     for name in names:
@@ -102,26 +107,26 @@ def _require_kept(options: Mapping[str, Any]) -> None:
 
 
 def _is_source(image: Any, file: str) -> bool:
-    """Whether nibabel has read the image from that file, perhaps not all of it yet."""
+    """Returns whether nibabel opened the image from this file, and so may still have to read its voxels from it."""
     source = image.get_filename() if hasattr(image, "get_filename") else None
     return source is not None and os.path.exists(file) and os.path.samefile(source, file)
 
 
 def _is_at_work(process: int) -> bool:
-    """Whether it may be another that meshes."""
-    if process == os.getpid():  # a number that was another's
+    """Returns whether the process with this number may be another one that is meshing."""
+    if process == os.getpid():  # the number belonged to an earlier process
         return False
     try:
         os.kill(process, 0)
     except ProcessLookupError:
         return False
-    except (OSError, OverflowError):  # another user's
+    except (OSError, OverflowError):  # another user's process, or too large a number to ask about
         pass
     return True
 
 
 def _tidy(file: str) -> None:
-    """What calls that were killed have set aside of the file comes back, and what they had begun goes."""
+    """Restores the copy of the file that a killed call had set aside, and deletes new versions that it had begun."""
     folder, name = os.path.split(file)
     for found in os.listdir(folder):
         left = re.fullmatch(rf"\.([0-9]+)\.(new\.)?{re.escape(name)}", found)
@@ -135,14 +140,17 @@ def _tidy(file: str) -> None:
 
 def _bring_back(aside: str, file: str) -> None:
     os.replace(aside, file)
-    with contextlib.suppress(FileNotFoundError):  # two names of one file are left as they are
+    with contextlib.suppress(FileNotFoundError):  # `replace` leaves both names in place if they are links to one file
         os.remove(aside)
 
 
 @contextlib.contextmanager
 def _as_before(file: str, write: Optional[Callable[[str], None]] = None) -> Iterator[None]:
-    """The file is replaced, by what `write` writes or later on. What was there before comes back if what is done with
-    it fails, by the next call if this one is killed. A link stays one."""
+    """Restores the file if the body of the `with` statement fails.
+
+    With `write`, which is called with the name of a file to write, the file is replaced before the body runs; without
+    it, the body may replace the file. If this process is killed, the next call restores the file. If the file is a
+    symbolic link, the file that it points to is replaced, and the link stays."""
     folder, name = os.path.split(os.path.realpath(file))
     _tidy(os.path.join(folder, name))
     own = f".{os.getpid()}."
@@ -152,9 +160,9 @@ def _as_before(file: str, write: Optional[Callable[[str], None]] = None) -> Iter
         if was_there:
             try:
                 os.link(file, aside)
-            except OSError:  # not on every file system
+            except OSError:  # the file system may not support hard links
                 shutil.copy2(file, new)
-                os.replace(new, aside)  # never a part of it
+                os.replace(new, aside)  # so that `aside` is never an incomplete copy
         if write:
             write(new)
             os.replace(new, file)
@@ -173,7 +181,8 @@ def _as_before(file: str, write: Optional[Callable[[str], None]] = None) -> Iter
 
 @contextlib.contextmanager
 def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
-    """The map's file: its own, or one that is written into the folder, and stays there if the run succeeds."""
+    """Yields the path of the label map's file: the file that was given, or one written to the folder, which stays there
+    only if the body of the `with` statement succeeds. `grid` is (spacing, origin, directions)."""
     if isinstance(labels, (str, os.PathLike)):
         if any(value is not None for value in grid):
             raise ValueError(f"spacing, origin and directions are the file's own, {ARRAYS_ONLY}")
@@ -186,12 +195,12 @@ def _map_file(labels: Any, grid: Sequence[Any], folder: str) -> Iterator[str]:
     made = not os.path.isdir(folder)
     os.makedirs(folder, exist_ok=True)
     try:
-        with _as_before(os.path.join(folder, "run.toml")):  # its options are those of a run with the map
+        with _as_before(os.path.join(folder, "run.toml")):  # the run's options, which belong to the map
             with _as_before(file, lambda new: write_map(content, labels, new)):
                 yield file
     except BaseException:
         if made:
-            with contextlib.suppress(OSError):  # stages that were complete stay in it
+            with contextlib.suppress(OSError):  # the folder is not empty if stages were complete; they stay
                 os.rmdir(folder)
         raise
 
@@ -205,23 +214,29 @@ def mesh(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Opti
          directions: Any = None, targets: Any = None, path: Any = None, preset: Optional[str] = None,
          scaleSpacing: Optional[float] = None, folder: "str | os.PathLike[str] | None" = None,
          progress: Optional[Progress] = None, **options: Any) -> Mesh:
-    """Tetrahedra of all tissues of a label map, fine around targets and paths, as `surgicalmesher mesh` makes them.
+    """Meshes all tissues of a label map with tetrahedra, fine around targets and paths, and returns the Mesh.
 
-    labels        numpy array of labels [i, j, k] (0 is background), nibabel, SimpleITK, VTK or pyvista image, or a file
-    spacing       of an array: mm between voxels along i, j, k; 1 without
-    origin        of an array: centre of the first voxel (mm, LPS)
-    directions    of an array: 3 x 3, whose columns are the axes i, j, k in LPS
-    targets       points (mm, LPS), or files of markups
-    path          points from entry to target (mm, LPS), or files of markups
-    preset        draft, default, fine or simulation
-    scaleSpacing  mm between voxels of the scale volume, the program's --spacing
-    folder        where the files and the report of the run stay; without it they go with a temporary folder, and
-                  outputs asked for need one of their own: export="models/head.inp"
-    progress      called with the share done, from 0 to 1, and the name of the stage; what it raises cancels the run
-    options       those of `surgicalmesher mesh --help`, by name: minimumEdgeLength=0.5, threads=1, ...
+    labels        label map: a numpy array [i, j, k] of integers from 0 (background) to 65535; an image of nibabel,
+                  SimpleITK, VTK or pyvista; or the name of a file
+    spacing       for an array only: distances between voxels along i, j, k (mm); by default 1
+    origin        for an array only: centre of the first voxel (mm, LPS); by default (0, 0, 0)
+    directions    for an array only: 3 x 3 matrix whose columns are the directions of i, j, k in LPS; by default the
+                  identity
+    targets       point or points (mm, LPS) around which the mesh is fine, or the names of markups files
+    path          points of a surgical path from entry to target (mm, LPS), along which the mesh is fine, or the names
+                  of markups files
+    preset        draft, default, fine or simulation: default values of the options
+    scaleSpacing  distance between voxels of the scale volume (mm): the program's option --spacing
+    folder        folder that keeps the files and the report of the run, and from which a later run continues; without
+                  it, all files are deleted, and further outputs must name a folder: export="models/head.inp"
+    progress      function that is called with the completed share, from 0 to 1, and the name of the stage; an exception
+                  that it raises ends the run
+    options       options of `surgicalmesher mesh --help` by name: minimumEdgeLength=0.5, threads=1, ...
 
-    VTK's and pyvista's images are taken as LPS. Ctrl-C ends the run; without `folder`, nothing stays of it. Raises
-    MeshingError with the program's sentence, ValueError for what is no map; warns by MeshingWarning.
+    The mesh is the one that the command `surgicalmesher mesh` makes. Images of VTK and pyvista are taken to be in LPS.
+    Ctrl-C ends the run; without `folder`, no files are left. Raises MeshingError with the program's message if the run
+    fails, and ValueError for arguments that are not a label map, a grid or points. Issues the program's warnings as
+    MeshingWarning.
     """
     options = {name: _to_read_again(value) for name, value in options.items()}
     if folder is None:
@@ -239,9 +254,11 @@ def mesh(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Opti
 def estimate(labels: Any, *, spacing: Optional[Sequence[float]] = None, origin: Optional[Sequence[float]] = None,
              directions: Any = None, targets: Any = None, path: Any = None, preset: Optional[str] = None,
              scaleSpacing: Optional[float] = None, **options: Any) -> Dict[str, Any]:
-    """What `mesh` with the same arguments will take: the figures of `surgicalmesher estimate --estimate`, `triangles`,
-    `tetrahedra`, `memoryBytes` and `processorSeconds`. Options are those of `surgicalmesher estimate --help`, which
-    set lengths. Raises as `mesh` does."""
+    """Predicts the size, memory and time of a mesh before it is made.
+
+    Returns a dictionary of `triangles`, `tetrahedra`, `memoryBytes` and `processorSeconds`, the figures of
+    `surgicalmesher estimate`. The arguments mean the same as those of `mesh`; `options` are those of
+    `surgicalmesher estimate --help`. Raises the same exceptions as `mesh`."""
     with tempfile.TemporaryDirectory(prefix="surgicalmesher-") as scratch:
         figures = os.path.join(scratch, "estimate.json")
         words = _arguments("estimate", targets, path, {"preset": preset, "spacing": scaleSpacing, **options})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The program surgicalmesher, run to its end."""
+"""Runs the program surgicalmesher and reads its progress, warnings and errors."""
 import json
 import os
 import subprocess
@@ -13,8 +13,10 @@ STAGES = ("SurgicalPathScaleCLI", "SimplexMesherCLI", "FuchsTetrahedralizerCLI",
 
 
 class MeshingError(RuntimeError):
-    """A program's refusal, in its own sentence; `status` is its exit status: 1 for the input, 2 for options, 3 for a
-    failure of the engine."""
+    """The error message of a program.
+
+    `status` is the program's exit status: 1 for an error in the input, 2 for one in the options, 3 for a failure of the
+    program itself, and minus the number of the signal if a signal ended the program."""
 
     def __init__(self, reason: str, status: int) -> None:
         super().__init__(reason)
@@ -22,11 +24,12 @@ class MeshingError(RuntimeError):
 
 
 class MeshingWarning(UserWarning):
-    """What a program warns of, as a target outside of the map."""
+    """A warning of a program, for example about a target outside the map."""
 
 
 def program() -> str:
-    """Path of the program: in the package, or in the folder that SURGICALMESHER_PROGRAMS names."""
+    """Returns the path of the program: in the folder that the environment variable SURGICALMESHER_PROGRAMS names, or in
+    the package."""
     package = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bin")
     return os.path.join(os.environ.get("SURGICALMESHER_PROGRAMS", package), "surgicalmesher")
 
@@ -36,7 +39,7 @@ def _missing(path: str, error: OSError) -> MeshingError:
 
 
 def _reason_in(errors: bytes, prefix: str) -> str:
-    """The last line that is no warning, without the program's name."""
+    """Returns the last line of `errors` that is not a warning, without `prefix`, the program's name."""
     lines = [line for line in errors.decode(errors="replace").splitlines() if line and ": warning: " not in line]
     reason = lines[-1] if lines else ""
     return reason[len(prefix):] if reason.startswith(prefix) else reason
@@ -47,7 +50,7 @@ def _failed(name: str, status: int, reason: str) -> MeshingError:
 
 
 def _parameters(*words: str) -> List[xml.Element]:
-    """Those with a flag, as a program describes itself."""
+    """Returns the parameters that have a flag, from the description that the program `words` prints with --xml."""
     try:
         done = subprocess.run([*words, "--xml"], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, check=False)
@@ -63,8 +66,10 @@ def _parameters(*words: str) -> List[xml.Element]:
 
 
 def output_flags() -> Set[str]:
-    """Of the stages of `surgicalmesher mesh`, whose own description has them as texts. What an earlier stage reads and
-    a later one writes is to be read."""
+    """Returns the flags that name output files of `surgicalmesher mesh`.
+
+    They are taken from the descriptions of its stages, because its own description declares them as plain strings. If
+    several stages have a flag, the first one decides, so a file that it reads is not an output."""
     folder = os.path.dirname(os.path.realpath(program()))
     channels: Dict[str, Optional[str]] = {}
     for stage in STAGES:
@@ -74,23 +79,26 @@ def output_flags() -> Set[str]:
 
 
 def vector_flags(command: str) -> Set[str]:
-    """Of `surgicalmesher command`: those whose one value is several numbers."""
+    """Returns the flags of `surgicalmesher command` for which one value consists of several numbers."""
     return {str(parameter.findtext("longflag")) for parameter in _parameters(program(), command)
             if parameter.tag.endswith("-vector")}
 
 
 def _hand_on(line: bytes, progress: Optional[Progress]) -> None:
-    """A line of --progress json; in names of files, any bytes may be."""
+    """Passes one line of `--progress=json` on: progress to `progress`, and a warning as MeshingWarning. File names in
+    the line may contain bytes that are not UTF-8."""
     event = json.loads(line.decode(errors="replace"))
     if progress is not None and "progress" in event:
         progress(event["progress"], event["stage"])
     if "warning" in event:
-        warnings.warn(event["warning"], MeshingWarning, stacklevel=4)  # where the package's function was called
+        warnings.warn(event["warning"], MeshingWarning, stacklevel=4)  # the line that called the package's function
 
 
 def run(command: str, arguments: Sequence[str], progress: Optional[Progress] = None) -> None:
-    """Runs `surgicalmesher command arguments...`. Ctrl-C and whatever `progress` raises end the program, which takes
-    its half-written files with it. Raises MeshingError."""
+    """Runs `surgicalmesher command arguments...` to its end.
+
+    Ctrl-C or an exception that `progress` raises ends the program, which then deletes its unfinished files. Raises
+    MeshingError if the program is not found or fails."""
     words = [program(), command, "--progress=json", *arguments]
     with tempfile.TemporaryFile() as errors:
         try:
@@ -104,7 +112,7 @@ def run(command: str, arguments: Sequence[str], progress: Optional[Progress] = N
                     _hand_on(line, progress)
             except BaseException:
                 child.terminate()
-                child.communicate()  # it still has its files to take away, and a place for its last words
+                child.communicate()  # lets the program delete its files and print what it still has to
                 raise
         errors.seek(0)
         reason = _reason_in(errors.read(), f"surgicalmesher {command}: ")

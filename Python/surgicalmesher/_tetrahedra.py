@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The mesh as arrays."""
+"""The mesh as numpy arrays, read from the program's file."""
 import contextlib
 import os
 import tempfile
@@ -14,7 +14,8 @@ from ._programs import MeshingError, run
 
 @contextlib.contextmanager
 def _one_name(file: str) -> Iterator[None]:
-    """The program takes a name with commas for a list of names, unless there is such a file: an empty one stands in."""
+    """Makes the program take a name with commas as one name. It takes it as a list of names unless a file of that name
+    exists; for as long as the body of the `with` statement runs, an empty file stands in."""
     if "," not in file or os.path.exists(file):
         yield
         return
@@ -26,31 +27,44 @@ def _one_name(file: str) -> Iterator[None]:
     try:
         yield
     finally:
-        if os.path.exists(file) and os.path.getsize(file) == 0:  # refused, or a format of other files
+        if os.path.exists(file) and os.path.getsize(file) == 0:  # the program failed, or wrote files of other names
             os.remove(file)
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """Tetrahedra of all tissues, in LPS mm; what the arrays hold is that of the file mesh.vtu."""
+    """A mesh of n points and m tetrahedra in all tissues; its arrays have the values of the file mesh.vtu.
 
-    points: npt.NDArray[np.float64]  #: (n, 3)
-    tetrahedra: npt.NDArray[np.int64]  #: (m, 4) numbers of points, positively wound
-    tissue_labels: npt.NDArray[np.int32]  #: (m,) label in the map
-    sub_mesh: npt.NDArray[np.int32]  #: (m,) 0 for the parent, 1, 2, ... for children
-    constitutive: npt.NDArray[np.int32]  #: (m,) 0 linear, 1 nonlinear, 2 null displacement
-    target_edge_length: npt.NDArray[np.float64]  #: (n,) in mm
+    points              (n, 3) positions (mm, LPS)
+    tetrahedra          (m, 4) indices of the corners in `points`, in positive orientation
+    tissue_labels       (m,) label in the label map
+    sub_mesh            (m,) 0 for the parent, the coarse part; 1, 2, ... for the children, the fine parts
+    constitutive        (m,) 0 for linear, 1 for nonlinear, 2 for null displacement: tissue that is held still
+    target_edge_length  (n,) target edge length at the points (mm)
+    tissue_names        names by label
+    tissue_colors       colours by label: red, green and blue from 0 to 1
+    vtu                 content of the file mesh.vtu
+    """
+
+    points: npt.NDArray[np.float64]
+    tetrahedra: npt.NDArray[np.int64]
+    tissue_labels: npt.NDArray[np.int32]
+    sub_mesh: npt.NDArray[np.int32]
+    constitutive: npt.NDArray[np.int32]
+    target_edge_length: npt.NDArray[np.float64]
     tissue_names: Dict[int, str]
-    tissue_colors: Dict[int, Tuple[float, float, float]]  #: red, green, blue from 0 to 1
-    vtu: bytes = field(repr=False)  #: the file
+    tissue_colors: Dict[int, Tuple[float, float, float]]
+    vtu: bytes = field(repr=False)
 
     def __repr__(self) -> str:
         tissues = len(np.unique(self.tissue_labels))
         return f"<surgicalmesher.Mesh: {len(self.tetrahedra)} tetrahedra, {len(self.points)} points, {tissues} tissues>"
 
     def save(self, file: "str | os.PathLike[str]", **options: Any) -> None:
-        """Writes the mesh in the format of the file's extension: `.vtu` as the program wrote it, others as
-        `surgicalmesher convert` does (.inp, .feb, .msh ...), whose options these are. Raises MeshingError."""
+        """Writes the mesh to a file in the format of its extension.
+
+        `.vtu` without options is written as the program made it; other formats (.inp, .feb, .msh, ...) are written by
+        `surgicalmesher convert`, and `options` are its options. Raises MeshingError if that fails."""
         from ._meshing import option_arguments
 
         file = os.path.abspath(file)
@@ -67,7 +81,8 @@ class Mesh:
                 run("convert", [*words, source, file])
 
     def to_meshio(self) -> Any:
-        """A meshio.Mesh with the same arrays."""
+        """Returns the mesh as a meshio.Mesh, with the arrays TissueLabel, SubMesh, Constitutive and
+        TargetEdgeLength."""
         import meshio
 
         return meshio.Mesh(self.points, [("tetra", self.tetrahedra)],
@@ -75,7 +90,8 @@ class Mesh:
                            cell_data={name: [values] for name, values in self._cell_arrays().items()})
 
     def to_pyvista(self) -> Any:
-        """A pyvista.UnstructuredGrid with the same arrays."""
+        """Returns the mesh as a pyvista.UnstructuredGrid, with the arrays TissueLabel, SubMesh, Constitutive and
+        TargetEdgeLength."""
         import pyvista
 
         grid = pyvista.UnstructuredGrid({pyvista.CellType.TETRA: self.tetrahedra}, self.points)
@@ -89,8 +105,10 @@ class Mesh:
 
 
 def read_mesh(file: "str | os.PathLike[str]") -> Mesh:
-    """A mesh.vtu that Fuchs Tetrahedralizer or `surgicalmesher mesh` wrote. Raises MeshingError for others, as
-    `convert` writes them: they have no names and colours of tissues."""
+    """Reads a mesh.vtu that Fuchs Tetrahedralizer or `surgicalmesher mesh` wrote, and returns the Mesh.
+
+    Raises MeshingError for other files, also for a `.vtu` that `surgicalmesher convert` wrote, because it lacks the
+    names and colours of the tissues."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkCommonDataModel import VTK_TETRA
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Paths through a vessel tree by two points each, beside the tree that a threshold shows.
+"""Compares paths through a vessel tree, each traced from two points, with the tree that a threshold shows.
 
     angiogram.py TUBEPATHCLI ANGIOGRAM COUNT THRESHOLD
 
-The tree is the largest piece of what is brighter than THRESHOLD; its ridge are voxels whose distance from its outside
-is no smaller than that of both neighbours along two axes or three. COUNT random pairs of ridge voxels 0.8 mm or more
-deep, 25 to 45 mm apart along the tree. Of each path: length beside the way through the tree's voxels, share of its
-points inside the tree, mean and largest distance to the ridge (mm), time.
+The tree is the largest connected piece of voxels brighter than THRESHOLD. Its ridge consists of the voxels whose
+distance from the outside is, along at least two axes, no smaller than that of both neighbours. The ends of the paths
+are COUNT random pairs of ridge voxels at least 0.8 mm deep and 25 to 45 mm apart along the tree. Prints for each path
+its length and that of the way through the tree's voxels, the share of its points inside the tree, the mean and largest
+distance to the ridge (mm), and the time.
 """
 import json
 import os
@@ -36,7 +37,7 @@ def ridge_of(depth):
 
 
 def ways(voxels, spacing):
-    """Graph of neighbouring voxels, with their distance."""
+    """Returns the graph of neighbouring voxels (n, 3), whose edges are weighted with their distance (mm)."""
     pairs = cKDTree(voxels).query_pairs(1.8, output_type="ndarray")
     length = np.linalg.norm((voxels[pairs[:, 0]] - voxels[pairs[:, 1]]) * spacing, axis=1)
     return sparse.coo_matrix((length, pairs.T), (len(voxels),) * 2).tocsr()

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""Time, memory and quality of our stages and of other meshers on the same input, at doubling sizes.
+"""Measures time, memory and quality of our stages and of other meshers on the same inputs, at doubling sizes.
 
 usage: benchmark.py BIN OUTDIR [--case PATTERN] [--threads N,N] [--page]
        benchmark.py BIN OUTDIR --map FILE.nii.gz --targets FILE [--spacing MM] [--featureScale S] [--threads N,N]
 
 BIN holds the three modules, Mesh3Driver and TetGenDriver; a driver that is missing is left out. Runs the cases whose
-names match the regular expression, prints a line for each run, and puts the records into OUTDIR/benchmark.json, beside
-those of other cases from earlier runs: every record has its commit and its machine. --page draws the curves of all
-records and writes the tables into Docs/Benchmarks.md; it wants a record of every case. With --map, the one case is that
-map, resampled to voxels of --spacing (1 mm).
+names match the regular expression PATTERN, prints a line for each run, and adds the records to OUTDIR/benchmark.json,
+which keeps those of other cases from earlier runs. Every record names its commit and its machine. --page draws the
+curves of all records and writes the tables into Docs/Benchmarks.md; it needs a record of every case. With --map, the
+only case is that map, resampled to voxels of --spacing (by default 1 mm).
 """
 import argparse
 import json
@@ -33,7 +33,7 @@ ISLAND_VOLUME = "30"
 
 
 def measured(command):
-    """Runs a command: its figures (see measured.py), and what it printed."""
+    """Runs a command and returns its figures (see measured.py) and its stdout."""
     watched = [sys.executable, os.path.join(HERE, "measured.py"), "figures.json", *command]
     process = subprocess.run(watched, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                              check=False)
@@ -60,8 +60,8 @@ def machine():
 
 
 def quality_of(mesh_file, wanted):
-    """Measures of a mesh that do not come from the program that made it; OUTDIR/scale.nrrd is its scale. `wanted` is,
-    by label, the number of pieces and the Euler number."""
+    """Returns the quality of a mesh, measured independently of the program that made it. Target edge lengths are those
+    of scale.nrrd; `wanted` maps each label to its number of pieces and its Euler number."""
     mesh = read_mesh(mesh_file)
     scale, affine = read_nrrd("scale.nrrd")
     angles = dihedral_angles(mesh)
@@ -77,7 +77,7 @@ def quality_of(mesh_file, wanted):
 
 
 def run_ours(case, modules, threads, surface_options):
-    """Stage -> seconds and peak memory, of our modules on map.nrrd."""
+    """Runs our modules on map.nrrd and returns the figures of each stage."""
     def stage(program, *arguments):
         return measured([os.path.join(modules, program), "--threads", str(threads), *arguments])[0]
     return {
@@ -89,7 +89,8 @@ def run_ours(case, modules, threads, surface_options):
 
 
 def run_driver(modules, driver, *arguments):
-    """(its name, figures of the whole with the seconds of its phases), or None if there is no such program."""
+    """Runs a driver and returns (name of the mesher, figures of the run with the seconds of its phases), or None if the
+    driver is missing."""
     program = os.path.join(modules, driver)
     if not os.path.exists(program):
         return None
@@ -111,7 +112,7 @@ def record_of(case, program, threads, description, stages, quality):
 
 
 def run_case(case, modules, threads, surface_options):
-    """Records of ours for each number of threads, then of the other meshers."""
+    """Yields the records of our modules for each number of threads, then those of the other meshers."""
     labels, affine = case.make()
     write_nrrd("map.nrrd", labels, affine)
     description = {"size": list(labels.shape), "spacing": case.spacing, "tissues": len(np.setdiff1d(labels, [0]))}
@@ -142,7 +143,7 @@ def read_records(file):
 
 
 def merged(old, new):
-    """Records of earlier runs but for those measured again, in the order of the cases."""
+    """Returns the new records, and the old ones that were not measured again, in the order of the cases."""
     def key(record):
         return record["case"], record["program"], record["threads"]
     order = {case.name: n for n, case in enumerate(inputs.CASES)}
@@ -151,7 +152,8 @@ def merged(old, new):
 
 
 def require_every_case(parser, cases, records):
-    """Refuses a page that would lose what was measured elsewhere, before time goes into measuring the rest."""
+    """Ends the program if there is a case that neither has a record nor is about to be measured. This check comes
+    before the runs, so that no time is lost on a page that would lack results."""
     known = {case.name for case in cases} | {record["case"] for record in records}
     missing = [case.name for case in inputs.CASES if case.name not in known]
     if missing:
@@ -195,7 +197,7 @@ def main():
         with open("benchmark.json", "w", encoding="utf-8") as file:
             json.dump({"runs": records}, file, indent=1)
     if arguments.page:
-        import page  # pylint: disable=import-outside-toplevel  # matplotlib, for those who want it
+        import page  # pylint: disable=import-outside-toplevel  # only --page needs matplotlib
         page.write(records)
 
 

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What TissueMapperCLI makes of a few random training points, beside the truth.
+"""Compares what TissueMapperCLI makes of a few random training points with the truth.
 
     classification.py draws TISSUEMAPPERCLI TRUTH COUNT[,FROM] [--OPTION]... IMAGE...
     classification.py constraints TISSUEMAPPERCLI TRUTH COUNT[,FROM] [--OPTION]... IMAGE...
 
-COUNT draws of twenty random voxels a class; FROM is the first one's number. `draws` prints, draw by draw, the share of
-the head's voxels that are right, Dice by class, time and memory. `constraints` gives every class of soft tissue
-contiguity, and small ones a limit, and then leaves out each constraint in turn; it prints the share of voxels right,
-false positives of CSF and muscle in the compartment that isn't theirs, and true and false positives by class. TRUTH is
-on the images' grid, its labels are as simulate.py has them. Glial matter, which has no brightness of its own, is no
-class.
+Makes COUNT draws of twenty random voxels per class; FROM is the number of the first draw. `draws` prints for each draw
+the share of the head's voxels that are right, Dice by class, time and memory. `constraints` compares runs with all
+constraints (compartments, contiguity of every class of soft tissue, limits on small classes), without limits, without
+limits and contiguity, without compartments, and with none. It prints the share of voxels that are right, the false
+positives of CSF and muscle in compartments to which they do not belong, and true and false positives by class. TRUTH
+has the grid of the images and the labels of simulate.py. Glial matter is not a class, because it has no brightness of
+its own.
 """
 import json
 import os
@@ -22,9 +23,9 @@ import numpy as np
 
 from simulate import HEAD, is_brainweb
 
-POINTS = 20  # a class
+POINTS = 20  # per class
 
-# Labels, compartment, limit (mm; 0 for none). Bone of both kinds is one class.
+# Labels, compartment and limit (mm; 0 for none) of each class. Bone and marrow are one class.
 BRAINWEB_CLASSES = {
     "CSF": ([1], "intracranial", 0), "grey matter": ([2], "intracranial", 0),
     "white matter": ([3], "intracranial", 0), "fat": ([4], "extracranial", 0),
@@ -51,7 +52,7 @@ class Truth:
         labels = np.asarray(image.dataobj).squeeze().astype(int)
         self.affine = image.affine
         self.classes = classes_of(labels)
-        self.number = np.zeros(labels.shape, np.uint8)  # of the class, from 1; 0 where there is none
+        self.number = np.zeros(labels.shape, np.uint8)  # number of each voxel's class, from 1; 0 for no class
         for number, (members, _, _) in enumerate(self.classes.values(), 1):
             self.number[np.isin(labels, members)] = number
         self.head = labels != 0
@@ -81,7 +82,8 @@ def write_table(truth, file, contiguity, limits):
 
 
 def classified(program, truth, seed, folder, options, contiguity=False, limits=False):
-    """Numbers of classes on the truth's grid, seconds of wall clock and of the processor, and MB."""
+    """Runs the program on one draw. Returns the numbers of the classes found on the truth's grid, wall-clock and
+    processor seconds, and peak memory (MB)."""
     training, table, output = (os.path.join(folder, name) for name in ("t.mrk.json", "c.csv", "map.nii.gz"))
     truth.draw(seed, training)
     write_table(truth, table, contiguity, limits)
@@ -103,7 +105,7 @@ def classified(program, truth, seed, folder, options, contiguity=False, limits=F
 
 
 def counts(truth, found):
-    """By class: voxels that are right, wrong, and in the truth."""
+    """Returns for each class the numbers of its true positives, false positives, and voxels in the truth."""
     return {name: (np.sum((found == n) & (truth.number == n)), np.sum((found == n) & (truth.number != n)),
                    np.sum(truth.number == n)) for n, name in enumerate(truth.classes, 1)}
 

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""What is foretold of a mesh, beside the mesh. usage: estimates.py OUTDIR [--bin BIN] [--map FILE SHORTEST LONGEST]...
+"""Compares estimates with meshes. usage: estimates.py OUTDIR [--bin BIN] [--map FILE SHORTEST LONGEST]...
 
-Foretells and meshes atlases of Debian's package mricron-data, or the maps given, on two threads, L from SHORTEST within
-10 mm of the origin of the map's space to LONGEST (mm). Prints a row of a table for each: triangles and tetrahedra
-foretold over those of the mesh, peak memory of the stage that takes more, and processor seconds of both, foretold and
-taken.
+Estimates and meshes atlases of Debian's package mricron-data, or the given maps, on two threads. The target edge length
+L (mm) grows from SHORTEST, within 10 mm of the origin of the map's space, to LONGEST. Prints a row of a table for each
+mesh: the estimated numbers of triangles and tetrahedra over those of the mesh, and, both estimated and measured, the
+peak memory of the stage that takes more and the processor seconds of the surface and the mesh stage together.
 """
 import argparse
 import json
@@ -24,7 +24,7 @@ HEAD = ("| map | L, mm | triangles | tetrahedra | memory, MB, foretold and taken
 
 
 def measured(command):
-    """What a program took: seconds, processorSeconds, peakMemory."""
+    """Runs a command and returns its seconds, processorSeconds and peakMemory (bytes)."""
     tool = os.path.join(os.path.dirname(os.path.abspath(__file__)), "measured.py")
     subprocess.run([sys.executable, tool, "figures.json", *command], check=True, stdout=subprocess.DEVNULL)
     with open("figures.json", encoding="utf-8") as file:

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
-"""Fitness of meshes for registration, after Chernikov et al.: ours, CGAL Mesh_3's, and TetGen's in CGAL's surface.
+"""Measures the fitness of meshes for registration, after Chernikov et al.: ours, CGAL Mesh_3's, and TetGen's in CGAL's
+surface.
 
 usage: fitness.py OUTDIR [--build BUILD | --bin BIN] [--map FILE] [--scales F,F,...] [--reuse] [--document]
 
-Meshes the map (default: jhu189) by all three with L from F to 8 F mm around a target, for every F (1,1.5,2,3,4), by
-the others at 0.8 of the least F, too, and
-measures every mesh; Docs/Fitness.md says what and why. Writes fitness.json, fitness.csv, fitness.md (the table) and
-fitness.png to OUTDIR. Without --bin, the programs are built in BUILD (default: build) first. --reuse takes meshes that
-are in OUTDIR already. --document puts table and picture into Docs/.
+Meshes the map (default: jhu189) by all three meshers with target edge lengths from F to 8 F mm around a target, for
+every F (default: 1,1.5,2,3,4), and by the others also at 0.8 of the least F. Measures every mesh; Docs/Fitness.md
+describes the measures. Writes fitness.json, fitness.csv, fitness.md (two tables) and fitness.png to OUTDIR. Without
+--bin, the programs are first built in BUILD (default: build). --reuse uses meshes that are already in OUTDIR.
+--document puts the tables and the picture into Docs/.
 """
 import argparse
 import csv
@@ -38,13 +39,13 @@ PROGRAMS = ["SurgicalPathScaleCLI", "SimplexMesherCLI", "FuchsTetrahedralizerCLI
 MESHERS = {"SurgicalMesher": ("#c8553d", "o"), "CGAL Mesh_3": ("#4c78a8", "s"),
            "CGAL surface + TetGen": ("#5a9367", "^")}
 TARGET = "0,0,-10"
-FINER = 0.8  # of the least F: some of the others' meshes are as near to the map as our finest
+FINER = 0.8  # times the least F: so that some meshes of the others are as near to the map as our finest
 ISLAND = 30  # mm^3
-# The registration: weights are 1 N/mm per point. With this modulus, the first solution follows waves of a few points'
-# distance, and the repetitions those between.
+# The registration: the weights are 1 N/mm per point. With this modulus, the first solution follows deformations that
+# vary over the distance of a few points, and the repetitions also those between the points.
 YOUNGS_MODULUS, POISSONS_RATIO = 0.1, 0.45  # MPa
 REGISTRATION_POINTS, CHECK_POINTS = 2000, 5000
-LATTICE = 5  # mm; of the synthetic deformation
+LATTICE = 5  # mm; spacing of the lattice of the synthetic deformation
 LARGEST_DISPLACEMENT = 10  # mm
 
 
@@ -60,7 +61,7 @@ class Runner:
         return os.path.join(self.folder, name)
 
     def run(self, program, *arguments):
-        """Processor seconds; raises CalledProcessError."""
+        """Runs a program and returns its processor seconds. Raises CalledProcessError."""
         before = os.times()
         subprocess.run([os.path.join(self.programs, program), *map(str, arguments)], check=True, cwd=self.folder,
                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -68,7 +69,8 @@ class Runner:
         return after.children_user + after.children_system - before.children_user - before.children_system
 
     def mesh(self, name, steps):
-        """A mesh by steps of (program, arguments...), and the seconds, which are kept for a later --reuse."""
+        """Makes a mesh by `steps` of (program, arguments...), and returns it and the processor seconds, which are kept
+        for a later --reuse."""
         record = self.path(name + ".json")
         if not (self.reuse and os.path.exists(record)):
             seconds = sum(self.run(*step) for step in steps)
@@ -79,7 +81,7 @@ class Runner:
 
 
 def steps_of(label_map, factor):
-    """By mesher: the name of its mesh and the steps to it."""
+    """Returns for each mesher the name of its mesh and the steps that make it."""
     scale, f = f"scale-{factor:g}.nrrd", f"{factor:g}"
     ours, mesh3, surface, tetgen = (f"{name}-{f}" for name in ("ours", "mesh3", "surface", "tetgen"))
     return {
@@ -97,7 +99,7 @@ def steps_of(label_map, factor):
 
 
 def largest_body(mesh):
-    """The tetrahedra that hang together by faces, the most of them, with their points renumbered."""
+    """Returns the largest set of tetrahedra that are connected by faces, with its points renumbered."""
     faces = np.sort(mesh.tetrahedra[:, TETRAHEDRON_FACES].reshape(-1, 3), axis=1)
     owner = np.repeat(np.arange(len(mesh.tetrahedra)), 4)
     order = np.lexsort(faces.T)
@@ -113,7 +115,8 @@ def largest_body(mesh):
 # ---- a deformation that is known everywhere
 
 def cubes_to_tetrahedra(filled):
-    """Six tetrahedra around the diagonal of each filled cube of a lattice, positively wound, and all lattice points."""
+    """Returns the indices [i, j, k] of all lattice points, and six positively oriented tetrahedra around the diagonal
+    of each filled cube."""
     size = np.array(filled.shape) + 1
     first = np.argwhere(filled)
     tetrahedra = []
@@ -128,9 +131,10 @@ def cubes_to_tetrahedra(filled):
 
 
 def synthetic_deformation(labels, affine):
-    """Displacements (mm) as the brain's weight would cause them, on a lattice that none of the meshes knows.
+    """Computes displacements (mm) as the weight of the brain would cause them, on a lattice of its own, which no mesher
+    is given.
 
-    Returns the displacements at lattice points, the lattice's affine, and which of its cubes are filled.
+    Returns the displacements at the lattice points, the affine of the lattice, and which of its cubes are filled.
     """
     step = np.maximum(1, np.rint(LATTICE / np.linalg.norm(affine[:3, :3], axis=0))).astype(int)
     lattice = affine @ np.diag([*step, 1.0])
@@ -144,7 +148,7 @@ def synthetic_deformation(labels, affine):
     if np.linalg.det(lattice[:3, :3]) < 0:
         tetrahedra = tetrahedra[:, [0, 2, 1, 3]]
     used = np.unique(tetrahedra)
-    held = points[:, 2] <= np.quantile(points[used, 2], 0.2)  # by the skull's base
+    held = points[:, 2] <= np.quantile(points[used, 2], 0.2)  # by the base of the skull
     free = unknowns(used[~held[used]]).ravel()
     force = weight(points, tetrahedra, (0.0, 1.0, 0.0))  # the patient lies on the back
     displacement = np.zeros(3 * len(points))
@@ -154,7 +158,7 @@ def synthetic_deformation(labels, affine):
 
 
 def registration_data(labels, affine):
-    """Points inside tissue and their displacements: those given to the registration, and others to check it."""
+    """Returns points inside tissue with their displacements: some for the registration, and others to check it."""
     displacement, lattice, filled = synthetic_deformation(labels, affine)
     voxels = np.argwhere(labels > 0)
     positions = voxels @ affine[:3, :3].T + affine[:3, 3]
@@ -223,8 +227,8 @@ def measured(mesh, seconds, reference):
 
 
 def compare(runner, label_map, factors):
-    """Rows of the table, one per mesher and size, and of the others one more, FINER; a mesher that fails leaves a row
-    without measures."""
+    """Returns the rows of the table: one per mesher and size, and for the other meshers one more at FINER. A mesher
+    that fails has a row without measures."""
     rows, reference = [], None
     for factor in [*factors, FINER * min(factors)]:
         runner.run("SurgicalPathScaleCLI", "--targetPoint", TARGET, "--minimumEdgeLength", factor,
@@ -279,12 +283,13 @@ def table_of(rows):
     return "\n".join(lines) + "\n"
 
 
-# Distances that meshes of other sizes are compared at.
+# The distances to the map at which meshes of different meshers are compared.
 DISTANCES = {"hausdorff95": "95 % of the outer boundary", "hausdorffTissuesMean": "mean over tissues"}
 
 
 def at_distance(rows, distance, key, wanted):
-    """`key` of a mesh at `wanted` mm, between those of `rows` (power law); NaN where all are nearer or all farther."""
+    """Returns the value of `key` for a mesh at the distance `wanted` (mm), interpolated between `rows` by a power law;
+    NaN if all rows are nearer or all are farther."""
     known = sorted((row[distance], row[key]) for row in rows if key in row)
     if len(known) < 2 or not known[0][0] <= wanted <= known[-1][0]:
         return float("nan")
@@ -292,7 +297,8 @@ def at_distance(rows, distance, key, wanted):
 
 
 def table_at_equal_distance(rows, other="CGAL Mesh_3"):
-    """What our meshes need over what the other's would at the same distance from the map."""
+    """Returns a table of the iterations and condition numbers of our meshes over those that the other mesher's meshes
+    would have at the same distance from the map."""
     others = [row for row in rows if row["mesher"] == other]
     titles = [f"D_H, {title} (mm) | iterations | scaled condition number" for title in DISTANCES.values()]
     lines = ["| L (mm) | " + " | ".join(titles) + " |", "|---" * (1 + 3 * len(DISTANCES)) + "|"]
@@ -346,7 +352,7 @@ def draw(rows, file):
 
 
 def write_document(tables, picture):
-    """Each table between the page's two marks of its name; the picture beside the page's others."""
+    """Writes each table between the two marks of its name in Docs/Fitness.md, and copies the picture to Docs/images."""
     page = os.path.join(ROOT, "Docs", "Fitness.md")
     with open(page, encoding="utf-8") as file:
         text = file.read()

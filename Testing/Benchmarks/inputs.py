@@ -1,4 +1,4 @@
-"""The label maps that are measured: real and synthetic tissues, each at voxel sizes that halve."""
+"""The label maps of the benchmark: real and synthetic tissues, each at several voxel sizes, which halve."""
 import os
 import sys
 
@@ -11,7 +11,8 @@ from maps import LPS_FROM_RAS, cut_out  # noqa: E402
 
 
 def resampled(labels, affine, spacing):
-    """The same box on voxels of side `spacing` (mm), each with the label at its centre (nearest neighbour)."""
+    """Returns the labels and the affine of the same box with voxels of side `spacing` (mm). Each has the label of the
+    old voxel at its centre."""
     old = np.linalg.norm(affine[:3, :3], axis=0)
     size = np.rint(np.array(labels.shape) * old / spacing).astype(int)
     places = [np.minimum(((np.arange(n) + 0.5) * spacing / o).astype(int), m - 1)
@@ -23,14 +24,16 @@ def resampled(labels, affine, spacing):
 
 
 def atlas(spacing):
-    """The whole atlas (189 tissues at 1 mm), its target at the origin of the file's space, moved there."""
+    """Returns the whole atlas (189 tissues at 1 mm), resampled, and moved so that its target (0, 0, -10) becomes the
+    origin."""
     labels, affine = cut_out(np.s_[0:157, 0:189, 0:136])
     affine[:3, 3] -= [0, 0, -10]
     return resampled(labels, affine, spacing)
 
 
 def halves(values, axis):
-    """Linear interpolation at the centres of voxels half as long, along an axis; none beyond the ends."""
+    """Returns the values at the centres of voxels half as long along an axis, by linear interpolation. Values beyond
+    the ends count as 0."""
     beyond = [(1, 1) if a == axis else (0, 0) for a in range(3)]
     padded = np.moveaxis(np.pad(values, beyond), axis, 0)
     fine = np.empty((2 * values.shape[axis],) + padded.shape[1:], values.dtype)
@@ -40,8 +43,8 @@ def halves(values, axis):
 
 
 def smoothed(labels, affine):
-    """The same box on voxels half as long, each with the label whose indicator, after a Gaussian of 0.7 old voxel, is
-    largest there: walls with steps of one new voxel, as a finer segmentation would have."""
+    """Returns the same box with voxels half as long. Each has the label whose indicator function, blurred by a Gaussian
+    of 0.7 old voxels, is largest there, so that boundaries have steps of one new voxel, as in a finer segmentation."""
     fine, fine_affine = resampled(labels, affine, 0.5 * np.linalg.norm(affine[:3, 0]))
     largest = np.zeros(fine.shape, np.float32)
     reach = 3
@@ -64,8 +67,8 @@ def smoothed_atlas(spacing):
 
 
 def nested_shapes(spacing):
-    """Four ellipsoids around the origin, one in the other as scalp, skull, fluid and brain are, with two tubes through
-    the innermost, in a box of 128 mm."""
+    """Returns four ellipsoids around the origin, nested like scalp, skull, fluid and brain, with two linked rings
+    inside the innermost, in a box of 128 mm."""
     count = round(128 / spacing)
     x, y, z = np.meshgrid(*[(np.arange(count) + 0.5) * spacing - 64] * 3, indexing="ij", sparse=True)
     labels = np.zeros((count,) * 3, np.uint16)
@@ -79,14 +82,15 @@ def nested_shapes(spacing):
 
 
 def from_file(file, spacing):
-    """A label map in NIfTI, resampled."""
+    """Reads a label map in NIfTI format and resamples it."""
     image = nibabel.load(file)
     labels = np.rint(np.asanyarray(image.dataobj)).astype(np.uint16)
     return resampled(labels, LPS_FROM_RAS @ image.affine, spacing)
 
 
 class Case:
-    """`focus` are the options that say where the mesh is fine."""
+    """One input. `make(spacing)` returns its labels and affine; `focus` are the options that set where the mesh is
+    fine."""
 
     def __init__(self, series, make, spacing, focus=("--targetPoint", "0,0,0")):
         self.series, self.spacing, self.focus = series, spacing, focus
@@ -100,6 +104,6 @@ CASES += [Case("repeated jhu189", atlas, 0.5)]
 
 
 def interface_faces(labels):
-    """Number of voxel faces between different labels, the outside counting as background."""
+    """Returns the number of voxel faces between different labels; the outside counts as background."""
     padded = np.pad(labels, 1)
     return sum(int(np.count_nonzero(np.diff(padded.astype(np.int32), axis=axis))) for axis in range(3))

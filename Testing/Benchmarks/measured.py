@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Runs a command and writes what it took. usage: measured.py FIGURES.json COMMAND...
 
-Seconds on the wall, processor seconds of all threads together (which hardly depend on what else the machine does), and
-peak memory in bytes. A process of its own, because Linux counts the memory of whoever starts a command as the command's.
-The command's exit status is passed on.
+Writes wall-clock seconds, processor seconds of all threads together (which hardly depend on what else the machine
+does), and peak memory in bytes. This is a process of its own because Linux includes the memory of the process that
+starts a command in the command's peak memory. The command's exit status is passed on.
 """
 import json
 import os

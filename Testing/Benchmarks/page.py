@@ -16,12 +16,13 @@ MARKERS = {"jhu189": "o", "shapes": "s"}
 
 
 def slope(x, y):
-    """Exponent of the power law through points, by least squares on logarithms; None for less than two."""
+    """Returns the exponent of the power law through points, by least squares of logarithms, or None for fewer than two
+    points."""
     return None if len(x) < 2 else float(np.polyfit(np.log(x), np.log(y), 1)[0])
 
 
 def curves(records, quantity):
-    """(program, threads, series) -> (interface faces, values), ascending."""
+    """Maps (program, threads, series) to arrays of interface faces, in ascending order, and of values of `quantity`."""
     groups = {}
     for record in records:
         groups.setdefault((record["program"], record["threads"], record["series"]), []).append(
@@ -94,7 +95,7 @@ def machine_text(machine):
 
 
 def write(records):
-    """The tables go between the marks that the page has."""
+    """Draws the records and writes their tables between the two marks of the page."""
     draw(records)
     commits = sorted({record["commit"] for record in records})
     machines = sorted({machine_text(record["machine"]) for record in records})

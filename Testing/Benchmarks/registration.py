@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How near LocalRegistrationCLI comes to a known pose.
+"""Measures how near LocalRegistrationCLI comes to a known pose or distortion.
 
-    registration.py starts LOCALREGISTRATIONCLI CT T1 COUNT [OPTION]...     COUNT poses off by up to 20 mm and 15 degrees
-    registration.py local LOCALREGISTRATIONCLI CT T1 X,Y,Z RADIUS           4 mm of smooth distortion at a target
+    registration.py starts LOCALREGISTRATIONCLI CT T1 COUNT [OPTION]...   COUNT poses off by up to 20 mm and 15 degrees
+    registration.py local LOCALREGISTRATIONCLI CT T1 X,Y,Z RADIUS         4 mm of smooth distortion at a target
 
-CT and T1 are of one head in one frame (simulate.py makes such a CT). Poses are set in the T1's header, by a turn about
-the middle of the head and a shift. The error is that of 2,000 random voxels of soft tissue or bone (over -500 HU), mm.
-Distorted, the T1 is moved along y by 4 mm at the target, less by a Gaussian of 25 mm; the error is that within 15 mm.
+CT and T1 show one head in one frame (simulate.py makes such a CT). A pose is a rotation about the middle of the head
+and a shift, which are written to the header of the T1; its error (mm) is that of 2,000 random voxels of soft tissue or
+bone (over -500 HU). A distortion moves the T1 along y, by 4 mm at the target and less far from it, by a Gaussian of
+25 mm; its error is measured within 15 mm of the target.
 """
 import json
 import os
@@ -40,7 +41,7 @@ FLIP = np.diag([-1.0, -1.0, 1.0])  # RAS to LPS
 
 
 def mapped(rows, ras):
-    """By a map in LPS."""
+    """Returns the points `ras` (n, 3; RAS) after the map `rows` (3 x 4), which is in LPS."""
     rows = np.asarray(rows)
     return ((ras @ FLIP) @ rows[:, :3].T + rows[:, 3]) @ FLIP
 
@@ -53,7 +54,7 @@ def rotation(vector):
 
 
 def random_pose(random, middle):
-    """A map of RAS, a turn of up to 15 degrees about the middle and a shift of up to 20 mm."""
+    """Returns a 4 x 4 matrix in RAS: a rotation of 3 to 15 degrees about `middle` and a shift of 4 to 20 mm."""
     direction, axis = (v / np.linalg.norm(v) for v in random.normal(size=(2, 3)))
     turn = rotation(axis * np.radians(15) * random.uniform(0.2, 1))
     pose = np.eye(4)
@@ -100,7 +101,7 @@ def local(program, ct, t1, target, radius):
     points = random.normal(size=(2000, 3))
     points *= (15 * random.uniform(size=2000) ** (1 / 3) / np.linalg.norm(points, axis=1))[:, None]
     points += centre
-    true = points - shift(points)  # nearly: what lay at x lies where x' + shift(x') = x
+    true = points - shift(points)  # a first guess: a point x has moved to the x' for which x' + shift(x') = x
     for _ in range(20):
         true = points - shift(true)
     with tempfile.TemporaryDirectory() as folder:

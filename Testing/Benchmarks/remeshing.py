@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""SurfaceRemesherCLI on surfaces of voxels, at shares of their triangles.
+"""Measures SurfaceRemesherCLI on surfaces of voxel maps, remeshed to given shares of their triangles.
 
 usage: remeshing.py OUTDIR [--bin BIN] [--image FILE.inr.gz] [--shares 20 10 5]
 
 Contours an image in INRIMAGE format, smoothed by 0.7 voxel (liver.inr.gz of CGAL, in Debian's package libcgal-demo:
 tar xzf /usr/share/doc/libcgal-dev/data.tar.gz data/images/liver.inr.gz), or else meshes ten large regions of the JHU
-atlas at edges of 0.75 voxel. Remeshes the surface at the edge length for each share (percent), and prints a row of a
-table: triangles, angles, distances both ways in voxels (the cube root of a voxel's volume), and volume.
+atlas with edges of 0.75 voxel. Remeshes this surface at the edge length for each share (percent), and prints a row of a
+table: triangles, angles, variation of edge lengths, distances in both directions in voxels (the cube root of a voxel's
+volume), and change of volume.
 """
 import argparse
 import gzip
@@ -25,12 +26,12 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.path.insert(0, os.path.join(ROOT, "Testing", "Python"))
 from maps import cut_out, write_nrrd  # noqa: E402
 
-RANKS = slice(-14, -4)  # of the atlas's regions by their voxels
-EDGE_OVER_LENGTH = 0.835  # mean edge of what is remeshed over L
+RANKS = slice(-14, -4)  # of the atlas's regions in ascending order of size: ten large ones, but not the largest four
+EDGE_OVER_LENGTH = 0.835  # mean edge length of a remeshed surface over L
 
 
 def read_inr(file):
-    """Voxels [i, j, k] and their sides, mm."""
+    """Reads an INRIMAGE file and returns its voxels [i, j, k] and their sides (mm)."""
     with gzip.open(file, "rb") as stream:
         header = stream.read(256).decode("latin1")
         data = stream.read()
@@ -40,7 +41,7 @@ def read_inr(file):
 
 
 def contour(voxels, sides, file):
-    """The largest closed surface half-way between voxels of 0 and others, smoothed by 0.7 voxel."""
+    """Writes the largest closed surface between voxels of 0 and others, after smoothing by 0.7 voxel."""
     inside = ndimage.gaussian_filter(np.pad(voxels > 0, 3).astype(np.float32), 0.7)
     image = vtk.vtkImageData()
     image.SetDimensions(inside.shape)
@@ -72,7 +73,7 @@ def mesh_regions(options, file):
 
 
 def length_for(file, share):
-    """L at which equilateral triangles are that share (percent) of the file's."""
+    """Returns the L (mm) at which a surface of equilateral triangles has `share` percent of the file's triangles."""
     reader = vtk.vtkSTLReader() if file.endswith(".stl") else vtk.vtkXMLPolyDataReader()
     reader.SetFileName(file)
     reader.Update()

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Builds what is measured and measures it. usage: run.sh [OUTDIR [OPTION OF benchmark.py]...]
-# Without options, measures everything and brings Docs/Benchmarks.md up to date.
-# Installs Debian packages that are missing and builds what is measured; SURGICALMESHER_BIN names a folder built already.
+# Builds the programs and runs benchmark.py on them. usage: run.sh [OUTDIR [OPTION OF benchmark.py]...]
+# Without options, measures everything and updates Docs/Benchmarks.md.
+# Installs Debian packages that are missing before it builds. If SURGICALMESHER_BIN names a folder of built programs, it
+# uses these and neither installs nor builds anything.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)

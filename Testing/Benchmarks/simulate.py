@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The images that scanners might give of a known map of tissues.
+"""Simulates images that a scanner might make of a known map of tissues.
 
     simulate.py TRUTH CT.nii.gz [--spacing X,Y,Z] [--crop MM] [--headrest] [--noise HU] [--seed N]
     simulate.py TRUTH T1.nii.gz --t1 [--seed N]
     simulate.py TRUTH T1.nii.gz --of T1_AS_IT_IS.nii.gz [--seed N]
 
-TRUTH has BrainWeb's labels of Colin27, or, if any is over 9, those of FreeSurfer and SimNIBS. Hounsfield units by label
-(below), blurred by a Gaussian of 0.6 mm, white noise of 20 HU. --crop leaves that many mm away at the top and at the
-bottom; --headrest adds a curved plate of 8 mm behind the head. With --t1, brightness of a T1 by label of SimNIBS (below)
-is blurred likewise; it, or with --of a T1 as it is, gets a smooth drift from 0.9 to 1.1 and Rician noise of 3 % of white
-matter's mean.
+TRUTH has BrainWeb's labels of Colin27 or, if a label is over 9, those of FreeSurfer and SimNIBS. A CT has Hounsfield
+units by label (HOUNSFIELD, HEAD), blurred by a Gaussian of 0.6 mm, and white noise, by default of 20 HU. --crop cuts
+off that many mm at the top and at the bottom; --headrest adds a curved plate of 8 mm behind the head. --t1 makes a T1
+with the brightness of each label (HEAD), blurred in the same way; --of starts from a T1 as it is. Both get a smooth
+drift of brightness from 0.9 to 1.1, and Rician noise of 3 % of white matter's mean.
 """
 import argparse
 
@@ -43,7 +43,7 @@ def is_brainweb(labels):
 
 
 def values_by_label(labels, column):
-    """Brightness in a T1 (column 0) or HU (1) of every voxel."""
+    """Returns the brightness in a T1 (`column` 0) or the HU (`column` 1) of every voxel."""
     if is_brainweb(labels):
         if column == 0:
             raise SystemExit("--t1 needs a head of SimNIBS; of Colin27 there is a T1 (--of)")
@@ -66,7 +66,7 @@ def resample(values, affine, spacing):
 
 
 def headrest(values, affine):
-    """Values with the plate, denser than soft tissue."""
+    """Returns the values (HU) with a plate behind the head, which is denser than soft tissue."""
     places = nibabel.affines.apply_affine(
         affine, np.stack(np.meshgrid(*map(np.arange, values.shape), indexing="ij"), -1))
     head = values > -500
@@ -77,7 +77,7 @@ def headrest(values, affine):
 
 
 def crop(values, affine, mm):
-    """Without `mm` at both ends of the axis that runs up and down."""
+    """Returns the values without `mm` at both ends of the axis that runs up and down, and their affine."""
     axis = int(np.argmax(np.abs(affine[2, :3])))
     count = int(round(mm / nibabel.affines.voxel_sizes(affine)[axis]))
     kept = [slice(None)] * 3

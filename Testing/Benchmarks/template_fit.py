@@ -2,9 +2,9 @@
 """Fits templates of hexahedra to known persons and prints tables. usage: template_fit.py BIN FACE ICT OUTDIR [TABLE]...
 
 FACE is a folder with newface.node, newface.elem and badinface_adjusted.node (ArtiSynth's face and its adaptation to a
-second person), ICT one with neutral.obj.gz and identity003.obj.gz (ICT-FaceKit). TABLE: face, robust, ict, warps,
-volumes, muscles, baselines, face_baselines; without one, all. Each row is printed as soon as it is known. Seconds are the
-processor's, over all threads.
+second person), ICT one with neutral.obj.gz and identity003.obj.gz (ICT-FaceKit). TABLE is face, robust, ict, warps,
+volumes, muscles, baselines or face_baselines; without any, all tables are printed, each row as soon as it is known.
+Seconds are processor seconds of all threads together.
 """
 import gzip
 import json
@@ -24,8 +24,8 @@ import face_shape  # noqa: E402
 
 LANDMARKS = 48
 ICT_SHELLS = (0.3, 1.0, 2.0)  # mm
-ICT_SKIN = 11248  # vertices of face, head and neck come first; then those of mouth, eyes and teeth
-# The second person's vertices that are landmarks of ICT's faces (from 0).
+ICT_SKIN = 11248  # number of the vertices of face, head and neck, which come before those of mouth, eyes and teeth
+# The vertices (from 0) that are landmarks of ICT's faces, the same in both persons.
 ICT_LANDMARKS = [int(word) for word in """
 1225 1888 1052 367 1719 1722 2199 1447 966 3661 4390 3927 3924 2608 3272 4088 3443 268 493 1914 2044 1401 3615 4240 4114
 2734 2509 978 4527 4942 4857 1140 2075 1147 4269 3360 1507 1542 1537 1528 1518 1511 3742 3751 3756 3721 3725 3732 5708
@@ -35,7 +35,8 @@ ICT_LANDMARKS = [int(word) for word in """
 # ---- files
 
 def read_nodes(file):
-    """ANSYS: id -> position, in columns of 8 and 20 or with tabs between; what is left out is 0."""
+    """Reads an ANSYS file of nodes and maps their ids to positions. Fields are separated by tabs or lie in columns of
+    width 8 and 20; missing coordinates are 0."""
     nodes = {}
     with open(file, encoding="ascii") as stream:
         for line in stream:
@@ -59,7 +60,7 @@ def write_grid(file, points, cells):
     grid.GetPoints().SetData(numpy_to_vtk(np.ascontiguousarray(points, float), deep=True))
     kinds = {8: vtk.VTK_HEXAHEDRON, 6: vtk.VTK_WEDGE}
     for cell in cells:
-        ids = cell if len(cell) == 8 else [cell[i] for i in (0, 2, 1, 3, 5, 4)]  # as VTK numbers wedges
+        ids = cell if len(cell) == 8 else [cell[i] for i in (0, 2, 1, 3, 5, 4)]  # VTK's order of a wedge's nodes
         grid.InsertNextCell(kinds[len(cell)], len(cell), ids)
     writer = vtk.vtkXMLUnstructuredGridWriter()
     writer.SetInputData(grid)
@@ -104,7 +105,7 @@ def farthest(points, candidates, first, count):
 
 
 class Face:
-    """ArtiSynth's face and its second person, with the nodes that are landmarks."""
+    """ArtiSynth's face and its adaptation to a second person (mm), with nodes that serve as landmarks."""
 
     def __init__(self, folder):
         first = read_nodes(os.path.join(folder, "newface.node"))
@@ -120,7 +121,8 @@ class Face:
 # ---- runs
 
 def fit(folder, name, template, target, pairs, *options):
-    """(report, processor seconds, fitted file) of TemplateFitCLI; None, seconds, sentence of a refusal."""
+    """Runs TemplateFitCLI with `pairs` (landmarks of the template, of the target). Returns its report, processor
+    seconds and the name of the fitted file or, if it fails, None, processor seconds and the error message."""
     at = lambda suffix: os.path.join(folder, name + suffix)  # noqa: E731
     write_landmarks(at(".a.fcsv"), pairs[0])
     write_landmarks(at(".b.fcsv"), pairs[1])
@@ -138,7 +140,7 @@ def fit(folder, name, template, target, pairs, *options):
 
 
 def line_of(report, stage="fitted"):
-    """Invalid elements, smallest and mean scaled Jacobian, distances."""
+    """Returns a line with numbers of invalid elements, smallest and mean scaled Jacobians, and distances."""
     shapes, distances = report["quality"][stage], report["distances"][stage]
     worst = "/".join("%.3f" % shape["minimumScaledJacobian"] for shape in shapes.values())
     invalid = "/".join(str(shape["invalid"]) for shape in shapes.values())
@@ -270,7 +272,7 @@ def ict_table(folder, source):
 
 
 def least_jacobian(points, cells):
-    """Of each hexahedron, the least scaled Jacobian over its corners."""
+    """Returns the least scaled Jacobian over the corners of each hexahedron."""
     corners = [(0, 1, 3, 4), (1, 2, 0, 5), (2, 3, 1, 6), (3, 0, 2, 7),
                (4, 7, 5, 0), (5, 4, 6, 1), (6, 5, 7, 2), (7, 6, 4, 3)]
     least = np.ones(len(cells))
@@ -282,7 +284,8 @@ def least_jacobian(points, cells):
 
 
 def directions(points, quads):
-    """A unit vector for each point that all corners around it face, where there is one; and the least cosine."""
+    """Returns a unit vector for each point that makes an acute angle with the normals of all corners around the point,
+    if there is such a vector, and the least cosine of these angles."""
     normals = []
     for i in range(4):
         a, b, c = points[quads[:, i]], points[quads[:, (i + 1) % 4]], points[quads[:, i - 1]]
@@ -295,7 +298,7 @@ def directions(points, quads):
             np.add.at(result, quads[:, i], weights[:, i, None] * normals[:, i])
         result /= np.maximum(np.linalg.norm(result, axis=1, keepdims=True), 1e-12)
         seen = (normals * result[quads]).sum(axis=2)
-        weights *= np.exp(1 - seen)  # what is seen least counts more
+        weights *= np.exp(1 - seen)  # normals at large angles gain weight
         weights /= weights.max()
     least = np.ones(len(points))
     np.minimum.at(least, quads.ravel(), seen.ravel())
@@ -303,7 +306,8 @@ def directions(points, quads):
 
 
 def shell(file, points, faces, thickness):
-    """Each face of the skin as an element, inwards, thinner where the skin bends too sharply. cm; thickness in mm."""
+    """Writes a shell that has one hexahedron inside each face of the skin, and is thinner where the skin bends too
+    sharply. `points` are in cm, `thickness` is in mm."""
     quads, points = np.array(faces), 10 * points
     normals, seen = directions(points, quads)
     edges = np.concatenate([quads[:, [i, (i + 1) % 4]] for i in range(4)])
@@ -312,8 +316,8 @@ def shell(file, points, faces, thickness):
     for _ in range(12):
         both = np.concatenate([points - depth[:, None] * normals, points])
         bad = np.unique(quads[least_jacobian(both, cells) < 0.1])
-        depth[bad] = np.maximum(depth[bad] / 2, np.where(seen[bad] > 0, 0.02, 0.1))  # thinness mends no fold
-        for _ in range(8):  # a neighbour is at most 1.5 times as thick
+        depth[bad] = np.maximum(depth[bad] / 2, np.where(seen[bad] > 0, 0.02, 0.1))  # thinning cannot repair a fold
+        for _ in range(8):  # neighbouring points differ in depth by a factor of at most 1.5
             limit = depth.copy()
             np.minimum.at(limit, edges[:, 0], 1.5 * depth[edges[:, 1]])
             np.minimum.at(limit, edges[:, 1], 1.5 * depth[edges[:, 0]])
@@ -322,7 +326,7 @@ def shell(file, points, faces, thickness):
 
 
 def invalid_hexahedra(file):
-    """One for each, as wedges, for which VTK has no measure, are left out."""
+    """Returns for each hexahedron whether it is invalid. Wedges are left out, because VTK has no measure for them."""
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(file)
     quality = vtk.vtkMeshQuality()
@@ -338,7 +342,8 @@ def invalid_hexahedra(file):
 # ---- known warps
 
 def smooth_warp(random, size, points):
-    """A map by a few Gaussians, 40 mm wide, that moves the farthest-moved of `points` by `size` mm."""
+    """Returns a map, the sum of a few Gaussians with a width of 40 mm, whose largest displacement of `points` is `size`
+    mm."""
     low, high = points.min(axis=0), points.max(axis=0)
     centres, turns = random.uniform(low, high, (6, 3)), random.normal(size=(6, 3))
 
@@ -350,7 +355,7 @@ def smooth_warp(random, size, points):
 
 
 def folding_warp(random, points, landmarks):
-    """20 mm of smooth warp, and at lips and nostrils waves of 12 mm that nearly fold."""
+    """Returns a smooth warp of 20 mm with waves, 12 mm wide, around three random landmarks, which nearly fold."""
     smooth = smooth_warp(random, 20, points)
     centres = points[random.choice(landmarks, 3, replace=False)]
 
@@ -388,8 +393,9 @@ def warps_table(folder, face):
 
 
 def print_summary(name, rows, count):
-    """A line of the page's table: runs, refused ones, those with an invalid element (fitted, spline alone), least
-    scaled Jacobian, error against the truth (mm: least, mean, largest; how often above 0.9), distance (fitted, spline), mm."""
+    """Prints a row of the page's table: numbers of runs, of refused runs, and of runs with an invalid element (fitted,
+    spline alone); least scaled Jacobian; error against the truth (least, mean, largest, mm) and how often it is above
+    0.9 mm; distance (fitted, spline, mm)."""
     if not rows:
         return
     reports, errors = [row[0] for row in rows], np.array([row[1] for row in rows])
@@ -409,12 +415,14 @@ DIVISIONS = ("48,5,48", "78,8,78", "118,8,116")
 
 
 def opposite_sides(cell):
-    """Pairs of opposite sides of an element, as indices into HEXAHEDRON or WEDGE; quadrilaterals of a wedge have none."""
+    """Maps each side of an element to the opposite side, as indices into HEXAHEDRON or WEDGE. The quadrilaterals of a
+    wedge have no opposite side."""
     return {0: 1, 1: 0, 2: 4, 4: 2, 3: 5, 5: 3} if len(cell) == 8 else {0: 1, 1: 0}
 
 
 def depths(cells):
-    """(face, elements from it through the slab to the other side) of each outer face; 0 where that does not end."""
+    """Yields, for each outer face, the face and the number of elements from there through the slab to the other side,
+    or 0 if the way ends at a quadrilateral of a wedge."""
     sides = [[tuple(cell[i] for i in side) for side in (HEXAHEDRON if len(cell) == 8 else WEDGE)] for cell in cells]
     at = {}
     for element, faces in enumerate(sides):
@@ -439,7 +447,7 @@ def depths(cells):
 
 
 def connected(faces):
-    """The faces in groups that share nodes."""
+    """Returns the faces in groups that are connected by common nodes."""
     parent = {}
 
     def root(node):
@@ -456,7 +464,8 @@ def connected(faces):
 
 
 def painted_sides(face):
-    """Triangles of the boundary and their Side, by the three layers of elements and newface's own coordinates."""
+    """Returns the triangles of the boundary and the Side of each (see face_shape). Skin and inner side are those faces
+    that are three elements apart; the other sides follow from the coordinates of newface."""
     outer = list(depths(face.cells))
     sheets = connected([nodes for nodes, depth in outer if depth == 3])
     skin = max(sheets, key=lambda sheet: np.mean([face.points[list(nodes)].mean(axis=0)[1] for nodes in sheet]))
@@ -525,7 +534,8 @@ def surface_of(points, triangles):
 
 
 def samples_of(file):
-    """Eight points in each hexahedron, the volume that each stands for, and the labels."""
+    """Returns eight points in each hexahedron, the volume that each of its points stands for, and the labels of the
+    hexahedra."""
     reader = vtk.vtkXMLUnstructuredGridReader()
     reader.SetFileName(file)
     reader.Update()
@@ -590,7 +600,8 @@ BASELINES_HEAD = "| warp | divisions | method | hexahedra | invalid | minimum, m
 
 
 def baseline_rows(folder, name, template, marks, options):
-    """Rows of HexahedraBaselines (TemplateHexMesher/Testing) for person.vtp; sides.vtp is the template's envelope."""
+    """Prints the rows of HexahedraBaselines (TemplateHexMesher/Testing) for person.vtp. sides.vtp is the envelope of
+    the template."""
     at = lambda file: os.path.join(folder, file)  # noqa: E731
     report, _, fitted = fit(folder, "base", template, at("person.vtp"), marks, *options, "--carry", at("sides.vtp"))
     if report is None:

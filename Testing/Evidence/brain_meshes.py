@@ -1,4 +1,4 @@
-"""Meshes of one body by several meshers, at settings swept from near the surface to far from it."""
+"""Meshes one body by several meshers, at settings that range from near the surface to far from it."""
 import os
 import resource
 import subprocess
@@ -22,7 +22,7 @@ MESHERS = ("ours, ambient", "ours, surface alone", "CGAL Mesh_3", "CGAL surface 
 
 
 def write_uniform_scale(file, length):
-    """A scale volume that is `length` everywhere."""
+    """Writes a scale volume that has the value `length` (mm) everywhere."""
     header = ("NRRD0005\ntype: float\ndimension: 3\nspace: left-posterior-superior\nsizes: 2 2 2\n"
               "space directions: (1000,0,0) (0,1000,0) (0,0,1000)\nspace origin: (-500,-500,-500)\n"
               "endian: little\nencoding: raw\n\n")
@@ -31,7 +31,8 @@ def write_uniform_scale(file, length):
 
 
 class Programs:
-    """Runs the meshers' programs in a folder and adds up the processor time they take. `cleaver`: a program elsewhere."""
+    """Runs the meshers' programs in a folder and adds up the processor seconds that they take. `cleaver` is the path of
+    Cleaver's program, or None."""
 
     def __init__(self, programs, folder, cleaver_program=None):
         self.programs, self.folder, self.seconds = os.path.abspath(programs), folder, 0.0
@@ -41,7 +42,7 @@ class Programs:
         return os.path.join(self.folder, name)
 
     def __call__(self, program, *arguments, most=None):
-        """`most`: processor seconds after which the program is ended by SIGXCPU."""
+        """Runs a program of the meshers; after `most` processor seconds, SIGXCPU ends it."""
         def limited():
             resource.setrlimit(resource.RLIMIT_CPU, (most, most + 1))
         before = os.times()
@@ -52,7 +53,8 @@ class Programs:
 
 
 def ours(run, body, setting, ambient):
-    """Setting: (voxel side, edge length), mm: the body on larger voxels is what the surface is near to."""
+    """Meshes the body by our programs. `setting` is (voxel side, edge length) in mm; the surface is made from the body
+    on these larger voxels."""
     side, length = setting
     blocks, coarse = blocks_of(body.mask, body.affine, side)
     write_nrrd(run.path("coarse.nrrd"), blocks.astype(np.uint16), coarse)
@@ -63,7 +65,8 @@ def ours(run, body, setting, ambient):
 
 
 def mesh3(run, setting, refined, out):
-    """Setting: (facet distance, edge length), mm."""
+    """Meshes the body by CGAL Mesh_3. `setting` is (facet distance, edge length) in mm; a mesh that TetGen will refine
+    is not improved here."""
     distance, length = setting
     write_uniform_scale(run.path("scale.nrrd"), length)
     run("Mesh3Driver", "body.nrrd", "scale.nrrd", out, *(() if refined else ("--perturb", "--exude")),
@@ -71,7 +74,7 @@ def mesh3(run, setting, refined, out):
 
 
 def mesh_by(run, mesher, body, setting):
-    """The mesh and its processor seconds; raises CalledProcessError where the mesher fails."""
+    """Returns the mesh and its processor seconds. Raises CalledProcessError if the mesher fails."""
     write_nrrd(run.path("body.nrrd"), body.mask.astype(np.uint16), body.affine)
     run.seconds = 0.0
     if mesher.startswith("ours"):
@@ -96,7 +99,8 @@ def mesh_by(run, mesher, body, setting):
 
 
 def body_of(mask, affine):
-    """The body and, for distances: its surface's points, mm, and how far each voxel's centre is from it, mm."""
+    """Returns the body with what distances are measured from: the points of its surface (mm), and the distance of each
+    voxel's centre from the surface (voxels, which are 1 mm)."""
     inner, outer = (ndimage.distance_transform_edt(part) for part in (mask, ~mask))
     return SimpleNamespace(mask=mask, affine=affine, surface=boundary_of_map(mask.astype(int), affine).points,
                            distance=np.abs(np.where(mask, 0.5 - inner, outer - 0.5)))
@@ -121,7 +125,8 @@ def distances_to_triangles(points, corners, triangles):
 
 
 def shape_of(mesh, body):
-    """D_H to the body's surface, mm (of all its voxel faces, and of points 1 mm apart on the mesh's), and angles."""
+    """Returns sizes, dihedral angles, and the Hausdorff distance (mm) between the surfaces of mesh and body, measured
+    from all voxel faces of the body and from points 1 mm apart on the surface of the mesh."""
     smallest = dihedral_angles(mesh).min(axis=1)
     there = interpolated(body.distance, body.affine, boundary_of_mesh(mesh, 1.0).points)
     back = distances_to_triangles(body.surface, mesh.points, boundary_triangles(mesh)[0])

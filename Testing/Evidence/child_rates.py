@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Children of growing size at haptic rate: unknowns against rate, and how far they are from the whole mesh solved at once.
+"""Measures the rates of children of growing size, and how far their solutions are from that of the whole mesh.
 
 usage: child_rates.py BIN OUTDIR [--document]
 
-BIN holds the three modules and MultirateBenchmark, which uses one thread here. The map is the JHU atlas; the child's edges
-are 1 mm within each of RADII around the example's target. Finished meshes and figures stay in OUTDIR. Writes rates.md and
-rates.json; --document puts the tables into Docs/Evidence.md.
+BIN holds the three modules and MultirateBenchmark, which uses one thread here. The map is the JHU atlas; the edges of
+the child are 1 mm within each of the RADII around the example's target. Finished meshes and figures stay in OUTDIR and
+are not made again. Writes rates.md and rates.json; --document puts the tables into Docs/Evidence.md.
 """
 import argparse
 import os
@@ -22,7 +22,7 @@ from maps import ATLAS  # noqa: E402
 from parts import Parts  # noqa: E402
 
 RADII = (6, 8, 10, 12)  # mm
-WITH_ERRORS = 10  # mm, the example's
+WITH_ERRORS = 10  # mm; the example's radius, for which the differences from the whole mesh are measured
 TARGET, LENGTHS = "0,0,-10", ("--minimumEdgeLength", 1, "--maximumEdgeLength", 8, "--decayLength", 25)
 CHILD = re.compile(r"child (\d+): (\d+) unknowns, (\d+) of the interface, condensing ([\d.]+) s, factor ([\d.]+) s\n"
                    r"((?:  tool at .*\n)+)  any load: ([\d.]+) ms")
@@ -32,7 +32,7 @@ ERRORS = re.compile(r"(linear|neo-Hookean): (\d+) steps, (\d+) iterations, ([\d.
 
 
 def divide(run, file, target, lengths, radius):
-    """Leaves parent.vtu and child.vtu."""
+    """Meshes the map in `file` and writes parent.vtu and child.vtu."""
     run("SurgicalPathScaleCLI", "--targetPoint=" + target, *lengths, "--childRadius", radius, file, "scale.nrrd")
     run("SimplexMesherCLI", "--scale", "scale.nrrd", "--minimumIslandVolume", 30, "--ambient", "ambient.vtu", file,
         "surface.vtp")
@@ -47,7 +47,7 @@ def benchmarked(run, *options):
 
 
 def record_of(radius, printed):
-    """What MultirateBenchmark prints, as a record."""
+    """Returns a record of what MultirateBenchmark has printed."""
     tetrahedra, unknowns = map(int, re.search(r"whole: (\d+) tetrahedra, (\d+) unknowns", printed).groups())
     children = [{"child": int(number), "unknowns": int(own), "interface": int(shared), "condensing": float(condensing),
                  "factor": float(factor), "tool": {points: float(ms) for points, ms in TOOL.findall(tools)},

@@ -1,5 +1,5 @@
-"""Meshes of a label map by Cleaver 2 (github SCIInstitute/Cleaver), for those who have its cleaver-cli: it is not a Debian
-package. Its materials are the labels' signed distances, which it blurs by a voxel itself, as it does by default."""
+"""Meshes label maps by Cleaver 2 (SCIInstitute/Cleaver on GitHub), if its program cleaver-cli is at hand: there is no
+Debian package. Its materials are the signed distances of the labels, which Cleaver by default blurs by a voxel."""
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,11 +8,11 @@ from scipy import ndimage
 from measures import signed_volumes
 
 NAME = "Cleaver 2"
-MOST = 900  # processor seconds, after which it has not finished
+MOST = 900  # processor seconds, after which Cleaver is ended
 
 
 def write_values(file, values, sides):
-    """A volume as Cleaver reads it, which knows the size of voxels but neither origin nor directions."""
+    """Writes a volume for Cleaver, which reads the size of the voxels but neither their origin nor their directions."""
     directions = " ".join(f"({','.join(f'{x:.9g}' for x in row)})" for row in np.diag(sides))
     header = (f"NRRD0004\ntype: float\ndimension: 3\nspace: left-posterior-superior\nsizes: {' '.join(map(str, values.shape))}\n"
               f"space directions: {directions}\nspace origin: (0,0,0)\nendian: little\nencoding: raw\n\n")
@@ -21,13 +21,13 @@ def write_values(file, values, sides):
 
 
 def signed_distance(mask):
-    """Voxels from the mask's faces, positive inside."""
+    """Returns the distance of each voxel's centre from the faces of the mask (voxels), positive inside."""
     return np.where(mask, ndimage.distance_transform_edt(mask) - 0.5, 0.5 - ndimage.distance_transform_edt(~mask))
 
 
 def read(stem, values, affine, sides):
-    """The tetrahedra of all labels but 0; Cleaver counts materials from 1, and the first voxel's middle is half a side
-    from its origin."""
+    """Reads Cleaver's mesh and returns the tetrahedra of all labels but 0, in the map's frame. Cleaver counts materials
+    from 1, and its origin is half a voxel before the centre of the first voxel along each axis."""
     nodes = np.loadtxt(stem + ".node", skiprows=2, ndmin=2)[:, 1:4]
     elements = np.loadtxt(stem + ".ele", skiprows=2, ndmin=2).astype(int)
     tissue = np.asarray(values)[elements[:, 5] - 1]
@@ -40,7 +40,7 @@ def read(stem, values, affine, sides):
 
 
 def mesh_of(run, labels, affine, *options):
-    """The mesh by `run.cleaver`; raises CalledProcessError where that fails or takes too long."""
+    """Returns the mesh of a label map by `run.cleaver`. Raises CalledProcessError if that fails or takes too long."""
     sides, values = np.linalg.norm(affine[:3, :3], axis=0), np.unique(labels)
     files = [f"cleaver-{label}.nrrd" for label in values]
     for file, label in zip(files, values):
@@ -50,6 +50,6 @@ def mesh_of(run, labels, affine, *options):
 
 
 def uniform_mesh_of(run, labels, affine, length):
-    """The same with cells of at most that length (mm)."""
+    """Returns the same as `mesh_of` with cells no longer than `length` (mm)."""
     write_values(run.path("cleaver-scale.nrrd"), np.full(labels.shape, length), np.linalg.norm(affine[:3, :3], axis=0))
     return mesh_of(run, labels, affine, "-z", "cleaver-scale.nrrd")

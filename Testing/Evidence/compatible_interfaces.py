@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""Ways to interfaces that contiguous tissues share, after the paper on meshes of the Virtual Family models.
+"""Compares ways to make interfaces that neighbouring tissues share, after the paper on meshes of the Virtual Family.
 
 usage: compatible_interfaces.py BIN OUTDIR [--map FILE --groups LABEL=L,L,.. LABEL=..] [--box I:I,J:J,K:K]
            [--edgeLength MM] [--cleaver PROGRAM] [--document]
 
 BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, SurfaceRemesherCLI, Mesh3Driver, TetGenDriver and BooleanDriver;
-PROGRAM is Cleaver's cleaver-cli, without which its row is left out. The map is jhu189 as it is, or FILE (.nii.gz) with
-groups of its labels joined and all others left out, or only a box of its voxels. Docs/Evidence.md says what is compared.
-Every finished way stays in OUTDIR and is not run again. Writes interfaces.md and interfaces.json; --document puts the
-table into Docs/Evidence.md.
+PROGRAM is Cleaver's cleaver-cli, without which its row is left out. The map is jhu189, or FILE (.nii.gz). --groups
+joins each group of labels L to one LABEL and drops all other labels; --box takes only a box of the voxels.
+Docs/Evidence.md describes the comparison. The results of every finished way stay in OUTDIR and are not made again.
+Writes interfaces.md and interfaces.json; --document puts the table into Docs/Evidence.md.
 """
 import argparse
 import json
@@ -41,24 +41,24 @@ from meshfiles import cell_array, interpolated, read_dataset, read_mesh, read_nr
 from parts import Parts  # noqa: E402
 
 ISLAND = 30  # mm^3
-SMOOTHING = 1.5  # voxels, of a map by the largest of its tissues' blurred shares
-PASS_BAND, ITERATIONS = 0.1, 20  # of the windowed sinc
-OFFSET = 0.2  # voxels, of surfaces that are to overlap
-SPIKE = 2  # voxels
-MARGIN = 4  # voxels of surroundings
+SMOOTHING = 1.5  # voxels; width of the Gaussian by which `smoothed` smooths a map
+PASS_BAND, ITERATIONS = 0.1, 20  # of the windowed sinc filter
+OFFSET = 0.2  # voxels by which surfaces are moved outwards so that they overlap
+SPIKE = 2  # voxels; a surface point farther than this from the map's boundary counts as a spike
+MARGIN = 4  # voxels of background around the tissues
 
 
-# ---- the ways; each returns a mesh, or raises one of FAILURES
+# ---- the ways; each function returns a mesh or raises one of FAILURES
 
 class NoMesh(Exception):
-    """What a way left cannot be filled."""
+    """The surface that a way made could not be filled with tetrahedra."""
 
 
 FAILURES = (subprocess.CalledProcessError, NoMesh)
 
 
 def label_transfer(run, given):
-    """A uniform lattice whose tetrahedra take the label at their middle."""
+    """Makes a uniform lattice in which each tetrahedron has the label at its centroid."""
     corners = np.array(list(np.ndindex(2, 2, 2))) * (np.array(given.labels.shape) - 1)
     corners = corners @ given.affine[:3, :3].T + given.affine[:3, 3]
     points, tetrahedra = lattice_tetrahedra(corners.min(axis=0), corners.max(axis=0), given.length)
@@ -76,8 +76,8 @@ def mesh3(run, given):
 
 
 def coated(labels):
-    """The map with surroundings in place of every voxel that has a neighbour, across a corner at least, of a tissue with
-    a smaller label."""
+    """Returns the map with label 0 in every voxel that touches, across a face, an edge or a corner, a tissue with a
+    smaller label, so that no two tissues touch."""
     smallest = ndimage.minimum_filter(np.where(labels > 0, labels, labels.max() + 1), 3)
     return np.where(smallest < labels, 0, labels)
 
@@ -89,7 +89,8 @@ def without(mesh, label):
 
 
 def background_with_tetgen(run, given):
-    """Mesh_3's surface of the surroundings that coat every tissue, and TetGen in it and in the tissues, its holes."""
+    """Meshes by Mesh_3 the surface of a background material that coats every tissue, fills this material and the
+    tissues by TetGen, and removes the material."""
     surroundings = given.labels.max() + 1
     coat = coated(given.labels)
     write_nrrd(run.path("coat.nrrd"), np.where(coat == 0, surroundings, coat).astype(np.uint16), given.affine)
@@ -99,7 +100,7 @@ def background_with_tetgen(run, given):
 
 
 def background_ours(run, given):
-    """The same coat, by our programs with --background."""
+    """Meshes the map with the same background material by our programs with --background."""
     surroundings = int(given.labels.max()) + 1
     write_nrrd(run.path("coat-tissues.nrrd"), coated(given.labels).astype(np.uint16), given.affine)
     run("SimplexMesherCLI", "--edgeLength", given.length, "--minimumIslandVolume", ISLAND, "--background", surroundings,
@@ -109,7 +110,8 @@ def background_ours(run, given):
 
 
 def smoothed(labels, scale=SMOOTHING):
-    """Each voxel with the tissue, or the background, that has most of its Gaussian neighbourhood."""
+    """Returns a map in which each voxel has the label, which may be background, with the largest share of its Gaussian
+    neighbourhood."""
     best, result = np.zeros(labels.shape, np.float32), np.zeros_like(labels)
     for label in np.unique(labels):
         share = ndimage.gaussian_filter((labels == label).astype(np.float32), scale)
@@ -119,8 +121,8 @@ def smoothed(labels, scale=SMOOTHING):
 
 
 def marching_cubes(labels, affine):
-    """Discrete marching cubes of every label, windowed sinc: corners (mm), triangles, and the labels on both sides of
-    each (n, 2): a triangle that only one tissue has, has 0 beyond."""
+    """Runs discrete marching cubes on every label and smooths the surface by a windowed sinc filter. Returns corners
+    (mm), triangles, and the labels on both sides of each triangle (n, 2); the second is 0 if only one tissue has it."""
     padded = np.pad(labels, 1)
     image = vtk.vtkImageData()
     image.SetDimensions(padded.shape)
@@ -194,19 +196,19 @@ def cubes_smoothed(run, given):
 
 
 def contour(labels, affine, label, offset, length, file):
-    """The closed surface of one tissue, smoothed, at the level about `offset` voxels outside, decimated to about that
-    length (in voxels) with its topology kept."""
+    """Writes the closed surface of one tissue: smoothed, about `offset` voxels outside its boundary, and decimated to
+    edges of about `length` (voxels) without a change of topology."""
     inside = ndimage.gaussian_filter((np.pad(labels, 3) == label).astype(np.float32), 1)
     image, edges, fewer = vtk.vtkImageData(), vtk.vtkFlyingEdges3D(), vtk.vtkDecimatePro()
     image.SetDimensions(inside.shape)
     image.SetOrigin(-3, -3, -3)
     image.GetPointData().SetScalars(numpy_to_vtk(inside.ravel(order="F"), deep=True))
     edges.SetInputData(image)
-    edges.SetValue(0, 0.5 - 0.4 * offset)  # a plane's share falls by 0.4 in a voxel
+    edges.SetValue(0, 0.5 - 0.4 * offset)  # at a plane, the blurred mask falls by 0.4 per voxel
     edges.ComputeNormalsOff()
     fewer.SetInputConnection(edges.GetOutputPort())
     fewer.PreserveTopologyOn()
-    fewer.SetTargetReduction(max(0, 1 - 1 / length**2))  # triangles of a contour are about a voxel long
+    fewer.SetTargetReduction(max(0, 1 - 1 / length**2))  # the contour's edges are about a voxel long
     place, moved, writer = vtk.vtkTransform(), vtk.vtkTransformPolyDataFilter(), vtk.vtkSTLWriter()
     place.SetMatrix(affine.ravel().tolist())
     moved.SetInputConnection(fewer.GetOutputPort())
@@ -218,8 +220,8 @@ def contour(labels, affine, label, offset, length, file):
 
 
 def booleans(run, given):
-    """Each tissue's smoothed surface, a little outside, decimated; their union by corefinement, remeshed within its
-    curves; and TetGen in it."""
+    """Makes each tissue's decimated surface, a little outside its boundary, joins the surfaces by corefinement,
+    remeshes the union between its curves, and fills it by TetGen."""
     bodies = []
     for label in given.tissues:
         contour(given.labels, given.affine, label, OFFSET, given.length / given.voxel, run.path(f"body-{label}.stl"))
@@ -248,7 +250,7 @@ def ours(run, given):
     return read_mesh(run.path("mesh.vtu"))
 
 
-# By way: how it is done, and the figures that somebody has to choose for it.
+# For each way: its function, and the number of parameters that have to be chosen for it.
 WAYS = {"label transfer": (label_transfer, 1), "CGAL Mesh_3": (mesh3, 4),
         "background material, Mesh_3 and TetGen": (background_with_tetgen, 4),
         "background material, ours": (background_ours, 2),
@@ -257,21 +259,23 @@ WAYS = {"label transfer": (label_transfer, 1), "CGAL Mesh_3": (mesh3, 4),
 
 
 def ways_of(run):
-    """Those whose programs are there."""
+    """Returns the names of the ways whose programs are at hand."""
     return [name for name in WAYS if run.cleaver or name != cleaver.NAME]
 
 
 # ---- measures
 
 def faces_of(mesh):
-    """Every face's sorted corners, twice where two tetrahedra share it, next to each other; and its tetrahedron."""
+    """Returns the sorted corners of every tetrahedron's faces, and the tetrahedron of each. A face that two tetrahedra
+    share comes twice in succession."""
     faces = np.sort(mesh.tetrahedra[:, TETRAHEDRON_FACES].reshape(-1, 3), axis=1)
     order = np.lexsort(faces.T)
     return faces[order], np.repeat(np.arange(len(mesh.tetrahedra)), 4)[order]
 
 
 def orthogonality(mesh):
-    """Angles (degrees) between each inner face's normal and the line between the middles of its two tetrahedra."""
+    """Returns, for each inner face, the angle (degrees) between its normal and the line between the centroids of its
+    two tetrahedra."""
     faces, owner = faces_of(mesh)
     first = np.flatnonzero(np.all(faces[1:] == faces[:-1], axis=1))
     a, b, c = np.moveaxis(mesh.points[faces[first]], 1, 0)
@@ -283,7 +287,7 @@ def orthogonality(mesh):
 
 
 def radius_ratios(mesh):
-    """Three inscribed radii over the circumscribed one: 1 for a regular tetrahedron."""
+    """Returns three times the inscribed radius over the circumscribed radius: 1 for a regular tetrahedron."""
     corners = mesh.points[mesh.tetrahedra]
     lengths = np.linalg.norm(corners[:, TETRAHEDRON_EDGES[:, 0]] - corners[:, TETRAHEDRON_EDGES[:, 1]], axis=2)
     p, q, r = (lengths[:, i] * lengths[:, 5 - i] for i in range(3))
@@ -295,7 +299,8 @@ def radius_ratios(mesh):
 
 
 def jiggle(corners, triangles, sides):
-    """Root mean square angle (degrees) between the normals of neighbours in one sheet between two labels."""
+    """Returns the root mean square angle (degrees) between the normals of neighbouring triangles that separate the same
+    two labels."""
     a, b, c = np.moveaxis(corners[triangles], 1, 0)
     normals = np.cross(b - a, c - a)
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
@@ -306,7 +311,7 @@ def jiggle(corners, triangles, sides):
     order = np.lexsort(keys.T)
     same = np.flatnonzero(np.all(keys[order][1:] == keys[order][:-1], axis=1))
     first, second = owner[order][same], owner[order][same + 1]
-    # Turned alike if the shared edge runs in opposite directions.
+    # Two triangles have consistent normals if they pass through their shared edge in opposite directions.
     def forward(triangle, edge):
         at = np.argmax(triangles[triangle] == edge[:, :1], axis=1)
         return triangles[triangle, (at + 1) % 3] == edge[:, 1]
@@ -317,7 +322,8 @@ def jiggle(corners, triangles, sides):
 
 
 def shared_once(triangles, centres, sides, given):
-    """Share of the triangles within the tissues (farther than a voxel from the outside) that two tissues share."""
+    """Returns the share of triangles that have a tissue on both sides, among those farther than a voxel from the
+    outside."""
     within = interpolated(given.depth, given.affine, centres) > 1.5
     return float(np.mean(np.all(sides[within] > 0, axis=1))) if np.any(within) else 1.0
 
@@ -357,7 +363,7 @@ def sentence(failure):
 
 
 def measured(name, run, given):
-    """One row; a way that fails has the measures of the surface that it left, if it left one."""
+    """Returns the row of one way. If the way fails but has left a surface, the row has the measures of that surface."""
     make, parameters = WAYS[name]
     run.seconds, before = 0.0, time.process_time()
     row = {"way": name, "parameters": parameters}
@@ -377,7 +383,7 @@ def measured(name, run, given):
 # ---- input and output
 
 def tissues_of(options):
-    """The raw map and its affine, cut to the tissues and a margin."""
+    """Returns the raw map, cut to the tissues and a margin, and its affine."""
     image = nibabel.load(options.map)
     labels = np.rint(np.asanyarray(image.dataobj)).astype(int)
     low = np.zeros(3, int)
@@ -398,13 +404,14 @@ def tissues_of(options):
 
 
 def given_to(run, raw, affine, length):
-    """What all ways are given, and are held against: the prepared map, and the raw one for marching cubes."""
+    """Returns the inputs of all ways and what their results are compared with: the prepared map, and the raw map for
+    marching cubes."""
     write_nrrd(run.path("map.nrrd"), raw.astype(np.uint16), affine)
     write_uniform_scale(run.path("scale.nrrd"), length)
     if not os.path.exists(run.path("prepared.nrrd")):
         run("SimplexMesherCLI", "--edgeLength", length, "--minimumIslandVolume", ISLAND, "--preparedLabelMap",
             "prepared.nrrd", "map.nrrd", "unused.vtp")
-    raw_affine = affine  # the prepared map may run along other axes
+    raw_affine = affine  # the axes of the prepared map may differ
     labels, affine = read_nrrd(run.path("prepared.nrrd"))
     labels = labels.astype(int)
     boundary, tissues = boundary_of_map(labels, affine), np.setdiff1d(labels, [0])

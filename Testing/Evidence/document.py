@@ -13,7 +13,7 @@ def table(header, rows):
 
 
 def with_tables(text, tables):
-    """The page's text with each table in its place; ValueError if the page has no place for one."""
+    """Returns the page's text with each table between its marks. Raises ValueError if the page lacks these marks."""
     for name, content in tables.items():
         begin, end = f"<!-- {name} -->\n", f"<!-- end of {name} -->\n"
         start = text.index(begin) + len(begin)
@@ -29,7 +29,8 @@ def put(tables):
 
 
 def leave(records, tables, path, is_for_page):
-    """Records into path.json, tables into path.md, onto the terminal and, if wanted, into the page."""
+    """Writes the records to `path`.json and the tables to `path`.md, prints the tables and, if `is_for_page`, puts them
+    into the page."""
     text = "\n".join(tables.values())
     with open(f"{path}.json", "w", encoding="utf-8") as file:
         json.dump(records, file, indent=1)

@@ -1,9 +1,9 @@
 """The brain shift that registrations have to find: a nonlinear finite-element solution by CalculiX.
 
-A brain lies on its side opposite to a craniotomy. Fluid has run out down to a level: what lies above it has its weight,
-what lies below floats. A ball of tissue under the craniotomy has been taken out. The tissue is neo-Hookean (3 kPa,
-Poisson's ratio 0.45), displacements are large, and the mesh is a lattice of hexahedra, which none of the meshes compared
-knows. The weight grows until the largest displacement is what was asked for.
+The brain lies on the side opposite a craniotomy. Fluid has drained down to a level: tissue above the level has weight,
+and tissue below it floats. A ball of tissue under the craniotomy has been removed. The tissue is neo-Hookean (3 kPa,
+Poisson's ratio 0.45), displacements are large, and the mesh is a lattice of hexahedra that is unrelated to the meshes
+that are compared. The weight is increased until the largest displacement has the wanted value.
 """
 import os
 import re
@@ -20,9 +20,9 @@ SIDE = 6  # mm, of hexahedra
 YOUNGS_MODULUS, POISSONS_RATIO = 0.003, 0.45  # MPa
 WEIGHT = 9.81e-6  # N/mm^3
 UPWARDS = np.array([0.6, -0.5, 0.62]) / np.linalg.norm([0.6, -0.5, 0.62])  # LPS: to the left, the front and above
-HELD, FLUID = 0.2, 0.35  # shares of the brain's height below which the skull holds it, and to which fluid stands
-CAVITY_RADIUS, CAVITY_DEPTH = 14, 16  # mm; depth of its centre
-LARGEST_WEIGHT, INCREMENT = 0.2, 0.05  # of WEIGHT
+HELD, FLUID = 0.2, 0.35  # shares of the brain's height up to which the skull holds it, and up to which there is fluid
+CAVITY_RADIUS, CAVITY_DEPTH = 14, 16  # mm; the depth is that of the cavity's centre
+LARGEST_WEIGHT, INCREMENT = 0.2, 0.05  # shares of WEIGHT
 CORNERS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])
 
 DECK = """*NODE, NSET=ALL
@@ -53,7 +53,7 @@ U
 
 
 def cavity_of(body, affine, radius=CAVITY_RADIUS, depth=CAVITY_DEPTH):
-    """Voxels of the ball taken out, on the line from the body's middle upwards."""
+    """Returns a mask of the ball that is removed, which lies on the line from the body's centroid upwards."""
     voxels = np.argwhere(body)
     positions = positions_of(voxels, affine)
     from_middle = positions - positions.mean(axis=0)
@@ -67,7 +67,8 @@ def cavity_of(body, affine, radius=CAVITY_RADIUS, depth=CAVITY_DEPTH):
 
 
 def hexahedra(body, cavity, affine, side=SIDE):
-    """Nodes (mm), hexahedra, and their lattice: the blocks with any voxel of the body, without those of the cavity."""
+    """Returns nodes (mm), hexahedra, and their lattice: all blocks of `side` voxels that contain a voxel of the body,
+    except those that are at least half in the cavity. Only the largest connected piece is kept."""
     filled, lattice = blocks_of(body, affine, side, share=1e-6)
     taken, _ = blocks_of(cavity, affine, side)
     filled = filled & ~taken
@@ -105,7 +106,7 @@ def write_deck(file, mesh, largest_weight, increment):
 
 
 def states_of(file, count):
-    """Displacements (n, 3) of every converged increment in CalculiX's .dat file."""
+    """Returns the displacements (n, 3) after each complete increment in CalculiX's .dat file; n is `count`."""
     with open(file, encoding="ascii") as stream:
         blocks = re.split(r"^ displacements.*$", stream.read(), flags=re.M)[1:]
     states = [np.array(block.split(), float).reshape(-1, 4)[:, 1:] for block in blocks]
@@ -113,7 +114,7 @@ def states_of(file, count):
 
 
 def at_shift(states, shift):
-    """The state whose largest displacement is `shift`, between the two increments around it."""
+    """Returns the state whose largest displacement is `shift`, interpolated between the two increments around it."""
     states = [np.zeros_like(states[0]), *states]
     largest = np.array([np.linalg.norm(state, axis=1).max() for state in states])
     after = int(np.argmax(largest >= shift))
@@ -125,8 +126,8 @@ def at_shift(states, shift):
 
 
 def brain_shifts(folder, mesh, shifts, largest_weight=LARGEST_WEIGHT, increment=INCREMENT):
-    """By shift (mm), the displacements of the hexahedra's nodes. CalculiX may end before the whole weight is on, if all
-    shifts have been reached."""
+    """Maps each shift (mm) to the displacements of the nodes of the hexahedra. CalculiX may fail before the full weight
+    is applied, as long as all shifts have been reached."""
     deck = os.path.join(folder, "truth")
     write_deck(deck + ".inp", mesh, largest_weight, increment)
     with open(deck + ".log", "w", encoding="utf-8") as log:
@@ -136,14 +137,14 @@ def brain_shifts(folder, mesh, shifts, largest_weight=LARGEST_WEIGHT, increment=
 
 
 def on_lattice(mesh, displacement):
-    """Displacements at all corners of the lattice: those beside the mesh move as the nearest node."""
+    """Returns the displacements at all corners of the lattice; corners outside the mesh move like the nearest node."""
     everywhere = np.argwhere(np.ones(mesh.shape, bool))
     nearest = cKDTree(mesh.at).query(everywhere)[1]
     return displacement[nearest].reshape(*mesh.shape, 3)
 
 
 def at_all_voxels(mesh, displacement, shape, affine):
-    """Displacements (.., 3), mm, trilinear between the lattice's corners."""
+    """Returns the displacements (..., 3) in mm at all voxels, trilinear between the corners of the lattice."""
     to_lattice = np.linalg.inv(mesh.affine) @ affine
     values = on_lattice(mesh, displacement)
     return np.stack([ndimage.affine_transform(values[..., axis].astype(np.float32), to_lattice[:3, :3],
@@ -152,7 +153,8 @@ def at_all_voxels(mesh, displacement, shape, affine):
 
 
 def deformed(image, mask, cavity, displacement, affine, noise, seed=0):
-    """The image during the operation: tissue where it has moved to, dark fluid and air around and in the cavity."""
+    """Returns the image during the operation: the tissue at its new place, and dark fluid and air around it and in the
+    cavity. `noise` is the standard deviation of the added noise."""
     inverse = np.linalg.inv(affine[:3, :3])
     moved = np.moveaxis(displacement @ inverse.T, -1, 0)  # voxels
     tissue = np.where(mask & ~cavity, image, 0).astype(np.float32)

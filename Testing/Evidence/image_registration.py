@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Fitness of meshes for registration with images, after Chernikov et al.: from a T1 to the error at every brain voxel.
+"""Measures the fitness of meshes for registration, after Chernikov et al., from a T1 to the error at every brain voxel.
 
 usage: image_registration.py BIN OUTDIR [--shifts MM,MM,..] [--cleaver PROGRAM] [--document]
 
-BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, Mesh3Driver and TetGenDriver; CalculiX is ccx; PROGRAM is Cleaver's
-cleaver-cli, without which its meshes are left out. Docs/Evidence.md says what is done. Every finished part stays in OUTDIR and
-is not made again; a folder that is empty begins anew. Writes
-registration.md (tables), registration.json, registration.png and registration-meshes.png; --document puts tables and
-pictures into Docs/.
+BIN holds SimplexMesherCLI, FuchsTetrahedralizerCLI, Mesh3Driver and TetGenDriver; CalculiX (ccx) has to be on the PATH.
+PROGRAM is Cleaver's cleaver-cli, without which its meshes are left out. Docs/Evidence.md describes the experiment.
+Every finished part stays in OUTDIR and is not made again; use an empty folder to start afresh. Writes registration.md
+(tables), registration.json, registration.png and registration-meshes.png; --document puts tables and pictures into
+Docs/.
 """
 import argparse
 import os
@@ -31,12 +31,12 @@ from fitness import largest_body  # noqa: E402
 from parts import Parts  # noqa: E402
 from registration import condition_numbers, interpolation, nearest_tetrahedra, system  # noqa: E402
 
-BINS = ((15, 16.5), (14, 15.5), (13, 14.5), (8.5, 9.5), (7, 8))  # the paper's, voxels
+BINS = ((15, 16.5), (14, 15.5), (13, 14.5), (8.5, 9.5), (7, 8))  # the paper's intervals of Hausdorff distance, voxels
 SHIFTS = (5, 10, 14)  # mm
 NOISE = 0.04  # of the brightest voxel
-PLANTED, PLANTED_DISTANCE = 0.1, (5, 15)  # share; mm beside the true displacement
-REPETITIONS = 15  # of a registration, for the solver's time
-# Settings reach beyond what is chosen, for every mesher.
+PLANTED, PLANTED_DISTANCE = 0.1, (5, 15)  # share of planted outliers; by how much (mm) they change the displacement
+REPETITIONS = 15  # of a registration, to measure the solver's time
+# For every mesher, the range of settings extends beyond the settings that are chosen.
 LENGTHS = (24, 26, 28, 30, 32, 36, 40, 45, 50, 55, 60, 65, 70, 75, 80)  # mm
 OURS = [(side, length) for side in range(3, 13) for length in (*LENGTHS, 34, 38, 42) if 4 <= length / side <= 15]
 CGAL = [(share * length, length) for length in LENGTHS for share in (0.1, 0.12, 0.15, 0.17, 0.2, 0.22, 0.25, 0.3, 0.35, 0.4)
@@ -49,7 +49,8 @@ SETTINGS = dict(zip(MESHERS, (OURS, OURS, CGAL, CGAL, LATTICE, CLEAVER)))
 # ---- images and matches
 
 def shifted(parts, scene, shift):
-    """Truth at all voxels (mm) for a shift, and the matches of the features in the image it makes."""
+    """Returns the true displacements at all voxels (mm) for a shift, and the displacements (mm) of the features that
+    block matching finds in the deformed image."""
     displacement = hidden_truth.at_all_voxels(scene.hexahedra, scene.shifts[str(shift)], scene.body.shape, scene.affine)
     def make():
         during = hidden_truth.deformed(scene.t1, scene.body, scene.cavity, displacement, scene.affine, NOISE)
@@ -73,7 +74,7 @@ def scene_of(parts, shifts, make_brain=brain):
 
 
 def matching_quality(scene, shift, during):
-    """How near the matches of features that are still there are to the truth, mm."""
+    """Returns statistics of the errors (mm) of the matches, without features that were cut out with the cavity."""
     there = ~scene.cavity[tuple(scene.features.T)]
     errors = np.linalg.norm(during.matched - during.displacement[tuple(scene.features.T)], axis=1)[there]
     return {"shift": shift, "points": int(len(there)), "removed": int(np.count_nonzero(~there)),
@@ -84,7 +85,7 @@ def matching_quality(scene, shift, during):
 # ---- meshes and their errors
 
 def tetrahedra_at(points, tetrahedra, voxels, shape, affine):
-    """The tetrahedron that each voxel's centre is in or, outside the mesh, nearest to."""
+    """Returns, for each voxel, the tetrahedron that contains its centre or, outside the mesh, the nearest one."""
     at = np.full(shape, -1, np.int32)
     indices = (points - affine[:3, 3]) @ np.linalg.inv(affine[:3, :3]).T
     gradients, _ = shape_gradients(indices, tetrahedra)
@@ -105,7 +106,7 @@ def tetrahedra_at(points, tetrahedra, voxels, shape, affine):
 
 
 def errors_at(mesh, nodes, voxels, at, truth, affine):
-    """Distance, mm, of the interpolated displacement from the truth at every voxel."""
+    """Returns the distance (mm) between the interpolated and the true displacement at every voxel."""
     gradients, _ = shape_gradients(mesh.points, mesh.tetrahedra)
     result = np.empty(len(voxels))
     for some in np.array_split(np.arange(len(voxels)), 1 + len(voxels) // 200000):
@@ -119,7 +120,7 @@ def errors_at(mesh, nodes, voxels, at, truth, affine):
 
 
 def brain_voxels(scene, every=1):
-    """Voxels of the brain that are still there."""
+    """Returns every `every`-th voxel of the brain that is not in the cavity."""
     return np.argwhere(scene.mask & ~scene.cavity)[::every]
 
 
@@ -129,7 +130,8 @@ def middle_of(values):
 
 
 def measured(scene, mesher, setting, run, body, durings):
-    """Shape, conditioning, errors by shift (at every 50th voxel), and solver and error at the middle one, of one mesh."""
+    """Makes one mesh and returns its shape, its conditioning, the mean errors for each shift (at every 50th voxel), and
+    the solver's figures and the error for the middle shift."""
     mesh, seconds = mesh_by(run, mesher, body, setting)
     mesh = largest_body(mesh)
     equations = system(mesh, scene.points, robust.YOUNGS_MODULUS, robust.POISSONS_RATIO)
@@ -151,7 +153,7 @@ def name_of(mesher, setting):
 
 
 def swept(parts, scene, run, body, durings, settings):
-    """Records of all settings; a mesher that fails leaves one that says so."""
+    """Returns the records of all settings. If a mesher fails, its record gives the reason."""
     rows = []
     for mesher, each in settings.items():
         for setting in each:
@@ -170,9 +172,10 @@ def mean_over_shifts(errors):
 
 
 def chosen(rows, mesher, interval):
-    """The paper's second experiment, for every mesher alike: of its meshes at that distance, the typical one, whose mean
-    error over the shifts is the median (the lower of two), with those of all that are there, ascending; None without a
-    mesh."""
+    """Chooses a mesher's typical mesh in an interval of Hausdorff distance, as in the paper's second experiment.
+
+    It is the mesh whose mean error over the shifts is the median (the lower of two) of all meshes there. Returns its
+    record with the mean errors of all these meshes, in ascending order, or None if there is no mesh."""
     there = [row for row in rows if row["mesher"] == mesher and "failed" not in row
              and interval[0] <= row["hausdorff"] <= interval[1]]
     if not there:
@@ -182,7 +185,8 @@ def chosen(rows, mesher, interval):
 
 
 def dense(scene, row, run, body, durings):
-    """The chosen mesh again: error at all brain voxels and outliers rejected, by shift."""
+    """Makes the chosen mesh again and returns, for each shift, the errors at all brain voxels and the share of planted
+    outliers that were rejected."""
     mesh = largest_body(mesh_by(run, row["mesher"], body, row["setting"])[0])
     voxels = brain_voxels(scene)
     at = tetrahedra_at(mesh.points, mesh.tetrahedra, voxels, scene.body.shape, scene.affine)
@@ -200,7 +204,8 @@ def dense(scene, row, run, body, durings):
 
 
 def solver_seconds(meshes, scene, matched):
-    """Name -> median of the solver's processor seconds; the meshes take turns, as the machine is not always as fast."""
+    """Maps each mesh's name to the median of the solver's processor seconds. The meshes take turns, because the speed
+    of the machine varies."""
     seconds = {name: [] for name in meshes}
     for _ in range(REPETITIONS):
         for name, mesh in meshes.items():
@@ -209,7 +214,8 @@ def solver_seconds(meshes, scene, matched):
 
 
 def compared(parts, scene, run, body, durings, rows, bins=BINS):
-    """(bin, mesher) -> the chosen mesh's record with what dense() and solver_seconds() add, or None."""
+    """Maps (interval, mesher) to the record of the chosen mesh with the results of `dense` and `solver_seconds`, or to
+    None."""
     table = {}
     for interval in bins:
         for mesher in dict.fromkeys(row["mesher"] for row in rows):
@@ -237,7 +243,7 @@ def main():
     parser.add_argument("--cleaver")
     parser.add_argument("--document", action="store_true")
     options = parser.parse_args()
-    import registration_page  # pylint: disable=import-outside-toplevel  # matplotlib, for those who want it
+    import registration_page  # pylint: disable=import-outside-toplevel  # only this function needs matplotlib
     shifts = [float(word) if "." in word else int(word) for word in options.shifts.split(",")]
     parts = Parts(options.folder)
     scene = scene_of(parts, shifts)

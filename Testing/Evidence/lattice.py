@@ -1,9 +1,9 @@
-"""A body-centred cubic lattice compressed to a surface, in the manner of the point-based meshers that Chernikov et al.
-compare (Liu et al., mesh deformation-based multi-tissue mesh generation): tetrahedra of the lattice inside the body, as
-an elastic body whose boundary is drawn to the surface; lambda weighs distance against strain.
+"""A body-centred cubic lattice compressed to a surface, like the point-based meshers that Chernikov et al. compare (Liu
+et al., mesh deformation-based multi-tissue mesh generation). The tetrahedra of the lattice inside the body form an
+elastic body whose boundary is pulled to the surface; a weight (the paper's lambda) balances distance against strain.
 
-A simple form: targets are the nearest points of the surface, chosen anew in every step, and a step that would turn a
-tetrahedron inside out is halved.
+This is a simple form: the targets are the nearest points of the surface, chosen anew in every step, and a step is
+halved as long as it would make a tetrahedron too small or invert it.
 """
 from types import SimpleNamespace
 
@@ -18,11 +18,12 @@ from measures import signed_volumes
 from meshfiles import interpolated
 
 STEPS = 20
-SMALLEST = 0.05  # of a tetrahedron's volume in the lattice
+SMALLEST = 0.05  # smallest volume of a tetrahedron, as a share of its volume in the lattice
 
 
 def lattice_tetrahedra(low, high, side):
-    """Points and positively wound tetrahedra of the lattice over a box: four around each face between two cubes."""
+    """Returns the points and the positively oriented tetrahedra of the lattice over a box: four around each line
+    between the centres of two adjacent cubes of width `side`."""
     size = np.ceil((high - low) / side).astype(int) + 1
     cubes = np.argwhere(np.ones(size, bool))
     corner_size = size + 1
@@ -40,7 +41,8 @@ def lattice_tetrahedra(low, high, side):
 
 
 def inside(points, tetrahedra, body, affine):
-    """The tetrahedra whose middle and most of whose corners are in the body, with their points renumbered."""
+    """Returns the points, renumbered, and the tetrahedra whose centroid and at least half of whose corners are in the
+    body."""
     values = interpolated(body.astype(float), affine, points)
     middle = interpolated(body.astype(float), affine, points[tetrahedra].mean(axis=1))
     kept = tetrahedra[(middle >= 0.5) & (values[tetrahedra].mean(axis=1) >= 0.5)]
@@ -49,7 +51,8 @@ def inside(points, tetrahedra, body, affine):
 
 
 def compressed(body, affine, surface, side, weight, steps=STEPS):
-    """The mesh: points (mm), tetrahedra, tissue. `surface`: dense points of the body's surface, mm."""
+    """Returns the mesh: points (mm), tetrahedra, tissue. `surface` are dense points of the body's surface (mm), `side`
+    is the width of the lattice's cubes (mm), and `weight` that of the distance against the strain."""
     low = surface.min(axis=0) - side
     points, tetrahedra = inside(*lattice_tetrahedra(low, surface.max(axis=0) + side, side), body, affine)
     smallest = SMALLEST * side**3 / 12
@@ -58,7 +61,7 @@ def compressed(body, affine, surface, side, weight, steps=STEPS):
     pick = sparse.csr_matrix((np.ones(3 * len(outer)), (np.arange(3 * len(outer)), unknowns(outer).ravel())),
                              (3 * len(outer), 3 * len(points)))
     tree = cKDTree(surface)
-    rest = stiffness(points, tetrahedra, 1.0, 0.3) / side  # of the order of 1
+    rest = stiffness(points, tetrahedra, 1.0, 0.3) / side  # the division makes its entries of the order of 1
     start, reached = points, points
 
     def mesh_at(positions):

@@ -1,18 +1,19 @@
-"""Feature points of an image and block matching, after Clatz et al. (IEEE TMI 24(11), 2005), the steps before the
-mechanics of Chernikov et al."""
+"""Selects feature points of an image and matches blocks, after Clatz et al. (IEEE TMI 24(11), 2005): the steps before
+the mechanical registration of Chernikov et al."""
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from scipy import ndimage
 
-FRACTION = 0.05  # of the mask's voxels, those whose blocks vary most
+FRACTION = 0.05  # share of the mask's voxels that are candidates: those whose blocks vary most
 APART = 3  # voxels between two features
-BLOCK = 5  # voxels to each side of the block's centre
-REACH = 9  # voxels of twice the side, searched to each side at first
-REFINED = 3  # voxels searched to each side at last
+BLOCK = 5  # voxels of a block on each side of its centre
+REACH = 9  # voxels of twice the side that are searched on each side at half the resolution
+REFINED = 3  # voxels that are searched on each side at full resolution
 
 
 def features(image, mask, fraction=FRACTION, apart=APART, block=BLOCK):
-    """Voxels (n, 3) whose blocks lie in the mask and vary most, by falling variance, none near one before it."""
+    """Returns the voxels (n, 3) whose blocks lie in the mask and vary most, in descending order of variance. A voxel
+    within `apart` voxels of an earlier one is left out."""
     size = 2 * block + 1
     mean = ndimage.uniform_filter(image.astype(float), size)
     variance = ndimage.uniform_filter(image.astype(float) ** 2, size) - mean**2
@@ -30,7 +31,8 @@ def features(image, mask, fraction=FRACTION, apart=APART, block=BLOCK):
 
 
 def correlations(fixed, moving, centre, start, block, reach):
-    """Correlation coefficients of a block of `fixed` with those of `moving` around centre + start: (2 reach + 1)^3."""
+    """Returns the correlation coefficients of the block of `fixed` at `centre` with the (2 reach + 1)^3 blocks of
+    `moving` around centre + start."""
     def cut(image, at, radius):
         return image[tuple(slice(a - radius, a + radius + 1) for a in at)]
     wanted = cut(fixed, centre, block).ravel()
@@ -43,7 +45,8 @@ def correlations(fixed, moving, centre, start, block, reach):
 
 
 def below_a_voxel(values, best):
-    """Offset (3) of the parabolas' tops through the best value and its neighbours along each axis; 0 at the border."""
+    """Returns the offset (3) in voxels from the best value to the maximum of the parabola through it and its neighbours
+    along each axis; 0 along an axis at whose border the best value lies."""
     offset = np.zeros(3)
     for axis in range(3):
         if 0 < best[axis] < values.shape[axis] - 1:
@@ -64,8 +67,8 @@ def halved(image):
 
 
 def match(fixed, moving, points, block=BLOCK, reach=REACH, refined=REFINED):
-    """Displacements (n, 3), voxels, from each point of `fixed` to the best correlating block of `moving`: searched at
-    half the resolution, then near what was found there."""
+    """Returns the displacements (n, 3) in voxels from each point of `fixed` to the block of `moving` that correlates
+    best. The search runs at half the resolution first, then at full resolution near what it found."""
     margin = 2 * (block + reach + refined + 2)
     fixed, moving = (np.pad(image.astype(np.float32), margin + margin % 2) for image in (fixed, moving))
     points = np.asarray(points) + margin + margin % 2

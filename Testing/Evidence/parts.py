@@ -1,4 +1,4 @@
-"""Parts of a long measurement, each kept in the working folder when it is finished, and not made again."""
+"""Keeps the finished parts of a long measurement in its working folder, so that they are not made again."""
 import json
 import os
 
@@ -14,18 +14,18 @@ class Parts:
         return os.path.join(self.folder, name)
 
     def record(self, name, make):
-        """What make() returns, by way of a JSON file."""
+        """Returns the value of make(), which is called only if there is no JSON file with the value yet."""
         return self._kept(name + ".json", make, _write_json, _read_json)
 
     def arrays(self, name, make):
-        """The dictionary of arrays that make() returns, by way of an .npz file."""
+        """Returns the dictionary of arrays of make(), which is called only if there is no .npz file with them yet."""
         return self._kept(name + ".npz", make, _write_arrays, _read_arrays)
 
     def _kept(self, name, make, write, read):
         file = self.path(name)
         if not os.path.exists(file):
             value = make()
-            write(file + ".part", value)  # a file of the final name is whole
+            write(file + ".part", value)  # renamed when complete, so that a file of the final name is never incomplete
             os.replace(file + ".part", file)
         return read(file)
 

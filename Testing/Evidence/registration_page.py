@@ -1,4 +1,4 @@
-"""Tables and pictures of image_registration.py."""
+"""Makes the tables and pictures of image_registration.py."""
 import json
 import os
 
@@ -34,7 +34,7 @@ def matching_table(matches):
 
 
 def least_median_largest(ascending):
-    """The median as image_registration.chosen() has it."""
+    """Returns the least, the median (the lower of two, as in image_registration.chosen) and the largest value."""
     return ascending[0], ascending[(len(ascending) - 1) // 2], ascending[-1]
 
 
@@ -115,7 +115,8 @@ def draw_mesh(axis, mesh, color):
 
 
 def draw_meshes(table, mesh_of, file):
-    """As the paper's figure 5: every mesher's mesh at the first bin, above, and at the last."""
+    """Draws, like the paper's figure 5, the mesh of every mesher in the first interval of Hausdorff distance, above,
+    and in the last, below."""
     bins = list(dict.fromkeys(interval for interval, _ in table))
     meshers = list(dict.fromkeys(mesher for _, mesher in table))
     figure = plt.figure(figsize=(3 * len(meshers), 6.4), dpi=80)

@@ -1,7 +1,8 @@
 """Registration of matched blocks with rejection of outliers, after Clatz et al. (IEEE TMI 24(11), 2005).
 
-As registration.py has it, but the points whose displacement contradicts the mechanics most leave the sum, a share of all
-points after each outer step: (K + H'SH) U_i = H'SD + F_(i-1), F_i = K U_i, where S keeps the points that are left.
+This is the registration of registration.py, but after each of the first outer steps, a share of all points is rejected:
+those whose displacement contradicts the mechanics most. Step i solves (K + H'SH) U_i = H'SD + F_(i-1), where S keeps
+the points that are left. F_i = 0 while points are rejected, and F_i = K U_i afterwards.
 """
 import time
 from types import SimpleNamespace
@@ -14,15 +15,17 @@ from registration import conjugate_gradients, system
 # The weights are 1 N/mm per point.
 YOUNGS_MODULUS, POISSONS_RATIO = 0.01, 0.45  # MPa
 STEPS = 10
-REJECTED = 0.025  # of all points, per outer step
-TOLERANCE = 1e-6  # of the conjugate gradients' residual
+REJECTED = 0.025  # share of all points that each outer step rejects
+TOLERANCE = 1e-6  # of the residual of the conjugate gradients
 
 
 def register(mesh, points, displacements, youngs_modulus=YOUNGS_MODULUS, steps=STEPS, rejected=REJECTED,
              refined=STEPS):
-    """The nodes' displacements (n, 3), which points were kept, and iterations and processor seconds of the solver.
+    """Returns the displacements of the nodes (n, 3), which points were kept, the iterations and processor seconds of
+    the solver, and its last matrix.
 
-    `steps` outer steps reject `rejected` of the points each; `refined` more with what is left bring HU to D.
+    Each of the first `steps` outer steps rejects the share `rejected` of the points; `refined` further steps with the
+    points that are left bring HU closer to D.
     """
     equations = system(mesh, points, youngs_modulus, POISSONS_RATIO)
     kept = np.ones(len(points), bool)
@@ -46,8 +49,8 @@ def register(mesh, points, displacements, youngs_modulus=YOUNGS_MODULUS, steps=S
 
 
 def with_outliers(displacements, share, smallest, largest, seed=0):
-    """Displacements of which a share are random, at least `smallest` and at most `largest` beside the right ones, and
-    which of them are."""
+    """Returns the displacements with outliers, and a mask of these. A random `share` of the displacements is changed by
+    between `smallest` and `largest` in a random direction."""
     random = np.random.default_rng(seed)
     planted = np.zeros(len(displacements), bool)
     planted[random.choice(len(displacements), int(round(share * len(displacements))), replace=False)] = True

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# All evidence: builds what is measured, measures it, and brings Docs/Evidence.md up to date.
+# Makes all evidence: builds the programs, measures them, and updates Docs/Evidence.md.
 # usage: run.sh [OUTDIR [DATA [CLEAVER]]]
 # DATA holds head/head_NN.nii.gz for 01, 02, 03, 04 and 08, head/labels.ctbl with their names, torso/torso_61.nii.gz and
-# colin27/colin27_tissues.nii.gz, which Docs/Evidence.md says where to get; what is missing is left out, and without any
-# the JHU atlas is in their place. CLEAVER is Cleaver's cleaver-cli; without it, it is not compared.
-# What OUTDIR holds already is not made again. SURGICALMESHER_BIN names a folder built already.
+# colin27/colin27_tissues.nii.gz; Docs/Evidence.md tells where to get them. Missing files are left out; if all are
+# missing, the JHU atlas takes their place. CLEAVER is Cleaver's cleaver-cli; without it, Cleaver is not compared.
+# Results that are already in OUTDIR are not made again. If SURGICALMESHER_BIN names a folder of built programs, it uses
+# these and neither installs nor builds anything.
 set -euo pipefail
 
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -19,14 +20,14 @@ data=${2:-}
 cleaver=(${3:+--cleaver "$3"})
 groups=() cases=()
 
-# usage: there FILE        whether DATA has it
+# usage: there FILE        succeeds if DATA has the file
 there()
 {
   [[ -n $data ]] || return 1
   [[ -f $data/$1 ]] || { echo "run.sh: $data/$1 is not there: left out" >&2; return 1; }
 }
 
-# usage: case_of NAME FILE TARGET LENGTHS NAMES [OPTION]...
+# usage: case_of NAME FILE TARGET LENGTHS NAMES [OPTION]...        adds a case of whole_maps.py if DATA has the file
 case_of()
 {
   if there "$2"; then cases+=(--case "$1" "$data/$2" "${@:3}"); fi
@@ -56,7 +57,7 @@ evidence image_registration "$bin" "$out/registration" "${cleaver[@]}" --documen
 evidence compatible_interfaces "$bin" "$out/interfaces" "${groups[@]}" "${cleaver[@]}" --document
 evidence whole_maps "$bin" "$out/maps" "${cases[@]}" --document
 evidence child_rates "$bin" "$out/rates" --document
-child=$out/rates/radius-10 # the example's
+child=$out/rates/radius-10 # the child of the example
 echo "run.sh: $((++part)) of 6, the replayed tool, into $out" >&2
 if [[ ! -f $out/replayed/finished ]]; then
   PATH=$bin:$PATH "$root/workflow/example/display.py" "$root/workflow/multirate/replay.py" "$child/parent.vtu" \

@@ -1,4 +1,4 @@
-"""Rates of a child on a box of the atlas. usage: test_child_rates.py BIN OUTDIR"""
+"""Tests child_rates.py on a box of the atlas. usage: test_child_rates.py BIN OUTDIR"""
 import os
 import shutil
 import sys

@@ -1,5 +1,5 @@
-"""What Cleaver is given and how its mesh is read, with a program in its place that labels a lattice by the materials it
-is given; and Cleaver itself, where CLEAVER names its program. usage: test_cleaver.py BIN OUTDIR"""
+"""Tests what Cleaver is given and how its mesh is read, by a program that takes its place and labels a lattice with the
+given materials; tests Cleaver itself if CLEAVER names its program. usage: test_cleaver.py BIN OUTDIR"""
 import os
 import shutil
 import subprocess
@@ -84,7 +84,7 @@ class CleaverTest(unittest.TestCase):
         mesh = cleaver.uniform_mesh_of(run, labels, np.eye(4), 2.0)
         for label in (3, 8):
             volume = signed_volumes(mesh)[mesh.tissue == label].sum()
-            self.assertAlmostEqual(volume / np.count_nonzero(labels == label), 1, delta=0.2)  # it blurs
+            self.assertAlmostEqual(volume / np.count_nonzero(labels == label), 1, delta=0.2)  # Cleaver blurs the labels
 
     def test_without_its_program_it_is_left_out(self):
         self.assertNotIn(cleaver.NAME, evidence.ways_of(Programs(BIN, OUTDIR)))

@@ -1,4 +1,4 @@
-"""Ways to shared interfaces, on two halves of a ball with a third tissue between.
+"""Tests the ways of compatible_interfaces.py on two halves of a ball and a rod of a third tissue through it.
 
 usage: test_compatible_interfaces.py BIN OUTDIR
 """

@@ -1,4 +1,4 @@
-"""Registration with images on a small body whose deformation is known. usage: test_image_registration.py BIN OUTDIR"""
+"""Tests image_registration.py on a small body with a known deformation. usage: test_image_registration.py BIN OUTDIR"""
 import os
 import shutil
 import sys
@@ -28,7 +28,7 @@ SETTINGS = {"ours, ambient": [(2, 8)], "ours, surface alone": [(2, 8)], "CGAL Me
 
 
 def small_brain():
-    """An ellipsoid with a texture that differs everywhere."""
+    """Returns an ellipsoid with a random texture."""
     x, y, z = np.meshgrid(*[np.arange(64.0) - 32] * 3, indexing="ij", sparse=True)
     mask = (x / 20) ** 2 + (y / 24) ** 2 + (z / 18) ** 2 < 1
     texture = ndimage.gaussian_filter(np.random.default_rng(0).standard_normal(mask.shape), 1.5)
@@ -95,7 +95,7 @@ class TruthTest(unittest.TestCase):
         mesh = hidden_truth.hexahedra(scene.body, cavity, AFFINE, 4)
         corners = mesh.nodes[mesh.elements]
         a, b, c = (corners[:, k] - corners[:, 0] for k in (1, 3, 4))
-        np.testing.assert_allclose(np.einsum("ij,ij->i", np.cross(a, b), c), 64)  # positively wound
+        np.testing.assert_allclose(np.einsum("ij,ij->i", np.cross(a, b), c), 64)  # positively oriented
         voxels = positions_of(np.argwhere(scene.body & ~ndimage.binary_dilation(cavity, iterations=7)), AFFINE)
         low = corners.min(axis=1)
         covered = {tuple(key) for key in np.rint((low - mesh.nodes.min(axis=0)) / 4).astype(int)}
@@ -173,7 +173,7 @@ class ChoiceTest(unittest.TestCase):
 
 class WholeTest(unittest.TestCase):
     def test_from_image_to_table(self):
-        """All parts but CalculiX's, in whose place is a smooth deformation at its nodes."""
+        """Runs all parts except CalculiX, which is replaced by a smooth deformation of its nodes."""
         shutil.rmtree(os.path.join(OUTDIR, "whole"), ignore_errors=True)
         parts = Parts(os.path.join(OUTDIR, "whole"))
         scene = small_brain()

@@ -1,4 +1,4 @@
-"""Whole maps on a box of the atlas. usage: test_whole_maps.py BIN OUTDIR"""
+"""Tests whole_maps.py on a box of the atlas. usage: test_whole_maps.py BIN OUTDIR"""
 import os
 import shutil
 import sys

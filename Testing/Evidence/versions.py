@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the evidence was made with, as a table in Docs/Evidence.md. usage: versions.py BIN [CLEAVER]"""
+"""Writes a table of the programs' versions and the machine into Docs/Evidence.md. usage: versions.py BIN [CLEAVER]"""
 import os
 import re
 import subprocess

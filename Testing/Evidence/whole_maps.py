@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Whole maps of many tissues: ours and CGAL Mesh_3 at the same scale, and which tissues are lost, by name.
+"""Meshes whole maps of many tissues by ours and by CGAL Mesh_3 at the same scale, and names the tissues that are lost.
 
 usage: whole_maps.py BIN OUTDIR [--case NAME FILE TARGET MIN,MAX,RADIUS,DECAY NAMES [OPTION..]].. [--document]
 
-BIN holds the three modules and Mesh3Driver. A case is a label map (.nii.gz, .nrrd), a target, which is a point x,y,z
-(LPS mm) or the middle of a label, the four lengths of SurgicalPathScaleCLI, a file of names (- for none), and options of
-SimplexMesherCLI; with --fine VOXELS among them, tissues of fewer voxels have edges of the least length. Without a case:
-the JHU atlas. Finished maps stay in OUTDIR and are not meshed again. Writes maps.md and maps.json; --document puts the
-tables into Docs/Evidence.md.
+BIN holds the three modules and Mesh3Driver. A case consists of a name, a label map (.nii.gz, .nrrd), a target, which is
+a point x,y,z (LPS, mm) or a label, whose centroid is taken, the four lengths of SurgicalPathScaleCLI, a file of tissue
+names (- for none), and options of SimplexMesherCLI. With --fine VOXELS among these, tissues of fewer voxels have edges
+of the minimum length. Without a case, the map is the JHU atlas. Finished maps stay in OUTDIR and are not meshed again.
+Writes maps.md and maps.json; --document puts the tables into Docs/Evidence.md.
 """
 import argparse
 import os
@@ -30,8 +30,8 @@ from measures import (components_of_mesh, dihedral_angles, euler_numbers_of_map,
 from meshfiles import interpolated, read_mesh, read_nrrd  # noqa: E402
 from parts import Parts  # noqa: E402
 
-LARGE = 1000  # voxels, of tissues whose volume counts
-SPOILT = 0.25  # of its volume, a tissue has lost or won
+LARGE = 1000  # voxels; only tissues with more count in the statistics of volumes
+SPOILT = 0.25  # share of its volume; a tissue that has lost or gained more is listed
 JHU = ["jhu189", ATLAS, "0,0,-10", "1,8,10,25", "-", "--minimumIslandVolume", "30"]
 
 
@@ -55,7 +55,7 @@ def options_of(arguments):
 
 
 def read_names(file):
-    """Label -> name, of a Slicer colour table or an ITK-SNAP label file."""
+    """Maps labels to the names in a Slicer colour table or an ITK-SNAP label file; "-" stands for no file."""
     names = {}
     if file != "-":
         with open(file, encoding="utf-8") as stream:
@@ -66,7 +66,7 @@ def read_names(file):
 
 
 def read_map(file):
-    """The labels as they are given, and their affine to LPS mm."""
+    """Returns the labels in a file and their affine to LPS mm."""
     if file.endswith(".nrrd"):
         labels, affine = read_nrrd(file)
         return labels.astype(int), affine
@@ -75,7 +75,8 @@ def read_map(file):
 
 
 def target_of(target, labels, affine):
-    """The point as SurgicalPathScaleCLI reads it; of a label, the middle of its voxels."""
+    """Returns the target as SurgicalPathScaleCLI reads it: x,y,z. If `target` is a label, this is the centroid of its
+    voxels."""
     if "," in target:
         return target
     middle = affine[:3, :3] @ np.argwhere(labels == int(target)).mean(axis=0) + affine[:3, 3]
@@ -83,7 +84,8 @@ def target_of(target, labels, affine):
 
 
 def mean_distances(mesh, labels, affine):
-    """Label -> mean distance (mm) of points 1 mm apart on the tissue's boundary in the mesh from that in the map."""
+    """Maps each label to the mean distance (mm) of its boundary in the mesh, at points 1 mm apart, from its boundary in
+    the map."""
     boundary = boundary_of_mesh(mesh, 1.0)
     spacing = np.linalg.norm(affine[:3, :3], axis=0)
     result = {}
@@ -104,8 +106,8 @@ def mean_distances(mesh, labels, affine):
 
 
 def tissues_of(mesh, labels, affine):
-    """By label: voxels, volume over the map's (0: lost), whether its pieces and its Euler number are the map's, and
-    the mean distance in voxels."""
+    """Maps each label to its number of voxels, its volume over that in the map (0 if it is lost), whether its number of
+    pieces and its Euler number are right, and its mean distance in voxels."""
     size = abs(np.linalg.det(affine[:3, :3]))
     voxels = np.bincount(labels.ravel())
     euler_map, euler, pieces = euler_numbers_of_map(labels), euler_numbers_of_mesh(mesh), components_of_mesh(mesh)
@@ -124,7 +126,8 @@ def tissues_of(mesh, labels, affine):
 
 
 def with_fine_tissues(options, run, labels, length):
-    """The options, with a table of small tissues, whose edges are at most `length` (mm), in place of --fine VOXELS."""
+    """Returns the options with --fine VOXELS replaced by a table of the small tissues, whose edges are at most `length`
+    (mm)."""
     if "--fine" not in options:
         return options
     at = options.index("--fine")
@@ -136,7 +139,8 @@ def with_fine_tissues(options, run, labels, length):
 
 
 def mesh_by(mesher, run, scale, file, options):
-    """The mesh; of others, of the map that ours prepared and at the scale that it followed."""
+    """Returns the mesh of a mesher. CGAL Mesh_3 meshes the map that our modules have prepared, at the scale that they
+    have followed, so they must run first."""
     if mesher == "ours":
         run("SimplexMesherCLI", "--scale", "scale.nrrd", *options, "--preparedLabelMap", "prepared.nrrd",
             "--followedScale", "followed.nrrd", "--ambient", "ambient.vtu", file, "surface.vtp")
@@ -196,7 +200,7 @@ def row_of(record):
 
 
 def spoilt(record, names):
-    """Tissues lost, and those with another volume, smallest first."""
+    """Lists the tissues that are lost and those whose volume is off by more than SPOILT, smallest first."""
     if "failed" in record:
         return "all"
     found = sorted((tissue["voxels"], tissue["volume"], label) for label, tissue in record["tissues"].items()
@@ -206,7 +210,8 @@ def spoilt(record, names):
 
 
 def lost_rows(record, names):
-    """Before ours, what the map's preparation takes from all meshers."""
+    """Yields a row of the lost tissues and, before that of our mesher, a row of the tissues that the preparation of the
+    map removes for both meshers."""
     if record["mesher"] == "ours" and record.get("removed"):
         removed = sorted((voxels, names.get(int(label), label)) for label, voxels in record["removed"].items())
         yield [record["map"], "preparation", ", ".join(f"{name} ({voxels} in small islands)" for voxels, name in removed)]
@@ -214,7 +219,7 @@ def lost_rows(record, names):
 
 
 def tables_of(records, names):
-    """`names`: map -> label -> name."""
+    """Returns the tables; `names` maps each map to its names by label."""
     return {
         "whole maps": document.table(
             ["map", "mesher", "tissues", "tetrahedra", "dihedral angles (°)", "wrong", "lost",

@@ -1,13 +1,15 @@
 #!/usr/bin/python3
-"""Balloons (BalloonSurfaceCLI) in bodies of known size, and in a head where one is at hand.
+"""Measures balloons (BalloonSurfaceCLI) in bodies of known size and, with --head, in a head.
 
 usage: balloons.py OUTDIR [--bin BIN] [--head FILE.nii.gz] [--only NAME...] [--document]
 
-A ball of radius 14 voxels and an ellipsoid of 20 x 14 x 10, seeded off their centres; a shell three voxels thick around
-a ball of 17 with holes of 6 and 8, at several edge lengths. In the head (training map 08 of SynthSeg, with bone 515 and
-516, eyes 506 and ventricles 4): an eye, a lateral ventricle, the cranial cavity and both orbits, and what a flood and a
-front leak there. Prints a line for each. With the cranial cavity it draws balloon.png, the cavity after 10, 100, 300 and
-1,300 motions, which needs a display: run it by workflow/example/display.py. --document copies that to Docs/images.
+The bodies are a ball of radius 14 voxels and an ellipsoid of 20 x 14 x 10, with seeds off their centres, and a shell
+three voxels thick around a ball of radius 17, with a hole of diameter 6 or 8, at several edge lengths. The head is
+training map 08 of SynthSeg (bone 515 and 516, eyes 506, ventricles 4): an eye, a lateral ventricle, the cranial cavity
+and both orbits, and how much a flood and an advancing front leak out of cavity and orbits. Prints a line for each. The
+cranial cavity is also drawn, in balloon.png, after 10, 100, 300 and 1,300 motions, which needs a display: run it by
+workflow/example/display.py. --document copies the picture to Docs/images. NAME is ball, ellipsoid, shell, eye,
+ventricle, orbits or cranium.
 """
 import argparse
 import json
@@ -39,7 +41,8 @@ ORBITS = {"left orbit": (24, -66, -32), "right orbit": (-35, -66, -32)}
 
 
 def grow(options, name, labels, affine, seeds, stop, *more):
-    """The map's balloons from `seeds` (name: LPS mm): surfaces by label and the report, with the seconds taken."""
+    """Grows balloons in a map from `seeds` (name: position in LPS mm) up to the labels `stop`. Returns surfaces
+    (points, triangles) by label, and the report with the seconds taken."""
     path = os.path.join(options.outdir, name.replace(" ", "-"))
     write_nrrd(path + ".nrrd", labels.astype(np.uint16), affine)
     points = [{"label": seed, "position": [float(x) for x in place]} for seed, place in seeds.items()]
@@ -77,7 +80,7 @@ def volume(points, triangles):
 
 
 def face_centres(inside):
-    """Of the voxel faces between what is inside and what is not, as indices."""
+    """Returns the centres (n, 3) of the voxel faces between inside and outside, as indices."""
     faces = []
     for axis in range(3):
         for step in (1, -1):
@@ -135,7 +138,8 @@ def holed_shell(options, hole, length):
 
 
 def organ(options, name, labels, affine, label, fill):
-    """The largest piece of a label alone: all else stops."""
+    """Measures a balloon in the largest connected piece of a label; everything else stops the balloon. The holes of the
+    piece are filled, after a closing by `fill` voxels if that is not 0."""
     pieces, _ = ndimage.label(labels == label)
     inside = pieces == 1 + np.bincount(pieces.ravel())[1:].argmax()
     inside = ndimage.binary_fill_holes(ndimage.binary_closing(inside, iterations=fill) if fill else inside)
@@ -173,7 +177,8 @@ def compartment(options, name, labels, affine, seeds, length, limit):
 
 
 def near_bone(points, triangles, bone, affine, inverse, seed, limit):
-    """How far the points are from bone where the normal meets bone, but for those at the limit."""
+    """Describes how far the points are from bone, for those whose normal meets bone nearby. Points at the limit of the
+    balloon are left out."""
     used = np.unique(triangles)
     normals = np.zeros_like(points)
     for k in range(3):
@@ -210,7 +215,8 @@ def leaks(bone, inside, affine, inverse, seeds, limit):
 
 
 def draw(options, motions):
-    """The cranial cavity after some motions, half from the front; where it rests before, as it rests."""
+    """Draws the balloon in the cranial cavity after several numbers of motions, obliquely from the front. If it came to
+    rest earlier, its final shape is drawn."""
     folder, last = options.outdir, read_dataset(os.path.join(options.outdir, "cranium.vtp"))
     extent = vtk_to_numpy(last.GetPoints().GetData())
     motions_shown, size = (10, 100, 300, 1300), (500, 420)

@@ -1,9 +1,8 @@
 #!/usr/bin/python3
 """Draws the surface experiments. usage: pictures.py FOLDER
 
-Reads what SimplexExperiments left in FOLDER and writes simplex-cube.png, simplex-brain.png, simplex-tubes.png and
-simplex-path.png beside it, and table.md. Needs a display: run it by
-workflow/example/display.py.
+Reads what SimplexExperiments has written to FOLDER, and writes simplex-cube.png, simplex-brain.png, simplex-tubes.png,
+simplex-path.png and table.md beside it. Needs a display: run it by workflow/example/display.py.
 """
 import csv
 import os
@@ -24,10 +23,10 @@ from views import save_image  # noqa: E402
 
 INK = "#22262e"
 PANEL = 620
-FARTHEST = 2.0  # mm, full red
+FARTHEST = 2.0  # mm; distance that is drawn in full red
 WHITE_TO_RED = ((1, 1, 1), (1, 0.85, 0.3), (0.85, 0, 0.05))
 NEAR_TARGET = (0.93, 0.55, 0.45)
-PATH = ((84, 6, 66), (84, 92, 84))  # mm, from nose to gland, as SimplexExperiments has it
+PATH = ((84, 6, 66), (84, 92, 84))  # mm; from nose to gland, the same as in SimplexExperiments
 
 
 def read(path):
@@ -42,7 +41,7 @@ def triangles_of(surface):
 
 
 def those(surface, keep):
-    """Those cells to keep."""
+    """Returns the cells for which `keep` is true."""
     ids = numpy_to_vtk(np.flatnonzero(keep).astype(np.int64), deep=True, array_type=vtk.VTK_ID_TYPE)
     node, selection, extract = vtk.vtkSelectionNode(), vtk.vtkSelection(), vtk.vtkExtractSelection()
     node.SetFieldType(vtk.vtkSelectionNode.CELL)
@@ -58,13 +57,14 @@ def those(surface, keep):
 
 
 def near_target(surface):
-    """Whether each triangle is where the scale is constant."""
+    """Returns for each triangle whether it lies around the target, where the scale is constant."""
     length = vtk_to_numpy(surface.GetPointData().GetArray("TargetEdgeLength"))
     return length[triangles_of(surface)].mean(axis=1) <= 1.02 * length.min()
 
 
 def with_distance(simplex, surface):
-    """Simplex vertices with the distance of their triangle to the boundary: vertex i belongs to triangle i."""
+    """Gives each vertex of the simplex mesh the distance of its triangle to the boundary. Vertex i belongs to triangle
+    i."""
     distance = vtk_to_numpy(surface.GetPointData().GetArray("BoundaryDistance"))[triangles_of(surface)].mean(axis=1)
     array = numpy_to_vtk(distance, deep=True)
     array.SetName("Distance")
@@ -73,12 +73,13 @@ def with_distance(simplex, surface):
 
 
 def lower_label(pairs):
-    """Of the two labels of each triangle, the lower one that is tissue."""
+    """Returns, for each triangle, the lower of its two labels or, if that is background, the other one."""
     return np.where(pairs.min(axis=1) > 0, pairs.min(axis=1), pairs.max(axis=1))
 
 
 def each_once(simplex, surface):
-    """Whether each polygon is that of the lower label: on a sheet between two tissues there are two at the same place."""
+    """Returns for each polygon whether it belongs to the lower label. Between two tissues there are two polygons at the
+    same place, of which one is enough for a picture."""
     label = vtk_to_numpy(simplex.GetCellData().GetArray("TissueLabel"))
     lower = lower_label(vtk_to_numpy(surface.GetCellData().GetArray("BoundaryLabels")))
     cells = simplex.GetPolys()
@@ -113,7 +114,7 @@ def mapper_of_edges(surface, by_distance):
 
 
 def actors_for(surface, by_distance, colors, plane):
-    """Faces and edges, cut along a plane (origin, normal) if there is one."""
+    """Returns the actors of faces and edges, cut along `plane` (origin, normal) unless its origin is None."""
     mapper, actor, lines = vtk.vtkPolyDataMapper(), vtk.vtkActor(), vtk.vtkActor()
     mapper.SetInputData(surface)
     mapper.ScalarVisibilityOff()
@@ -138,7 +139,7 @@ def actors_for(surface, by_distance, colors, plane):
 
 
 def path_actors(path):
-    """A tube from the first point to the last, and a ball at its end."""
+    """Yields the actors of a path: a tube from its first point to its last, and a ball at the end."""
     line, tube, ball = vtk.vtkLineSource(), vtk.vtkTubeFilter(), vtk.vtkSphereSource()
     line.SetPoint1(*path[0])
     line.SetPoint2(*path[1])
@@ -191,7 +192,8 @@ def cropped(pixels, margin=6):
 
 
 def sheet(panels, path, note, curves=None):
-    """Panels (title, pixels) side by side under a note; below them, if any, the two curves of figure 6d. Inches."""
+    """Draws panels (title, pixels) side by side under a note and, if `curves` are given, the two curves of figure 6d
+    below them. All lengths are in inches."""
     width, tall = 3.6 * len(panels), 3.5
     height = tall + 1.05 + (2.6 if curves else 0)
     figure = plt.figure(figsize=(width, height), dpi=100)
@@ -221,7 +223,7 @@ def sheet(panels, path, note, curves=None):
 
 
 def add_color_bar(figure, left, bottom, width, height):
-    """Of the distance that edges of simplex meshes are coloured by."""
+    """Adds the colour bar of the distances by which the edges of simplex meshes are coloured."""
     bar = ColorbarBase(figure.add_axes((left, bottom, width, height)), cmap=white_to_red()[0],
                        norm=Normalize(0, FARTHEST), orientation="horizontal", extend="max", ticks=[0, FARTHEST / 2, FARTHEST])
     bar.ax.tick_params(labelsize=8, length=2, pad=1)
@@ -235,7 +237,8 @@ def evolution(folder, name):
 
 
 def face_colors(shown, surface, kept, palette):
-    """(n, 3) bytes of each face: by tissue where there is a palette of them; else grey, and red near the target."""
+    """Returns the colours (n, 3) of the faces in bytes: those of their tissues if there is a palette, else red near the
+    target and grey elsewhere. Returns None for simplex meshes without a palette, which have a uniform colour."""
     if palette is not None:
         label = shown.GetCellData().GetArray("BoundaryLabels") or shown.GetCellData().GetArray("TissueLabel")
         values = vtk_to_numpy(label)
@@ -267,7 +270,7 @@ def panels_of(folder, name, wanted, view, plane=(None, None), palette=None, path
 
 
 def table(folder):
-    """The table as Markdown."""
+    """Writes table.csv as a Markdown table, table.md, and prints it."""
     columns = [("experiment", "experiment"), ("surface", "surface"), ("faces", "faces"), ("outMaximum", "to boundary, max"),
                ("backMean", "from boundary, mean"), ("backMaximum", "max"), ("childMaximum", "max near target"),
                ("angleMinimum", "smallest angle"), ("anglePercentile1", "1 %"), ("edgesNearTarget", "edges near L"),

@@ -1,15 +1,17 @@
 #!/usr/bin/python3
-"""The surface experiments of Audette et al. 2007 (figures 5 to 8) through the command line.
+"""Repeats the surface experiments of Audette et al. 2007 (figures 5 to 8) by the command line.
 
 usage: surfaces.py FOLDER [--bin BIN] [--head HEAD] [--case NAME]... [--no-pictures]
 
-Cube with four openings and a gland, outside of a brain, tubes; with HEAD, a folder that has head_08.nii.gz and
-head_08.path.mrk.json (256^3 voxels, 53 tissues), the arteries, veins and optic nerves of that head, and the head along
-the path through its nose. FOLDER receives the surfaces, their evolution, surfaces.md and a picture of each; pictures
-need a display: run it by workflow/example/display.py.
+The experiments are a cube with four openings and a gland (cube), the outside of a brain (brain), and tubes (tubes).
+HEAD is a folder with head_08.nii.gz (256^3 voxels, 53 tissues) and head_08.path.mrk.json; with it, there are also the
+arteries, veins and optic nerves of that head (vessels), and the head along the path through its nose (path). Writes to
+FOLDER the surfaces, their evolution, surfaces.md, surfaces.json and a picture of each; pictures need a display: run it
+by workflow/example/display.py.
 
-A simplex face is a point of the surface, for each tissue there; its centre is the mean of the vertices around it, the
-triangles' centroids. Distances are to the tissue's marching cubes and back from the middles of these.
+A face of the simplex mesh belongs to a point of the surface and to a tissue there. Its centre is the mean of the
+vertices around it, which are the centroids of the point's triangles. Distances are measured from these centres to the
+marching cubes surface of the tissue, and back from the centroids of that surface's triangles.
 """
 import argparse
 import csv
@@ -30,14 +32,14 @@ sys.path[:0] = [os.path.join(ROOT, *parts) for parts in (("Testing", "Experiment
 from inputs import from_file  # noqa: E402
 from maps import LPS_FROM_RAS, cut_out, write_nrrd  # noqa: E402
 
-MOST_SAMPLES = 60000  # of the distance back, of one case
-VESSELS = (85, 502, 514, 530)  # optic chiasm, arteries, veins, optic nerves of the head
+MOST_SAMPLES = 60000  # of the distance back, for all tissues of a case together
+VESSELS = (85, 502, 514, 530)  # labels of optic chiasm, arteries, veins and optic nerves in the head
 
 
 # ---- maps
 
 def cube(_):
-    """A hollow cube with four openings and a hemisphere under its inner ceiling, as SimplexExperiments has it."""
+    """Returns a hollow cube with four openings and a hemisphere under its inner ceiling, as in SimplexExperiments."""
     x, y, z = np.meshgrid(*[np.arange(64) - 31.5] * 3, indexing="ij", sparse=True)
     outer = np.maximum(np.maximum(np.abs(x), np.abs(y)), np.abs(z))
     gland = (z < 16) & (x**2 + y**2 + (z - 16)**2 < 64)
@@ -46,13 +48,13 @@ def cube(_):
 
 
 def brain(_):
-    """All tissues of the JHU atlas as one, every third voxel along each axis."""
+    """Returns all tissues of the JHU atlas as one, with every third voxel along each axis."""
     labels, affine = cut_out(np.s_[0:, 0:, 0:])
     return (np.squeeze(labels)[::3, ::3, ::3] > 0).astype(np.uint16), affine @ np.diag([3, 3, 3, 1])
 
 
 def tubes(_):
-    """A forked artery and two nerves that cross."""
+    """Returns a forked artery and two nerves that cross."""
     points = np.stack(np.meshgrid(np.arange(48), np.arange(56), np.arange(48), indexing="ij"), axis=-1).astype(float)
 
     def within(segments, radius):
@@ -80,7 +82,8 @@ def vessels(folder):
 
 
 def case(name, make, scale, mesher, near, far, faces=None, view=((0.5, 1, -0.35), (0, 0, 1)), needs_head=False):
-    """`near`, `far`: proximity, mm; `faces`: how many the paper has, least and most."""
+    """Describes an experiment. `near` and `far` are the proximity (mm) where edges are shortest and longest; `faces`
+    are the least and the largest number of faces in the paper."""
     return SimpleNamespace(name=name, make=make, scale=scale, mesher=mesher, near=near, far=far, faces=faces, view=view,
                            needs_head=needs_head)
 
@@ -107,7 +110,7 @@ def run(program, *arguments):
 
 
 def mesh(case_, options):
-    """The run's files, by what they are."""
+    """Meshes a case and returns the names of its files by their kind."""
     files = {kind: os.path.join(options.folder, f"{case_.name}{end}")
              for kind, end in (("map", "-map.nrrd"), ("scale", "-scale.nrrd"), ("prepared", "-prepared.nii.gz"),
                                ("surface", ".vtp"), ("simplex", "-simplex.vtp"), ("evolution", "-evolution.csv"),
@@ -130,7 +133,7 @@ def evolution(file):
 
 
 def from_first_level(files):
-    """Without the lattice, whose faces are the voxels'."""
+    """Returns the steps of the evolution without the first, the lattice, whose faces are those of the voxels."""
     return evolution(files["evolution"])[1:]
 
 
@@ -144,7 +147,7 @@ def read_polydata(file):
 
 
 def read_map(file):
-    """Labels and their affine to LPS."""
+    """Returns the labels in a NIfTI file and their affine to LPS."""
     image = nibabel.load(file)
     return np.asanyarray(image.dataobj).astype(np.uint16), LPS_FROM_RAS @ image.affine
 
@@ -160,7 +163,7 @@ def polydata(points, triangles):
 
 
 def marching_cubes(labels, affine, label):
-    """Points, mm, and triangles around one label."""
+    """Returns the points (mm) and triangles of the marching cubes surface around one label."""
     at = np.argwhere(labels == label)
     low, high = at.min(axis=0), at.max(axis=0) + 1
     box = np.pad((labels[tuple(slice(a, b) for a, b in zip(low, high))] == label).astype(np.float32), 1)
@@ -178,7 +181,7 @@ def marching_cubes(labels, affine, label):
 
 
 class Nearest:
-    """Distances to a triangulated surface, and its nearest triangles."""
+    """Returns, when called with positions, their distances to a triangulated surface and the nearest triangles."""
 
     def __init__(self, points, triangles):
         self._surface, self._locator = polydata(points, triangles), vtk.vtkStaticCellLocator()
@@ -196,7 +199,7 @@ class Nearest:
 
 
 def face_centres(points, triangles):
-    """Ids of the points that have triangles, and the means of these triangles' centroids."""
+    """Returns the ids of the points that have triangles, and for each the mean of the centroids of its triangles."""
     centroids = np.repeat(points[triangles].mean(axis=1), 3, axis=0)
     ids, at = np.unique(triangles, return_inverse=True)
     at = at.ravel()
@@ -205,7 +208,8 @@ def face_centres(points, triangles):
 
 
 def measured(case_, files):
-    """Numbers of faces and distances, in all and near the target; `excess`: the largest distance over the proximity."""
+    """Returns the numbers of faces and the distances, everywhere and near the target. `excess` is the largest ratio of
+    a distance to the proximity at its place."""
     surface = read_polydata(files["surface"])
     points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
     triangles = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""Tetrahedra of the cube and of the brain, as figures 9 and 10 of Audette et al. 2007 show them.
+"""Makes and measures tetrahedra of a cube and a brain, and draws them like figures 9 and 10 of Audette et al. 2007.
 
 usage: tetrahedra.py OUTDIR [--bin BIN] [--reuse] [--document]
 
-Meshes the cube with four openings and the brain of one tissue (the JHU atlas at 2 mm), each three times: with Fuchs's
-lattice as it is, with the vertices that are not whole adjusted by the penalty functional, and with all of them adjusted.
-Writes tetrahedra-histograms.png (figure 10, inner and boundary vertices apart), tetrahedra-child-parent.png (figure 9)
-and tetrahedra.md (a table) to OUTDIR. BIN (default: build/bin) holds the programs. --reuse takes meshes that are there
-already; --document copies the pictures to Docs/images and the table into Docs/FuchsTetrahedralizer.md. Needs a display:
-run it by workflow/example/display.py.
+Meshes the cube with four openings and the brain as one tissue (the JHU atlas at 2 mm), each three times: with Fuchs's
+lattice as it is, with the vertices that are not whole (--placement) adjusted by the penalty functional, and with all
+vertices adjusted. Writes tetrahedra-histograms.png (figure 10, with inner and boundary vertices in separate
+histograms), tetrahedra-child-parent.png (figure 9) and tetrahedra.md (a table) to OUTDIR. BIN (default: build/bin)
+holds the programs. --reuse uses meshes that are already in OUTDIR; --document copies the pictures to Docs/images and
+the table into Docs/FuchsTetrahedralizer.md. Needs a display: run it by workflow/example/display.py.
 """
 import argparse
 import json
@@ -39,7 +39,7 @@ INK = "#22262e"
 
 
 def cube():
-    """A hollow cube with four openings and a hemisphere under its inner ceiling, as SimplexExperiments has it."""
+    """Returns a hollow cube with four openings and a hemisphere under its inner ceiling, as in SimplexExperiments."""
     x, y, z = np.meshgrid(*[np.arange(64) - 31.5] * 3, indexing="ij", sparse=True)
     outer = np.maximum(np.maximum(np.abs(x), np.abs(y)), np.abs(z))
     gland = (z < 16) & (x**2 + y**2 + (z - 16)**2 < 64)
@@ -65,7 +65,7 @@ CASES = (
 # ---- meshes
 
 def mesh_all(case, programs, folder, reuse):
-    """The meshes' files, by placement; their reports lie beside them."""
+    """Makes the meshes of a case. Maps each placement to the common name of its mesh (.vtu) and report (.json)."""
     def path(name):
         return os.path.join(folder, f"{case.name}-{name}")
 
@@ -126,7 +126,7 @@ def table_of(rows):
 
 
 def write_table(table):
-    """Between the page's two marks."""
+    """Writes the table between the two marks in Docs/FuchsTetrahedralizer.md."""
     page = os.path.join(ROOT, "Docs", "FuchsTetrahedralizer.md")
     with open(page, encoding="utf-8") as file:
         before, _, rest = file.read().partition("<!-- placements -->\n")
@@ -147,7 +147,7 @@ def draw_histogram(axes, name, ideals, limits, reports):
     for placement, color in PLACEMENTS:
         histogram = reports[placement]["histograms"][name]
         counts, low, high = (histogram[key] for key in ("counts", "low", "high"))
-        if name == "valence":  # always even: two per bar, centred on the even number
+        if name == "valence":  # always even, so that two counts become one bar, centred on the even number
             counts, low, high = np.reshape(counts, (-1, 2)).sum(axis=1), low - 1, high - 1
         if name == "boundaryValence":
             low, high = low - 0.5, high - 0.5
@@ -180,7 +180,8 @@ def save(figure, file):
 
 
 def view_of(file, size):
-    """Whole tetrahedra behind a plane through the middle, the child's pink and the parent's turquoise."""
+    """Returns a view of the tetrahedra behind a sagittal plane through the middle, uncut; those of the child are pink,
+    those of the parent turquoise."""
     mesh = read_dataset(file + ".vtu")
     child = cell_array(mesh, "SubMesh") > 0
     paint(mesh, np.uint8(255 * np.where(child[:, None], PINK, TURQUOISE)))

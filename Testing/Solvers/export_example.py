@@ -1,7 +1,7 @@
-"""Exports the example's mesh in every format, tissues of even label twice as stiff.
+"""Exports the example's mesh in every format, with tissues of even label twice as stiff as the others.
 
 usage: export_example.py BIN EXAMPLE OUTDIR
-EXAMPLE is the folder that example.sh left.
+EXAMPLE is the folder with the results of example.sh.
 """
 import os
 import shutil

@@ -1,8 +1,8 @@
-"""Exported files as other programs read them, in one shape: for tests, with none of the project's own readers.
+"""Reads exported files for tests as other programs do, without any of the project's own readers.
 
-A file becomes points (n, 3), tetrahedra (m, 4) and, by set name, `cells` (tetrahedra ids), `nodes` (point ids) and
-`faces` (triangles (k, 3) of point ids): those that the format has. Formats that know numbers alone get their names from
-the sidecar.
+All formats are returned in one form: points (n, 3), tetrahedra (m, 4) and, by the name of the set, `cells` (ids of
+tetrahedra), `nodes` (ids of points) and `faces` (triangles (k, 3) of point ids), as far as the format has them. For
+formats that have only numbers, the names come from the sidecar.
 """
 import contextlib
 import io
@@ -16,9 +16,11 @@ from scipy.io import netcdf_file
 
 from sidecar import Sidecar
 
-# Exodus's manual: side 1 has corners 1-2-4, 2 2-3-4, 3 1-4-3, 4 1-3-2, wound out of the tetrahedron.
+# By the manual of Exodus, the sides 1, 2, 3 and 4 have the corners 1-2-4, 2-3-4, 1-4-3 and 1-3-2. Their normals point
+# out of the tetrahedron.
 EXODUS_FACES = np.array([[0, 1, 3], [1, 2, 3], [0, 3, 2], [0, 2, 1]])
-# CalculiX's manual: S1 has corners 1-2-3, S2 1-4-2, S3 2-4-3, S4 3-4-1; here wound out of the tetrahedron.
+# By the manual of CalculiX, the faces S1, S2, S3 and S4 have the corners 1-2-3, 1-4-2, 2-4-3 and 3-4-1. Here they are
+# ordered so that their normals point out of the tetrahedron.
 ABAQUS_FACES = {"S1": [0, 2, 1], "S2": [0, 1, 3], "S3": [1, 2, 3], "S4": [0, 3, 2]}
 
 
@@ -28,7 +30,8 @@ def meshio_read(file, **options):
 
 
 def blocks(mesh, kind, arrays):
-    """Cells of one kind, and an array of theirs, over all blocks of a meshio mesh."""
+    """Returns the cells of one kind in all blocks of a meshio mesh, and their values of `arrays`, which has one array
+    per block."""
     chosen = [i for i, block in enumerate(mesh.cells) if block.type == kind]
     return (np.concatenate([mesh.cells[i].data for i in chosen]).astype(int),
             np.concatenate([arrays[i] for i in chosen]).astype(int))
@@ -44,7 +47,8 @@ def tissues_by_name(sidecar, labels):
 
 
 def faces_by_name(sidecar, triangles, tags):
-    """Surfaces and shells as unions of pieces; of the two sides of an interface, the one whose winding this is."""
+    """Returns surfaces and shells as unions of pieces. Of the two sides of an interface, only the one with the winding
+    of the triangles is returned."""
     pieces = by_number(tags)
     sets = [entry for entry in sidecar.sets.values() if "faceTags" in entry and not is_second_side(entry)]
     return {entry["name"]: triangles[np.concatenate([pieces[tag] for tag in entry["faceTags"]])] for entry in sets}
@@ -71,7 +75,8 @@ def read_inp(file):
 
 
 def read_feb(file):
-    """By the published structure: febio_spec 4.0, Mesh with Nodes, Elements, NodeSet, Surface and ElementSet."""
+    """Reads a file by its published structure: febio_spec 4.0, Mesh with Nodes, Elements, NodeSet, Surface and
+    ElementSet."""
     def ids(text):
         return np.array(text.replace(",", " ").split(), int) - 1
 
@@ -94,7 +99,8 @@ def read_feb(file):
 
 
 def read_msh(file):
-    """Version 4.1. Its nodes are grouped by entity, so that points have another order than in the mesh."""
+    """Reads version 4.1, in which nodes are grouped by entity, so that the points have another order than in the
+    mesh."""
     mesh = meshio_read(file)
     kinds = [block.type for block in mesh.cells]
     starts = {kind: np.cumsum([0] + [len(b.data) * (b.type == kind) for b in mesh.cells]) for kind in set(kinds)}
@@ -115,7 +121,8 @@ def read_msh(file):
 
 
 def read_msh2(file):
-    """Version 2.2, in which a face has the name of its piece: sets come from the sidecar, which knows the names too."""
+    """Reads version 2.2, in which faces have the names of their pieces. The sets come from the sidecar, and the names
+    in the file are compared with those in the sidecar."""
     sidecar = Sidecar(file)
     mesh = meshio_read(file, file_format="gmsh")
     tetrahedra, labels = blocks(mesh, "tetra", mesh.cell_data["gmsh:physical"])
@@ -139,7 +146,7 @@ def read_medit(file):
 
 
 def with_arrays(sidecar, mesh):
-    """Tetrahedra alone, whose sets are in cell arrays."""
+    """Returns the mesh of a file that holds only tetrahedra, with their sets in cell arrays."""
     tetrahedra, labels = blocks(mesh, "tetra", mesh.cell_data["TissueLabel"])
     cells = tissues_by_name(sidecar, labels)
     for kind, array in (("subMesh", "SubMesh"), ("constitutive", "Constitutive")):
@@ -164,7 +171,8 @@ def read_xdmf(file):
 
 
 def read_bdf(file):
-    """An element's property is the number of its section; those of shells follow."""
+    """Reads Nastran's format. The property of an element is the number of its section; the numbers of shells follow
+    those of the sections."""
     sidecar = Sidecar(file)
     mesh = meshio_read(file)
     tetrahedra, properties = blocks(mesh, "tetra", mesh.cell_data["nastran:ref"])
@@ -184,7 +192,7 @@ def read_bdf(file):
 
 
 def columns(line, *widths):
-    """The fields of a line, each of the last width once more as long as there are any."""
+    """Returns the fields of a line with these widths; the last width is repeated up to the end of the line."""
     fields, at = [], 0
     for width in widths + widths[-1:] * len(line):
         if at >= len(line.rstrip()):
@@ -194,7 +202,7 @@ def columns(line, *widths):
 
 
 def cards(file):
-    """Of a keyword file: keyword and data lines, by LS-DYNA's manual."""
+    """Returns (keyword, data lines) for each card of a keyword file, by the manual of LS-DYNA."""
     with open(file, encoding="ascii") as stream:
         lines = [line.rstrip("\n") for line in stream if not line.startswith("$")]
     starts = [i for i, line in enumerate(lines) if line.startswith("*")]
@@ -203,14 +211,15 @@ def cards(file):
 
 
 def read_k_mesh(file):
-    """Points, solids by number of different nodes (part, nodes), and all cards."""
+    """Returns the points, the part of each solid, the nodes of each solid (from 0), and all cards. Tetrahedra that are
+    written as hexahedra have four nodes."""
     found = cards(file)
     nodes = [columns(line, 8, 16, 16, 16) for line in next(lines for name, lines in found if name == "NODE")]
     assert [int(row[0]) for row in nodes] == list(range(1, len(nodes) + 1))
     solids, pending = [], None
     for line in next(lines for name, lines in found if name == "ELEMENT_SOLID"):
         row = [int(field) for field in columns(line, 8)]
-        if len(row) == 2:  # its nodes are in a line of their own
+        if len(row) == 2:  # the nodes of the element are in the next line
             pending = row
         else:
             solids.append(pending + row if pending else row)
@@ -218,7 +227,7 @@ def read_k_mesh(file):
     solids = np.array(solids)
     np.testing.assert_array_equal(solids[:, 0], np.arange(1, len(solids) + 1))
     if solids.shape[1] == 10:
-        assert (solids[:, 5:] == solids[:, 5:6]).all()  # a tetrahedron is a hexahedron whose upper corners are one
+        assert (solids[:, 5:] == solids[:, 5:6]).all()  # a tetrahedron is a hexahedron with one point as upper corners
         solids = solids[:, :6]
     return np.array([row[1:] for row in nodes], float), solids[:, 1], solids[:, 2:] - 1, found
 
@@ -244,7 +253,8 @@ def read_k(file):
 
 
 def read_cdb_mesh(file):
-    """By Ansys's description of archives: points, element types, rows of EBLOCK (19 fields), components."""
+    """Reads an archive by Ansys's description. Returns the points, the element types by number, the rows of EBLOCK (19
+    fields), and the components of elements and of nodes by name."""
     with open(file, encoding="ascii") as stream:
         text = stream.read()
     block = re.search(r"^NBLOCK,6,SOLID,(\d+),(\d+)\n\(3i9,6e21\.13e3\)\n(.*?)^N,R5\.3,LOC, +-1,$", text, re.M | re.S)
@@ -276,7 +286,8 @@ def read_cdb(file):
 
 
 def read_exo_mesh(file):
-    """By the manual of Exodus II: points, blocks (name, type, nodes), numbers of elements, and all else in the file."""
+    """Reads a file by the manual of Exodus II. Returns the points, the blocks (name, type, nodes), the numbers of the
+    elements, the names, and all variables of the file."""
     with netcdf_file(file, mmap=False) as content:
         found = {name: np.array(variable.data) for name, variable in content.variables.items()}
         types = [content.variables[f"connect{i + 1}"].elem_type.decode() for i in range(content.dimensions["num_el_blk"])]

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """CalculiX: a head sags under its weight in its fluid. usage: run_calculix.py mesh.inp [CLAMPED_SURFACE]...
 
-Null displacement is clamped in any case: mesh.inp says so. The materials are those of mesh.inp; the analysis is nonlinear where they are. Leaves gravity.inp, the deck, and
-CalculiX's results beside the mesh.
+Null displacement is always clamped, because mesh.inp clamps it. The materials are those of mesh.inp; the analysis is
+nonlinear if they are. Writes the deck, gravity.inp, and CalculiX's results beside the mesh.
 """
 import os
 import subprocess

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """FreeFEM: a head sags under its weight in its fluid. usage: run_freefem.py mesh.mesh CLAMPED_SURFACE...
 
-Leaves gravity.edp, FreeFEM's script, beside the mesh.
+Writes gravity.edp, the script for FreeFEM, beside the mesh.
 """
 import os
 import subprocess

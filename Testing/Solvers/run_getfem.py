@@ -12,7 +12,7 @@ sidecar = Sidecar(file)
 mesh = getfem.Mesh("import", "gmsh", file)
 materials = sidecar.material_of_tissues()
 
-# Tetrahedra or hexahedra.
+# The mesh has either tetrahedra or hexahedra.
 hexahedra = "QK" in mesh.geotrans()[0].char()
 family, exact = ("FEM_QK", "IM_GAUSS_PARALLELEPIPED(3,3)") if hexahedra else ("FEM_PK", "IM_TETRAHEDRON(2)")
 constant_per_cell = getfem.MeshFem(mesh, 1)

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Gmsh: what it finds in a file. usage: run_gmsh.py mesh.msh
+"""Gmsh: prints what it finds in a file. usage: run_gmsh.py mesh.msh
 
-Prints the elements and nodes of every physical group, and the worst quality of a tetrahedron in Gmsh's own measure (the
-inverse condition number; 1 for a regular one, 0 for a flat one).
+Prints the numbers of elements and nodes of every physical group, the number of Gmsh's warnings and errors, and the
+worst quality of an element by Gmsh's own measure (the inverse condition number; for a tetrahedron, 1 if it is regular
+and 0 if it is flat).
 """
 import re
 import sys

@@ -16,14 +16,15 @@ from sidecar import Sidecar  # noqa: E402
 
 
 def materials(surface):
-    """The table of materials, as text."""
+    """Returns the table of materials for the tissues of a surface, as text."""
     rows = ["%d, linear, %d, 0.45, 1000" % (label, 6 if label % 2 == 0 else 3)
             for label in np.setdiff1d(cell_array(read_dataset(surface), "BoundaryLabels"), [0])]
     return "\n".join(["tissue, model, youngsModulus, poissonsRatio, density", *rows]) + "\n"
 
 
 def clamped_surfaces(mesh, sets):
-    """The ends (towards the outside) of tissues whose tetrahedra have their mean height in the lowest quarter."""
+    """Returns the names of the surfaces to clamp: the interfaces to the outside of tissues whose tetrahedra have their
+    mean height in the lowest quarter of the mesh."""
     height = mesh.points[:, 2]
     limit = height.min() + 0.25 * np.ptp(height)
     chosen = []

@@ -1,7 +1,7 @@
-"""What FILE.names.json, beside each exported FILE, says of sets and materials."""
+"""Reads the sidecar FILE.names.json of an exported FILE, which describes its sets and materials."""
 import json
 
-GRAVITY = 0.04 * 9810  # mm/s^2: in its fluid a brain has about 4 % of its weight
+GRAVITY = 0.04 * 9810  # mm/s^2; in its fluid, a brain has about 4 % of its weight
 
 
 class Sidecar:
@@ -13,16 +13,16 @@ class Sidecar:
         self.materials = {material["name"]: material for material in content["materials"]}
 
     def face_tags(self, surfaces):
-        """Numbers of the faces of these surfaces in formats that give a face one number."""
+        """Returns the numbers of the faces of these surfaces, for formats in which every face has one number."""
         return sorted({tag for name in surfaces for tag in self.sets[name]["faceTags"]})
 
     def material_of_tissues(self):
-        """Label -> material."""
+        """Maps labels to materials."""
         return {self.sets[section["elements"]]["ids"][0]: self.materials[section["material"]]
                 for section in self.sections}
 
 
 def lame(material):
-    """First Lame constant and shear modulus, MPa."""
+    """Returns the first Lame constant and the shear modulus (MPa) of a material."""
     young, poisson = material["youngsModulus"], material["poissonsRatio"]
     return young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))

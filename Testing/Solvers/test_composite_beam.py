@@ -1,4 +1,4 @@
-"""A soft cantilever with a stiff curve along its axis, in CalculiX, against the composite beam's closed form.
+"""Compares a soft cantilever with a stiff curve along its axis, by CalculiX, with the theory of composite beams.
 
 usage: test_composite_beam.py MODULES FOLDER. Without CalculiX the status is 77.
 """
@@ -15,7 +15,7 @@ import vtk
 MODULES, FOLDER = sys.argv[1:3]
 SKIPPED = 77
 LENGTH, SIDE, RADIUS = 60.0, 6.0, 0.6  # mm
-SOFT, STIFF = 0.01, {"beam": 20.0, "truss": 0.3}  # MPa: neither carries nearly all of the load
+SOFT, STIFF = 0.01, {"beam": 20.0, "truss": 0.3}  # MPa; chosen so that matrix and curve both carry much of the load
 FORCE = 1e-5  # N
 
 DECK = """*INCLUDE, INPUT=beam.inp
@@ -62,10 +62,11 @@ def points_of(name, reader):
 
 
 def displacements(elements, component):
-    """Of CalculiX, under FORCE on the free end along that axis: the nodes' distance from the box's end and displacement,
-    and the length that is free (mm).
+    """Solves by CalculiX a cantilever with FORCE on its free end along axis `component`. Returns the nodes' distances
+    from the held end of the box and their displacements (n, 2), and the free length (mm).
 
-    Held is all up to a node of the chain some edges in: CalculiX clamps the rotation of a single beam's end loosely.
+    All nodes up to the fifth node of the chain are held, because CalculiX clamps the rotation of a single beam end only
+    loosely.
     """
     with open(os.path.join(FOLDER, "materials.csv"), "w", encoding="ascii") as table:
         table.write(f"tissue, model, youngsModulus, poissonsRatio, density\n1, linear, {1000 * SOFT}, 0.3, 1000\n")
@@ -111,7 +112,7 @@ class CompositeBeam(unittest.TestCase):
         self.assertAlmostEqual(found / expected, 1, delta=0.03)
 
     def test_stretches_as_both_together(self):
-        """Away from the ends, over which the load is handed from the matrix to the truss."""
+        """Measures away from the ends, where the load passes from the matrix to the truss."""
         stiffness = SOFT * SIDE ** 2 + STIFF["truss"] * math.pi * RADIUS ** 2
         nodes, _ = displacements("truss", 1)
         within = nodes[(nodes[:, 0] > LENGTH / 6) & (nodes[:, 0] < LENGTH / 2)]

@@ -1,6 +1,7 @@
-"""Every exported file holds the mesh and its sets. usage: test_exports.py EXPORTS, the folder export_example.py left
+"""Tests that every exported file holds the mesh and its sets. usage: test_exports.py EXPORTS
 
-The files are read by meshio, or by a few lines by the format's own definition, and held to the mesh itself.
+EXPORTS is the folder with the results of export_example.py. The files are read by meshio, or by short readers written
+from the definition of the format, and compared with the mesh itself.
 """
 import os
 import sys
@@ -18,8 +19,8 @@ from sidecar import Sidecar  # noqa: E402
 EXPORTS = sys.argv[1]
 WITH_FACES = ("exo", "feb", "inp", "k", "mesh", "msh", "msh2", "xdmf")
 WITH_BOTH_SIDES = ("exo", "feb", "inp", "k")
-DIGITS = 1e-10  # legacy text: 11 digits
-DECIMALS = 1e-12  # of numbers near 0 in columns of fixed width
+DIGITS = 1e-10  # relative tolerance: legacy VTK text has 11 digits
+DECIMALS = 1e-12  # absolute tolerance, for numbers near 0 in columns of fixed width
 
 
 def path(name):
@@ -31,7 +32,7 @@ def in_order(rows):
 
 
 def canonical(cells):
-    """Cells as sorted rows in sorted order: equal for equal sets of cells."""
+    """Returns the cells as sorted rows in sorted order, which are equal for equal sets of cells."""
     return in_order(np.sort(cells, axis=1))
 
 
@@ -63,7 +64,7 @@ class ExportsTest(unittest.TestCase):
 
     @classmethod
     def ids_of(cls, points):
-        """The mesh's id of each point, found by its place."""
+        """Returns the id that each point has in the mesh, which is found by its position."""
         order, other = np.lexsort(np.round(cls.mesh.points, 9).T), np.lexsort(np.round(points, 9).T)
         ids = np.empty(len(points), int)
         ids[other] = order
@@ -73,7 +74,8 @@ class ExportsTest(unittest.TestCase):
         return {name: entry for name, entry in self.sets.items() if entry["type"] == "faces" and entry["kind"] == kind}
 
     def faces_between(self, group, beyond):
-        """By [high, low] group: the faces between, of tetrahedra of the first, wound out of them."""
+        """Maps each pair of groups (high, low) to the faces between them, as faces of the tetrahedra of the first group
+        with outward normals. Outside the mesh, the group is `beyond`."""
         faces = self.mesh.tetrahedra[:, TETRAHEDRON_FACES].reshape(-1, 3)
         owner = np.repeat(np.arange(len(self.mesh.tetrahedra)), 4)
         order = np.lexsort(np.sort(faces, axis=1).T)
@@ -143,7 +145,7 @@ class ExportsTest(unittest.TestCase):
                     found = file.id[file.faces[first[pair]]]
                     np.testing.assert_array_equal(canonical(found), canonical(faces), first[pair])
                     if kind == "subMeshInterface" and extension not in WITH_BOTH_SIDES:
-                        continue  # a triangle has one winding, there that of the tissues
+                        continue  # there a triangle has only one winding, which follows the tissues
                     np.testing.assert_array_equal(in_order(directed_edges(found)), in_order(directed_edges(faces)),
                                                   first[pair])
 

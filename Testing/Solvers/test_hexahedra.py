@@ -1,6 +1,6 @@
-"""The project's template of hexahedra: made anew, exported to solvers, and operated on. usage: test_hexahedra.py BIN OUTDIR
+"""Tests the project's template of hexahedra: its script, its exports, an operation. usage: test_hexahedra.py BIN OUTDIR
 
-Solvers that are not installed are named, and the status is then 77; CMake/debian-packages.txt has them all.
+Names the solvers that are not installed, and then ends with status 77; CMake/debian-packages.txt lists them all.
 """
 import importlib.util
 import os
@@ -33,7 +33,7 @@ def installed(name):
 
 
 def run(*command):
-    """What the command prints, line by line as words."""
+    """Runs a Python script and returns the words of each line that it prints."""
     done = subprocess.run([sys.executable, *command], env=ENVIRONMENT, stdin=subprocess.DEVNULL, capture_output=True,
                           text=True)
     if done.returncode:
@@ -59,7 +59,7 @@ class HexahedraTest(unittest.TestCase):
         self.assertGreater(same.mean(), 0.999)
 
     def test_solvers_agree(self):
-        """Soft tissue hangs from its bone: by three formats, three programs, and their own assembly."""
+        """Lets soft tissue hang from its bone in three programs, with three formats and three assemblies."""
         found = {}
         for script, (extension, needs) in SOLVERS.items():
             if installed(needs):
@@ -74,7 +74,8 @@ class HexahedraTest(unittest.TestCase):
                 self.assertEqual(int(result["tissues"]), 6, script)
         displacements = [float(result["displacement"]) for result in found.values()]
         self.assertTrue(all(0 < d < 10 for d in displacements))
-        # FEniCSx integrates over skewed hexahedra with more points than the other two.
+        # The results differ slightly, because FEniCSx integrates over skewed hexahedra with more points than the
+        # others.
         self.assertLess(max(displacements, default=1) / min(displacements, default=1), 1.001)
         missing = [needs for _, needs in SOLVERS.values() if not installed(needs)]
         if missing:
@@ -109,7 +110,7 @@ class HexahedraTest(unittest.TestCase):
 
     @unittest.skipUnless(installed("ccx"), "ccx is not installed")
     def test_example_operates(self):
-        """Fit to the second person, CalculiX, picture."""
+        """Runs workflow/hexahedra/example.py: the fit to the second person, CalculiX, and the picture."""
         folder = os.path.join(OUTDIR, "example")
         lines = run(os.path.join(EXAMPLE, "display.py"), sys.executable,
                     os.path.join(ROOT, "workflow", "hexahedra", "example.py"), folder)

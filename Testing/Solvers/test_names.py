@@ -1,4 +1,4 @@
-"""Tissue names of all sorts, shells and null displacement, from segmentation to every export and through solvers.
+"""Tests unusual tissue names, shells and null displacement, from the segmentation to every export and in solvers.
 
 usage: test_names.py BIN OUTDIR
 """
@@ -29,7 +29,7 @@ NAMES = ["left caudate nucleus (head)", "Großhirnrinde, äußere", "N" * 200, "
 
 
 def write_segmentation(file, labels, affine, names):
-    """An NRRD with the names of its labels in its header, as Slicer writes it."""
+    """Writes an NRRD file with the names of the labels in its header, as Slicer does."""
     write_nrrd(file, labels, affine)
     with open(file, "rb") as stream:
         header, _, data = stream.read().partition(b"\n\n")
@@ -102,7 +102,7 @@ class NamesTest(unittest.TestCase):
             with self.subTest(extension):
                 file = read("mesh." + extension)
                 for name, expected in tetrahedra.items():
-                    if extension == "cdb" and len(name) > 32:  # Ansys's limit: head and tail are kept
+                    if extension == "cdb" and len(name) > 32:  # over Ansys's limit: only both ends of a name are kept
                         (name,) = (n for n in file.cells if n[:8] == name[:8] and n[-8:] == name[-8:])
                         self.assertLessEqual(len(name), 32)
                     self.assertEqual(len(file.cells[name]), len(expected), name)
@@ -141,7 +141,7 @@ class NamesTest(unittest.TestCase):
             self.assertEqual(found, set(self.tissues.values()))
 
     def ends(self):
-        """Three surfaces to clamp."""
+        """Returns the names of three surfaces to clamp."""
         return [name for name, entry in self.sets.items()
                 if entry["kind"] == "tissueInterface" and entry["ids"][1] == 0][:3]
 

@@ -1,6 +1,6 @@
-"""OpenFOAM takes the exported mesh with its tissues and boundaries, and finds no fault. usage: test_openfoam.py EXPORTS
+"""Tests that OpenFOAM accepts the exported mesh with its tissues and boundaries. usage: test_openfoam.py EXPORTS
 
-EXPORTS is the folder that export_example.py left. Without Debian's package openfoam the status is 77.
+EXPORTS is the folder with the results of export_example.py. Without Debian's package openfoam, the status is 77.
 """
 import os
 import re
@@ -38,9 +38,9 @@ def foam(*command):
 
 
 def entries(name):
-    """Of a list of dictionaries in polyMesh: name -> text."""
+    """Maps the names to the texts of the dictionaries that a file in polyMesh lists."""
     with open(os.path.join(CASE, "constant", "polyMesh", name), encoding="ascii") as file:
-        content = file.read().split("* //")[1]  # behind the header
+        content = file.read().split("* //")[1]  # the text after the header
     return dict(re.findall(r"^ *(\w+)\n *\{\n(.*?)^ *\}", content, re.M | re.S))
 
 

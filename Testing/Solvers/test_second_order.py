@@ -1,4 +1,4 @@
-"""Tetrahedra of ten nodes as other programs read them, and a bar in bending against the beam's closed form.
+"""Tests tetrahedra of ten nodes as other programs read them, and compares the bending of a bar with beam theory.
 
 usage: test_second_order.py MODULES FOLDER. Without CalculiX or gmsh the status is 77.
 """
@@ -61,14 +61,15 @@ def run_module(*arguments):
 
 
 def over_the_beams(deflection):
-    """A deflection (mm) of the free end per that of a beam that bends and shears."""
+    """Returns a deflection (mm) of the free end over that of a beam that bends and shears."""
     bending = FORCE * LENGTH ** 3 / (3 * YOUNGS_MODULUS * SIDE ** 4 / 12)
     shear = FORCE * LENGTH / (5 / 6 * YOUNGS_MODULUS / (2 + 2 * POISSONS_RATIO) * SIDE ** 2)
     return deflection / (bending + shear)
 
 
 def calculix(name, millimetre=1.0):
-    """Deflection of a bar by the deck that it is."""
+    """Solves the exported bar by CalculiX and returns its deflection over the beam's. `millimetre` is the length of a
+    millimetre in the units of the file."""
     points = meshio_read(path(name + ".inp")).points
     tip = np.flatnonzero(points[:, 0] > (LENGTH - 1e-9) * millimetre)
     with open(path(f"load_{name}.inp"), "w", encoding="ascii") as deck:
@@ -83,7 +84,8 @@ def calculix(name, millimetre=1.0):
 
 
 def in_getfem(order):
-    """The same by GetFEM, whose own elements have the mesh's order; the load is spread over the end's area."""
+    """Returns the same ratio by GetFEM, with GetFEM's own elements of the mesh's order. The load is spread over the
+    area of the free end."""
     import getfem
 
     mesh = getfem.Mesh("import", "gmsh", path(f"bar{order}.msh2"))
@@ -106,7 +108,8 @@ def in_getfem(order):
 
 
 def read_tetrahedra(extension):
-    """Points, tetrahedra of ten nodes and triangles of six."""
+    """Returns the points, the tetrahedra of ten nodes, and the triangles of six nodes or None, from an exported
+    file."""
     file = path("bar2." + extension)
     if extension == "feb":
         return read_feb_of_second_order(file)
@@ -128,7 +131,7 @@ def read_tetrahedra(extension):
 
 
 def read_feb_of_second_order(file):
-    """By the published structure, as read_feb."""
+    """Reads a file by its published structure, like read_feb."""
     import xml.etree.ElementTree as xml
 
     mesh = xml.parse(file).getroot().find("Mesh")
@@ -156,8 +159,8 @@ class SecondOrder(unittest.TestCase):
 
     def expect_bending(self, first, second):
         print("deflection over the beam's", first, second)
-        self.assertAlmostEqual(second, 1, delta=0.02)  # the held end cannot widen
-        self.assertLess(first, 0.95)  # of first order, it is too stiff
+        self.assertAlmostEqual(second, 1, delta=0.02)  # not exactly 1, because the held end cannot widen
+        self.assertLess(first, 0.95)  # elements of first order are too stiff
         self.assertGreater(first, 0.6)
 
     def test_a_bar_bends_as_the_beam(self):
@@ -188,7 +191,7 @@ class SecondOrder(unittest.TestCase):
                                 places[:, 3] - places[:, 0]) / 6
             self.assertGreater(volumes.min(), 0)
             self.assertAlmostEqual(volumes.sum() / (LENGTH * SIDE ** 2), 1, delta=1e-9)
-            if extension not in ("feb", "msh"):  # both have an order of their own
+            if extension not in ("feb", "msh"):  # these two order the tetrahedra in another way
                 np.testing.assert_array_equal(tetrahedra[:, :4], corners.cells[0].data, extension)
 
     def test_sets_of_nodes_have_those_of_their_edges(self):
@@ -218,7 +221,7 @@ class SecondOrder(unittest.TestCase):
             self.assertEqual(set(theirs.cell_data["nastran:ref"][0]), {1})
 
     def test_getfem_reads_ansys(self):
-        """Its reader knows SOLID187, and not SOLID285, which first order is written as."""
+        """Tests second order only: GetFEM reads SOLID187, but not SOLID285, as which first order is written."""
         import getfem
 
         mesh, ours = getfem.Mesh("import", "cdb", path("bar2.cdb")), meshio_read(path("bar2.vtu"))
@@ -254,7 +257,7 @@ class SecondOrder(unittest.TestCase):
                 self.assertEqual(grid.GetCellData().GetArray("TissueLabel").GetRange(), (1, 1))
 
     def test_sets_of_nodes_by_markups(self):
-        """Files as Slicer 5 writes them, in either frame."""
+        """Tests files as Slicer 5 writes them, in both frames."""
         turned = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])  # columns are axes
         flip = np.diag([-1.0, -1, 1])
         for system, frame in (("LPS", np.eye(3)), ("RAS", flip)):

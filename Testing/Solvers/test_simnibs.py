@@ -1,6 +1,6 @@
-"""The mesh for SimNIBS has the tags, surfaces and frame that SimNIBS expects. usage: test_simnibs.py MODULES FOLDER
+"""Tests that a mesh for SimNIBS has the tags, surfaces and frame that it expects. usage: test_simnibs.py MODULES FOLDER
 
-SimNIBS is not in Debian: `surfaces` is what its own sources say of them (reconstruct_unique_surface in mesh_io.py).
+SimNIBS is not in Debian; `surfaces` follows reconstruct_unique_surface in its mesh_io.py.
 """
 import os
 import shutil
@@ -15,7 +15,7 @@ from vtk.util import numpy_support
 from exported import blocks, by_number, meshio_read
 
 MODULES, FOLDER = sys.argv[1:3]
-RANKED = (1, 2, 9, 3, 4, 8, 7, 6, 10, 5)  # of two tissues, the one that a face between them belongs to comes first
+RANKED = (1, 2, 9, 3, 4, 8, 7, 6, 10, 5)  # a face between two tissues belongs to the one that comes first here
 RADII = {5: 20, 4: 17, 3: 14, 2: 11, 1: 7}  # of skin, bone, fluid, gray and white matter (mm)
 
 
@@ -29,7 +29,7 @@ def run_module(*arguments):
 
 
 def head(name, shift=0):
-    """Nested balls, the inner ones off the centre, and an eye that looks out of the skin."""
+    """Writes a label map of nested balls, the inner ones off the centre, and an eye that protrudes from the skin."""
     size, spacing = 44, 1.0
     z, y, x = np.mgrid[:size, :size, :size] - (size - 1) / 2
     labels = np.zeros((size,) * 3, np.int16)
@@ -50,7 +50,8 @@ def head(name, shift=0):
 
 
 def surfaces(tetrahedra, tags):
-    """By the sorted nodes of each face between two tags: the tag it belongs to, and its tetrahedron of that tag."""
+    """Maps the sorted nodes of each face on the outside or between two tags to the tag that it belongs to, and to its
+    tetrahedron with that tag."""
     owners = {}
     for corners in ([0, 1, 2], [0, 1, 3], [0, 2, 3], [1, 2, 3]):
         for t, face in enumerate(np.sort(tetrahedra[:, corners], axis=1).tolist()):

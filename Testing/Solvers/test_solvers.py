@@ -1,7 +1,7 @@
-"""Solvers open the exports and agree on how far a head sags. usage: test_solvers.py EXPORTS
+"""Tests that solvers open the exports and agree on how far a head sags. usage: test_solvers.py EXPORTS
 
-EXPORTS is the folder that export_example.py left. Solvers that are not installed are named, and the status is then 77;
-CMake/debian-packages.txt has them all.
+EXPORTS is the folder with the results of export_example.py. Names the solvers that are not installed, and then ends
+with status 77; CMake/debian-packages.txt lists them all.
 """
 import importlib.util
 import os
@@ -22,7 +22,7 @@ from sidecar import Sidecar  # noqa: E402
 EXPORTS = sys.argv[1]
 SKIPPED = 77
 PROGRAMS = {"calculix": ("inp", "ccx"), "fenicsx": ("xdmf", "dolfinx"), "freefem": ("mesh", "FreeFem++-nw"),
-            "getfem": ("msh2", "getfem")}  # script -> extension, and a program or a Python module
+            "getfem": ("msh2", "getfem")}  # script: extension, and the program or Python module that it needs
 
 
 def installed(name):
@@ -30,7 +30,7 @@ def installed(name):
 
 
 def run(script, extension, *arguments):
-    """What the script prints, line by line as words."""
+    """Runs a script on an export and returns the words of each line that it prints."""
     environment = {**os.environ, "XDG_CACHE_HOME": os.path.join(EXPORTS, "cache"), "OMP_NUM_THREADS": "1"}
     done = subprocess.run([sys.executable, os.path.join(ROOT, "Testing", "Solvers", f"run_{script}.py"),
                            os.path.join(EXPORTS, "mesh." + extension), *arguments],
@@ -73,9 +73,10 @@ class SolversTest(unittest.TestCase):
                 self.assertEqual(int(result["tissues"]), len(np.unique(self.mesh.tissue)))
 
     def test_all_find_the_same_displacement(self):
-        """Each from another format, with its own assembly: materials, tissues and clamped faces reach all of them."""
+        """Compares solvers that each read another format and assemble their own equations, which shows that materials,
+        tissues and clamped faces reach all of them."""
         displacements = {script: float(self.result(script)["displacement"]) for script in PROGRAMS}
-        exact = displacements["getfem"]  # by a direct solver; CalculiX's iterations end early
+        exact = displacements["getfem"]  # GetFEM uses a direct solver here; CalculiX's iterations end early
         for script, tolerance in (("fenicsx", 1e-6), ("freefem", 1e-6), ("calculix", 1e-4)):
             self.assertAlmostEqual(displacements[script] / exact, 1, delta=tolerance, msg=script)
 
@@ -89,7 +90,8 @@ class GmshTest(unittest.TestCase):
         cls.sets = Sidecar(os.path.join(EXPORTS, "mesh.msh")).sets
 
     def opened(self, extension):
-        """Of every physical group: name -> dimension, tag, elements, nodes. Holds Gmsh to no complaint."""
+        """Opens an export in Gmsh, which must have no complaints, and maps the name of every physical group to its
+        dimension, tag and numbers of elements and nodes."""
         lines = run("gmsh", extension)
         figures = dict(words for words in lines if words[0] != "group")
         self.assertEqual(figures["complaints"], "0")
@@ -97,7 +99,7 @@ class GmshTest(unittest.TestCase):
         return {name: tuple(map(int, numbers)) for word, *numbers, name in lines if word == "group"}
 
     def test_every_set_is_a_physical_group(self):
-        """Version 4.1."""
+        """Tests version 4.1 of the format."""
         groups = self.opened("msh")
         dimension = {"elements": 3, "faces": 2, "shell": 2, "nodes": 0}
         expected = {name: (dimension[entry["type"]], entry["tag"], entry["size"])
@@ -114,7 +116,7 @@ class GmshTest(unittest.TestCase):
                 self.assertEqual(groups[name][3], self.sets[entry["nodes"]]["size"], name)
 
     def test_every_tissue_and_piece_is_a_physical_group(self):
-        """Version 2.2."""
+        """Tests version 2.2 of the format."""
         groups = self.opened("msh2")
         tissues = {name: entry for name, entry in self.sets.items() if entry["kind"] == "tissue"}
         self.assertEqual({name: numbers[1:3] for name, numbers in groups.items() if numbers[0] == 3},

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Runs a command with a display of its own, on machines with and without a screen. usage: display.py COMMAND...
 
-Ends with the command's status, or with 1 and one line on stderr if there is no display to be had.
+Ends with the command's status, or with status 1 and one line on stderr if no display is available.
 """
 import os
 import random
@@ -17,12 +17,14 @@ NUMBERS = (1000, 50000)
 
 
 class DisplayError(RuntimeError):
-    """One line."""
+    """The reason why no display is available; its message is one line."""
 
 
 def start(number):
-    """An X server without a screen as display `number`; None if that one is taken. It says so itself once it answers,
-    and stays as it is when a client leaves: while it resets, it refuses the next one."""
+    """Starts an X server without a screen as display `number`, and returns its process, or None if the number is taken.
+
+    The server reports by -displayfd that it accepts clients. With -noreset it does not reset itself when its last
+    client leaves; while it resets, it would refuse the next client."""
     reading, writing = os.pipe()
     with os.fdopen(reading) as answer:
         try:
@@ -40,7 +42,8 @@ def start(number):
 
 
 def start_somewhere():
-    """(server, number). Numbers are drawn: one just given back loses its socket to the server that leaves it."""
+    """Starts a server and returns (server, number). The number is random, because the socket of a number that was in
+    use until now may still be deleted by the server that is ending."""
     for _ in range(ATTEMPTS):
         number = random.randrange(*NUMBERS)
         server = start(number)
@@ -59,8 +62,9 @@ def stop(server):
 
 
 def run(command):
-    """The command's exit status; where there is no Xvfb it gets the display that is there. Raises DisplayError without
-    either. The server outlives the command: Xlib ends a process whose server goes."""
+    """Runs the command and returns its exit status. Without Xvfb, the command gets the existing display; if there is
+    none either, raises DisplayError. The server is stopped only after the command has ended, because Xlib ends a
+    process whose server disappears."""
     if shutil.which("Xvfb") is None:
         if not os.environ.get("DISPLAY"):
             raise DisplayError("no display to draw on, expected Xvfb (Debian's package xvfb)")

@@ -1,15 +1,15 @@
-"""Where targets and paths lie in the map that was meshed, and sentences on those that are not in tissue."""
+"""Finds where targets and paths lie in the map that was meshed, and describes those that do not lie in tissue."""
 import numpy as np
 
 
 def points_of_interest(scale):
-    """(what it is, position in LPS mm) of every target and of the end of every path, from the scale's report."""
+    """Returns (description, position in LPS mm) for each target and for the end of each path in the scale's report."""
     return ([("target", np.array(target, float)) for target in scale["targets"]]
             + [("end of the path", np.array(path["points"][-1], float)) for path in scale["paths"]])
 
 
 def label_at(labels, affine, position):
-    """The label of the voxel there, None outside of the map."""
+    """Returns the label of the voxel at a position (LPS, mm), or None outside the map. `affine` is that of `labels`."""
     index = np.linalg.solve(affine, [*position, 1])[:3]
     if np.any(index < -0.5) or np.any(index > np.array(labels.shape) - 0.5):
         return None
@@ -17,13 +17,14 @@ def label_at(labels, affine, position):
 
 
 def nearest(points, position):
-    """Of the surface's points, the nearest one, and its distance (mm)."""
+    """Returns the point of `points` (n, 3) that is nearest to a position, and its distance (mm)."""
     distances = np.linalg.norm(points - position, axis=1)
     return points[distances.argmin()], float(distances.min())
 
 
 def sentence(what, position, labels, affine, points):
-    """What is odd about a point of interest, or None. `points` are the surface's."""
+    """Returns a sentence about a point of interest that does not lie in tissue, or None if it does. `points` are the
+    points of the surface."""
     label = label_at(labels, affine, position)
     if label:
         return None
@@ -36,6 +37,6 @@ def sentence(what, position, labels, affine, points):
 
 
 def sentences(scale, labels, affine, points):
-    """One for each point of interest that lies in no tissue."""
+    """Returns a sentence for each point of interest that does not lie in tissue."""
     found = (sentence(what, at, labels, affine, points) for what, at in points_of_interest(scale))
     return [text for text in found if text]

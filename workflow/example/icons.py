@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Draws the icons of the modules and of the extension. usage: icons.py
 
-128 pixels wide, as the host's templates have them. No stroke is thinner than 6 pixels, so that the icons stay legible at
-the 32 and 21 pixels of the host's tool bars.
+The icons are 128 pixels wide, like those in Slicer's templates. Most strokes are at least 6 pixels wide, so that the
+icons stay legible at the 32 and 21 pixels of Slicer's tool bars.
 """
 import math
 import os
@@ -19,7 +19,7 @@ REDS = (246, 170, 140), (228, 104, 78), (176, 60, 46)
 
 
 class Canvas:
-    """Shapes in a square of 128 by 128, origin at the top left."""
+    """Draws shapes in a square of 128 x 128 pixels whose origin is at the top left."""
 
     def __init__(self):
         self.image = Image.new("RGBA", (SIZE * SUPERSAMPLING,) * 2)
@@ -49,7 +49,7 @@ class Canvas:
 
 
 def surgical_path_scale():
-    """A target at the end of a path, and edge lengths rising around it."""
+    """Draws a target at the end of a path, and edge lengths that increase around the target."""
     canvas = Canvas()
     target = (52, 52)
     canvas.disc((64, 64), 62, INK)
@@ -70,7 +70,7 @@ def hexagon(radius, turn=0.0, centre=(64, 64)):
 
 
 def simplex_mesher():
-    """Triangles of two tissues, whose boundary they share."""
+    """Draws triangles of two tissues that share their boundary."""
     canvas = Canvas()
     outer, centre = hexagon(60, 0.5), (64, 64)
     shades = (REDS[2], BLUES[2], BLUES[1], BLUES[0], REDS[0], REDS[1])
@@ -92,7 +92,7 @@ def tetrahedron(canvas, apex, left, right, front, shades, stroke):
 
 
 def fuchs_tetrahedralizer():
-    """A tetrahedron, the quarter at its apex in another colour: the child mesh in its parent."""
+    """Draws a tetrahedron whose part at the apex has another colour: a child mesh in its parent."""
     canvas = Canvas()
     apex, left, right, front = (64, 7), (6, 88), (122, 88), (72, 121)
     tetrahedron(canvas, apex, left, right, front, BLUES, 7)
@@ -103,7 +103,7 @@ def fuchs_tetrahedralizer():
 
 
 def tissue_mapper():
-    """A head, one half as an image has it, the other as tissues, with points placed in them."""
+    """Draws a head, one half as an image and the other half as tissues, with training points."""
     canvas = Canvas()
     canvas.disc((64, 64), 62, INK)
     greys, tissues = ((150,) * 3, (70,) * 3, (205,) * 3), (SAND, PALE, BLUES[1])
@@ -119,7 +119,7 @@ def tissue_mapper():
 
 
 def template_hex_mesher():
-    """A bent sheet of quadrilaterals, the same as it was made behind it, and a pair of landmarks."""
+    """Draws a bent sheet of quadrilaterals in front of the same sheet before bending, and a pair of landmarks."""
     canvas = Canvas()
     grid = lambda x, y: (14 + 84 * x, 14 + 76 * y)  # noqa: E731
     bent = lambda x, y: (30 + 88 * x + 10 * math.sin(3 * y), 30 + 74 * y + 18 * math.sin(math.pi * x))  # noqa: E731
@@ -135,7 +135,7 @@ def template_hex_mesher():
 
 
 def extension():
-    """Triangles that shrink towards a target, in a disc."""
+    """Draws a disc with triangles that become smaller towards a target."""
     canvas = Canvas()
     canvas.disc((64, 64), 63, INK)
     target = (64, 64)

@@ -1,4 +1,4 @@
-"""The example's outputs as NumPy arrays: volumes (.nrrd) and meshes (.vtp, .vtu), all in LPS mm."""
+"""Reads the example's outputs as NumPy arrays: volumes (.nrrd) and meshes (.vtp, .vtu), all in LPS and mm."""
 import gzip
 from types import SimpleNamespace
 
@@ -12,7 +12,7 @@ NRRD_TYPES = {"unsigned char": "u1", "uint8": "u1", "short": "i2", "int16": "i2"
 
 
 def read_nrrd(file):
-    """A scalar volume: (values[i, j, k], affine from ijk to LPS mm)."""
+    """Reads a scalar volume and returns its values [i, j, k] and the 4 x 4 matrix from indices to LPS mm."""
     with open(file, "rb") as stream:
         header, _, data = stream.read().partition(b"\n\n")
     lines = [line for line in header.decode("latin1").splitlines()[1:] if ":" in line and line[0] != "#"]
@@ -31,7 +31,8 @@ def read_nrrd(file):
 
 
 def interpolated(volume, affine, positions):
-    """Trilinear values of a volume at positions (..., 3) in LPS mm; beyond the volume, those of its border."""
+    """Returns the values of a volume at positions (..., 3) in LPS mm, by trilinear interpolation. Positions outside the
+    volume get values of its border."""
     last = np.array(volume.shape) - 1
     indices = (positions - affine[:3, 3]) @ np.linalg.inv(affine[:3, :3]).T
     indices = np.clip(indices, 0, last)
@@ -46,7 +47,7 @@ def interpolated(volume, affine, positions):
 
 
 def read_dataset(file):
-    """The VTK data set itself, for pictures."""
+    """Reads a .vtu or .vtp file and returns the VTK data set."""
     reader = vtk.vtkXMLUnstructuredGridReader() if file.endswith(".vtu") else vtk.vtkXMLPolyDataReader()
     reader.SetFileName(file)
     reader.Update()
@@ -58,7 +59,8 @@ def cell_array(dataset, name):
 
 
 def read_mesh(file):
-    """Tetrahedra: points (n, 3), tetrahedra (m, 4), tissue (m,), submesh (m,) or None in meshes of other programs."""
+    """Reads a mesh of tetrahedra and returns its points (n, 3), tetrahedra (m, 4), tissue (m,) and submesh (m,), which
+    is None for meshes of other programs."""
     grid = read_dataset(file)
     return SimpleNamespace(
         points=vtk_to_numpy(grid.GetPoints().GetData()).astype(float),

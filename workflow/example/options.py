@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Deals options out to the modules that have them. usage: options.py [--FLAG [VALUE]]...
+"""Distributes options to the modules that have them. usage: options.py [--FLAG [VALUE]]...
 
-Prints a line STAGE<TAB>FLAG<TAB>VALUE for every module that has a flag; files to read become absolute. The modules are
-asked by --xml. Exit status 2, with one line on stderr, if an option is wrong or joins the stages anyway.
+Prints a line STAGE<TAB>FLAG<TAB>VALUE for each option and each module that has its flag; names of input files become
+absolute. The flags come from the modules' own descriptions (--xml). Ends with status 2 and one line on stderr if an
+option is wrong or is one that the scripts set themselves to connect the stages.
 """
 import math
 import os
@@ -11,7 +12,7 @@ import sys
 import xml.etree.ElementTree as xml
 
 PROGRAMS = {"scale": "SurgicalPathScaleCLI", "surface": "SimplexMesherCLI", "mesh": "FuchsTetrahedralizerCLI"}
-# Said by whoever runs the stages, one after the other.
+# Options that are set by the script that runs the stages.
 RESERVED = {"scale", "edgeLength", "ambient", "preparedLabelMap", "outputLabelMap", "report"}
 
 FOCUS = {"targets", "path", "targetPoint", "pathPoint"}
@@ -19,7 +20,7 @@ TRUTHS = {"true": True, "yes": True, "on": True, "1": True, "false": False, "no"
 
 
 class OptionError(ValueError):
-    """One line."""
+    """An error in an option; its message is one line."""
 
 
 def number_of(text):
@@ -31,7 +32,7 @@ def number_of(text):
 
 
 class Flag:
-    """A long flag: what its parameter accepts; whether it names files to read, or one to write."""
+    """What a long flag accepts, and whether its values name input files or an output file."""
 
     def __init__(self, parameter):
         self.kind = parameter.tag
@@ -43,7 +44,7 @@ class Flag:
                                for bound in ("minimum", "maximum"))
 
     def expected(self):
-        """What is accepted, in words."""
+        """Describes the accepted values in words."""
         if self.choices:
             return "one of " + ", ".join(self.choices)
         if self.kind == "boolean":
@@ -69,7 +70,7 @@ class Flag:
 
 
 def flags_by_stage():
-    """Stage -> long flag -> Flag."""
+    """Returns, for each stage, a mapping from the names of its long flags to their Flags."""
     stages = {}
     for stage, program in PROGRAMS.items():
         try:
@@ -85,7 +86,7 @@ def flags_by_stage():
 
 
 def flag_named(name, stages):
-    """The Flag. Raises OptionError if no module has it, or if it is not the user's to give."""
+    """Returns the Flag with this name. Raises OptionError if no module has it, or if users may not set it."""
     if name in RESERVED:
         raise OptionError(f"{name} is given by the stages themselves, expected options beside it")
     for flags in stages.values():
@@ -95,15 +96,17 @@ def flag_named(name, stages):
 
 
 def is_taken(stage, name, given):
-    """Whether a stage that knows an option takes it, when those of the names `given` are there. Far tissue is marked in
-    the map by the first stage; the last one takes targets and paths only to measure the nonlinear distance from them."""
+    """Returns whether a stage that has an option should be given it, if the options named in `given` are set.
+
+    The last stage does not need the null displacement options, because the first stage has marked far tissue in the
+    map, and it needs targets and paths only to measure the nonlinear distance from them."""
     if stage != "mesh":
         return True
     return not name.startswith("nullDisplacement") and (name not in FOCUS or "nonlinearDistance" in given)
 
 
 def check_value(name, flag, value):
-    """Raises OptionError if a module would not take it, or if it would write elsewhere."""
+    """Raises OptionError if a module would refuse the value, or if the value names an output in another folder."""
     if not value:
         raise OptionError(f"{name} has no value")
     if not flag.accepts(value):
@@ -115,7 +118,7 @@ def check_value(name, flag, value):
 
 
 def parsed(words, stages):
-    """(name, value) of each option on a command line; value is None for those that take none."""
+    """Yields (name, value) for each option on a command line; the value of a flag that is set is None."""
     words = list(words)
     while words:
         word = words.pop(0)
@@ -137,12 +140,13 @@ def parsed(words, stages):
 
 
 def values_of_list(flag, value):
-    """The files or texts that a value names: those of a flag that is repeated may be joined by commas."""
+    """Returns the files or texts that a value consists of: a flag that can be repeated also takes several, separated by
+    commas."""
     return value.split(",") if flag.is_list and flag.kind != "point" else [value]
 
 
 def values_passed_on(flag, value):
-    """Of an option's value, what each use of the flag gets; files to read become absolute."""
+    """Returns the values that a module gets, one for each use of the flag. Names of input files become absolute."""
     if value is None:
         return [""]
     if not flag.is_input:

@@ -1,12 +1,12 @@
-"""Colours of tissues: those of the file, or such that tissues that touch are told apart."""
+"""Chooses the colours of tissues: those in the file, or colours that differ between tissues that touch."""
 import numpy as np
 from vtk.util.numpy_support import vtk_to_numpy
 
-OTHERS = 200  # grey of labels that the file does not name
+OTHERS = 200  # grey level of labels without a colour
 
 
 def from_oklch(lightness, chroma, hue):
-    """sRGB in 0..1 of OKLCh colours (B. Ottosson, 2020); hue in turns."""
+    """Converts OKLCh colours (B. Ottosson, 2020) to sRGB from 0 to 1; `hue` is in turns."""
     a, b = chroma * np.cos(2 * np.pi * hue), chroma * np.sin(2 * np.pi * hue)
     lms = np.stack([lightness + 0.3963377774 * a + 0.2158037573 * b,
                     lightness - 0.1055613458 * a - 0.0638541728 * b,
@@ -18,7 +18,8 @@ def from_oklch(lightness, chroma, hue):
 
 
 def candidates():
-    """(n, 3) in OKLab and (n, 3) in sRGB: three lightnesses of nine hues; the reds are left to the child mesh."""
+    """Returns the colours to choose from, in OKLab (n, 3) and in sRGB (n, 3): nine hues at three lightnesses, without
+    the reds, which are reserved for the child mesh."""
     lightness, hue = (x.ravel() for x in np.meshgrid([0.60, 0.74, 0.88], np.linspace(0.17, 0.97, 9)))
     chroma = np.full(len(hue), 0.105)
     lab = np.column_stack([lightness, chroma * np.cos(2 * np.pi * hue), chroma * np.sin(2 * np.pi * hue)])
@@ -26,7 +27,8 @@ def candidates():
 
 
 def neighbours_of(pairs):
-    """Label -> labels that it shares faces with; tissues of many faces first. `pairs` is BoundaryLabels."""
+    """Maps each label to the labels that it shares faces with; tissues with many faces come first. `pairs` is the array
+    BoundaryLabels (n, 2)."""
     pairs = np.sort(pairs, axis=1)
     labels, faces = np.unique(pairs[pairs > 0], return_counts=True)
     neighbours = {int(label): set() for label in labels[np.argsort(-faces, kind="stable")]}
@@ -37,7 +39,8 @@ def neighbours_of(pairs):
 
 
 def told_apart(pairs):
-    """Label -> sRGB bytes: each tissue takes the colour farthest from those of its neighbours, of these the rarest."""
+    """Maps each label to sRGB bytes. Each tissue in turn gets a colour that is far from those of its neighbours and
+    that few tissues have so far."""
     lab, rgb = candidates()
     uses, chosen = np.zeros(len(lab)), {}
     for label, others in neighbours_of(pairs).items():
@@ -49,7 +52,8 @@ def told_apart(pairs):
 
 
 def tissue_colors(dataset, pairs):
-    """(labels + 1, 3) bytes by label: the file's own colours, or those of `told_apart` if it has none."""
+    """Returns a table (largest label + 1, 3) of sRGB bytes: the file's colours, or those of `told_apart` if the file
+    has the same colour for all tissues."""
     fields = dataset.GetFieldData()
     ids, colors = vtk_to_numpy(fields.GetArray("TissueIds")), vtk_to_numpy(fields.GetArray("TissueColors"))
     table = np.full((max(ids.max(), pairs.max()) + 1, 3), OTHERS, np.uint8)
@@ -62,7 +66,7 @@ def tissue_colors(dataset, pairs):
 
 
 def tissue_names(dataset):
-    """Label -> name, as the file has them."""
+    """Maps each label to the name of its tissue in the file."""
     fields = dataset.GetFieldData()
     names = fields.GetAbstractArray("TissueNames")
     return {int(label): names.GetValue(n) for n, label in enumerate(vtk_to_numpy(fields.GetArray("TissueIds")))}

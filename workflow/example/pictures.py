@@ -2,9 +2,10 @@
 """Draws the example's pictures. usage: pictures.py FOLDER
 
 Reads scale.nrrd, prepared.nrrd, surface.vtp, mesh.vtu and the three stages' reports in FOLDER and writes surface.png,
-tetrahedra.png, scale.png, evolution.png and histograms.png beside them. Cuts are made at the first target, or where
-the first path ends; where that is not in tissue, the pictures say so. Needs a display: run it by display.py. A picture
-that cannot be drawn is one line on stderr and exit status 1, and the others are drawn all the same.
+tetrahedra.png, scale.png, evolution.png and histograms.png beside them. Cuts are made at the first target or, without
+targets, at the end of the first path; if that point is not in tissue, the pictures say so. Needs a display: run it by
+display.py. If a picture cannot be drawn, one line on stderr gives the reason, the other pictures are still drawn, and
+the exit status is 1.
 """
 import json
 import os
@@ -45,7 +46,7 @@ def read_json(file):
 
 
 def case_of(files):
-    """All that the pictures show. `files` has the paths of scale, prepared, surface, mesh, and of scaleReport."""
+    """Reads what the pictures show. `files` maps scale, prepared, surface, mesh and scaleReport to paths."""
     report = read_json(files["scaleReport"])
     labels, affine = read_nrrd(files["prepared"])
     surface = read_dataset(files["surface"])
@@ -61,7 +62,7 @@ def case_of(files):
 
 
 def shown_target(case):
-    """The target, or where it is too far for a picture, a point on the way there from the tissue."""
+    """Returns the target or, if it is too far from the tissue for a picture, a point on the way to it."""
     low, high = (f(vtk_to_numpy(case.surface.GetPoints().GetData()), axis=0) for f in (np.min, np.max))
     way, farthest = case.target - case.anchor, 0.6 * np.linalg.norm(high - low)
     distance = np.linalg.norm(way)
@@ -73,12 +74,12 @@ def also_shown(case):
 
 
 def mark_target(axes, view, case):
-    """Where there is no tissue around it, with a line to the tissue that the cut is made in."""
+    """Marks the target. If it does not lie in tissue, a line leads to the point at which the tissue is cut."""
     mark(axes, view, shown_target(case), toward=case.anchor if case.oddity else None)
 
 
 def lying_ahead(dataset, case):
-    """Cells behind a coronal plane through the anchor; all of them where that leaves none."""
+    """Returns a mask of the cells behind a coronal plane through the anchor, or of all cells if none are behind it."""
     behind = cell_centers(dataset)[:, 1] > case.anchor[1]
     return behind if behind.any() else np.ones(len(behind), bool)
 
@@ -96,7 +97,8 @@ def save(figure, file, palette=False):
 
 
 def headline(figure, x, title, remark, oddity=None):
-    """Title and remark below it, from `x` pixels on, at the top of a figure; then in red what is odd."""
+    """Writes a title at the top of a figure, `x` pixels from the left, a remark below it, and below that `oddity` in
+    red."""
     width, height = figure.get_size_inches() * DPI
     figure.text(x / width, 1 - 42 / height, title, fontsize=18, color=INK)
     figure.text(x / width, 1 - 70 / height, remark, fontsize=13, color="#5a6170")
@@ -105,7 +107,8 @@ def headline(figure, x, title, remark, oddity=None):
 
 
 def cut_open(anchor):
-    """Implicit function, negative in the part that is taken away: anterior of the anchor and left of it."""
+    """Returns an implicit function that is negative in the part that is cut away, which lies anterior and left of the
+    anchor."""
     quarter = vtk.vtkImplicitBoolean()
     quarter.SetOperationTypeToIntersection()
     for normal in ((0, 1, 0), (-1, 0, 0)):
@@ -117,7 +120,8 @@ def cut_open(anchor):
 
 
 def seen_labels(surface, direction):
-    """Per triangle the tissue that one looks through at it; where that is the outside, the tissue behind it."""
+    """Returns, for each triangle, the tissue on the viewer's side or, if that side is outside, the tissue on the other
+    side. `direction` is the viewing direction."""
     labels = cell_array(surface, "BoundaryLabels")
     corners = vtk_to_numpy(surface.GetPoints().GetData())[
         vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)]
@@ -149,7 +153,8 @@ def draw_surface(case, file):
 
 
 def put_names(figure, x, y, mesh, labels, colors):
-    """The colours of the tissues with most tetrahedra among `labels`, by name, from pixel (x, y) downwards."""
+    """Draws a legend of the tissues that have most tetrahedra, from pixel (x, y) downwards. `labels` are the labels of
+    the tetrahedra."""
     found, counts = np.unique(labels, return_counts=True)
     names = tissue_names(mesh)
     patches = []
@@ -163,14 +168,15 @@ def put_names(figure, x, y, mesh, labels, colors):
 
 
 def frame_of(view, dataset, margin=4):
-    """The rectangle around what is seen of a data set: x, y, width, height in pixels of the view."""
+    """Returns the rectangle (x, y, width, height) around a data set in a view, in pixels of the view."""
     seen = view.pixels(vtk_to_numpy(dataset.GetPoints().GetData()))
     low, high = seen.min(axis=0) - margin, seen.max(axis=0) + margin
     return (*low, *(high - low))
 
 
 def put_child(figure, whole_axes, whole, mesh, child, case):
-    """The child apart, enlarged, with a frame around it in the whole and lines from there."""
+    """Draws the child mesh on its own and enlarged, a frame around it in the picture of the whole mesh, and lines that
+    connect the two."""
     part = extracted(mesh, child)
     view = View([actor_of(part, edge_width=0.7)], whole.frame[2], (530, 500))
     axes = put(figure, view, 955, 220)
@@ -213,8 +219,8 @@ def draw_tetrahedra(case, file):
 
 
 def slice_positions(case, normal):
-    """World positions (n, m, 3) of a regular grid across LPS axis `normal` through the target, as wide as the map and
-    the target, and its spacing."""
+    """Returns positions (n, m, 3) in LPS mm on a regular grid in the plane through the target that is perpendicular to
+    LPS axis `normal`, and the spacing of the grid (mm). The grid covers the map and the target."""
     corners = np.array([[*corner, 1] for corner in np.ndindex(2, 2, 2)], float)
     corners[:, :3] = corners[:, :3] * case.labels.shape - 0.5
     corners = (corners @ case.affine.T)[:, :3]
@@ -231,7 +237,7 @@ def slice_positions(case, normal):
 
 
 def plane_through(case):
-    """The target, or where it lies outside of the map, the middle of the voxel nearest to the tissue's next point."""
+    """Returns the target or, if it lies outside the map, the centre of the voxel at the point of tissue next to it."""
     if label_at(case.labels, case.affine, case.target) is not None:
         return case.target
     index = np.rint(np.linalg.solve(case.affine, [*case.anchor, 1])[:3])
@@ -239,7 +245,7 @@ def plane_through(case):
 
 
 def labels_on(case, world):
-    """The label of the voxel at each position; -1 outside of the map."""
+    """Returns the label of the voxel at each position, and -1 outside the map."""
     index = np.rint((world - case.affine[:3, 3]) @ np.linalg.inv(case.affine[:3, :3]).T).astype(int)
     last = np.array(case.labels.shape) - 1
     at = np.clip(index, 0, last)
@@ -248,7 +254,7 @@ def labels_on(case, world):
 
 
 def borders_of(found, x, y, spacing):
-    """Segments (n, 2, 2) between grid positions of different labels."""
+    """Returns line segments (n, 2, 2) between neighbouring grid positions that have different labels."""
     segments = []
     for axis in (0, 1):
         differs = np.diff(found, axis=axis) != 0
@@ -259,7 +265,8 @@ def borders_of(found, x, y, spacing):
 
 
 def draw_slice(axes, case, scale, normal):
-    """Target edge lengths and tissue boundaries on the plane through the target, across LPS axis `normal`."""
+    """Draws target edge lengths and tissue boundaries on the plane through the target that is perpendicular to LPS axis
+    `normal`."""
     world, spacing = slice_positions(case, normal)
     u, v = [axis for axis in range(3) if axis != normal]
     lengths, found = interpolated(*scale, world), labels_on(case, world)
@@ -273,10 +280,10 @@ def draw_slice(axes, case, scale, normal):
                         vmin=low if varies else 0.9 * low, vmax=high if varies else 1.1 * high)
     axes.add_collection(LineCollection(borders_of(found, x, y, spacing), colors="white", linewidths=0.5, alpha=0.8))
     levels = np.arange(np.floor(low) + 1, np.ceil(high))
-    levels = levels[(levels > low + 1e-3) & (levels < high - 1e-3)]  # none in the noise of what is constant
+    levels = levels[(levels > low + 1e-3) & (levels < high - 1e-3)]  # no contours of the noise in constant regions
     if varies and len(levels) and min(lengths.shape) > 1:
         contours = axes.contour(x, y, lengths, levels=levels, colors=INK, linewidths=1.1)
-        axes.clabel(contours, levels=levels[len(levels) // 2:], fmt="%g mm", fontsize=9)  # nearer in they would overlap
+        axes.clabel(contours, levels=levels[len(levels) // 2:], fmt="%g mm", fontsize=9)  # the inner ones would overlap
     for path in case.paths:
         axes.plot(path[:, u], path[:, v], color=CHILD_COLOR, linewidth=2)
     at = shown_target(case)
@@ -293,7 +300,7 @@ def draw_scale(case, file):
     axial = figure.add_axes((0.05, 0.08, 0.37, 0.78))
     sagittal = figure.add_axes((0.48, 0.08, 0.42, 0.78))
     for axes, normal in ((axial, 2), (sagittal, 0)):
-        axes.set_facecolor("#d9d9d9")  # outside of the map
+        axes.set_facecolor("#d9d9d9")  # outside the map
         shown = draw_slice(axes, case, scale, normal)
     axial.invert_yaxis()
     axial.set_ylabel("posterior <  P (mm)  > anterior")
@@ -306,7 +313,7 @@ def draw_scale(case, file):
 
 
 def share_within(histogram, low, high):
-    """Of a histogram's counts, the share (%) of bars whose middles lie in an interval."""
+    """Returns the share (%) of a histogram's counts in bars whose middles lie between `low` and `high`."""
     counts = np.array(histogram["counts"], float)
     edges = np.linspace(histogram["low"], histogram["high"], len(counts) + 1)
     middles = (edges[1:] + edges[:-1]) / 2
@@ -314,7 +321,7 @@ def share_within(histogram, low, high):
 
 
 def histogram_notes(whole, histograms):
-    """For each histogram: what it shows, and where that differs from the ideal."""
+    """Returns, for each histogram, a text on what it shows and a text on how that differs from the ideal."""
     angles, ratio, valence = whole["dihedral"], whole["edgeOverTarget"], whole["valence"]
     at60, at90 = (share_within(histograms["dihedral"], mode - 2, mode + 2) for mode in (60, 90))
     short, long_ = (share_within(histograms["edgeOverTarget"], *bounds) for bounds in ((0, 0.7), (1.4, np.inf)))
@@ -332,7 +339,7 @@ def histogram_notes(whole, histograms):
 
 
 def draw_histograms(report, file):
-    """The three histograms of Audette et al. 2007, figure 10, from the mesh's report."""
+    """Draws the three histograms of Audette et al. 2007, figure 10, from the mesh's report."""
     whole, histograms = report["quality"]["whole"], report["quality"]["histograms"]
     notes = histogram_notes(whole, histograms)
     panels = [("dihedral", "Dihedral angle (degrees)", (60, 90)),
@@ -342,7 +349,7 @@ def draw_histograms(report, file):
     for n, (name, title, ideals) in enumerate(panels):
         axes = figure.add_axes((0.05 + 0.325 * n, 0.11, 0.28, 0.60))
         counts, low, high = (histograms[name][key] for key in ("counts", "low", "high"))
-        if name == "valence":  # always even: two per bar, centred on the even number
+        if name == "valence":  # always even, so that two counts become one bar, centred on the even number
             counts, low, high = np.reshape(counts, (-1, 2)).sum(axis=1), low - 1, high - 1
         edges = np.linspace(low, high, len(counts) + 1)
         axes.bar(edges[:-1], 100 * np.array(counts) / max(sum(counts), 1), np.diff(edges), align="edge",
@@ -361,7 +368,7 @@ def draw_histograms(report, file):
 
 
 def draw_evolution(report, file):
-    """Size, distance to the map and operations of the surface stage, step by step, from its report."""
+    """Draws the size, the distance to the map and the operations of each step of the surface stage, from its report."""
     steps = report["evolution"]
     number = np.arange(len(steps))
     figure = new_figure(1500, 600)
@@ -395,7 +402,8 @@ def draw_evolution(report, file):
 
 
 def draw_all(folder):
-    """(file, function that draws it) of each picture; what they have in common is read when it is first asked for."""
+    """Yields, for each picture, its name and a function that draws it to a file. The data that several pictures share
+    are read once, when they are first needed."""
     inside = lambda name: os.path.join(folder, name)
     files = {"scale": inside("scale.nrrd"), "prepared": inside("prepared.nrrd"), "surface": inside("surface.vtp"),
              "mesh": inside("mesh.vtu"), "scaleReport": inside("scale.json")}
@@ -414,7 +422,8 @@ def draw_all(folder):
 
 
 def drawn(name, draw, file):
-    """Whether it was; if not, a line on stderr says why. Nothing that a picture stumbles over is worth the run."""
+    """Draws a picture and returns whether that succeeded. If not, a line on stderr gives the reason: no error in a
+    picture may end the run."""
     try:
         draw(file)
         return True

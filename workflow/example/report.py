@@ -2,8 +2,8 @@
 """Merges the example's reports and prints its figures. usage: report.py FOLDER STAGE=SECONDS...
 
 Reads scale.json, surface.json and mesh.json in FOLDER, writes report.json beside them (one member per stage, the
-seconds of each, and all warnings), and prints a table of figures that ends in the warnings. Those on targets and paths
-that lie in no tissue are lines on stderr as well; they need prepared.nrrd and surface.vtp.
+seconds of each, and all warnings), and prints a table of figures that ends with the warnings. Warnings about targets
+and paths that do not lie in tissue, for which prepared.nrrd and surface.vtp are read, also go to stderr.
 """
 import json
 import os
@@ -13,13 +13,14 @@ STAGES = ("scale", "surface", "mesh")
 
 
 def wrong_tissues(report):
-    """Labels whose tetrahedra have other components, tunnels or cavities than the prepared map."""
+    """Returns the labels that have other numbers of components, tunnels or cavities in the mesh than in the prepared
+    map."""
     wanted, found = ({tissue["label"]: tissue for tissue in report[stage]["topology"]} for stage in ("surface", "mesh"))
     return sorted(label for label in wanted.keys() | found.keys() if wanted.get(label) != found.get(label))
 
 
 def places_of_interest(folder, report):
-    """Sentences on targets and ends of paths that lie in no tissue."""
+    """Returns sentences about targets and ends of paths that do not lie in tissue."""
     from vtk.util.numpy_support import vtk_to_numpy
 
     from focus import sentences
@@ -30,7 +31,7 @@ def places_of_interest(folder, report):
 
 
 def stage_warnings(report, places):
-    """Warnings of the stages, but for those that the sentences `places` repeat with more to them."""
+    """Returns the warnings of the stages, without those that `places` repeats in more detail."""
     told = [text for stage in STAGES for text in report[stage].get("warnings", [])]
     return [text for text in told if not any(place.startswith(text) for place in places)]
 

@@ -1,4 +1,4 @@
-"""Meshes as VTK draws them, in parallel projection, and what is written over such pictures."""
+"""Draws meshes by VTK in parallel projection, and annotates the pictures."""
 import numpy as np
 import vtk
 from PIL import Image
@@ -12,8 +12,8 @@ EDGE_COLOR = (0.2, 0.22, 0.26)
 
 
 def save_image(image, file, palette=False):
-    """As a PNG of 64 levels per channel, which nobody sees and which are half the size; with a palette of 256 colours,
-    which does for meshes of many tissues, a fraction. Neither is dithered."""
+    """Saves an image as a small PNG, without dithering: with 64 levels per channel, which halves the size and cannot be
+    seen, or with a palette of 256 colours, which is much smaller still and suffices for meshes of many tissues."""
     levels = [min(255, 4 * round(value / 4)) for value in range(256)]
     image = image.convert("RGB")
     if palette:
@@ -32,7 +32,7 @@ def paint(dataset, colors):
 
 
 def extracted(dataset, keep):
-    """The cells where `keep` is true, whole."""
+    """Returns the cells for which `keep` is true, uncut."""
     ids = vtk.vtkIdList()
     for cell in np.flatnonzero(keep):
         ids.InsertNextId(int(cell))
@@ -82,8 +82,8 @@ def lines_of(dataset, width):
 
 
 class View:
-    """Looks along `direction` (LPS), cranial side up, so that all actors and the points `also` just fit into `size`
-    (width, height) pixels. `image` is what is seen."""
+    """A view of `actors` along `direction` (LPS), with the cranial side up. All actors and the points `also` just fit
+    into `size` (width, height) pixels. `image` is the picture."""
 
     def __init__(self, actors, direction, size, also=()):
         direction = unit(direction)
@@ -125,27 +125,28 @@ class View:
         return Image.fromarray(pixels).resize(self.size, Image.BOX)
 
     def pixels(self, positions):
-        """(n, 2) from the lower left corner of the image."""
+        """Returns the pixels (n, 2) at positions (n, 3) in LPS mm, counted from the lower left corner of the image."""
         seen = np.reshape(positions, (-1, 3)) @ self.frame.T - self.focus
         return seen[:, :2] / self.mm_per_pixel + np.array(self.size) / 2
 
 
 def side_letters(right):
-    """The letters of the patient's sides at the left and at the right of a picture whose x axis is `right` (LPS)."""
+    """Returns the two letters of the patient's sides at the left and right edge of a picture whose x axis points to
+    `right` (LPS)."""
     axis = int(np.abs(right[:2]).argmax())
     letters = ("RL", "AP")[axis]
     return letters if right[axis] > 0 else letters[::-1]
 
 
 def round_length(length):
-    """The largest of 1, 2 and 5 times a power of ten that is no longer."""
+    """Returns the largest of 1, 2 and 5 times a power of ten that is not longer than `length`."""
     power = 10.0 ** np.floor(np.log10(length))
     return max(factor * power for factor in (1, 2, 5) if factor * power <= length * (1 + 1e-9))
 
 
 def put(figure, view, x, y):
-    """Shows a view with its lower left corner at pixel (x, y), with a scale bar and the patient's sides. Returns axes
-    over the picture whose units are the view's pixels."""
+    """Shows a view with its lower left corner at pixel (x, y) of the figure, with a scale bar and the letters of the
+    patient's sides. Returns axes over the picture whose units are the view's pixels."""
     width, height = view.size
     full = figure.get_size_inches() * figure.dpi
     axes = figure.add_axes((x / full[0], y / full[1], width / full[0], height / full[1]))
@@ -162,7 +163,7 @@ def put(figure, view, x, y):
 
 
 def mark(axes, view, position, toward=None):
-    """A red cross at a position, and a line from it to where `toward` is."""
+    """Draws a red cross at a position and, if `toward` is given, a dashed line from there to `toward` (all LPS mm)."""
     x, y = view.pixels(position)[0]
     if toward is not None:
         ends = np.stack([view.pixels(toward)[0], (x, y)])

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# From an image to finite elements: the tissues of a head, classified from training points, then the road of example.sh.
+# Makes a finite element mesh of an image of a head: classifies tissues by training points, then runs example.sh.
 # usage: from-image.sh [OUTDIR]      Debian's T1 of Colin27, with the points beside this file (default build/from-image)
 #        from-image.sh OUTDIR IMAGE TRAINING [--OPTION VALUE]...      as example.sh takes them, with a target or a path
-# The training points beside this file are random voxels of BrainWeb's classes of the same head, twenty of each.
-# With SURGICALMESHER_BIN set to a folder of modules already built, it installs and builds nothing and uses these.
+# The training points beside this file are twenty random voxels of each of BrainWeb's classes of the same head.
+# If SURGICALMESHER_BIN names a folder of built modules, it uses these and neither installs nor builds anything.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)

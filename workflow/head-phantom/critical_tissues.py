@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""The critical tissues over the brain, as figure 7 of Audette et al. (Computer Aided Surgery 12(1), 2007).
+"""Draws the critical tissues on the brain, like figure 7 of Audette et al. (Computer Aided Surgery 12(1), 2007).
 
 usage: critical_tissues.py FOLDER, with what head-phantom.sh makes: mesh.vtu, nerves.vtp, sheaths.vtp, scale.json.
-Leaves critical_tissues.png there: the brain that may move, seen from below and in front, over it the optic nerves, and
-the same nearer, their sheaths as lines for their axes to show. Needs a display: run it by ../example/display.py.
+Writes critical_tissues.png to FOLDER: the part of the brain that may move, seen from below and in front, with the optic
+nerves on it, and an enlarged view in which the sheaths of the nerves are drawn as lines, so that their axes show. Needs
+a display: run it by ../example/display.py.
 """
 import json
 import os
@@ -23,8 +24,8 @@ from views import (FOCUS_COLOR, INK, View, actor_of, cell_centers, extracted, li
 
 BRAIN = (2, 3, 8)  # grey, white and glial matter of the phantom
 BRAIN_COLOR, SHEATH_COLOR, AXIS_COLOR = (0.88, 0.79, 0.74), (0.96, 0.80, 0.22), (0.70, 0.10, 0.12)
-FROM_BELOW = (0.25, 0.75, 1)  # the way one looks, LPS
-SIZE, NEAR = (660, 640), 22   # pixels; mm around the nerves
+FROM_BELOW = (0.25, 0.75, 1)  # viewing direction, LPS
+SIZE, NEAR = (660, 640), 22   # size of a view (pixels); what the enlarged view adds to the nerves' extent (mm)
 DPI = 100
 
 

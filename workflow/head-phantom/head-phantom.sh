@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# The head phantom that Audette et al. (Computer Aided Surgery 12(1), 2007) announce: the classified head of Colin27 with
-# its optic nerves, followed through the T1, as tissues, shells and beams; fine along a transsphenoidal path, held still
-# away from it.
+# Makes the head phantom that Audette et al. (Computer Aided Surgery 12(1), 2007) announce: the classified head of
+# Colin27 with its optic nerves, which are traced in the T1, as tissues, shells and beams. The mesh is fine along a
+# transsphenoidal path and held still far from it.
 # usage: head-phantom.sh OUTDIR MAP [T1]
-# MAP: BrainWeb's discrete phantom on the grid of T1, labels 1 to 9 as in names.txt beside this file (its fat, muscle and
-# connective tissue become one); T1: by default that of Debian's mricron-data. Leaves in OUTDIR the axes of the nerves,
-# the label map, scale, surface, mesh, its parent and child, shells and beams, models for CalculiX, FEBio and Gmsh,
-# report.json and critical_tissues.png. Earlier results go once the new ones are complete.
-# With SURGICALMESHER_BIN set to a folder of modules already built, it installs and builds nothing and uses these.
+# MAP is BrainWeb's discrete phantom on the grid of T1, with labels 1 to 9 as in names.txt beside this file (its fat,
+# muscle and connective tissue are joined). T1 is by default that of Debian's mricron-data. Writes to OUTDIR the axes
+# of the nerves, the label map, scale, surface, mesh, its parent and child, shells and beams, models for CalculiX, FEBio
+# and Gmsh, report.json and critical_tissues.png. They replace earlier results once all are complete.
+# If SURGICALMESHER_BIN names a folder of built modules, it uses these and neither installs nor builds anything.
 set -euo pipefail
 
 here=$(cd "$(dirname "$0")" && pwd)
@@ -42,15 +42,15 @@ trap 'exit 130' INT
 trap 'exit 143' TERM
 cd "$work"
 
-# The modules' progress is for a terminal; elsewhere it goes to the log.
+# usage: run COMMAND...       prints and runs a command; its output goes to a terminal or to the log
 run()
 {
   echo "$*"
   if [[ -t 1 ]]; then "$@"; else "$@" >>log.txt; fi
 }
 
-# A nerve is dark in the fat of the orbit and bright from its canal to the chiasm: two tubes on each side.
-# usage: follow LABEL POLARITY PART NAME
+# Each nerve is traced as two tubes, because it is dark in the fat of the orbit and bright from its canal to the chiasm.
+# usage: follow LABEL POLARITY PART NAME       traces PART.mrk.json and adds it to the label map as LABEL
 labels=$map
 follow()
 {

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""From the project's template of a face to a solved operation. usage: example.py OUTDIR
+"""Fits the project's template of a face to a person and solves an operation on it. usage: example.py OUTDIR
 
 The template, TemplateHexMesher/Template, is fitted to a second person, whose surface and landmarks are built in code
-(face_shape.py); CalculiX then moves the lower jaw's bone 6 mm to the front and the upper jaw's not. Leaves in OUTDIR
-fitted.vtu, fit.json, face.inp (the exported model), operation.inp (the deck), operation.dat (displacements) and
-operation.png. TemplateFitCLI and ccx have to be on the PATH; the picture needs a display: run it by
+(face_shape.py). CalculiX then moves the bone of the lower jaw 6 mm to the front and holds that of the upper jaw. Writes
+to OUTDIR fitted.vtu, fit.json, face.inp (the exported model), operation.inp (the deck), operation.dat (displacements)
+and operation.png. TemplateFitCLI and ccx have to be on the PATH; the picture needs a display: run it by
 ../example/display.py.
 """
 import json
@@ -22,7 +22,7 @@ sys.path.insert(0, os.path.join(HERE, "..", "example"))
 from meshfiles import cell_array, read_dataset  # noqa: E402
 
 ADVANCE = 6  # mm, to the front
-GAP = 4      # mm above and below the mouth's corners, where the bone ends
+GAP = 4      # mm above and below the corners of the mouth: between these heights no node is on bone
 MATERIALS = """tissue, model, youngsModulus, poissonsRatio
 filler, linear, 3, 0.45
 orbicularis_oris, linear, 6.2, 0.45
@@ -50,7 +50,8 @@ U
 
 
 def fit():
-    """Leaves the second person's surface and landmarks, the fitted mesh and its model in the working folder."""
+    """Writes the second person's surface and landmarks, the fitted mesh and its model to the working folder. Returns
+    the landmarks of the second person by name."""
     points, triangles, _ = face_shape.envelope()
     face_shape.write_surface("person.vtp", face_shape.second_person(points), triangles)
     landmarks = {name: face_shape.second_person(point) for name, point in face_shape.landmarks().items()}
@@ -71,7 +72,7 @@ def points_and_inner(grid):
 
 
 def solve(landmarks):
-    """Displacement of every node, mm."""
+    """Solves the operation by CalculiX and returns the displacements (n, 3) of the nodes in mm."""
     points, inner = points_and_inner(read_dataset("fitted.vtu"))
     mouth = (landmarks["mouth_left_deep"] + landmarks["mouth_right_deep"])[2] / 2
     lines = lambda ids: "\n".join("%d," % (i + 1) for i in ids)  # noqa: E731
@@ -90,7 +91,7 @@ def solve(landmarks):
 
 
 def tissue_colors(grid):
-    """Skin, and a red for every muscle."""
+    """Returns the colours (n, 3) of the cells in bytes: one for the tissue around the muscles, and reds for muscles."""
     labels = cell_array(grid, "TissueLabel")
     reds = np.array([[233, 200, 176], [178, 48, 56], [196, 84, 70], [214, 112, 80], [196, 84, 70], [214, 112, 80]])
     return reds[labels - 1].astype(np.uint8)

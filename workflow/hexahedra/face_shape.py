@@ -1,5 +1,5 @@
-"""A face built in code: its soft tissue as a closed slab with holes of mouth and eyes, three pairs of muscles' bodies,
-landmarks, and a second person with the same names. LPS, mm; the face looks to the front, -y."""
+"""A face built in code: its soft tissue as a closed slab with holes for mouth and eyes, the bodies of five muscles,
+landmarks, and a map to a second person. All in LPS and mm; the face looks to the front, -y."""
 import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk
@@ -11,7 +11,7 @@ OUTER, INNER, RIGHT, LEFT, BOTTOM, TOP, HOLE = 1, 2, 3, 4, 5, 6, 0  # the cell a
 
 
 def tissue(x, z, depth):
-    """Points of the slab: depth 0 on the skin, 1 on mucosa and bone."""
+    """Returns the points (..., 3) of the slab at positions x, z; depth 0 is on the skin, 1 on mucosa and bone."""
     back = x ** 2 / 95 + z ** 2 / 300
     nose = 14 * np.exp(-(x / 13) ** 2 - ((z - 2) / 17) ** 2)
     lips = 4 * np.exp(-(x / 24) ** 2 - ((z + 30) / 12) ** 2)
@@ -22,7 +22,7 @@ def tissue(x, z, depth):
 
 
 def second_person(points):
-    """Where the second person has the same points: a smooth map without a fold, of up to 15 mm."""
+    """Returns the same points on the second person: a smooth map without folds, which moves them by up to 12 mm."""
     x, y, z = np.moveaxis(np.asarray(points, float), -1, 0)
     wide = 1.08 * x + 2 * np.sin(z / 30)
     deep = 1.05 * y - 4 * np.exp(-(x / 14) ** 2 - ((z - 4) / 18) ** 2) + 2.5 * np.sin(x / 32)
@@ -31,8 +31,9 @@ def second_person(points):
 
 
 def grid():
-    """Nodes (i, k, [x, z]) of a plane grid, and which squares are there: a rectangle of squares is left out for each
-    hole, its border drawn to the ellipse, and the other nodes follow by harmonic displacements."""
+    """Returns the nodes (i, k, [x, z]) of a plane grid, and which of its squares exist. A rectangle of squares is left
+    out for each hole, its border is moved to the hole's ellipse, and the other nodes follow by harmonic
+    displacements."""
     x, z = (np.linspace(LOW[a], HIGH[a], n + 1) for a, n in enumerate((COLUMNS, ROWS)))
     nodes = np.stack(np.meshgrid(x, z, indexing="ij"), axis=-1)
     kept = np.ones((COLUMNS, ROWS), bool)
@@ -57,7 +58,7 @@ def grid():
 
 
 def envelope():
-    """The slab's closed surface: points, triangles wound outwards, side of each."""
+    """Returns the closed surface of the slab: points, triangles with outward normals, and the side of each."""
     nodes, kept = grid()
     depth = np.linspace(0, 1, DEPTHS + 1)
     points = tissue(nodes[:, :, None, 0], nodes[:, :, None, 1], np.broadcast_to(depth, (*nodes.shape[:2], DEPTHS + 1)))
@@ -65,7 +66,8 @@ def envelope():
     quads, sides = [], []
 
     def add(corners, side, inside):
-        """A quadrilateral seen from outside counter-clockwise; `inside` is a node of the cell behind."""
+        """Adds a quadrilateral, which is turned if its normal does not point outwards; `inside` are the nodes of the
+        cell behind it."""
         p = points.reshape(-1, 3)[corners]
         area = np.cross(p[2] - p[0], p[3] - p[1])
         turned = area @ (p.mean(axis=0) - points.reshape(-1, 3)[inside].mean(axis=0)) < 0
@@ -100,7 +102,8 @@ def compact(points, triangles, *arrays):
 
 
 def tube(place, closed, along=48, around=16):
-    """The closed surface of place(t, angle) for t in [0, 1], an endless one if `closed`."""
+    """Returns the surface (points, triangles) of the tube place(t, angle), t in [0, 1]: a ring if `closed`, else a tube
+    with two caps."""
     t = np.arange(along) / along if closed else np.linspace(0, 1, along)
     angle = 2 * np.pi * np.arange(around) / around
     rings = place(t[:, None], angle[None, :])
@@ -119,7 +122,7 @@ def tube(place, closed, along=48, around=16):
 
 
 def strip(start, end, width, low, high):
-    """A flat muscle from `start` to `end` (x, z), between two depths."""
+    """Returns the surface of a flat muscle from `start` to `end` (x, z) between two depths."""
     start, end = np.array(start, float), np.array(end, float)
     across = np.array([-(end - start)[1], (end - start)[0]]) / np.linalg.norm(end - start)
 
@@ -131,7 +134,7 @@ def strip(start, end, width, low, high):
 
 
 def ring(centre, radii, width, low, high):
-    """A flat muscle around a hole, between two depths."""
+    """Returns the surface of a flat muscle around a hole between two depths."""
     def place(t, angle):
         turn, reach = 2 * np.pi * t, width / 2 * np.cos(angle)
         x = centre[0] + (radii[0] + reach) * np.cos(turn)
@@ -141,7 +144,7 @@ def ring(centre, radii, width, low, high):
 
 
 def muscles():
-    """Name -> points and triangles."""
+    """Maps the name of each muscle to the points and triangles of its surface."""
     result = {"orbicularis_oris": ring((0, -30), (28.5, 13.5), 12, 0.25, 0.75)}
     for side, sign in (("right", -1), ("left", 1)):
         result[side + "_masseter"] = strip((sign * 50, -44), (sign * 50, 4), 14, 0.3, 0.8)
@@ -150,7 +153,7 @@ def muscles():
 
 
 def landmarks():
-    """Name -> point of the skin or the bone."""
+    """Maps the name of each landmark to its point on the skin or, for names that end in _deep, on mucosa or bone."""
     places = {}
     for name, (centre, radii) in HOLES.items():
         for corner, direction in (("right", (-1, 0)), ("left", (1, 0)), ("lower", (0, -1)), ("upper", (0, 1))):

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Makes the project's template of a face by VolumetricHexCLI. usage: make_template.py FOLDER
 
-Leaves in FOLDER face.vtu (hexahedra with muscles, layers and sides), face.landmarks.fcsv, and what they were made of:
-envelope.vtp and the muscles. VolumetricHexCLI has to be on the PATH. The shape is in face_shape.py.
+Writes to FOLDER face.vtu (hexahedra with muscles, layers and sides), face.landmarks.fcsv, the report face.json, and the
+inputs, envelope.vtp and the muscles. VolumetricHexCLI has to be on the PATH. The shape is built by face_shape.py.
 """
 import os
 import subprocess
@@ -14,7 +14,7 @@ DIVISIONS = "28,4,28"
 
 
 def make(folder, *more):
-    """`more` are options of VolumetricHexCLI."""
+    """Makes the template in `folder`; `more` are further options of VolumetricHexCLI."""
     os.makedirs(folder, exist_ok=True)
     at = lambda name: os.path.join(folder, name)  # noqa: E731
     face_shape.write_surface(at("envelope.vtp"), *face_shape.envelope())

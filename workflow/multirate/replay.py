@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""A tool that draws tissue aside in the child of a mesh. usage: replay.py PARENT.vtu CHILD.vtu OUTDIR
+"""Simulates a tool that pulls tissue aside in the child of a mesh. usage: replay.py PARENT.vtu CHILD.vtu OUTDIR
 
-The tool takes hold of the child next to its middle, draws 8 mm to the left and up within a second, waits, and lets back.
-Leaves in OUTDIR tool.csv, forces.csv, motion.pvd with its files, report.json, and what they show: multirate.png and
-multirate.gif, which moves. MultirateSolverCLI has to be on the PATH; pictures need a display: run it by
+The tool takes hold of the child near its middle, pulls 8 mm to the left and up within a second, waits, and moves back.
+Writes to OUTDIR tool.csv, forces.csv, motion.pvd with its files, report.json, the picture multirate.png and the
+animation multirate.gif. MultirateSolverCLI has to be on the PATH; pictures need a display: run it by
 ../example/display.py.
 """
 import csv
@@ -22,8 +22,8 @@ MOTION = np.array([7.0, 0, 4])  # mm, LPS
 SECONDS, REACHES = (0, 1, 1.4, 2.4), (0, 1, 1, 0)
 SHOWN = (0, 0.5, 1.2)
 PARENT_RATE = 25
-EVERY = 2  # exchanges, to a frame of the moving picture
-GAP = 24  # pixels between two instants
+EVERY = 2  # exchanges between parent and child per frame of the animation
+GAP = 24  # pixels between the views of two instants
 
 
 def arrays_of(dataset):
@@ -33,7 +33,8 @@ def arrays_of(dataset):
 
 
 def replay(parent, child):
-    """Leaves what the program writes in the working folder."""
+    """Runs MultirateSolverCLI, whose outputs go to the working folder, and returns the point at which the tool takes
+    hold (LPS, mm)."""
     points, array = arrays_of(read_dataset(child))
     inner = points[array("InterfaceId") < 0]
     tip = inner[np.argmin(np.linalg.norm(inner - points.mean(axis=0), axis=1))]
@@ -48,7 +49,8 @@ def replay(parent, child):
 
 
 def displaced_half(frame, tip):
-    """The child's tetrahedra behind the coronal plane through the tip, where they are now; displacements (mm) of each."""
+    """Returns the child's tetrahedra behind the coronal plane through the tip, in their displaced positions, and the
+    mean displacement (mm) of each."""
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
@@ -65,7 +67,7 @@ def displaced_half(frame, tip):
 
 
 def forces():
-    """Seconds and millinewtons of every step."""
+    """Returns the times (s) of all steps and the force on the tool (mN) at each."""
     with open("forces.csv", encoding="ascii") as table:
         rows = list(csv.DictReader(table))
     newton = [np.linalg.norm([float(row["force" + axis]) for axis in "XYZ"]) for row in rows]
@@ -83,7 +85,8 @@ def put_forces(figure, place, rate):
 
 
 def views_of(instants, tip, size):
-    """What is seen at each instant (seconds), all alike in place, scale and colours; and the largest displacement."""
+    """Returns a view for each instant (s), all with the same position, scale and colours, and the largest displacement
+    (mm)."""
     import matplotlib
     from views import View, actor_of, paint
     halves = [displaced_half(round(seconds * PARENT_RATE), tip) for seconds in instants]
@@ -120,7 +123,7 @@ def draw(tip, rate):
 
 
 def animate(tip):
-    """The same at every other exchange, with the tool's tip in red."""
+    """Draws the animation: a frame for every other exchange, with the tip of the tool in red."""
     from matplotlib.font_manager import findfont
     from PIL import Image, ImageDraw, ImageFont
     font = ImageFont.truetype(findfont("DejaVu Sans"), 15)

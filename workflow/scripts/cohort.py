@@ -1,4 +1,4 @@
-"""What the Snakefile asks about a cohort: its patients, the files that a stage reads, and the command that it runs."""
+"""Answers the Snakefile's questions about a cohort: its patients, the files that a stage reads, and its command."""
 import os
 import re
 import shlex
@@ -11,7 +11,7 @@ from options import (PROGRAMS, TRUTHS, OptionError, check_value, flag_named, fla
 
 SETTINGS = {"folder", "threads", "pictures", "options", "patients"}
 PATIENT_NAME = re.compile(r"\w[\w.-]*", re.ASCII)
-NO_WILDCARDS = re.compile(r"[^{}]*")  # which braces are to Snakemake
+NO_WILDCARDS = re.compile(r"[^{}]*")  # Snakemake takes braces as wildcards
 TABLES = ("summary.csv", "summary.md", "volumes.csv")
 
 
@@ -32,9 +32,11 @@ def truth_of(name, text):
 
 
 class Cohort:
-    """`config` is of texts, lists and mappings, with the members folder, threads, pictures (whether they are drawn),
-    options (of all patients) and patients (name -> map and options of its own, or where to find them). Raises
-    ConfigurationError on anything else, and on options that no program takes."""
+    """The patients of a configuration, with their checked options.
+
+    `config` consists of texts, lists and mappings. Its members are folder, threads, pictures (whether they are drawn),
+    options (those of all patients) and patients (see `patients_of`). Raises ConfigurationError for other members or
+    values, and for options that no program takes."""
 
     def __init__(self, config):
         try:
@@ -56,7 +58,7 @@ class Cohort:
                          for name, patient in patients_of(config.get("patients")).items()}
 
     def patient(self, name, patient, common):
-        """The patient's map and options, checked."""
+        """Returns the patient's map and options after checking them. Its own options override those in `common`."""
         if not PATIENT_NAME.fullmatch(name) or name in TABLES:
             raise ConfigurationError(f"patient {name!r}, expected a name of letters, digits, _ - and .")
         if not isinstance(patient, dict) or not isinstance(patient.get("map"), str) or not patient["map"]:
@@ -85,13 +87,14 @@ class Cohort:
             raise ConfigurationError(f"{where}: {error}") from None
 
     def flags_for(self, stage, patient):
-        """(name, Flag) of the options that the patient has and the stage takes."""
+        """Returns (name, Flag) for each option that the patient has and the stage takes."""
         options = self.patients[patient]
         return [(name, flag) for name, flag in self.flags[stage].items()
                 if name in options and is_taken(stage, name, options)]
 
     def files(self, stage, patient):
-        """Input files as they are; missing ones are left to the program, whose message goes into the table."""
+        """Returns the input files of a stage that exist. Missing files are left out here, so that the program reports
+        them and its message appears in the table."""
         options = self.patients[patient]
         files = [file for name, flag in self.flags_for(stage, patient) if flag.is_input
                  for value in values_of(options[name]) for file in values_of_list(flag, value)]
@@ -112,7 +115,8 @@ class Cohort:
                    for name in ("nullDisplacementRadius", "nullDisplacementPathDistance"))
 
     def command(self, stage, patient, folder):
-        """The stage's command but for --threads; it writes into `folder`, whose neighbours are the earlier stages'."""
+        """Returns the stage's command without --threads. It writes to `folder`, which lies beside the folders of the
+        earlier stages."""
         root = os.path.dirname(folder)
         scale, surface = os.path.join(root, "scale"), os.path.join(root, "surface")
         label_map = self.patients[patient]["map"]

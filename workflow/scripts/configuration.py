@@ -1,4 +1,4 @@
-"""A cohort's configuration as text: YAML's guesses at what a scalar means are not for names (010 is no 8)."""
+"""Reads a cohort's configuration as text. YAML would guess the types of values, and the name 010 would become 8."""
 import csv
 import glob
 import os
@@ -10,11 +10,11 @@ MAP_ENDINGS = (".seg.nrrd", ".nii.gz", ".nii", ".nrrd", ".nhdr", ".mha", ".mhd")
 
 
 class ConfigurationError(ValueError):
-    """One line."""
+    """An error in the configuration; its message is one line."""
 
 
 class TextLoader(yaml.BaseLoader):
-    """Scalars are the text that is written; a key that is there twice is refused."""
+    """Loads scalars as the text that the file holds, and refuses keys that occur twice."""
 
     def construct_mapping(self, node, deep=False):
         keys = [self.construct_object(key, deep=True) for key, _ in node.value]
@@ -27,10 +27,10 @@ class TextLoader(yaml.BaseLoader):
 
 
 def read_file(file):
-    """The mapping in a YAML or JSON file, of texts, lists and mappings."""
+    """Returns the mapping in a YAML or JSON file; its values are texts, lists and mappings."""
     try:
         with open(file, encoding="utf-8") as stream:
-            config = yaml.load(stream, TextLoader)  # a loader that makes nothing but text
+            config = yaml.load(stream, TextLoader)  # safe: this loader makes no objects of other types
     except ConfigurationError as error:
         raise ConfigurationError(f"{file}: {error}") from None
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
@@ -43,7 +43,7 @@ def read_file(file):
 
 
 def merged(first, second):
-    """Members of `second` win; mappings are merged member by member."""
+    """Merges two mappings, also within each other's mappings; where both have a value, that of `second` is taken."""
     result = dict(first)
     for name, value in second.items():
         both = isinstance(value, dict) and isinstance(result.get(name), dict)
@@ -60,8 +60,10 @@ def as_text(value):
 
 
 def read_configuration(files, given, loaded):
-    """Of the configuration files, the later ones winning, as text. `given` is what Snakemake made of them and of its
-    --config; members of it that differ from `loaded`, what it reads from the files alone, come from --config."""
+    """Returns the configuration as text; later files override earlier ones, and --config overrides all files.
+
+    `given` is the configuration as Snakemake made it from the files and its option --config, and `loaded` is what
+    Snakemake reads from the files alone. Members that differ between the two come from --config."""
     config = {}
     for file in files:
         config = merged(config, read_file(file))
@@ -70,14 +72,15 @@ def read_configuration(files, given, loaded):
 
 
 def stem_of(file):
-    """The map's file name without its ending."""
+    """Returns the name of the map's file without folder, extension and a final _dseg."""
     name = os.path.basename(file)
     ending = next((ending for ending in MAP_ENDINGS if name.lower().endswith(ending)), "")
     return re.sub(r"_dseg$", "", name[:len(name) - len(ending)])
 
 
 def patient_of(file):
-    """A name for the patient whose map this is: runs of characters that no name has become one _ each."""
+    """Returns a name for the patient whose map this is, the file's stem. Each run of characters that are not allowed in
+    names becomes one _."""
     return re.sub(r"^\W+|[^\w.-]+", "_", stem_of(file), flags=re.ASCII)
 
 
@@ -94,14 +97,15 @@ def from_maps(where, files):
 
 
 def from_bids(folder):
-    """Discrete segmentations (*_dseg) below the folders of subjects."""
+    """Returns the patients whose discrete segmentations (sub-*_dseg.nii.gz) lie anywhere in a BIDS folder."""
     found = [os.path.join(top, name) for top, _, names in os.walk(folder) for name in names
              if re.fullmatch(r"sub-.*_dseg\.nii(\.gz)?", name)]
     return from_maps(f"{folder}, expected a BIDS folder with sub-*_dseg.nii.gz", found)
 
 
 def from_table(file):
-    """A row per patient: the columns patient, map and options; empty fields are options not given."""
+    """Reads the patients from a table with the columns patient and map and a column per option. Empty fields are
+    options that are not given."""
     try:
         with open(file, encoding="utf-8-sig", newline="") as stream:
             rows = list(csv.reader(stream, delimiter="\t" if file.endswith(".tsv") else ","))
@@ -125,7 +129,8 @@ def from_table(file):
 
 
 def patients_of(wanted):
-    """Name -> map and options. `wanted` is such a mapping, or a pattern of maps, a table, or a BIDS folder."""
+    """Returns a mapping from each patient's name to its map and options. `wanted` is such a mapping, a pattern of
+    the names of label maps, a table, or a BIDS folder."""
     if isinstance(wanted, str) and wanted:
         if os.path.isdir(wanted):
             return from_bids(wanted)
@@ -139,8 +144,8 @@ def patients_of(wanted):
 
 
 def with_placeholders(options, patient, map_file):
-    """{patient}, {folder} and {file} in texts stand for the patient's name, and for the folder of its map and the name
-    of that file without the ending."""
+    """Returns the options with their placeholders replaced: {patient} by the patient's name, {folder} by the folder of
+    its map, and {file} by the name of that map without folder and extension."""
     meanings = {"patient": patient, "folder": os.path.dirname(map_file) or ".", "file": stem_of(map_file)}
 
     def filled(value):

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Draws a patient's mesh, mesh.png, and scale, scale.png. usage: picture.py FOLDER LOG
 
-FOLDER is made beside the stages' folders. It stays empty where a stage refused the patient, and where nothing can be
-drawn; LOG says why. Pictures are for a glance: no patient is lost for want of one, so the exit status is 0.
+FOLDER is made beside the folders of the stages. It stays empty if a stage refused the patient or if nothing can be
+drawn; LOG gives the reason. A patient without pictures is still complete, so the exit status is then 0 as well.
 """
 import json
 import os
@@ -26,14 +26,14 @@ def draw(folder):
 
 
 def refusal(folder):
-    """Why there is no mesh, or None."""
+    """Returns the reason why there is no mesh, or None if there is one."""
     with open(os.path.join(os.path.dirname(os.path.abspath(folder)), "mesh", "run.json"), encoding="utf-8") as file:
         run = json.load(file)
     return f"no mesh: {run['error']}" if run["status"] else None
 
 
 def begin(folder, log):
-    """Draws in a process of its own, which may hang or crash."""
+    """Draws in a separate process, because drawing may hang or crash."""
     why = refusal(folder)
     if why:
         log.write(why + "\n")

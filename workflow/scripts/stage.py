@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """Runs one stage for one patient. usage: stage.py STAGE FOLDER LOG [--after FOLDER] -- COMMAND...
 
-Leaves run.json in FOLDER: stage, exit status, error line, seconds and peak memory (bytes). A program that refuses its
-input (exit status 1) or its options (2), or whose engine gives up on them (3), ends so whenever it is run: a result
-like others. If the stage before ended with one, it is handed on and nothing runs. What may go well another time ends
-this script with status 1: signals, and errors that tell of room for outputs, of memory that this machine has, or of
-processes and threads.
+Writes run.json to FOLDER: stage, exit status, error line, seconds and peak memory (bytes). A program that refuses its
+input (exit status 1) or its options (2), or whose engine fails on them (3), would fail again in every run, so its
+failure is recorded as a result, and this script ends with status 0. If the stage whose FOLDER is given by --after
+failed in this way, its run.json is passed on and nothing runs. After failures that may not recur, this script ends with
+status 1: signals, and errors about space for outputs, about memory that this machine has, or about processes and
+threads.
 """
 import argparse
 import json
@@ -17,14 +18,14 @@ import sys
 import time
 
 DONE, BAD_INPUT, BAD_OPTION, FAILURE = range(4)
-# What the programs say where neither the input nor the engine is at fault.
+# Error messages of the programs for which neither the input nor the engine is to blame.
 WANTING = re.compile(r": (can't|cannot) (be (opened for writing|replaced|written(?! as an image))|create a file)"
                      r"|: disk full|, a writable (file|folder) expected|: output was not written$"
                      r"|: not all that was printed could be written"
                      r"|(:| gave up with) out of memory$|: no memory for the exported mesh$"
                      r"|: no process of its own can be started|: Resource temporarily unavailable$")
 ESTIMATE = re.compile(r" ([0-9][0-9.e+]*) GB of memory, found .* available")
-LONGEST = 500  # characters of a line for a table
+LONGEST = 500  # characters of an error line that are kept for the table
 
 
 def read_arguments():
@@ -38,7 +39,7 @@ def read_arguments():
 
 
 def failure_of(folder):
-    """The run.json of a stage that failed, else None."""
+    """Returns the content of run.json if the stage failed, else None."""
     if folder is None:
         return None
     with open(os.path.join(folder, "run.json"), encoding="utf-8") as file:
@@ -47,12 +48,12 @@ def failure_of(folder):
 
 
 def printable(text):
-    """Control characters, which a terminal or a table would obey, are written as escapes."""
+    """Returns the text with control characters, which would disturb a terminal or a table, replaced by escapes."""
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def last_line(text):
-    """What a program says last on stderr is why it ended."""
+    """Returns the last line of a program's stderr, which gives the reason why it ended."""
     lines = [line for line in text.split("\n") if line.strip()]
     return printable(lines[-1]) if lines else "no message"
 
@@ -62,12 +63,12 @@ def shortened(line):
 
 
 def memory_of_machine():
-    """Bytes, whether free or not."""
+    """Returns the size of the machine's memory in bytes, whether free or not."""
     return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
 
 
 def is_result(status, error):
-    """Whether the same files and options end so on this machine whatever else it does."""
+    """Returns whether a run of the same files and options on this machine would always end in this way."""
     if status in (DONE, BAD_OPTION):
         return True
     estimate = ESTIMATE.search(error)
@@ -85,7 +86,7 @@ def run(arguments):
         log.write("\n".join(printable(line) for line in said.split("\n")))
         error = last_line(said)
         if not is_result(process.returncode, error):
-            if process.returncode not in (BAD_INPUT, FAILURE):  # it could not tell why
+            if process.returncode not in (BAD_INPUT, FAILURE):  # the program itself gave no reason
                 end = f"signal {-process.returncode}" if process.returncode < 0 else f"status {process.returncode}"
                 log.write(f"{arguments.command[0]} ended by {end}\n")
             sys.exit(1)

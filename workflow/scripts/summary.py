@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""The tables of a cohort. usage: summary.py FOLDER PATIENT...
+"""Writes the tables of a cohort. usage: summary.py FOLDER PATIENT...
 
-Writes summary.csv and summary.md, a row per patient, and volumes.csv, a row per patient and tissue, into FOLDER, from
-what the stages left in FOLDER/PATIENT. Whatever that is, every patient has a row.
+Reads the results of the stages in FOLDER/PATIENT and writes to FOLDER: summary.csv and summary.md with a row per
+patient, and volumes.csv with a row per patient and tissue. The summary has a row even for patients without results.
 """
 import csv
 import json
@@ -28,7 +28,7 @@ def read_json(*path):
 
 
 def legible(value):
-    """On one line, and without what a terminal or a table would obey."""
+    """Returns the value as one line of text without characters that would disturb a terminal or a table."""
     return printable(str(value).encode("utf-8", "backslashreplace").decode())
 
 
@@ -41,7 +41,7 @@ def last_line(file):
 
 
 def voxel_volume(file):
-    """Of an NRRD volume, mm^3, from its header."""
+    """Returns the volume of a voxel of an NRRD file in mm^3, from the file's header."""
     with open(file, "rb") as stream:
         header = stream.read(65536).partition(b"\n\n")[0].decode("latin1")
     line = next(line for line in header.split("\n") if line.startswith("space directions:"))
@@ -51,7 +51,7 @@ def voxel_volume(file):
 
 
 def volumes(folder, report):
-    """Rows of every tissue: its volume in the prepared map and in the mesh."""
+    """Yields a row for each tissue, with its volumes in the prepared map and in the mesh."""
     voxel = voxel_volume(os.path.join(folder, "surface", "prepared.nrrd"))
     in_map = {}
     for structure in report["surface"]["structures"]:
@@ -79,8 +79,8 @@ def figures(report, tissues):
 
 
 def row_of(folder, patient):
-    """(row, rows of its tissues). State: meshed; refused by a stage, which is a result; or lost at a stage, which the
-    next run tries again."""
+    """Returns the patient's row and the rows of its tissues. The state is "meshed"; "refused by" a stage, which is
+    final; or "lost at" a stage, which the next run tries again."""
     row = {"patient": patient, "state": "meshed"}
     memory = 0
     for stage in STAGES:
@@ -103,7 +103,8 @@ def row_of(folder, patient):
 
 
 def safe_row_of(folder, patient):
-    """As `row_of`; results that cannot be read are a state, too, and leave the other rows alone."""
+    """Returns the same as `row_of`, but for results that cannot be read a row with the state "unreadable", so that the
+    other patients' rows are still written."""
     try:
         return row_of(folder, patient)
     except Exception as error:  # pylint: disable=broad-except
