@@ -85,12 +85,12 @@ std::vector<Vec3> carriedOn(const std::vector<Vec3>& path, double length)
   return result;
 }
 
-/// Radius of curvature at each of some points at equal distances, over chords of about two units on either side;
-/// `points` and `step` are in the same unit.
-std::vector<double> bendRadii(const std::vector<Vec3>& points, double step)
+/// Radius of curvature at each of some points `step` apart, over chords of about `chord` on either side; all are in the
+/// same unit.
+std::vector<double> bendRadii(const std::vector<Vec3>& points, double step, double chord)
 {
   const int count = int(points.size());
-  const int reach = std::clamp(int(std::lround(2 / step)), 1, std::max(1, (count - 1) / 2));
+  const int reach = std::clamp(int(std::lround(chord / step)), 1, std::max(1, (count - 1) / 2));
   std::vector<double> radii(count, std::numeric_limits<double>::infinity());
   for (int n = reach; n + reach < count; ++n)
   {
@@ -119,7 +119,7 @@ std::vector<double> windowMinimum(const std::vector<double>& values, int reach)
   return result;
 }
 
-/// Stiffness (voxel^3) at which smoothing moves a bend of this radius (voxels) by a fiftieth of a voxel, within bounds.
+/// Stiffness (voxel^4) at which smoothing moves a bend of this radius (voxels) by a fiftieth of a voxel, within bounds.
 double stiffnessOf(double bendRadius)
 {
   constexpr double movement = 0.02;
@@ -214,7 +214,7 @@ double fittedRadius(const ProfileTable& table, const std::vector<double>& found)
 
 /// Calls add(m, weight) with Gaussian weights (not normalised) for the points within 2.5 sigma of point n. The window
 /// is shorter at the ends of the path.
-template <typename Value, typename Add>
+template <typename Add>
 void averageAlong(int count, double sigmaInSteps, int n, Add add)
 {
   const int reach = int(std::ceil(2.5 * sigmaInSteps));
@@ -318,7 +318,7 @@ std::vector<Vec3> refinedPath(const Grid& grid, const std::function<double(const
 {
   constexpr int rounds = 6;
   const double voxel = voxelLength(grid);
-  const double volume = voxel * voxel * voxel;
+  const double unit = std::pow(voxel, 4); // of stiffness
   std::vector<Vec3> points = carriedOn(path, 3 * voxel);
   for (int round = 0; round < rounds; ++round)
   {
@@ -336,10 +336,10 @@ std::vector<Vec3> refinedPath(const Grid& grid, const std::function<double(const
     }
     const double mean = std::accumulate(weights.begin(), weights.end(), 0.0) / double(weights.size());
     for (double& weight : weights) weight = mean > 0 ? std::clamp(weight / mean, 0.05, 2.0) : 1;
-    std::vector<double> stiffness(points.size(), 3 * volume);
+    std::vector<double> stiffness(points.size(), 3 * unit);
     const std::vector<Vec3> loose = smoothed(centres, weights, stiffness, step);
-    const std::vector<double> bends = windowMinimum(bendRadii(loose, step / voxel), 6);
-    for (std::size_t n = 0; n < points.size(); ++n) stiffness[n] = stiffnessOf(bends[n] / voxel) * volume;
+    const std::vector<double> bends = windowMinimum(bendRadii(loose, step, 2 * voxel), 6);
+    for (std::size_t n = 0; n < points.size(); ++n) stiffness[n] = stiffnessOf(bends[n] / voxel) * unit;
     points = smoothed(centres, weights, stiffness, step);
   }
   return points;
@@ -394,11 +394,11 @@ std::vector<double> radiiAlong(const FluxField& field, int sign, const std::vect
   for (int n = 0; n < count; ++n)
   {
     std::vector<double> mean(field.radii.size(), 0);
-    averageAlong<double>(count, sigma, n,
-                         [&](int m, double weight)
-                         {
-                           for (std::size_t r = 0; r < mean.size(); ++r) mean[r] += weight * found[m][r];
-                         });
+    averageAlong(count, sigma, n,
+                 [&](int m, double weight)
+                 {
+                   for (std::size_t r = 0; r < mean.size(); ++r) mean[r] += weight * found[m][r];
+                 });
     radii[n] = fittedRadius(table, mean);
   }
   std::vector<double> result(count);
@@ -406,12 +406,12 @@ std::vector<double> radiiAlong(const FluxField& field, int sign, const std::vect
   {
     double sum = 0;
     double total = 0;
-    averageAlong<double>(count, sigma, n,
-                         [&](int m, double weight)
-                         {
-                           sum += weight * radii[m];
-                           total += weight;
-                         });
+    averageAlong(count, sigma, n,
+                 [&](int m, double weight)
+                 {
+                   sum += weight * radii[m];
+                   total += weight;
+                 });
     result[n] = sum / total;
   }
   return result;

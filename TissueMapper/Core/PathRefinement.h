@@ -20,7 +20,7 @@ std::vector<Vec3> resampled(const std::vector<Vec3>& points, double step);
 std::vector<Vec3> tangentsOf(const std::vector<Vec3>& points);
 
 /// Minimises the sum of step * weight * |x - y|^2 over the points plus the integral of stiffness |x''|^2, with free
-/// ends (Whittaker's and Reinsch's smoothing spline on equal steps). `stiffness` (mm^3) by point.
+/// ends (Whittaker's and Reinsch's smoothing spline on equal steps). `stiffness` (mm^4) by point.
 std::vector<Vec3> smoothed(const std::vector<Vec3>& y, const std::vector<double>& weights,
                            const std::vector<double>& stiffness, double step);
 

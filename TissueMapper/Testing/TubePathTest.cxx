@@ -53,6 +53,28 @@ ScalarImage permuted(const ScalarImage& image)
   return result;
 }
 
+/// The same image in another unit of length.
+ScalarImage scaled(ScalarImage image, double scale)
+{
+  image.grid.spacing = scale * image.grid.spacing;
+  image.grid.origin = scale * image.grid.origin;
+  return image;
+}
+
+std::vector<Vec3> scaled(std::vector<Vec3> points, double scale)
+{
+  for (Vec3& p : points) p = scale * p;
+  return points;
+}
+
+TubePathOptions scaledOptions(double scale)
+{
+  TubePathOptions options;
+  options.snapDistance *= scale;
+  options.margin *= scale;
+  return options;
+}
+
 } // namespace
 
 TEST(FluxField, IsThatOfAWaveInClosedForm)
@@ -242,6 +264,25 @@ TEST(TubePath, IsTheSameInObliqueAndAnisotropicFrames)
   oblique.origin = middle - 34.5 * (oblique.axes[0] + oblique.axes[1] + oblique.axes[2]);
   const TubePath turned = traceTube(drawTubes(oblique, scene.tubes), scene.places, {}, {});
   EXPECT_LT(pathError(turned.points, tube.points).largest, 0.1);
+}
+
+TEST(TubePath, ScalesWithTheImage)
+{
+  // A tight coil: where the path bends, smoothing is adapted to the radius of the bend in voxels.
+  std::mt19937 random(7);
+  const TubeScene scene = coilScene(randomPlacement(random), 1, 4);
+  const ScalarImage image = drawn(scene, 0.2);
+  const TubePath tube = traceTube(image, scene.places, {}, {});
+  for (const double scale : { 0.5, 2.0 })
+  {
+    const TubePath other = traceTube(scaled(image, scale), scaled(scene.places, scale), {}, scaledOptions(scale));
+    ASSERT_EQ(other.points.size(), tube.points.size()) << scale;
+    for (std::size_t n = 0; n < tube.points.size(); ++n)
+    {
+      EXPECT_LT(norm(other.points[n] / scale - tube.points[n]), 1e-3) << scale;
+      EXPECT_NEAR(other.radii[n] / scale, tube.radii[n], 1e-3) << scale;
+    }
+  }
 }
 
 TEST(TubePath, IsTheSameOnOneThreadAndMany)
