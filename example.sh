@@ -37,7 +37,7 @@ fi
 if [[ -z ${SURGICALMESHER_BIN:-} ]]; then
   "$root/CMake/build.sh" --for build,example SurgicalPathScaleCLI SimplexMesherCLI FuchsTetrahedralizerCLI
 fi
-export PATH="${SURGICALMESHER_BIN:-$root/build/bin}:$PATH"
+export PATH="$(realpath -m -- "${SURGICALMESHER_BIN:-$root/build/bin}"):$PATH"
 [[ -x $python ]] || refuse 1 "$python: not found, expected the packages of CMake/debian-packages.txt"
 options=$("$python" "$scripts/options.py" "${@:3}") || exit
 inputs=(${map:+"$map"})

@@ -9,6 +9,7 @@ cd "$(dirname "$0")/.."
 list=CMake/debian-packages.txt
 sections=$(sed -n 's/^# \[\([a-z]*\)\].*/\1/p' "$list" | tr '\n' ' ')
 if [[ ${1:-} == --for ]]; then
+  [[ -n ${2:-} ]] || { echo "build.sh: --for is missing its sections, expected some of $sections" >&2; exit 2; }
   wanted=${2//,/ }
   shift 2
 fi

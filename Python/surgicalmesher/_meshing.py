@@ -118,9 +118,9 @@ def _is_at_work(process: int) -> bool:
         return False
     try:
         os.kill(process, 0)
-    except ProcessLookupError:
+    except (ProcessLookupError, OverflowError):  # no number of a process, if too large
         return False
-    except (OSError, OverflowError):  # another user's process, or too large a number to ask about
+    except OSError:  # another user's process
         pass
     return True
 

@@ -42,6 +42,9 @@ trap 'exit 130' INT
 trap 'exit 143' TERM
 "$SURGICALMESHER_BIN/TissueMapperCLI" --training "$training" --names "$work/tissues.ctbl" \
   --report "$work/classification.json" "$image" "$work/tissues.nrrd"
-"$root/example.sh" "$folder" "$work/tissues.nrrd" --names "$work/tissues.ctbl" "${options[@]}"
+status=0
+"$root/example.sh" "$folder" "$work/tissues.nrrd" --names "$work/tissues.ctbl" "${options[@]}" || status=$?
+((status == 0 || status == 3)) || exit "$status" # 3: all is there but the pictures
 mv -f -- "$work"/* "$folder"
 echo "Written to $folder as well: tissues.nrrd tissues.ctbl classification.json"
+exit "$status"

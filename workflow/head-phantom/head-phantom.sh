@@ -32,7 +32,7 @@ t1=$(realpath "$t1")
 if [[ -z ${SURGICALMESHER_BIN:-} ]]; then
   "$root/CMake/build.sh" --for build,example TubePathCLI SurgicalPathScaleCLI SimplexMesherCLI FuchsTetrahedralizerCLI
 fi
-export PATH="${SURGICALMESHER_BIN:-$root/build/bin}:$PATH"
+export PATH="$(realpath -m -- "${SURGICALMESHER_BIN:-$root/build/bin}"):$PATH"
 mkdir -p "$folder" 2>/dev/null || refuse 1 "$folder: the folder cannot be made"
 folder=$(cd "$folder" && pwd)
 work=$(mktemp -d "$folder/.phantom.XXXXXX" 2>/dev/null) || refuse 1 "$folder: nothing can be written there"

@@ -41,7 +41,12 @@ def begin(folder, log):
     python = "/usr/bin/python3"
     command = [python, os.path.join(EXAMPLE, "display.py"), python, os.path.abspath(__file__), "--draw", folder]
     log.flush()
-    subprocess.run(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, timeout=SECONDS, check=False)
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=log, stderr=log) as process:
+        try:
+            process.wait(SECONDS)
+        except subprocess.TimeoutExpired:
+            process.terminate()  # display.py then also ends its server and the process that draws; killed, it could not
+            raise
 
 
 def main():
