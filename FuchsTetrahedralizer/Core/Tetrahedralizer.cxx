@@ -119,7 +119,6 @@ FiniteElementMesh finiteElementMesh(TetMesh mesh, const SizingFunction& length, 
 std::vector<CurveChain> insertedCurves(TetMesh& mesh, const SizingFunction& length, const CurveNetwork& curves,
                                        const TetrahedraImprovementOptions& improvement)
 {
-  if (curves.arcs.empty()) return {};
   CurveInsertionOptions options;
   options.targetAngle = improvement.targetAngle;
   options.surfaceTolerance = improvement.surfaceTolerance;

@@ -189,7 +189,7 @@ std::vector<Curve> fork(std::mt19937& random)
     const double angle = turn + n * 2 * std::acos(-1.0) / 3;
     const Vec3 to =
       from + 6 * Vec3{ std::cos(angle), std::sin(angle) * std::cos(tilt), std::sin(angle) * std::sin(tilt) };
-    Curve curve{ "fork", "fork.vtp", { from, to }, {} };
+    Curve curve{ "fork", "fork.vtp", { from, to }, { 0.3, 0.3 } };
     if (place(random) < 0) std::swap(curve.points[0], curve.points[1]);
     curves.push_back(curve);
   }

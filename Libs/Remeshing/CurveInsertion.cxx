@@ -158,6 +158,7 @@ std::vector<CurveChain> chainsOf(const CurveChains& chains)
 std::vector<CurveChain> insertCurves(TetMesh& mesh, const CurveNetwork& curves, const SizingFunction& length,
                                      const CurveInsertionOptions& options)
 {
+  if (curves.arcs.empty()) return {};
   Neighbourhood neighbourhood(mesh, curves, length);
   TetComplex& complex = neighbourhood.complex();
   CurveNetwork network = curves;

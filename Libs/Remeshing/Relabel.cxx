@@ -10,8 +10,14 @@ bool GuardedOperations::relabel(std::int32_t t, Label label, double minimumQuali
   const TetComplex::Tet x = c.tets[t];
   const Label own = c.labels[t];
   if (label == own || m_Envelope.isHeld() || lenient(label, c.quality(t)) < minimumQuality) return false;
+  bool isBeyond = false; // else t would be a piece of its own, which isSimple() allows the background
   for (int i = 0; i < 4; ++i)
-    if (c.neighbours[t][i] < 0 || c.locked[x[i]]) return false;
+  {
+    const std::int32_t n = c.neighbours[t][i];
+    if (n < 0 || c.locked[x[i]]) return false;
+    if (c.labels[n] == label) isBeyond = true;
+  }
+  if (!isBeyond) return false;
   const auto starAt = [this](std::int32_t v) -> const std::vector<std::int32_t>& { return star(v); };
   if (!isSimple(c, t, own, starAt) || !isSimple(c, t, label, starAt)) return false;
   m_Envelope.clear();

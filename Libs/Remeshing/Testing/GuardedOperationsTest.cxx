@@ -439,6 +439,24 @@ TEST(GuardedOperations, RelabelBesideAThirdLabel)
   EXPECT_GT(done, 10);
 }
 
+TEST(GuardedOperations, MakeNoBackgroundInsideTissues)
+{
+  std::mt19937 random(1);
+  TetComplex complex = complexOf(tetrahedraOf(randomWellComposedMap(random, { 4, 4, 4 }, 3)), 1, float(anyDistance));
+  GuardedOperations operations(complex, [](const Vec3&) { return 1.0f; }, { anyDistance });
+  long tried = 0;
+  for (std::int32_t t = 0; t < std::int32_t(complex.tets.size()); ++t)
+  {
+    const auto& around = complex.neighbours[t];
+    if (complex.labels[t] == 0 ||
+        std::any_of(around.begin(), around.end(), [&](std::int32_t n) { return n < 0 || complex.labels[n] == 0; }))
+      continue;
+    ++tried;
+    EXPECT_FALSE(operations.relabel(t, 0, 0)) << t;
+  }
+  EXPECT_GT(tried, 100);
+}
+
 TEST(GuardedOperations, LetNoVertexLeaveItsSamplesByMoreThanTheBound)
 {
   constexpr double vertexDistance = 1.5;
