@@ -169,8 +169,8 @@ private:
 
   void beginBlock(const std::string& line)
   {
+    requireWholeElement();
     m_Keyword = parseKeyword(line);
-    m_Pending.clear();
     if (m_Keyword.name != "ELEMENT") return;
     const std::string type = upperCase(m_Keyword["TYPE"]);
     const auto shape = shapeOfAbaqus(type);
@@ -218,6 +218,14 @@ private:
     m_Pending.clear();
   }
 
+  void requireWholeElement() const
+  {
+    if (m_Pending.empty()) return;
+    throw InputError(m_File + ": element " + std::to_string(m_Pending[0]) + " has " +
+                     std::to_string(m_Pending.size() - 1) + " of its " + std::to_string(nodeCount(m_Shape)) +
+                     " nodes, expected all its nodes");
+  }
+
   void readSet(const std::string& line, const Fields& fields)
   {
     const bool ofNodes = m_Keyword.name == "NSET";
@@ -245,7 +253,7 @@ private:
 
   void finish()
   {
-    if (!m_Pending.empty()) throw InputError(m_File + ": an element without all its nodes at the end of the file");
+    requireWholeElement();
     m_Mesh.mesh.points = columnsOf(m_Points);
     std::size_t next = 0;
     for (const ElementShape shape : m_Shapes)

@@ -153,6 +153,8 @@ TEST(ElementMeshIO, RefusesFilesAtFault)
   expectRefused("a.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=C3D10\n", "C3D8");
   expectRefused("a.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n", "node 2 is not there");
   expectRefused("a.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=S3\n1, 1, 1\n", "all its nodes");
+  expectRefused("a.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=S3\n1, 1, 1\n*ELSET, ELSET=a\n1\n",
+                "element 1 has 2 of its 3 nodes");
   expectRefused("a.inp", "*NODE\n1, 0, 0, 0\n", "no element");
   expectRefused("a.inp", "", "no point");
   expectRefused("a.obj", "v 0 0\n", "three coordinates");
