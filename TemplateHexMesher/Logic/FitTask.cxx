@@ -105,7 +105,7 @@ FitCheck FitTask::start(vtkMRMLAbstractLogic* module, Node* parameters)
 
 FitSummary FitTask::found(Node* parameters) const
 {
-  return m_Parameters && m_Parameters == parameters ? m_Found : FitSummary();
+  return m_FoundFor && m_FoundFor == parameters ? m_Found : FitSummary();
 }
 
 void FitTask::prepare(Node* parameters)
@@ -182,6 +182,7 @@ void FitTask::deliver(Node* parameters)
 {
   const std::string words = vtkMRMLTr("vtkSlicerTemplateHexMesherLogic", "fitted");
   m_Found = readFitSummary(m_ReportFile);
+  m_FoundFor = parameters;
   auto* fitted =
     resultNode<vtkMRMLModelNode>(parameters, Node::FittedRole(), 0, "vtkMRMLModelNode", m_Name + " " + words);
   readIntoModel(m_FittedFile, fitted);

@@ -77,6 +77,7 @@ private:
   std::string m_Name, m_FittedFile, m_ReportFile;
   std::vector<Carried> m_Carried;
   FitSummary m_Found;
+  vtkWeakPointer<vtkMRMLTemplateHexMesherNode> m_FoundFor; ///< parameter node of the run that gave m_Found
 };
 
 } // namespace surgicalmesher

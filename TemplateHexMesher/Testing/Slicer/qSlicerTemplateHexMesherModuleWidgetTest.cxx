@@ -252,6 +252,29 @@ int checkTransform(const Panel& panel)
   return EXIT_SUCCESS;
 }
 
+/// A result belongs to the parameter node that its run was started for, also while another run is going on.
+int checkTwoParameterNodes(const Panel& panel)
+{
+  fill(panel, slab());
+  panel.apply();
+  CHECK_BOOL(panel.waitForEnd(), true);
+  CHECK_INT(panel.run->GetStatus(), Run::Completed);
+  CHECK_INT(int(panel.logic->GetFound(panel.node()).elements), 160);
+  auto* other = Node::SafeDownCast(panel.host.scene()->AddNewNodeByClass("vtkMRMLTemplateHexMesherNode"));
+  for (const char* role :
+       { Node::TemplateRole(), Node::TargetRole(), Node::TemplateLandmarksRole(), Node::TargetLandmarksRole() })
+    other->SetNode(role, panel.node()->GetNodeReference(role));
+  CHECK_INT(panel.logic->Start(other).problem, FitCheck::None);
+  CHECK_BOOL(panel.run->IsBusy(), true);
+  CHECK_INT(int(panel.logic->GetFound(other).elements), 0);
+  CHECK_INT(int(panel.logic->GetFound(panel.node()).elements), 160);
+  CHECK_BOOL(panel.waitForEnd(), true);
+  CHECK_INT(int(panel.logic->GetFound(other).elements), 160);
+  CHECK_INT(int(panel.logic->GetFound(panel.node()).elements), 0);
+  panel.clear();
+  return EXIT_SUCCESS;
+}
+
 //--- Landmarks --------------------------------------------------------------
 
 /// The preview takes each landmark of the template to its partner, and follows it.
@@ -464,7 +487,7 @@ int qSlicerTemplateHexMesherModuleWidgetTest(int, char*[])
   HostApplication host;
   const Panel panel{ host };
   for (const auto check : { checkSentences, checkPlacing, checkPreview, checkSideBySide, checkApply, checkTransform,
-                            checkFailure, checkCancel, checkSceneClosed })
+                            checkTwoParameterNodes, checkFailure, checkCancel, checkSceneClosed })
   {
     CHECK_EXIT_SUCCESS(check(panel));
     CHECK_STD_STRING(host.complaints(), "");
