@@ -172,11 +172,11 @@ std::vector<Attachment> attached(const ElementMesh& mesh, const Outline& outline
 class Fit
 {
 public:
-  Fit(const ElementMesh& mesh, const LandmarkPairs& landmarks, TargetSurface target, const FitOptions& options)
+  Fit(const ElementMesh& mesh, const LandmarkPairs& landmarks, const ThinPlateSpline& spline, TargetSurface target,
+      const FitOptions& options)
     : m_Mesh(mesh), m_Options(options), m_Target(std::move(target)), m_Outline(outlineOf(mesh)),
-      m_Energy({ ThinPlateSpline(landmarks.source, landmarks.target)(mesh.points), mesh.elements })
+      m_Energy({ spline(mesh.points), mesh.elements })
   {
-    const ThinPlateSpline spline(landmarks.source, landmarks.target);
     m_Spline = m_Energy.reference;
     m_Points = m_Spline;
     m_Landmarks = attached(mesh, m_Outline, landmarks, spline, options.landmarkWeight);
@@ -264,7 +264,8 @@ FitResult fitTemplate(const ElementMesh& mesh, const LandmarkPairs& landmarks, T
                       const FitOptions& options, const Progress& progress)
 {
   report(progress, 0, "spline of the landmarks");
-  Fit fit(mesh, landmarks, std::move(target), options);
+  const ThinPlateSpline spline(landmarks.source, landmarks.target);
+  Fit fit(mesh, landmarks, spline, std::move(target), options);
   const std::vector<EnergyWeights> rounds = fittingRounds(options.alpha);
   const int polishingCount = polishingRounds(mesh);
   const double count = double(rounds.size()) + polishingCount;
