@@ -47,17 +47,27 @@ FoundTube readReport(const std::string& file)
   return found;
 }
 
-/// Returns the tissues that have voxels.
-TissueTable tissuesOf(vtkMRMLLabelMapVolumeNode* labelMap)
+/// Returns the map with a table of the tissues that have voxels: names without voxels, of which a colour table may have
+/// hundreds, take no label from a tube.
+TissueMap presentTissues(vtkMRMLLabelMapVolumeNode* labelMap)
 {
-  const TissueTable table = tissueTable(labelMap);
+  TissueMap map = readTissueMap(labelMap);
   TissueTable present;
-  for (const Label label : presentLabels(readTissueMap(labelMap)))
+  for (const Label label : presentLabels(map)) present[label] = map.table[label];
+  map.table = present;
+  return map;
+}
+
+/// Returns the label of the tissue of this name, or else a free one.
+Label labelOfTube(const TissueMap& map, const std::string& name, const char* labelMap)
+{
+  for (const auto& [label, tissue] : map.table)
   {
-    const auto found = table.find(label);
-    present[label] = found == table.end() ? Tissue() : found->second;
+    if (text::lowerCase(tissue.name) == text::lowerCase(name)) return label;
   }
-  return present;
+  const std::vector<Label> free = freeLabels(map, 1);
+  if (free.empty()) throw InputError(std::string(labelMap) + ": all labels to 65535 are taken, expected a free one");
+  return free.front();
 }
 
 /// Adds a curve that is displayed as a line, with inconspicuous points.
@@ -113,16 +123,12 @@ void TubeTask::prepare(vtkMRMLTissueMapperNode* parameters)
   if (m_Wanted == PathAndTissue) this->prepareTissues(parameters);
 }
 
-/// The label is that of the tissue with the tube's name, or else the one after the largest label in use.
 void TubeTask::prepareTissues(vtkMRMLTissueMapperNode* parameters)
 {
   vtkMRMLLabelMapVolumeNode* tissues = parameters->GetLabelMapNode(Node::LabelMapRole());
-  m_Tissues = tissuesOf(tissues);
-  m_Label = Label(m_Tissues.rbegin()->first + 1);
-  for (const auto& [label, tissue] : m_Tissues)
-  {
-    if (text::lowerCase(tissue.name) == text::lowerCase(m_Name)) m_Label = label;
-  }
+  const TissueMap map = presentTissues(tissues);
+  m_Tissues = map.table;
+  m_Label = labelOfTube(map, m_Name, tissues->GetName());
   const TissueMapNodes nodes = makeTissueMapNodes(tissues);
   if (!nodes.labelMap) throw InputError(std::string(tissues->GetName()) + ": can't be turned into a label map");
   this->run()->AddTemporaryNode(nodes.labelMap);
