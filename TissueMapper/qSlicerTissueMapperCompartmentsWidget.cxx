@@ -11,10 +11,14 @@
 
 #include <vtkMRMLMarkupsNode.h>
 #include <vtkMRMLScalarVolumeNode.h>
+#include <vtkMRMLTransformNode.h>
+
+#include <vtkImageData.h>
 
 #include <QTimer>
 
 #include <string>
+#include <tuple>
 #include <vector>
 
 using surgicalmesher::TaskCheck;
@@ -24,10 +28,20 @@ using Logic = vtkSlicerTissueMapperLogic;
 namespace
 {
 
+/// An image's node ID, and when its voxels and its place were last changed.
+using ImageState = std::tuple<std::string, vtkMTimeType, vtkMTimeType>;
+
+ImageState stateOf(vtkMRMLScalarVolumeNode* image)
+{
+  vtkImageData* voxels = image->GetImageData();
+  vtkMRMLTransformNode* transform = image->GetParentTransformNode();
+  return { image->GetID(), voxels ? voxels->GetMTime() : 0, transform ? transform->GetTransformToWorldMTime() : 0 };
+}
+
 /// Inputs of the compartments.
 struct CompartmentInputs
 {
-  std::vector<std::string> images; ///< node IDs
+  std::vector<ImageState> images;
   surgicalmesher::Markup points;
   std::string classes;
   bool correctBias = false, denoise = false;
@@ -42,7 +56,7 @@ struct CompartmentInputs
 CompartmentInputs inputsOf(Node* parameters)
 {
   CompartmentInputs inputs;
-  for (vtkMRMLScalarVolumeNode* image : parameters->GetImages()) inputs.images.push_back(image->GetID());
+  for (vtkMRMLScalarVolumeNode* image : parameters->GetImages()) inputs.images.push_back(stateOf(image));
   inputs.points = surgicalmesher::labelledPoints(parameters->GetMarkupsNode(Node::TrainingRole()));
   inputs.classes = parameters->GetClasses();
   inputs.correctBias = parameters->GetCorrectBias();

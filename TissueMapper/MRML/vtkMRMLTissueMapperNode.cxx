@@ -13,13 +13,13 @@ vtkMRMLNodeNewMacro(vtkMRMLTissueMapperNode);
 //----------------------------------------------------------------------------
 vtkMRMLTissueMapperNode::vtkMRMLTissueMapperNode()
 {
-  this->AddRoles(
-    { ImageRole(), SecondImageRole(), ThirdImageRole(), FourthImageRole(), FixedImageRole(), MovingImageRole() }, {},
-    { vtkMRMLTransformableNode::TransformModifiedEvent, vtkMRMLVolumeNode::ImageDataModifiedEvent });
+  this->AddRoles({ ImageRole(), SecondImageRole(), ThirdImageRole(), FourthImageRole(), FixedImageRole(),
+                   MovingImageRole(), TubeImageRole() },
+                 {}, { vtkMRMLTransformableNode::TransformModifiedEvent, vtkMRMLVolumeNode::ImageDataModifiedEvent });
   this->AddRoles({ TrainingRole(), TargetRole(), TubePointsRole() }, {},
                  { vtkMRMLTransformableNode::TransformModifiedEvent, vtkMRMLMarkupsNode::PointModifiedEvent,
                    vtkMRMLMarkupsNode::PointAddedEvent, vtkMRMLMarkupsNode::PointRemovedEvent });
-  this->AddRoles({ LabelMapRole(), CompartmentsRole(), RegisteredImageRole(), TubeImageRole(), TubePathRole() }, {});
+  this->AddRoles({ LabelMapRole(), CompartmentsRole(), RegisteredImageRole(), TubePathRole() }, {});
 }
 
 std::vector<vtkMRMLSurgicalMesherParameterNode::Value> vtkMRMLTissueMapperNode::GetValues()

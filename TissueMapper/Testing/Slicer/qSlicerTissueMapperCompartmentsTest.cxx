@@ -24,6 +24,7 @@ namespace
 struct Inputs
 {
   HeadPhantom head = headPhantom(3);
+  vtkMRMLScalarVolumeNode* image = nullptr;
   vtkMRMLMarkupsNode* training = nullptr;
 };
 
@@ -39,7 +40,8 @@ Inputs fill(const Panel& panel)
       inputs.training->SetNthControlPointLabel(n, tissue.name);
     }
   }
-  panel.choose("ImageSelector", addVolume(panel.host.scene(), "T1", inputs.head.image));
+  inputs.image = addVolume(panel.host.scene(), "T1", inputs.head.image);
+  panel.choose("ImageSelector", inputs.image);
   panel.choose("TrainingSelector", inputs.training);
   return inputs;
 }
@@ -97,13 +99,18 @@ int checkFollowing(const Panel& panel)
   CHECK_STD_STRING(
     nodes.leftovers({ "vtkMRMLLabelMapVolumeNode", "vtkMRMLLabelMapVolumeDisplayNode", "vtkMRMLColorTableNode" }), "");
 
-  // Once more when a point is labelled otherwise; the same volume is filled again.
+  // Once more when a point is labelled otherwise, and when the image's voxels change; the same volume is filled again.
   const LeftoverCheck second(panel.host.scene());
-  const vtkMTimeType before = compartments->GetImageData()->GetMTime();
+  const auto isFoundAgain = [&]
+  {
+    const vtkMTimeType before = compartments->GetImageData()->GetMTime();
+    return panel.host.waitUntil([&]
+                                { return compartments->GetImageData()->GetMTime() > before && !panel.run->IsBusy(); });
+  };
   inputs.training->SetNthControlPointLabel(0, "grey matter");
-  CHECK_BOOL(
-    panel.host.waitUntil([&] { return compartments->GetImageData()->GetMTime() > before && !panel.run->IsBusy(); }),
-    true);
+  CHECK_BOOL(isFoundAgain(), true);
+  inputs.image->GetImageData()->Modified(); // as effects that paint in the image do
+  CHECK_BOOL(isFoundAgain(), true);
   CHECK_POINTER(compartmentsOf(panel), compartments);
   CHECK_STD_STRING(second.leftovers(), "");
   CHECK_BOOL(temporaryFiles() == files, true);

@@ -107,10 +107,13 @@ int checkInputs()
   events->ResetNumberOfEvents();
   points->SetNthControlPointLabel(0, "skull");
   CHECK_BOOL(events->GetNumberOfEvents(Node::InputModifiedEvent) > 0, true);
-  events->ResetNumberOfEvents();
   vtkMRMLNode* transform = scene->AddNewNodeByClass("vtkMRMLTransformNode");
-  vtkMRMLTransformableNode::SafeDownCast(ct)->SetAndObserveTransformNodeID(transform->GetID());
-  CHECK_BOOL(events->GetNumberOfEvents(Node::InputModifiedEvent) > 0, true);
+  for (vtkMRMLNode* image : { ct, angiogram })
+  {
+    events->ResetNumberOfEvents();
+    vtkMRMLTransformableNode::SafeDownCast(image)->SetAndObserveTransformNodeID(transform->GetID());
+    CHECK_BOOL(events->GetNumberOfEvents(Node::InputModifiedEvent) > 0, true);
+  }
 
   scene->RemoveNode(t1);
   CHECK_INT(int(node->GetImages().size()), 1);
