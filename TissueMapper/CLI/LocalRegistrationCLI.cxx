@@ -113,6 +113,7 @@ void writeReport(const std::string& file, const CommandLine& line, const Registr
   writeMember(json, "agreeingStarts", found.agreeingStarts);
   writeMember(json, "otherStarts", found.otherStarts);
   writeMember(json, "informationAtStart", found.startInformation);
+  writeMember(json, "informationBefore", found.globalInformationBefore);
   writeMember(json, "information", found.globalInformation);
   writeMember(json, "scale", found.scale);
   writeMap(json, "global", found.global);

@@ -16,9 +16,9 @@ namespace surgicalmesher
 namespace
 {
 
-/// Refines rotation, shift and scale from coarse images on finer ones.
-void refineGlobally(const std::vector<Level>& levels, const PoseSearch& search, LinearParameters pose,
-                    Registration& result)
+/// Refines rotation, shift and scale from coarse images on finer ones. `start` is only compared with the result.
+void refineGlobally(const std::vector<Level>& levels, const PoseSearch& search, const LinearParameters& start,
+                    LinearParameters pose, Registration& result)
 {
   const Extent& extent = search.extent();
   const LinearParameters first = pose;
@@ -26,6 +26,7 @@ void refineGlobally(const std::vector<Level>& levels, const PoseSearch& search, 
   for (const Level& level : levels)
   {
     MutualInformation information = level.information(extent.centre);
+    result.globalInformationBefore = information.at(start);
     pose = information.maximise(similaritiesFrom(pose, extent.radius), 7);
     result.globalInformation = information.at(pose);
     overlap = information.overlap();
@@ -78,7 +79,8 @@ Registration registerImages(const ScalarImage& fixed, const ScalarImage& moving,
   report(progress, 0.1, "starts");
   std::vector<Pose> poses = startingPoses(options, search);
   Registration result;
-  result.startInformation = poses.front().information;
+  const Pose start = poses.front();
+  result.startInformation = start.information;
   search.follow(poses);
   const Pose found = search.best(poses, 1, 0).front();
   report(progress, 0.3, "convergence");
@@ -88,7 +90,7 @@ Registration registerImages(const ScalarImage& fixed, const ScalarImage& moving,
 
   report(progress, 0.5, "all");
   const std::vector<Vec3> more = samplesEverywhere(fixed.grid, options.mask, 40000);
-  refineGlobally({ level(2, more), level(1, more) }, search, found.parameters, result);
+  refineGlobally({ level(2, more), level(1, more) }, search, start.parameters, found.parameters, result);
   if (!options.target) return result;
   report(progress, 0.75, "around the target");
   const Sphere& target = *options.target;

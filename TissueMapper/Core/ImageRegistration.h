@@ -44,8 +44,8 @@ struct Registration
   std::optional<LinearMap> local; ///< from and to the same worlds, with all twelve parameters
   double scale = 1;               ///< scale of `global`
   double startInformation = 0;    ///< of the best start on coarse images: mutual information (nats) times overlap
-  /// Mutual information (nats) of the whole images at `global`, on the finest images.
-  double globalInformation = 0;
+  double globalInformationBefore = 0; ///< mutual information (nats) of the whole images at that start, on the finest
+  double globalInformation = 0;       ///< the same at `global`
   double targetInformationBefore = 0; ///< around the target, at `global`
   double targetInformation = 0;       ///< around the target, at `local`
   int agreeingStarts = 0;             ///< how many of the other starts converge to within 3 mm of the best pose

@@ -50,6 +50,9 @@ TEST_F(LocalRegistrationCLI, WritesTheImageTheTransformAndAReport)
   EXPECT_NEAR(report["scale"].GetDouble(), 1 / phantomScale, 0.01);
   EXPECT_EQ(report["local"].Size(), 3u);
   EXPECT_GE(report["agreeingStarts"].GetInt(), 4);
+  ASSERT_TRUE(report.HasMember("informationBefore"));
+  EXPECT_LT(report["informationBefore"].GetDouble(), report["information"].GetDouble());
+  EXPECT_LT(report["targetInformationBefore"].GetDouble(), report["targetInformation"].GetDouble());
 
   expectDone("--sphere 8,-35,-30,45 --transform u.tfm --threads 1 ct.nrrd mr.nrrd b.nrrd");
   EXPECT_EQ(readBytes(folder.file("a.nrrd")), readBytes(folder.file("b.nrrd")));
