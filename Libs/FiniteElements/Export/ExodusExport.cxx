@@ -32,7 +32,7 @@ struct Block
 const std::map<std::string, std::string> kSolids{
   { "tet4", "TETRA" }, { "penta6", "WEDGE" }, { "hex8", "HEX8" }, { "tet10", "TETRA10" }
 };
-const std::map<std::size_t, std::string> kFaces{ { 3, "TRI3" }, { 4, "SHELL4" }, { 6, "TRI6" } };
+const std::map<std::string, std::string> kFaces{ { "tri3", "TRI3" }, { "quad4", "SHELL4" }, { "tri6", "TRI6" } };
 
 /// Returns the side number of Exodus for a face of a tetrahedron, wedge or hexahedron.
 int sideOf(const Cell& element, int face)
@@ -60,20 +60,17 @@ std::vector<Block> blocksOf(const FiniteElementModel& model)
   int next = static_cast<int>(model.elements.size());
   for (const Shell& shell : model.shells)
   {
-    std::map<std::size_t, Block> bySize;
-    for (const Cell& cell : shell.cells)
+    for (const Portion& portion : portionsOf(shell))
     {
-      const std::string& type = kFaces.at(cell.size());
-      Block& block =
-        bySize.try_emplace(cell.size(), Block{ shell.name, type, {}, {}, "thickness", shell.thickness }).first->second;
-      block.cells.push_back(cell);
-      block.numbers.push_back(++next);
-    }
-    for (auto& [size, block] : bySize)
-    {
-      if (bySize.size() > 1) block.name += size == 4 ? "_quad4" : "_tri3";
+      Block block{ portion.name, kFaces.at(portion.shape), {}, {}, "thickness", shell.thickness };
+      for (const std::int32_t i : portion.elements)
+      {
+        block.cells.push_back(shell.cells[i]);
+        block.numbers.push_back(next + i + 1);
+      }
       blocks.push_back(std::move(block));
     }
+    next += static_cast<int>(shell.cells.size());
   }
   for (const Beam& beam : model.beams)
   {

@@ -6,7 +6,7 @@
 #include "TextNumbers.h"
 #include "Units.h"
 
-#include <map>
+#include <numeric>
 #include <set>
 
 namespace surgicalmesher
@@ -101,15 +101,49 @@ void appendParts(std::string& text, const FiniteElementModel& model)
   std::size_t next = model.elements.size();
   for (const Shell& shell : model.shells)
   {
-    text += "    <Elements type=\"" + typeOfFace(shell.cells[0]) + "\" name=\"" + shell.name + "\">\n";
-    for (const Cell& cell : shell.cells) appendRow(text, "elem", cell, ++next);
-    text += "    </Elements>\n";
+    for (const Portion& part : portionsOf(shell))
+    {
+      text += "    <Elements type=\"" + part.shape + "\" name=\"" + part.name + "\">\n";
+      for (const std::int32_t i : part.elements) appendRow(text, "elem", shell.cells[i], next + i + 1);
+      text += "    </Elements>\n";
+    }
+    next += shell.cells.size();
   }
   for (const Beam& beam : model.beams)
   {
     text += "    <Elements type=\"line2\" name=\"" + beam.name + "\">\n";
     for (const Cell& edge : beam.edges) appendRow(text, "elem", edge, ++next);
     text += "    </Elements>\n";
+  }
+}
+
+void appendElementSet(std::string& text, const std::string& name, const std::vector<std::int32_t>& elements)
+{
+  text += "    <ElementSet name=\"" + name + "\">\n";
+  appendIds(text, elements, kIdsPerLine, ",");
+  text += "    </ElementSet>\n";
+}
+
+/// Appends the element sets, and the shells of several parts; what is one part is already an element set of its name.
+void appendElementSets(std::string& text, const FiniteElementModel& model)
+{
+  std::set<std::int32_t> parts;
+  for (const Section& section : model.sections)
+  {
+    if (portionsOf(model, model.elementSets[section.elementSet]).size() == 1) parts.insert(section.elementSet);
+  }
+  for (std::size_t i = 0; i < model.elementSets.size(); ++i)
+  {
+    const ElementSet& set = model.elementSets[i];
+    if (parts.count(static_cast<std::int32_t>(i)) == 0) appendElementSet(text, set.name, set.elements);
+  }
+  auto next = static_cast<std::int32_t>(model.elements.size());
+  for (const Shell& shell : model.shells)
+  {
+    std::vector<std::int32_t> elements(shell.cells.size());
+    std::iota(elements.begin(), elements.end(), next);
+    if (portionsOf(shell).size() > 1) appendElementSet(text, shell.name, elements);
+    next += static_cast<std::int32_t>(elements.size());
   }
 }
 
@@ -127,18 +161,7 @@ void appendSets(std::string& text, const FiniteElementModel& model)
     for (std::size_t i = 0; i < set.cells.size(); ++i) appendRow(text, typeOfFace(set.cells[i]), set.cells[i], i + 1);
     text += "    </Surface>\n";
   }
-  std::set<std::int32_t> parts; // these are already element sets of the same name
-  for (const Section& section : model.sections)
-  {
-    if (portionsOf(model, model.elementSets[section.elementSet]).size() == 1) parts.insert(section.elementSet);
-  }
-  for (std::size_t i = 0; i < model.elementSets.size(); ++i)
-  {
-    if (parts.count(static_cast<std::int32_t>(i)) != 0) continue;
-    text += "    <ElementSet name=\"" + model.elementSets[i].name + "\">\n";
-    appendIds(text, model.elementSets[i].elements, kIdsPerLine, ",");
-    text += "    </ElementSet>\n";
-  }
+  appendElementSets(text, model);
 }
 
 void appendDomains(std::string& text, const FiniteElementModel& model)
@@ -153,8 +176,9 @@ void appendDomains(std::string& text, const FiniteElementModel& model)
   }
   for (const Shell& shell : model.shells)
   {
-    text += "    <ShellDomain" + attributes(shell.name, shell.material) + ">\n      <shell_thickness>" +
-            textOf(shell.thickness) + "</shell_thickness>\n    </ShellDomain>\n";
+    for (const Portion& part : portionsOf(shell))
+      text += "    <ShellDomain" + attributes(part.name, shell.material) + ">\n      <shell_thickness>" +
+              textOf(shell.thickness) + "</shell_thickness>\n    </ShellDomain>\n";
   }
   for (const Beam& beam : model.beams)
   {

@@ -141,7 +141,7 @@ private:
   }
 
   /// Returns for each point the piece that owns it: the first surface on which it lies, otherwise the first volume;
-  /// volumes are indexed after all surfaces.
+  /// volumes are indexed after all surfaces. The first volume owns the points that no element uses.
   Ids owners() const
   {
     Ids owner(m_Points.size(), -1);
@@ -161,6 +161,7 @@ private:
       }
       ++piece;
     }
+    std::replace(owner.begin(), owner.end(), -1, static_cast<std::int32_t>(m_Tags.facePieces.size()));
     return owner;
   }
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <iterator>
 #include <map>
 #include <set>
@@ -77,12 +78,14 @@ double enclosedVolume(const std::vector<Vec3>& p, const std::vector<Cell>& faces
   return volume;
 }
 
-std::string written(const std::string& name)
+std::string written(const std::string& name, const FiniteElementModel& model)
 {
   const test::TemporaryFolder folder;
-  exportModel(finiteElementModel(row()), folder.file(name));
+  exportModel(model, folder.file(name));
   return test::readBytes(folder.file(name));
 }
+
+std::string written(const std::string& name) { return written(name, finiteElementModel(row())); }
 
 /// The part of a text between two others.
 std::string between(const std::string& text, const std::string& from, const std::string& to)
@@ -154,6 +157,45 @@ TEST(SolidExport, FebioDividesAPartOfSeveralShapes)
        { "type=\"hex8\" name=\"skin\"", "type=\"hex8\" name=\"muscle_hex8\"", "type=\"penta6\" name=\"muscle_penta6\"",
          "<SolidDomain name=\"muscle_penta6\"", "<ElementSet name=\"muscle\">", "<quad4 id=\"1\">1,4,3,2</quad4>" })
     EXPECT_NE(text.find(part), std::string::npos) << part;
+}
+
+TEST(SolidExport, FebioDividesAShellOfSeveralShapes)
+{
+  FiniteElementOptions options;
+  options.shells = { { 2, -1, 0.5 } };
+  const std::string text = written("m.feb", finiteElementModel(row(), options));
+  const auto rowsOf = [&](const std::string& type)
+  { return between(text, "<Elements type=\"" + type + "\" name=\"muscle_shell_" + type + "\">\n", "    </Elements>"); };
+  const std::string triangles = rowsOf("tri3"), quads = rowsOf("quad4");
+  EXPECT_EQ(std::count(triangles.begin(), triangles.end(), '\n'), 4);
+  EXPECT_EQ(std::count(triangles.begin(), triangles.end(), ','), 4 * 2);
+  EXPECT_EQ(std::count(quads.begin(), quads.end(), '\n'), 8);
+  EXPECT_EQ(std::count(quads.begin(), quads.end(), ','), 8 * 3);
+  EXPECT_EQ(text.find("name=\"muscle_shell\" mat"), std::string::npos);
+  for (const char* name : { "<ShellDomain name=\"muscle_shell_tri3\"", "<ShellDomain name=\"muscle_shell_quad4\"",
+                            "<ElementSet name=\"muscle_shell\">" })
+    EXPECT_NE(text.find(name), std::string::npos) << name;
+}
+
+TEST(SolidExport, GmshHasTheNodesThatNoElementUses)
+{
+  SolidMesh mesh = row();
+  mesh.points.push_back({ 9, 9, 9 });
+  const std::string nodes = between(written("m.msh", finiteElementModel(mesh)), "$Nodes\n", "$EndNodes");
+  std::istringstream numbers(nodes);
+  std::size_t blocks = 0, count = 0, first = 0, last = 0, read = 0;
+  numbers >> blocks >> count >> first >> last;
+  EXPECT_EQ(count, 17u);
+  for (std::size_t b = 0; b < blocks; ++b)
+  {
+    std::size_t dimension = 0, entity = 0, parametric = 0, size = 0;
+    double skipped = 0;
+    numbers >> dimension >> entity >> parametric >> size;
+    EXPECT_LE(entity, 4u);
+    for (std::size_t n = 0; n < 4 * size; ++n) numbers >> skipped; // tags, then coordinates
+    read += size;
+  }
+  EXPECT_EQ(read, 17u);
 }
 
 TEST(SolidExport, GmshAndMeditHaveAllShapes)
