@@ -18,6 +18,22 @@ constexpr int kWedgeFaces[5][4] = {
 constexpr int kHexahedronFaces[6][4] = { { 0, 3, 2, 1 }, { 4, 5, 6, 7 }, { 0, 1, 5, 4 },
                                          { 1, 2, 6, 5 }, { 2, 3, 7, 6 }, { 3, 0, 4, 7 } };
 
+/// Of a tetrahedron of second order: the corners as in kFaceCorners, then the nodes between them.
+constexpr int kTenNodeFaces[4][6] = {
+  { 1, 2, 3, 5, 9, 8 }, { 0, 3, 2, 7, 9, 6 }, { 0, 1, 3, 4, 8, 7 }, { 0, 2, 1, 6, 5, 4 }
+};
+
+template <class Places>
+Cell nodesAt(const Places& places, const Cell& element)
+{
+  Cell result;
+  for (const int place : places)
+  {
+    if (place != kNone) result.append(element[place]);
+  }
+  return result;
+}
+
 std::vector<std::int32_t> sortedUnique(std::vector<std::int32_t> ids)
 {
   std::sort(ids.begin(), ids.end());
@@ -27,21 +43,17 @@ std::vector<std::int32_t> sortedUnique(std::vector<std::int32_t> ids)
 
 } // namespace
 
-int faceCount(const Cell& element) { return element.size() == 4 ? 4 : element.size() == 6 ? 5 : 6; }
+int faceCount(const Cell& element) { return element.size() == 6 ? 5 : element.size() == 8 ? 6 : 4; }
 
 Cell faceOf(const Cell& element, int face)
 {
-  Cell result;
-  if (element.size() == 4)
+  switch (element.size())
   {
-    for (const int corner : kFaceCorners[face]) result.append(element[corner]);
-    return result;
+  case 6: return nodesAt(kWedgeFaces[face], element);
+  case 8: return nodesAt(kHexahedronFaces[face], element);
+  case 10: return nodesAt(kTenNodeFaces[face], element);
+  default: return nodesAt(kFaceCorners[face], element);
   }
-  for (const int corner : element.size() == 6 ? kWedgeFaces[face] : kHexahedronFaces[face])
-  {
-    if (corner != kNone) result.append(element[corner]);
-  }
-  return result;
 }
 
 Cell turnedRound(const Cell& face)

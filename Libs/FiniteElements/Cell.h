@@ -57,10 +57,11 @@ struct ElementFace
   std::int32_t face;
 };
 
+/// Elements of ten nodes have four faces of six.
 int faceCount(const Cell& element);
 Cell faceOf(const Cell& element, int face);
 
-/// Returns the same face with the opposite orientation and the same first node.
+/// Returns the same face, of three or four nodes, with the opposite orientation and the same first node.
 Cell turnedRound(const Cell& face);
 
 /// Returns the cell with VTK's node numbering, in which the triangles of a wedge have the opposite orientation; other

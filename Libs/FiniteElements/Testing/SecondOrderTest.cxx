@@ -72,6 +72,17 @@ TEST_P(SecondOrder, ElementsFacesAndShellsHaveThem)
   for (std::size_t s = 0; s < first.surfaces.size(); ++s)
     expectCompleted(first.surfaces[s].cells, second.surfaces[s].cells);
   expectCompleted(first.shells[0].cells, second.shells[0].cells);
+  std::vector<Cell> before, after;
+  for (std::size_t e = 0; e < first.elements.size(); ++e)
+  {
+    ASSERT_EQ(faceCount(second.elements[e]), 4);
+    for (int f = 0; f < 4; ++f)
+    {
+      before.push_back(faceOf(first.elements[e], f));
+      after.push_back(faceOf(second.elements[e], f));
+    }
+  }
+  expectCompleted(before, after);
 }
 
 TEST_P(SecondOrder, SetsOfNodesHaveThoseThatBelongToThem)
