@@ -40,6 +40,12 @@ void requireIds(const MeshFile& file, const char* which)
                      "'s points have no VolumePointId, expected a file of "
                      "FuchsTetrahedralizerCLI --" +
                      which + "Mesh");
+  std::vector<std::int32_t> ids = file.volumePointId;
+  std::sort(ids.begin(), ids.end());
+  const auto twice = std::adjacent_find(ids.begin(), ids.end());
+  if (twice != ids.end())
+    throw InputError("VolumePointId " + std::to_string(*twice) + " stands twice in the " + which +
+                     ", expected every id once");
 }
 
 std::vector<std::int32_t> allIds(const MeshFile& parent, const MeshFile& child)

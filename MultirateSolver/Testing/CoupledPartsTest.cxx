@@ -91,6 +91,9 @@ TEST(CoupledParts, RefusesWhatAreNoPartsOfOneMesh)
   for (std::int32_t& id : other.child.volumePointId) id += 100000;
   EXPECT_NE(refusalOf(other.parent, other.child).find("share no point"), std::string::npos);
   other = box;
+  other.child.volumePointId[1] = other.child.volumePointId[0];
+  EXPECT_NE(refusalOf(other.parent, other.child).find("stands twice in the child"), std::string::npos);
+  other = box;
   for (Vec3& point : other.child.mesh.points) point.x += 1;
   EXPECT_NE(refusalOf(other.parent, other.child).find("expected the two parts of one mesh"), std::string::npos);
 }
