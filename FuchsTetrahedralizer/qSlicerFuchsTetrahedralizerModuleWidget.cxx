@@ -395,8 +395,10 @@ void qSlicerFuchsTetrahedralizerModuleWidget::apply()
   if (!d->Parameters) return;
   d->say({});
   d->IsMeshNew = !d->Parameters->GetModelNode(vtkMRMLFuchsTetrahedralizerNode::MeshRole());
-  d->logic()->Start(d->Parameters);
+  const bool isStarted = d->logic()->Start(d->Parameters);
   this->updateFromNode();
+  const QString failure = QString::fromStdString(d->logic()->GetRun()->GetErrorText());
+  if (!isStarted && d->RunWidget->problem().isEmpty() && !failure.isEmpty()) d->RunWidget->setProblem(failure);
 }
 
 void qSlicerFuchsTetrahedralizerModuleWidget::onRunEnded()
@@ -426,15 +428,18 @@ void qSlicerFuchsTetrahedralizerModuleWidget::onExport()
   Q_D(qSlicerFuchsTetrahedralizerModuleWidget);
   if (!d->mesh()) return;
   QStringList filters;
+  QString filter;
   for (const Logic::Format& format : Logic::GetExportFormats())
+  {
     filters
       << QString("%1 (*%2)").arg(QString::fromStdString(format.description), QString::fromStdString(format.extension));
-  QString filter = filters.value(1);
+    if (format.extension == ".inp") filter = filters.last(); // chosen at first
+  }
   QString file = QFileDialog::getSaveFileName(this, tr("Export tetrahedra"), QString::fromUtf8(d->mesh()->GetName()),
                                               filters.join(";;"), &filter);
   if (file.isEmpty()) return;
   const QString extension = QString::fromStdString(Logic::GetExportFormats()[filters.indexOf(filter)].extension);
-  if (QFileInfo(file).suffix().isEmpty()) file += extension;
+  if (!Logic::HasExportExtension(file.toStdString())) file += extension; // a name may have dots of its own
   this->exportMesh(file);
 }
 

@@ -220,7 +220,13 @@ bool vtkSlicerFuchsTetrahedralizerLogic::Prepare(vtkMRMLFuchsTetrahedralizerNode
   this->Parameters = parameters;
   this->PrepareSurface(parameters);
   this->PrepareLengths(parameters);
-  this->PrepareConstitutiveClasses(parameters);
+  const std::string failure = failureOf([&] { this->PrepareConstitutiveClasses(parameters); });
+  if (!failure.empty())
+  {
+    this->Run->SetCommandLineLogic(nullptr); // releases the nodes
+    this->Run->SetErrorText(failure);
+    return false;
+  }
   this->PrepareOutputs(parameters);
   this->Run->SetParameter("materials", parameters->GetMaterialsFile());
   this->Run->SetParameter("shellThickness", parameters->GetShellThickness());
@@ -449,6 +455,11 @@ std::vector<vtkSlicerFuchsTetrahedralizerLogic::Format> vtkSlicerFuchsTetrahedra
   std::vector<Format> formats;
   for (const ExportFormat& format : exportFormats()) formats.push_back({ format.extension, format.description });
   return formats;
+}
+
+bool vtkSlicerFuchsTetrahedralizerLogic::HasExportExtension(const std::string& file)
+{
+  return hasExportExtension(file);
 }
 
 std::string vtkSlicerFuchsTetrahedralizerLogic::Export(vtkMRMLFuchsTetrahedralizerNode* parameters,

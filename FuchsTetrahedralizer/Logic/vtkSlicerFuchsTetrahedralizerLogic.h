@@ -132,6 +132,8 @@ public:
     std::string description;
   };
   static std::vector<Format> GetExportFormats();
+  /// Whether a file's extension is that of one of these formats.
+  static bool HasExportExtension(const std::string& file);
   /// Writes the parameter node's mesh in world coordinates, with its materials and shells, in the format given by the
   /// file extension: the same file as that of FuchsTetrahedralizerCLI --export. Returns an empty text, or the error;
   /// files appear completely or not at all.

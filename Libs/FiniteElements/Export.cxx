@@ -23,6 +23,21 @@
 
 namespace surgicalmesher
 {
+namespace
+{
+
+/// Returns the format of `file` by its extension, one of two dots before one of one; null if it is unknown.
+const ExportFormat* findFormat(const std::string& file)
+{
+  const std::string extension = text::extensionOf(file);
+  const std::string ofTwo = text::extensionOf(std::filesystem::path(file).stem().string()) + extension;
+  const ExportFormat* found = nullptr;
+  for (const ExportFormat& format : exportFormats())
+    if (format.extension == ofTwo || (!found && format.extension == extension)) found = &format;
+  return found;
+}
+
+} // namespace
 
 const std::vector<ExportFormat>& exportFormats()
 {
@@ -50,19 +65,14 @@ const std::vector<ExportFormat>& exportFormats()
   return formats;
 }
 
+bool hasExportExtension(const std::string& file) { return findFormat(file) != nullptr; }
+
 const ExportFormat& exportFormatOf(const std::string& file)
 {
-  const std::string extension = text::extensionOf(file);
-  const std::string ofTwo = text::extensionOf(std::filesystem::path(file).stem().string()) + extension;
-  const ExportFormat* found = nullptr;
+  if (const ExportFormat* found = findFormat(file)) return *found;
   std::string known;
-  for (const ExportFormat& format : exportFormats())
-  {
-    if (format.extension == ofTwo || (!found && format.extension == extension)) found = &format;
-    known += (known.empty() ? "" : ", ") + format.extension;
-  }
-  if (found) return *found;
-  throw UsageError(file + ": extension \"" + extension + "\" found, one of " + known + " expected");
+  for (const ExportFormat& format : exportFormats()) known += (known.empty() ? "" : ", ") + format.extension;
+  throw UsageError(file + ": extension \"" + text::extensionOf(file) + "\" found, one of " + known + " expected");
 }
 
 void requireOrder(const std::string& file, int order)

@@ -25,6 +25,9 @@ struct ExportFormat
 /// Returns all formats, ascending by extension.
 const std::vector<ExportFormat>& exportFormats();
 
+/// Whether the extension of `file` is that of a format, in upper or lower case.
+bool hasExportExtension(const std::string& file);
+
 /// Returns the format of `file` by its extension, in upper or lower case. Throws UsageError, with the known extensions,
 /// if it is unknown.
 const ExportFormat& exportFormatOf(const std::string& file);

@@ -538,6 +538,9 @@ TEST(Export, RefusesUnknownExtensionsWithTheKnownOnes)
         EXPECT_NE(std::string(error.what()).find(format.extension), std::string::npos);
     }
   }
+  EXPECT_TRUE(hasExportExtension("folder.vtu/M.INP"));
+  EXPECT_FALSE(hasExportExtension("Skull 1.5 mm"));
+  EXPECT_FALSE(hasExportExtension("mesh"));
   EXPECT_EQ(exportFormatOf("folder.vtu/M.INP").extension, ".inp");
   EXPECT_EQ(exportFormatOf("a.b.Simnibs.MSH").extension, ".simnibs.msh");
   EXPECT_EQ(exportFormatOf("simnibs.msh").extension, ".msh");
