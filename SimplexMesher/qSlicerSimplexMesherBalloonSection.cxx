@@ -169,7 +169,12 @@ void qSlicerSimplexMesherBalloonSection::apply()
 {
   Q_D(qSlicerSimplexMesherBalloonSection);
   if (!d->Parameters || !d->BalloonRunWidget->problem().isEmpty()) return;
-  if (!d->Logic->GetBalloons().start(d->Parameters)) return;
+  if (!d->Logic->GetBalloons().start(d->Parameters))
+  {
+    const std::string failure = d->Logic->GetBalloons().run()->GetErrorText();
+    if (!failure.empty()) d->BalloonRunWidget->setProblem(QString::fromStdString(failure));
+    return;
+  }
   d->GrowthTimer.start();
   emit this->runStarted();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "BalloonRun.h"
 
+#include "Errors.h"
 #include "HostDifferences.h"
 #include "MarkupsInput.h"
 #include "MeshIO.h"
@@ -121,15 +122,31 @@ bool BalloonRun::prepare(vtkMRMLSimplexMesherNode* parameters)
   setInput("names", map.colors);
   if (parameters->GetUseScale()) setInput("scale", copyForRun(parameters->GetScalarVolumeNode(Node::ScaleRole())));
   else m_Run->SetParameter("edgeLength", parameters->GetEdgeLength());
-  const std::string seeds = m_Run->NewTemporaryFile(".mrk.json");
-  writeLabelledMarkups({ labelledPoints(seedsOf(parameters)) }, seeds);
-  m_Run->SetParameter("seeds", seeds);
+  if (!this->prepareSeeds(parameters)) return false;
   m_Run->SetParameter("stop", stopsOf(parameters));
   m_Run->SetParameter("limit", parameters->GetBalloonLimit());
   m_Run->SetParameter("rigidity", parameters->GetBalloonRigidity());
   m_Run->SetParameter("threads", parameters->GetThreads());
   this->prepareOutputs(parameters);
   m_Parameters = parameters;
+  return true;
+}
+
+/// Returns false, with the run's error, if the temporary file can't be written.
+bool BalloonRun::prepareSeeds(vtkMRMLSimplexMesherNode* parameters)
+{
+  const std::string seeds = m_Run->NewTemporaryFile(".mrk.json");
+  try
+  {
+    writeLabelledMarkups({ labelledPoints(seedsOf(parameters)) }, seeds);
+  }
+  catch (const Error& error)
+  {
+    m_Run->SetCommandLineLogic(nullptr); // releases the nodes
+    m_Run->SetErrorText(error.what());
+    return false;
+  }
+  m_Run->SetParameter("seeds", seeds);
   return true;
 }
 

@@ -42,7 +42,8 @@ public:
   /// Returns why a parameter node cannot be run, apart from its map and edge lengths.
   BalloonProblem findProblem(vtkMRMLSimplexMesherNode* parameters) const;
 
-  /// Starts a run, unless there is a problem or a run is busy. Outputs without a node are created, and set in the
+  /// Starts a run, unless there is a problem or a run is busy. Returns false if it could not be started; for other
+  /// reasons than these, the run's GetErrorText() has them. Outputs without a node are created, and set in the
   /// parameter node once the run completes. The map and the edge lengths must be free of problems
   /// (vtkSlicerSimplexMesherLogic::FindProblem).
   bool start(vtkMRMLSimplexMesherNode* parameters);
@@ -56,6 +57,7 @@ public:
 
 private:
   bool prepare(vtkMRMLSimplexMesherNode* parameters);
+  bool prepareSeeds(vtkMRMLSimplexMesherNode* parameters);
   void prepareOutputs(vtkMRMLSimplexMesherNode* parameters);
   void finish();
 
