@@ -11,6 +11,7 @@
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
+#include <mutex>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -114,6 +115,15 @@ int endOf(pid_t child)
   return WIFEXITED(status) ? WEXITSTATUS(status) : kFailed;
 }
 
+/// Held from the opening of a pipe to the closing of its writing end here: a process forked by another thread in
+/// between would keep that end open, and the reader would not see that its own child has crashed. Never destroyed,
+/// since a thread may start a process while the program ends.
+std::mutex& startingMutex()
+{
+  static auto& mutex = *new std::mutex;
+  return mutex;
+}
+
 [[noreturn]] void refuseToStart(int failure)
 {
   throw EngineError("no process of its own can be started for a library (" + std::string(std::strerror(failure)) + ")");
@@ -123,8 +133,10 @@ int endOf(pid_t child)
 
 SeparateProcess::SeparateProcess(const std::function<std::string()>& work, int mostSeconds)
 {
+  std::unique_lock<std::mutex> starting(startingMutex());
   int ends[2];
   if (pipe(ends) != 0) refuseToStart(errno);
+  for (const int end : ends) fcntl(end, F_SETFD, FD_CLOEXEC);
 #ifdef __linux__
   const pid_t parent = getpid();
 #endif
@@ -135,12 +147,14 @@ SeparateProcess::SeparateProcess(const std::function<std::string()>& work, int m
     prctl(PR_SET_PDEATHSIG, SIGKILL);        // a cancelled run takes its child along
     if (getppid() != parent) _exit(kFailed); // the parent ended before that
 #endif
+    starting.unlock(); // the work may start a process as well
     close(ends[0]);
     setLimits(mostSeconds);
     runAsChild(ends[1], work);
   }
   const int failure = errno;
   close(ends[1]);
+  starting.unlock();
   m_Answers = ends[0];
   if (m_Child >= 0) return;
   close(m_Answers);

@@ -9,10 +9,12 @@
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 #ifndef _WIN32
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -92,6 +94,32 @@ TEST(SeparateProcess, WhatWaitsTooLongEndsWhateverHasBecomeOfAlarms)
   const auto sleeping = []() -> std::string { return std::to_string(sleep(30)); }; // that uses no processor time
   EXPECT_EQ(runInSeparateProcess(sleeping, 1), std::nullopt);
   EXPECT_EQ(patient.answer(), large) << "waits as long, but its work was done";
+}
+
+TEST(SeparateProcess, OneThatAnotherThreadStartsDoesNotHideACrash)
+{
+  for (int time = 0; time < 200; ++time)
+  {
+    std::atomic<int> ready{ 0 };
+    const auto meet = [&]
+    {
+      for (++ready; ready < 2;)
+      {
+      }
+    };
+    std::unique_ptr<SeparateProcess> endless;
+    std::thread other(
+      [&]
+      {
+        meet();
+        endless = std::make_unique<SeparateProcess>([] { return std::to_string(sleep(3600)); });
+        while (ready < 3) sched_yield(); // Linux ends a child with the thread that started it
+      });
+    meet();
+    EXPECT_EQ(runInSeparateProcess([]() -> std::string { std::_Exit(1); }), std::nullopt); // else waits for the other
+    ready = 3;
+    other.join();
+  }
 }
 
 TEST(SeparateProcess, WhatCannotBeStartedIsNoMissingAnswer)
