@@ -45,6 +45,16 @@ bool isTaken(const Stage& stage, const Parameter& parameter, const ModuleDescrip
   return !focus.count(parameter.name) || isGiven("nonlinearDistance", program, options);
 }
 
+/// Returns a file's name so that it remains one in a list separated by commas: in quotes, if need be, and quotes in it
+/// twice.
+std::string oneOfAList(const std::string& name)
+{
+  if (name.find_first_of(",\"") == std::string::npos) return name;
+  std::string quoted = "\"";
+  for (const char c : name) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
 void addValue(Stage& stage, const RunRequest& request, const Parameter& parameter, const std::string& value)
 {
   std::string text = value;
@@ -53,8 +63,7 @@ void addValue(Stage& stage, const RunRequest& request, const Parameter& paramete
     if (parameter.output) checkValue(parameter, value);
     text = parameter.output ? placeOfOutput(request, value) : absolutePath(value);
     (parameter.output ? stage.outputs : stage.inputs).push_back(text);
-    const bool isOneOfAList = parameter.multiple && parameter.output && text.find(',') != std::string::npos;
-    if (isOneOfAList) text = "\"" + text + "\"";
+    if (parameter.multiple && parameter.output) text = oneOfAList(text);
   }
   stage.arguments.push_back("--" + parameter.longFlag + "=" + text);
 }

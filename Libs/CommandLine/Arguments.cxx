@@ -51,6 +51,30 @@ std::size_t changesBetween(const std::string& a, const std::string& b)
   return row[b.size()];
 }
 
+/// Splits at commas. A value is in quotes if it begins with one: then it may contain commas, and "" for a quote.
+/// Otherwise a quote is part of a file's name.
+std::vector<std::string> splitFiles(const std::string& value)
+{
+  std::vector<std::string> parts = text::split(value, ',');
+  if (parts.size() > 1)
+    for (std::string& part : parts) part = text::trimmed(part);
+  const bool isQuoted =
+    std::any_of(parts.begin(), parts.end(), [](const std::string& part) { return text::trimmed(part)[0] == '"'; });
+  return isQuoted || parts.empty() ? text::splitFields(value) : parts;
+}
+
+/// Returns the files that a value of a list of files stands for. It is one name with a comma in it if there is such a
+/// file, and also if a part of it cannot be meant as an output, for lack of an extension.
+std::vector<std::string> filesIn(const Parameter& parameter, const std::string& value)
+{
+  if (std::filesystem::exists(value)) return { value };
+  std::vector<std::string> parts = splitFiles(value);
+  const bool needsExtension = parameter.output && !parameter.extensions.empty();
+  const auto isHalfAName = [](const std::string& part) { return !part.empty() && text::extensionOf(part).empty(); };
+  if (needsExtension && std::any_of(parts.begin(), parts.end(), isHalfAName)) return { value };
+  return parts;
+}
+
 class Parser
 {
 public:
@@ -188,8 +212,8 @@ private:
   {
     std::vector<std::string>& values = m_Result.values[parameter.name];
     if (!values.empty() && !parameter.multiple) throw UsageError(parameter.spelling() + ": given twice, once expected");
-    const bool isList = parameter.multiple && parameter.isFile() && !std::filesystem::exists(value);
-    for (const std::string& part : isList ? text::splitFields(value) : std::vector<std::string>{ value })
+    const bool isList = parameter.multiple && parameter.isFile();
+    for (const std::string& part : isList ? filesIn(parameter, value) : std::vector<std::string>{ value })
     {
       checkValue(parameter, part);
       values.push_back(part);

@@ -416,6 +416,7 @@ bool answerQuestion(const std::vector<std::string>& arguments, const std::string
 int runModule(int argc, char** argv, const std::string& xml, const std::function<void(CommandLine&)>& module)
 {
   openStandardStreams();
+  keepStatusOfChildren();
   const std::string executable = argc > 0 ? std::filesystem::path(argv[0]).stem().string() : std::string("module");
   std::unique_ptr<CommandLine> line;
   const auto failed = [&](int status, const std::string& message)

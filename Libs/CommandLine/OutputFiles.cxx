@@ -4,7 +4,7 @@
 #include "Errors.h"
 #include "Platform.h"
 #include "PrintableText.h"
-#include "Text.h"
+#include "TextFile.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -115,21 +115,53 @@ void requireWritten(const fs::path& temporary, const fs::path& path)
     throw InputError(path.string() + ": disk full or failing, room for the file expected");
 }
 
+struct Replaced
+{
+  std::string path;
+  std::string earlier; ///< another name of the file that was there before; empty if there was none
+};
+
+/// Gives the file at `path`, if any, a second name, by which it can be put back. The name is that of a temporary file,
+/// so that a later run removes it if this one is killed. A link leaves the file itself in place all the time.
+Replaced aboutToReplace(const std::string& path)
+{
+  const fs::path place(path);
+  const std::string second = (place.parent_path() / temporaryName("earlier." + place.filename().string())).string();
+  removeOnSignal(second);
+  std::error_code error;
+  fs::create_hard_link(path, second, error);
+  return { path, error ? std::string() : second };
+}
+
+void putBack(const std::vector<Replaced>& files)
+{
+  for (const Replaced& file : files)
+  {
+    std::error_code error;
+    if (file.earlier.empty()) fs::remove(file.path, error);
+    else fs::rename(file.earlier, file.path, error);
+  }
+}
+
 void moveIntoPlace(const std::map<std::string, std::string>& temporaryByFinal)
 {
   for (const auto& [path, temporary] : temporaryByFinal) requireWritten(temporary, path);
-  std::vector<std::string> inPlace;
+  std::vector<Replaced> inPlace;
+  std::error_code error;
   for (const auto& [path, temporary] : temporaryByFinal)
   {
-    std::error_code error;
+    const Replaced file = aboutToReplace(path);
     fs::rename(temporary, path, error);
     if (error)
     {
-      for (const std::string& file : inPlace) fs::remove(file, error);
+      putBack(inPlace);
+      if (!file.earlier.empty()) fs::remove(file.earlier, error);
       throw InputError(path + ": can't be replaced, a writable file expected");
     }
-    inPlace.push_back(path);
+    inPlace.push_back(file);
   }
+  for (const Replaced& file : inPlace)
+    if (!file.earlier.empty()) fs::remove(file.earlier, error);
   if (!inPlace.empty()) outputIsInPlace();
 }
 
@@ -214,6 +246,21 @@ OutputFiles::~OutputFiles()
   {
     std::error_code error;
     fs::remove(temporary, error);
+  }
+}
+
+void writeWhole(const std::string& bytes, const std::string& file)
+{
+  OutputFiles files;
+  const std::string temporary = files.temporary(file);
+  try
+  {
+    writeBytes(bytes, temporary);
+    files.commit();
+  }
+  catch (const InputError& error)
+  {
+    throw InputError(files.withFinalNames(error.what()));
   }
 }
 

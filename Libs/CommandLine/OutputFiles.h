@@ -33,7 +33,8 @@ public:
   std::string withFinalNames(std::string message) const;
 
   /// Renames every file into place. Throws EngineError if one was not written, InputError if the disk refuses it; then
-  /// no file of this run is left under its final name.
+  /// no file of this run is left under its final name, and earlier files are there again (as far as the file system
+  /// knows hard links).
   void commit();
 
   /// Does the same for one file, independently of the others.
@@ -55,5 +56,9 @@ private:
   std::set<std::string> m_CleanedFolders;
   std::vector<std::string> m_Committed;
 };
+
+/// Writes `bytes` to a file that appears whole or not at all. Throws InputError, with the file's own name, if it can't
+/// be written.
+void writeWhole(const std::string& bytes, const std::string& file);
 
 } // namespace surgicalmesher

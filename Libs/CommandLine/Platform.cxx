@@ -27,6 +27,7 @@
 #include <cerrno>
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #endif
 #ifdef __GLIBC__
@@ -199,6 +200,7 @@ void installSignalHandlers(const std::string& program)
 bool stdoutIsTerminal() { return _isatty(_fileno(stdout)) != 0; }
 
 void openStandardStreams() {}
+void keepStatusOfChildren() {}
 
 namespace
 {
@@ -325,10 +327,16 @@ void openStandardStreams()
   }
 }
 
+void keepStatusOfChildren() { std::signal(SIGCHLD, SIG_DFL); }
+
 std::string hostName()
 {
   char name[256] = {};
-  return gethostname(name, sizeof(name) - 1) == 0 && name[0] ? name : "host";
+  const std::string host = gethostname(name, sizeof(name) - 1) == 0 && name[0] ? name : "host";
+  struct stat space
+  {
+  };
+  return stat("/proc/self/ns/pid", &space) == 0 ? host + "-" + std::to_string(space.st_ino) : host;
 }
 
 int processId() { return int(getpid()); }

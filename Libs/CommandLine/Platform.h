@@ -13,6 +13,10 @@ bool stdoutIsTerminal();
 /// next file opened would take their descriptor and receive what is printed. Does nothing on Windows.
 void openStandardStreams();
 
+/// Makes the status of processes that this one starts known to it, even if whoever started this one ignored SIGCHLD,
+/// which it would inherit. Does nothing on Windows.
+void keepStatusOfChildren();
+
 /// From now on, large arrays are returned to the system as soon as they are freed, where the C library (glibc) would
 /// keep them; some tens of megabytes stay for the next allocations.
 void returnFreedMemory();
@@ -27,6 +31,8 @@ void useLargePages();
 /// reader has closed it is no error.
 void requireStdoutWritten();
 
+/// Name of the host, and on Linux the number of the namespace of process ids: containers may share a name and a folder,
+/// and have processes of the same id nevertheless.
 std::string hostName();
 int processId();
 bool processIsAlive(int id); ///< on this host; true if that cannot be determined

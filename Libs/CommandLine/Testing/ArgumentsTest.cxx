@@ -103,6 +103,26 @@ TEST(Arguments, anExistingFileWithACommaIsOneFile)
   std::filesystem::remove(file);
 }
 
+TEST(Arguments, outputsKeepCommasAndQuotesInTheirNames)
+{
+  const ModuleDescription description = parseModuleDescription(
+    "<executable><title>Test</title><version>1</version><parameters><label>Files</label><description>Files</description>"
+    "<file multiple=\"true\" fileExtensions=\".inp,.k\"><name>models</name><label>Models</label>"
+    "<longflag>export</longflag><description>Files</description><channel>output</channel></file>"
+    "</parameters></executable>");
+  const auto models = [&](const std::string& value) {
+    return parseArguments(description, { "--export", value }).values["models"];
+  };
+  EXPECT_EQ(models("a.inp,b.k"), (Words{ "a.inp", "b.k" }));
+  EXPECT_EQ(models("a.inp, b.k"), (Words{ "a.inp", "b.k" }));
+  EXPECT_EQ(models("\"a,1.inp\",\"b\"\"2.k\""), (Words{ "a,1.inp", "b\"2.k" }));
+  EXPECT_EQ(models("q/a\"b.inp"), Words{ "q/a\"b.inp" });
+  EXPECT_EQ(models("q/a\"b.inp,c.k"), (Words{ "q/a\"b.inp", "c.k" }));
+  EXPECT_EQ(models("q/g, h.k"), Words{ "q/g, h.k" });
+  for (const char* value : { "a.doc,b.inp", "a.inp,,b.inp", "a.inp,", "" })
+    EXPECT_THROW(models(value), UsageError) << value;
+}
+
 TEST(Arguments, pointsMayBeNegative)
 {
   EXPECT_EQ(valuesOf("point", { "--point", "-1,2,.5", "--point", "0,0,-10" }), (Words{ "-1,2,.5", "0,0,-10" }));

@@ -10,6 +10,9 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#ifndef _WIN32
+#include <sys/resource.h>
+#endif
 
 namespace fs = std::filesystem;
 using namespace surgicalmesher;
@@ -166,6 +169,56 @@ TEST_F(OutputFilesTest, oneThatCanNotBeRenamedTakesTheOthersBack)
   EXPECT_EQ(content(), Names{ "b.vtp" });
 }
 
+TEST_F(OutputFilesTest, oneThatCanNotBeRenamedLetsTheEarlierOnesComeBack)
+{
+  write(folder / "a.vtp", "old");
+  {
+    OutputFiles outputs;
+    write(outputs.temporary((folder / "a.vtp").string()), "new");
+    write(outputs.temporary((folder / "b.vtp").string()), "new");
+    fs::create_directories(folder / "b.vtp" / "in the way");
+    EXPECT_THROW(outputs.commit(), InputError);
+  }
+  EXPECT_EQ(content(), (Names{ "a.vtp", "b.vtp" }));
+  EXPECT_EQ(read(folder / "a.vtp"), "old");
+}
+
+TEST_F(OutputFilesTest, severalReplaceEarlierOnesAndLeaveNoneOfThem)
+{
+  for (const char* text : { "old", "new" })
+  {
+    OutputFiles outputs;
+    for (const char* name : { "a.vtp", "b.nii.gz" }) write(outputs.temporary((folder / name).string()), text);
+    outputs.commit();
+    EXPECT_EQ(content(), (Names{ "a.vtp", "b.nii.gz" }));
+    EXPECT_EQ(read(folder / "a.vtp"), text);
+  }
+}
+
+#ifndef _WIN32
+TEST_F(OutputFilesTest, aFileThatCanNotBeWrittenIsCalledByItsName)
+{
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit little{ 10, before.rlim_max };
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &little);
+  std::string message;
+  try
+  {
+    writeWhole(std::string(100, 'x'), (folder / "run.toml").string());
+  }
+  catch (const InputError& error)
+  {
+    message = error.what();
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(message.find((folder / "run.toml").string() + ": can't be written"), 0u) << message;
+  EXPECT_EQ(content(), Names{});
+}
+#endif
+
 TEST_F(OutputFilesTest, refuseImpossiblePlaces)
 {
   OutputFiles outputs;
@@ -200,8 +253,11 @@ TEST_F(OutputFilesTest, removeWhatKilledRunsLeftInTheFolderAndNothingElse)
 {
   // No process can have this id: it is beyond what any kernel hands out.
   const std::string dead = hostName() + "-2147483646", alive = hostName() + "-" + std::to_string(processId());
-  const Names kept{ ".a.vtp." + alive + ".partial.vtp.bak", ".a.vtp.elsewhere-2147483646.partial.vtp",
-                    "b.vtp." + dead + ".partial.vtp", ".a.vtp." + hostName() + "-1.partial.vtp",
+  const Names kept{ ".a.vtp." + alive + ".partial.vtp.bak",
+                    ".a.vtp.elsewhere-2147483646.partial.vtp",
+                    ".a.vtp." + hostName() + "1-2147483646.partial.vtp", // of another namespace of processes
+                    "b.vtp." + dead + ".partial.vtp",
+                    ".a.vtp." + hostName() + "-1.partial.vtp",
                     ".a.vtp." + dead + ".partial.vtu" };
   for (const std::string& name : kept) write(folder / name, "x");
   write(folder / (".a.vtp." + dead + ".partial.vtp"), "x");
