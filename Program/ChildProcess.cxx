@@ -15,6 +15,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstring>
 
 namespace surgicalmesher
 {
@@ -22,7 +23,7 @@ namespace surgicalmesher
 namespace
 {
 
-constexpr std::array<int, 3> signals{ SIGINT, SIGTERM, SIGHUP };
+constexpr std::array<int, 5> signals{ SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE };
 std::atomic<pid_t> runningChild{ 0 };
 std::atomic<int> caughtSignal{ 0 };
 
@@ -182,20 +183,45 @@ void readBoth(const Pipe& out, const Pipe& errors, std::string& errorText,
   std::array<pollfd, 2> open{ pollfd{ out.reading(), POLLIN, 0 }, pollfd{ errors.reading(), POLLIN, 0 } };
   while (open[0].fd >= 0 || open[1].fd >= 0)
   {
-    if (poll(open.data(), open.size(), -1) < 0) continue; // a signal
+    if (poll(open.data(), open.size(), -1) < 0)
+    {
+      if (errno == EINTR) continue;
+      throw EngineError(std::string("what a program prints cannot be waited for (") + std::strerror(errno) + ")");
+    }
     if (open[0].revents && !readSome(open[0].fd, text)) open[0].fd = -1;
     if (open[1].revents && !readSome(open[1].fd, errorText)) open[1].fd = -1;
     handOutLines(text, eachLine);
   }
+  if (!text.empty()) eachLine(text);
 }
 
 int waitFor(pid_t child)
 {
   int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+  while (waitpid(child, &status, 0) < 0)
   {
+    if (errno != EINTR) throw EngineError(std::string("a program's status is lost (") + std::strerror(errno) + ")");
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// Reads what the child prints, to its end, and waits for it; if that fails, ends the child.
+ChildOutcome outcomeOf(pid_t child, const Pipe& out, const Pipe& errors,
+                       const std::function<void(const std::string&)>& eachLine)
+{
+  ChildOutcome outcome;
+  try
+  {
+    readBoth(out, errors, outcome.errors, eachLine);
+  }
+  catch (...)
+  {
+    kill(child, SIGTERM);
+    waitpid(child, nullptr, 0);
+    throw;
+  }
+  outcome.status = waitFor(child);
+  return outcome;
 }
 
 } // namespace
@@ -211,9 +237,7 @@ ChildOutcome runChild(const std::string& program, const std::vector<std::string>
   if (caughtSignal) kill(child, caughtSignal); // it came before the child was known
   out.closeWriting();
   errors.closeWriting();
-  ChildOutcome outcome;
-  readBoth(out, errors, outcome.errors, eachLine);
-  outcome.status = waitFor(child);
+  const ChildOutcome outcome = outcomeOf(child, out, errors, eachLine);
   if (caughtSignal) throw Interrupted{ caughtSignal };
   return outcome;
 }

@@ -11,9 +11,16 @@
 
 #include <rapidjson/document.h>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <limits>
 
 namespace fs = std::filesystem;
 
@@ -36,15 +43,58 @@ struct Figures
   double seconds = 0; ///< summed over all processors
 };
 
+/// The beginning of the names of this host's scratch folders; the process and random letters follow.
+std::string scratchName() { return "surgicalmesher-" + hostName() + "-"; }
+
+/// The process that a scratch folder of this host belongs to; 0 for any other name.
+int ownerOfScratch(const std::string& name)
+{
+  const std::string before = scratchName();
+  if (name.compare(0, before.size(), before) != 0) return 0;
+  long owner = 0;
+  text::parseInteger(name.substr(before.size(), name.rfind('.') - before.size()), 1, std::numeric_limits<int>::max(),
+                     owner);
+  return int(owner);
+}
+
+/// Removes the scratch folders of killed runs of the same user.
+void removeLeftovers(const fs::path& place)
+{
+  std::error_code error;
+  std::vector<fs::path> leftovers;
+  for (fs::directory_iterator entry(place, error), end; !error && entry != end; entry.increment(error))
+  {
+    const int owner = ownerOfScratch(entry->path().filename().string());
+    struct stat status = {};
+    const bool isOurs = owner > 0 && !processIsAlive(owner) && lstat(entry->path().c_str(), &status) == 0 &&
+                        S_ISDIR(status.st_mode) && status.st_uid == geteuid();
+    if (isOurs) leftovers.push_back(entry->path());
+  }
+  for (const fs::path& leftover : leftovers) fs::remove_all(leftover, error);
+}
+
+/// Makes a folder that nobody else can have foreseen, and only this user can open. Throws InputError if it cannot.
+std::string madeScratchFolder()
+{
+  std::error_code error;
+  const fs::path place = fs::temp_directory_path(error);
+  const char* const given = std::getenv("TMPDIR");
+  if (error)
+    throw InputError(std::string("TMPDIR: ") + (given ? given : "/tmp") +
+                     " is no folder, a folder for temporary files expected");
+  removeLeftovers(place);
+  std::string path = (place / (scratchName() + std::to_string(processId()) + ".XXXXXX")).string();
+  if (!mkdtemp(path.data()))
+    throw InputError("TMPDIR: no folder can be made in " + place.string() + " (" + std::strerror(errno) +
+                     "), a folder to write temporary files to expected");
+  return path;
+}
+
 /// A temporary folder, removed with its contents at the end of its lifetime.
 class ScratchFolder
 {
 public:
-  ScratchFolder()
-    : m_Path(fs::temp_directory_path() / ("surgicalmesher-" + hostName() + "-" + std::to_string(processId())))
-  {
-    fs::create_directory(m_Path);
-  }
+  ScratchFolder() : m_Path(madeScratchFolder()) {}
   ~ScratchFolder()
   {
     std::error_code error;
@@ -52,10 +102,10 @@ public:
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
-  std::string path() const { return m_Path.string(); }
+  const std::string& path() const { return m_Path; }
 
 private:
-  fs::path m_Path;
+  std::string m_Path;
 };
 
 void runStages(const RunRequest& request, const std::string& programs, CommandLine& line, const Progress& progress)
@@ -102,24 +152,23 @@ void writeFigures(const Figures& figures, const std::string& file)
 
 void estimateCommand(CommandLine& line, const std::string& programs, const std::string& xml)
 {
-  const ScratchFolder folder;
   RunOptions given = line.givenValues();
   given.erase("estimate");
-  const RunRequest request{ absolutePath(line.text("labelMap")), folder.path(),
-                            completedOptions(given, parseModuleDescription(xml)) };
   const Progress progress = line.progress();
+  Figures figures;
   try
   {
+    const ScratchFolder folder; // is gone before anything is printed: the reader of that may be gone, and end this run
+    const RunRequest request{ absolutePath(line.text("labelMap")), folder.path(),
+                              completedOptions(given, parseModuleDescription(xml)) };
     runStages(request, programs, line, progress);
+    figures = readFigures(folder.path() + "/scale.json");
   }
   catch (const Interrupted& end)
   {
-    std::error_code error;
-    fs::remove_all(folder.path(), error);
-    std::signal(end.signal, SIG_DFL);
-    std::raise(end.signal);
+    std::raise(end.signal); // handled as in every program: says so, and removes what is half written
+    throw EngineError("interrupted");
   }
-  const Figures figures = readFigures(folder.path() + "/scale.json");
   line.message("memory: about " + text::rounded(figures.bytes / 1e6) + " MB at most");
   line.message("time: about " + text::rounded(figures.seconds, 2) + " s on one processor");
   const std::string file = line.outputFile("estimate");

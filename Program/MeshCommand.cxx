@@ -18,6 +18,7 @@
 #include <csignal>
 #include <filesystem>
 #include <iterator>
+#include <set>
 
 namespace fs = std::filesystem;
 
@@ -111,11 +112,10 @@ void requireInputsKept(const std::vector<std::string>& outputs, const std::vecto
   }
 }
 
+/// Not one of the command line's outputs: this file may be the --config of the run.
 void writeConfiguration(const std::string& configuration, const fs::path& folder)
 {
-  OutputFiles file; // not one of the command line's outputs: this file may be the --config of the run
-  writeBytes(configuration, file.temporary((folder / "run.toml").string()));
-  file.commit();
+  writeWhole(configuration, (folder / "run.toml").string());
 }
 
 /// State of the results folder while the stages run.
@@ -125,7 +125,8 @@ struct Results
   std::vector<std::string> given; ///< the user's files, some of which may lie in the folder
   std::string configuration;      ///< of the current run
   RunRecord record;
-  bool hasEarlier; ///< whether an earlier run left a record; results of the current run do not count
+  bool hasEarlier;                 ///< whether an earlier run left a record; results of the current run do not count
+  std::vector<std::string> others; ///< stages of the earlier run that the current one does not have
 };
 
 void writeRecord(const Results& results, CommandLine& line)
@@ -134,31 +135,49 @@ void writeRecord(const Results& results, CommandLine& line)
   line.tellWritten((results.folder / "stages.json").string());
 }
 
-/// Removes the outputs of a stage and its record. Files outside the folder stay: exports to other places, and whatever
-/// a record from another folder names.
-void removeOutputs(const std::string& stage, Results& results)
+/// Returns the files in the folder that a stage of the record has written. Files elsewhere are left out: exports to
+/// other places, and whatever a record from another folder names.
+std::vector<fs::path> outputsInFolder(const std::string& stage, const Results& results)
 {
-  for (const auto& output : results.record[stage].outputs)
+  std::vector<fs::path> files;
+  const auto recorded = results.record.find(stage);
+  if (recorded == results.record.end()) return files;
+  for (const auto& output : recorded->second.outputs)
   {
     const fs::path file(output.first);
-    const std::string path = (results.folder / file).string();
-    const bool isGiven = std::find(results.given.begin(), results.given.end(), path) != results.given.end();
+    if (file == file.filename()) files.push_back(results.folder / file);
+  }
+  return files;
+}
+
+/// Removes the outputs of a stage, except those at the places `kept`, and its record.
+void removeOutputs(const std::string& stage, const std::set<std::string>& kept, Results& results)
+{
+  for (const fs::path& file : outputsInFolder(stage, results))
+  {
     std::error_code error;
-    if (file == file.filename() && !isGiven) fs::remove(path, error);
+    if (kept.count(placeOf(file.string())) == 0) fs::remove(file, error);
   }
   results.record.erase(stage);
 }
 
-/// Removes what was made from results that are about to change (outputs of stages, and the report), so that the folder
-/// never holds results that do not fit together. run.toml is not removed but replaced by the options of the current
-/// run: it may have been the --config of the run, and be needed for that again.
-void removeEarlier(const std::vector<std::string>& stages, Results& results, CommandLine& line)
+/// Removes what was made from results that have just changed (outputs of stages, and the report), so that the folder
+/// never holds results that do not fit together. The files that the current run has just `written` stay, and the user's
+/// files, by whatever path they were given. run.toml is not removed but replaced by the options of the current run: it
+/// may have been the --config of the run, and be needed for that again.
+void removeEarlier(std::vector<std::string> stages, const std::vector<std::string>& written, Results& results,
+                   CommandLine& line)
 {
+  stages.insert(stages.end(), results.others.begin(), results.others.end());
+  results.others.clear();
   if (stages.empty() || !results.hasEarlier) return;
   std::error_code error;
   fs::remove(results.folder / "report.html", error);
   if (fs::exists(results.folder / "run.toml", error)) writeConfiguration(results.configuration, results.folder);
-  for (const std::string& stage : stages) removeOutputs(stage, results);
+  std::set<std::string> kept;
+  for (const std::string& file : results.given) kept.insert(placeOf(file));
+  for (const std::string& file : written) kept.insert(placeOf(file));
+  for (const std::string& stage : stages) removeOutputs(stage, kept, results);
   writeRecord(results, line);
 }
 
@@ -199,19 +218,71 @@ std::map<std::string, std::string> writtenBy(const Stage& stage, const std::vect
   return written;
 }
 
-/// Runs the stages whose results do not hold any more, and updates the record.
-void runStages(const RunRequest& request, const std::string& configuration, const std::string& programs,
-               CommandLine& line, const Progress& progress)
+/// Returns when the outputs of a stage of the record were last written.
+std::map<std::string, fs::file_time_type> timesOf(const std::string& stage, const Results& results)
 {
-  const std::vector<Stage> stages = stagesOf(request);
+  std::map<std::string, fs::file_time_type> times;
+  for (const fs::path& file : outputsInFolder(stage, results))
+  {
+    std::error_code error;
+    times[file.string()] = fs::last_write_time(file, error);
+  }
+  return times;
+}
+
+/// Runs a stage. When it has succeeded, removes the earlier results that it has not replaced, and those of the later
+/// stages. Until then, all earlier results stay: a mistake in a command line must not cost a finished run. They also
+/// stay, as a rule, if the stage fails or is interrupted, since programs write outputs under other names until all are
+/// complete; a program that was ended in the moment of renaming them may have replaced some.
+std::vector<std::string> runAnew(std::vector<Stage>::const_iterator stage, std::vector<Stage>::const_iterator end,
+                                 const std::string& programs, Results& results, CommandLine& line,
+                                 const Progress& progress)
+{
+  const auto before = timesOf(stage->name, results);
+  try
+  {
+    const std::vector<std::string> files = runStage(*stage, programs, line, progress);
+    std::vector<std::string> written = stage->outputs;
+    written.insert(written.end(), files.begin(), files.end());
+    removeEarlier(namesOf(stage, end), written, results, line);
+    return files;
+  }
+  catch (...)
+  {
+    if (timesOf(stage->name, results) != before) removeEarlier(namesOf(stage, end), {}, results, line);
+    throw;
+  }
+}
+
+/// What is known before any stage runs. Throws if a file is missing, or in the way of another.
+Results resultsOf(const RunRequest& request, const std::vector<Stage>& stages, const std::string& configuration)
+{
   const std::vector<std::string> given = givenFiles(stages);
   requireReadable(given);
   const std::vector<std::string> outputs = allOutputs(stages, request.folder);
   requireInputsKept(outputs, given);
   requireWritable(outputs);
-  Results results{ request.folder, given, configuration, readRunRecord(request.folder), false };
+  Results results{ request.folder, given, configuration, readRunRecord(request.folder), false, {} };
   results.hasEarlier = !results.record.empty();
-  removeEarlier(othersIn(results.record, stages), results, line);
+  results.others = othersIn(results.record, stages);
+  return results;
+}
+
+void addToRecord(const Stage& stage, StageRecord present, const std::vector<std::string>& files, Results& results,
+                 CommandLine& line)
+{
+  for (const std::string& file : files) line.tellWritten(file);
+  present.outputs = writtenBy(stage, files, results.folder);
+  results.record[stage.name] = std::move(present);
+  writeRecord(results, line);
+}
+
+/// Runs the stages whose results do not hold any more, and updates the record.
+void runStages(const RunRequest& request, const std::string& configuration, const std::string& programs,
+               CommandLine& line, const Progress& progress)
+{
+  const std::vector<Stage> stages = stagesOf(request);
+  Results results = resultsOf(request, stages, configuration);
   const double all = shareOf(stages) / 0.96; // the report takes the rest
   double done = 0;
   for (auto stage = stages.begin(); stage != stages.end(); ++stage)
@@ -225,22 +296,21 @@ void runStages(const RunRequest& request, const std::string& configuration, cons
       line.message(stage->name + ": nothing has changed since the last run, its results stay");
       continue;
     }
-    removeEarlier(namesOf(stage, stages.end()), results, line);
     const auto start = std::chrono::steady_clock::now();
-    const std::vector<std::string> files = runStage(*stage, programs, line, subProgress(progress, begin, done));
+    const std::vector<std::string> files =
+      runAnew(stage, stages.end(), programs, results, line, subProgress(progress, begin, done));
     present.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (const std::string& file : files) line.tellWritten(file);
-    present.outputs = writtenBy(*stage, files, request.folder);
-    results.record[stage->name] = present;
-    writeRecord(results, line);
+    addToRecord(*stage, present, files, results, line);
   }
+  removeEarlier({}, {}, results, line);
 }
 
-/// Ends this process by the signal.
+/// Ends this process by the signal. Who closes the pipe that this program writes to wants to hear no more.
 [[noreturn]] void endBy(int signal)
 {
-  writeToStderr("surgicalmesher mesh: interrupted; stages that were complete are kept, and the same command goes on "
-                "from there\n");
+  if (signal != SIGPIPE)
+    writeToStderr("surgicalmesher mesh: interrupted; stages that were complete are kept, and the same command goes on "
+                  "from there\n");
   std::signal(signal, SIG_DFL);
   std::raise(signal);
   throw EngineError("interrupted");

@@ -2,6 +2,7 @@
 #include "RunRecord.h"
 
 #include "Errors.h"
+#include "HeaderData.h"
 #include "JsonReport.h"
 #include "OutputFiles.h"
 #include "TextFile.h"
@@ -67,11 +68,13 @@ std::string stemOf(const fs::path& file)
   return name.substr(0, name.find('.', 1));
 }
 
-/// Returns `text` without the path of the folder.
+/// Returns a path, or a flag with one as its value, without the path of the folder before it.
 std::string insideFolder(std::string text, const std::string& folder)
 {
-  const std::size_t at = text.find(folder + "/");
-  return at == std::string::npos ? text : text.erase(at, folder.size() + 1);
+  std::size_t begin = text.rfind("--", 0) == 0 ? text.find('=') + 1 : 0;
+  if (begin < text.size() && text[begin] == '"') ++begin;
+  const std::string before = folder + "/";
+  return text.compare(begin, before.size(), before) == 0 ? text.erase(begin, before.size()) : text;
 }
 
 /// A file's last extension, without compression: ".raw" of "map.01.raw.gz".
@@ -137,8 +140,9 @@ StageRecord recordOf(const Stage& stage, const std::string& program, const std::
   for (const std::string& input : stage.inputs)
   {
     const bool isOwn = fs::path(input).parent_path() == fs::path(folder);
-    for (const std::string& file : isOwn ? std::vector<std::string>{ input } : withSiblings(input))
-      record.inputs[insideFolder(file, folder)] = fingerprint(file);
+    std::vector<std::string> files = isOwn ? std::vector<std::string>{ input } : withSiblings(input);
+    for (const std::string& file : dataFilesOf(input)) files.push_back(file);
+    for (const std::string& file : files) record.inputs[insideFolder(file, folder)] = fingerprint(file);
   }
   return record;
 }
@@ -181,9 +185,7 @@ void writeRunRecord(const RunRecord& record, const std::string& folder)
                   });
     }
   };
-  OutputFiles files;
-  writeBytes(jsonText(writeStages), files.temporary(recordFile(folder)));
-  files.commit();
+  writeWhole(jsonText(writeStages), recordFile(folder));
 }
 
 } // namespace surgicalmesher

@@ -27,8 +27,8 @@ void writeRunRecord(const RunRecord& record, const std::string& folder);
 std::string fingerprint(const std::string& file);
 
 /// Returns the record of a stage that is about to run, without outputs. Inputs outside of `folder` include the files
-/// beside them with the same name up to the first dot, which may hold their data, except those whose extension rules
-/// this out, such as logs.
+/// that a header names as its data, and the files beside them with the same name up to the first dot, which may hold
+/// their data, except those whose extension rules this out, such as logs.
 StageRecord recordOf(const Stage& stage, const std::string& program, const std::string& folder);
 
 /// Whether `earlier` was run with the same program, arguments and inputs as `present`, and its outputs are unchanged.

@@ -71,14 +71,23 @@ const Command& commandNamed(const std::string& name)
                    (nearest.empty() ? "" : "; did you mean " + nearest + "?"));
 }
 
-/// Returns the folder of this program, to which the other programs are installed as well.
+std::string folderOf(const std::filesystem::path& program)
+{
+  std::error_code failed;
+  const std::filesystem::path real = std::filesystem::canonical(program, failed);
+  return (failed ? program : real).parent_path().string();
+}
+
+/// Returns the folder of this program, to which the other programs are installed as well. Whoever starts a program may
+/// give it any name, so that the system's own record comes first; that is of the loader if the loader runs the program.
 std::string folderOfPrograms(const char* self)
 {
+  std::error_code none;
+  const std::string running = folderOf("/proc/self/exe");
+  if (std::filesystem::exists(std::filesystem::path(running) / "SurgicalPathScaleCLI", none)) return running;
   std::string path, error;
   vtksys::SystemTools::FindProgramPath(self, path, error);
-  std::error_code failed;
-  const std::filesystem::path real = std::filesystem::canonical(path, failed);
-  return (failed ? std::filesystem::path(path) : real).parent_path().string();
+  return folderOf(path);
 }
 
 int run(const std::string& self, const std::vector<std::string>& arguments)
@@ -118,6 +127,7 @@ int main(int argc, char** argv)
   try
   {
     openStandardStreams();
+    keepStatusOfChildren();
     return answer(argc, argv);
   }
   catch (const Error& error)

@@ -236,6 +236,126 @@ class ProgramTest(unittest.TestCase):
         self.assertFalse(set(os.listdir("failed")) & {"report.html", "mesh.vtu", "surface.vtp", "head.inp"})
         self.assertIn("childRadius = 3\n", bytes_of("failed/run.toml").decode())
 
+    def files_in(self, folder):
+        return {name: (bytes_of(f"{folder}/{name}"), os.stat(f"{folder}/{name}").st_mtime_ns)
+                for name in os.listdir(folder)}
+
+    def test_a_mistake_costs_no_finished_run(self):
+        shutil.copytree("out", "kept")
+        before = self.files_in("kept")
+        with open("absent.csv", "w", encoding="ascii") as file:
+            file.write(TISSUE_OF_NONE)
+        command = self.command_into("kept", "--export", "head.inp")
+        target = command.index("--target")
+        for words in (command[:target] + command[target + 2:],
+                      [*command, "--nullDisplacementRadius", "3", "--nullDisplacementTissues", "nobody"],
+                      [*command, "--tissues", "absent.csv"],
+                      ["mesh", "map.nrrd", "kept", "--target", TARGET, "--minimumEdgeLength", "9",
+                       "--maximumEdgeLength", "3"]):
+            done = surgicalmesher(*words)
+            self.assertIn(done.returncode, (1, 2), done.stderr)
+            self.assertEqual(self.files_in("kept"), before, words)
+        done = surgicalmesher(*command)
+        self.assertEqual((done.returncode, done.stdout.count("nothing has changed")), (0, 3), done.stderr)
+
+    def test_what_ends_a_rerun_leaves_the_earlier_run(self):
+        for how in (signal.SIGINT, signal.SIGKILL):
+            folder = f"whole{how}"
+            shutil.copytree("out", folder)
+            before = self.files_in(folder)
+            command = [os.path.join(BIN, "surgicalmesher"), *self.command_into(folder, "--maximumDistance", "0.3")]
+            with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
+                for line in process.stdout:
+                    if "surface: " in line:
+                        break
+                process.send_signal(how)
+            self.assertEqual(process.returncode, -how)
+            after = self.files_in(folder)
+            self.assertEqual({name: after.get(name) for name in before}, before)
+            self.assertEqual(surgicalmesher(*command[1:]).returncode, 0)
+            self.assertEqual(set(os.listdir(folder)), {name for name in before if not name.startswith("head.inp")})
+
+    def test_an_input_in_the_folder_stays_by_whatever_path(self):
+        os.makedirs("real")
+        os.symlink("real", "link")
+        shutil.copy("map.nrrd", "ref.nrrd")
+        null = ("--nullDisplacementRadius", "6")
+        done = surgicalmesher("mesh", "ref.nrrd", "real", "--target", TARGET, *COARSE, *null)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        labels = bytes_of("real/labels.nrrd")
+        for arguments in (("real/labels.nrrd", "link"), ("link/labels.nrrd", "real")):
+            done = surgicalmesher("mesh", *arguments, "--target", TARGET, *COARSE)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(bytes_of("real/labels.nrrd"), labels)
+            done = surgicalmesher("mesh", "ref.nrrd", "real", "--target", TARGET, *COARSE, *null)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_names_of_exports_are_kept(self):
+        os.makedirs("odd")
+        names = ["odd/a\"b.inp", "odd/c,d.inp", "odd/g, h.k"]
+        done = surgicalmesher(*self.command_into("oddly"), *[word for name in names for word in ("--export", name)])
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name in names:
+            self.assertTrue(os.path.exists(name), name)
+            os.remove(name)
+        for name in names[0], names[2]:
+            done = surgicalmesher("convert", "out/mesh.vtu", name)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertTrue(os.path.exists(name), name)
+
+    def test_a_caller_that_ignores_the_ends_of_its_children(self):
+        ignore = lambda: signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+        scale = ["SurgicalPathScaleCLI", "--targetPoint", TARGET, *SIZES, "map.nrrd", "ignored.nrrd"]
+        for program, *arguments in (scale, ["surgicalmesher", *self.command_into("ignored", "--export", "head.inp")]):
+            done = subprocess.run([os.path.join(BIN, program), *arguments], stdout=subprocess.DEVNULL,
+                                  stderr=subprocess.PIPE, text=True, check=False, preexec_fn=ignore)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(bytes_of("ignored/mesh.vtu"), bytes_of("out/mesh.vtu"))
+
+    def test_the_programs_are_found_whatever_this_one_is_called(self):
+        done = subprocess.run(["bash", "-c", 'exec -a anything "$@"', "bash", os.path.join(BIN, "surgicalmesher"),
+                               "estimate", "map.nrrd", "--target", TARGET, *SIZES], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.PIPE, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def estimate_in(self, place, how=None):
+        """Status and errors of an estimate with its temporary files in `place`, ended by a signal in the first stage."""
+        command = [os.path.join(BIN, "surgicalmesher"), "estimate", "map.nrrd", "--target", TARGET,
+                   "--minimumEdgeLength", "0.5", "--maximumEdgeLength", "0.5", "--spacing", "0.5", "--estimate",
+                   "ended.json"]
+        with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True, env=dict(os.environ, TMPDIR=place)) as process:
+            for line in process.stdout:
+                if how and "scale: " in line:
+                    process.send_signal(how)
+                    break
+            if how == signal.SIGPIPE:
+                process.stdout.close()
+            errors = process.stderr.read()
+        return process.returncode, errors
+
+    def test_an_estimate_leaves_nothing_behind(self):
+        os.makedirs("scratch")
+        words = {signal.SIGINT: "interrupted", signal.SIGTERM: "told to end", signal.SIGHUP: "hung up on"}
+        for how in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGPIPE):
+            told = f"surgicalmesher estimate: {words[how]}, no output was written\n" if how in words else ""
+            self.assertEqual(self.estimate_in(os.path.abspath("scratch"), how), (-how, told))
+            self.assertEqual((os.listdir("scratch"), glob.glob(".ended*")), ([], []))
+        self.assertEqual(self.estimate_in(os.path.abspath("scratch"), signal.SIGKILL)[0], -signal.SIGKILL)
+        left = os.listdir("scratch")
+        self.assertEqual(len(left), 1)
+        os.makedirs("scratch/surgicalmesher-mine")
+        self.assertEqual(self.estimate_in(os.path.abspath("scratch")), (0, ""))
+        self.assertEqual(os.listdir("scratch"), ["surgicalmesher-mine"])
+        os.remove("ended.json")
+
+    def test_no_place_for_temporary_files(self):
+        for place in ("/nowhere", os.path.abspath("map.nrrd"), "/proc"):
+            status, errors = self.estimate_in(place)
+            self.assertEqual((status, errors.count("\n")), (1, 1), errors)
+            self.assertIn("TMPDIR: ", errors)
+            self.assertIn(place, errors)
+
     def test_a_first_run_that_fails_leaves_files_of_the_users(self):
         os.makedirs("first")
         mine = {"report.html": "mine", "run.toml": f'labelMap = "../map.nrrd"\nfolder = "."\ntissues = "tissues.csv"\n'
@@ -273,7 +393,7 @@ class ProgramTest(unittest.TestCase):
 
     def test_data_of_a_header_may_have_any_name(self):
         labels = np.asarray(cut_out(np.s_[58:90, 84:116, 30:56])[0]).astype(np.uint8)
-        for data in ("pat.01.raw", "pat.001"):
+        for data in ("pat.01.raw", "pat.001", "other.raw"):
             folder = "named-" + data
             os.makedirs(folder)
             header = ("NRRD0004\ntype: unsigned char\ndimension: 3\nspace: left-posterior-superior\nsizes: %d %d %d\n"
