@@ -105,11 +105,15 @@ TEST(Arguments, anExistingFileWithACommaIsOneFile)
 
 TEST(Arguments, outputsKeepCommasAndQuotesInTheirNames)
 {
-  const ModuleDescription description = parseModuleDescription(
-    "<executable><title>Test</title><version>1</version><parameters><label>Files</label><description>Files</description>"
-    "<file multiple=\"true\" fileExtensions=\".inp,.k\"><name>models</name><label>Models</label>"
-    "<longflag>export</longflag><description>Files</description><channel>output</channel></file>"
-    "</parameters></executable>");
+  const ModuleDescription description = parseModuleDescription(R"(
+    <executable><title>Test</title><version>1</version>
+      <parameters><label>Files</label><description>Files</description>
+        <file multiple="true" fileExtensions=".inp,.k">
+          <name>models</name><label>Models</label><longflag>export</longflag><description>Files</description>
+          <channel>output</channel>
+        </file>
+      </parameters>
+    </executable>)");
   const auto models = [&](const std::string& value) {
     return parseArguments(description, { "--export", value }).values["models"];
   };
