@@ -2,17 +2,15 @@
 #include "ImageData.h"
 
 #include "Errors.h"
-#include "TextFile.h"
-#include "Vec3.h"
+#include "ImageHeader.h"
+#include "Text.h"
 
 #include <itk_zlib.h>
 #include <itksys/SystemTools.hxx>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstring>
 #include <fstream>
+#include <iomanip>
+#include <limits>
 #include <vector>
 
 namespace surgicalmesher
@@ -28,15 +26,11 @@ struct DataBlock
   std::uint64_t offset = 0; ///< in the file
   std::uint64_t headerBytes = 0;
   bool compressed = false;
-  std::string compressedBytes; ///< text of CompressedDataSize in a MetaImage header
+  std::string compressedBytes = {}; ///< text of CompressedDataSize in a MetaImage header
+  bool isText = false;
+  char separator = ' ';  ///< allowed between the numbers of a text besides white space
+  long skippedLines = 0; ///< after the offset
 };
-
-bool hasExtension(const std::string& file, const std::string& extension)
-{
-  const std::string name = text::lowerCase(file);
-  return name.size() >= extension.size() &&
-         name.compare(name.size() - extension.size(), extension.size(), extension) == 0;
-}
 
 bool isGzip(const std::string& file)
 {
@@ -46,7 +40,7 @@ bool isGzip(const std::string& file)
 
 DataBlock wholeFile(const std::string& file, std::uint64_t headerBytes)
 {
-  return { file, 0, headerBytes, isGzip(file), {} };
+  return { file, 0, headerBytes, isGzip(file) };
 }
 
 /// A file that the header names, relative to the header's folder.
@@ -57,7 +51,7 @@ std::string besides(const std::string& headerFile, const std::string& name)
   return folder.empty() ? name : folder + "/" + name;
 }
 
-/// The voxel file (.img) of a NIfTI or Analyze pair.
+/// The voxel file (.img) of a NIfTI pair.
 std::string pairedImage(const std::string& file)
 {
   const bool isGz = hasExtension(file, ".gz");
@@ -66,45 +60,92 @@ std::string pairedImage(const std::string& file)
   return itksys::SystemTools::FileExists(image, true) ? image : image + ".gz";
 }
 
-/// Reads `key: value` or `key = value` lines up to the one after which voxels follow, or the end of the file.
-DataBlock textHeader(const std::string& file, char separator, const std::string& dataKey,
-                     const std::string& compressionKey)
+/// The number in a header's field, or 0 if it is none from 1 on.
+long sizeField(const TextHeader& header, const std::string& name)
 {
-  DataBlock block{ file, 0, 0, false, {} };
-  bool attached = true;
-  std::ifstream stream(file.c_str(), std::ios::binary);
-  for (std::string line; std::getline(stream, line);)
-  {
-    line = text::trimmed(line);
-    if (line.empty()) break;
-    const std::size_t at = line.find(separator);
-    if (at == std::string::npos) continue;
-    const std::string key = text::lowerCase(text::trimmed(line.substr(0, at)));
-    const std::string value = text::trimmed(line.substr(at + 1));
-    const std::string word = text::lowerCase(value);
-    if (key == "compresseddatasize") block.compressedBytes = value;
-    if (key == compressionKey) block.compressed = word == "true" || word == "gzip" || word == "gz";
-    if (key != dataKey) continue;
-    attached = word == "local";
-    if (!attached) block.file = besides(file, value);
-    if (dataKey == "elementdatafile") break; // the last line of a MetaImage header
-  }
-  if (attached) block.offset = std::uint64_t(stream.tellg());
+  long value = 0;
+  return text::parseInteger(header[name], 1, std::numeric_limits<int>::max(), value) ? value : 0;
+}
+
+/// Bytes are skipped after lines, and within data that are compressed.
+DataBlock nrrdData(const std::string& file)
+{
+  const TextHeader header = readTextHeader(file);
+  const std::string encoding = text::lowerCase(header["encoding"]), dataFile = header["datafile"];
+  DataBlock block;
+  block.file = dataFile.empty() ? file : besides(file, dataFile);
+  block.offset = dataFile.empty() ? header.end : 0;
+  block.headerBytes = std::uint64_t(sizeField(header, "byteskip"));
+  block.compressed = encoding == "gzip" || encoding == "gz";
+  block.isText = encoding == "ascii" || encoding == "text" || encoding == "txt";
+  block.separator = ',';
+  block.skippedLines = sizeField(header, "lineskip");
   return block;
 }
 
-bool isNRRD(const std::string& file) { return hasExtension(file, ".nrrd") || hasExtension(file, ".nhdr"); }
+/// MetaImage takes T, t and 1 for true, and data that are text for uncompressed.
+DataBlock metaImageData(const std::string& file)
+{
+  const TextHeader header = readTextHeader(file);
+  const auto isTrue = [&](const char* field, const char* missing)
+  {
+    const std::string value = header[field].empty() ? missing : header[field];
+    return value[0] == 'T' || value[0] == 't' || value[0] == '1';
+  };
+  const bool isAttached = text::lowerCase(header["elementdatafile"]) == "local";
+  DataBlock block;
+  block.file = isAttached ? file : besides(file, header["elementdatafile"]);
+  block.offset = isAttached ? header.end : 0;
+  if (const long size = sizeField(header, "headersize")) block.offset = std::uint64_t(size);
+  block.isText = !isTrue("binarydata", "true");
+  block.compressed = !block.isText && isTrue("compresseddata", "false");
+  block.compressedBytes = header["compresseddatasize"];
+  return block;
+}
 
 DataBlock findData(const std::string& file)
 {
-  if (isNRRD(file)) return textHeader(file, ':', "data file", "encoding");
-  if (hasExtension(file, ".mha") || hasExtension(file, ".mhd"))
-  {
-    return textHeader(file, '=', "elementdatafile", "compresseddata");
-  }
+  if (isNRRD(file)) return nrrdData(file);
+  if (isMetaImage(file)) return metaImageData(file);
   if (hasExtension(file, ".gipl") || hasExtension(file, ".gipl.gz")) return wholeFile(file, 256);
   if (hasExtension(file, ".nii") || hasExtension(file, ".nii.gz")) return wholeFile(file, 0);
   return wholeFile(pairedImage(file), 0);
+}
+
+/// Places the stream where the (compressed) data begin.
+void seekData(std::istream& stream, const DataBlock& block)
+{
+  stream.seekg(std::streamoff(block.offset));
+  std::string line;
+  for (long n = 0; n < block.skippedLines && std::getline(stream, line); ++n) continue;
+}
+
+bool isNumber(const std::string& word)
+{
+  double value = 0;
+  return word.find_first_not_of("0123456789") == std::string::npos || text::parseNumber(word, value);
+}
+
+/// Reads the text to its end: MetaImage's reader repeats its last number at every word that is none and at the end of
+/// the file, and that of NRRD takes the beginning of a word for its number.
+void requireNumbers(std::istream& stream, const DataBlock& block, std::uint64_t expected)
+{
+  constexpr int longest = 60; // characters of a number; NRRD's reader has a buffer of limited size
+  const auto refuse = [&](const std::string& what) {
+    throw InputError(block.file + ": " + what + ", expected " + std::to_string(expected) + " numbers, one per voxel");
+  };
+  std::uint64_t count = 0;
+  for (std::string word; stream >> std::setw(longest) >> word;)
+  {
+    if (int(word.size()) == longest) refuse("a word of " + std::to_string(longest) + " characters or more");
+    for (const std::string& number : text::split(word, block.separator))
+    {
+      if (number.empty()) continue;
+      if (!isNumber(number)) refuse("\"" + number + "\" among the voxels");
+      ++count;
+    }
+  }
+  if (count != expected) refuse(std::to_string(count) + " numbers" + (count < expected ? ", truncated" : ""));
 }
 
 /// Number of bytes that the stream decompresses to, without members after the one that reaches `enough`; 0 if it ends
@@ -142,7 +183,7 @@ std::uint64_t inflatedSize(std::istream& stream, std::uint64_t enough)
 void requireLegibleNrrd(const std::string& file)
 {
   constexpr std::size_t longest = 500;
-  if (!hasExtension(file, ".nrrd") && !hasExtension(file, ".nhdr")) return;
+  if (!isNRRD(file)) return;
   std::ifstream stream(file.c_str(), std::ios::binary);
   for (std::string line; std::getline(stream, line) && !line.empty() && line != "\r";)
     if (line.size() > longest && line.find(":=") == std::string::npos)
@@ -166,14 +207,15 @@ void requireCredibleCompression(const DataBlock& block, std::uint64_t fileSize)
 void requireCredibleDimensions(const std::string& imageFile)
 {
   requireLegibleNrrd(imageFile);
-  if (!hasExtension(imageFile, ".mha") && !hasExtension(imageFile, ".mhd")) return;
+  if (!isMetaImage(imageFile)) return;
   constexpr long mostDimensions = 10; // of MetaImage
   std::ifstream stream(imageFile.c_str(), std::ios::binary);
   for (std::string line; std::getline(stream, line);)
   {
-    const std::size_t at = line.find('=');
+    const std::size_t at = line.find_first_of("=:");
     const std::string key = text::lowerCase(text::trimmed(line.substr(0, at)));
-    if (key == "elementdatafile" || at == std::string::npos) return;
+    if (key == "elementdatafile") return;
+    if (at == std::string::npos) continue;
     long dimensions = 0;
     if (key != "ndims" || text::parseInteger(text::trimmed(line.substr(at + 1)), 1, mostDimensions, dimensions))
       continue;
@@ -181,49 +223,10 @@ void requireCredibleDimensions(const std::string& imageFile)
   }
 }
 
-std::optional<NiftiPlacement> readNiftiPlacement(const std::string& file)
-{
-  constexpr std::size_t headerSize = 348;
-  std::array<unsigned char, headerSize> bytes{};
-  const gzFile stream = gzopen(file.c_str(), "rb"); // also reads uncompressed files
-  if (!stream) return {};
-  const bool isWhole = gzread(stream, bytes.data(), headerSize) == int(headerSize);
-  gzclose(stream);
-  const auto integer = [&](std::size_t at, int length, bool swap)
-  {
-    std::uint32_t value = 0;
-    for (int n = 0; n < length; ++n) value |= std::uint32_t(bytes[at + (swap ? length - 1 - n : n)]) << (8 * n);
-    return value;
-  };
-  if (!isWhole || bytes[344] != 'n' || bytes[346] != '1') return {};
-  const bool swap = integer(0, 4, false) != headerSize;
-  NiftiPlacement placement;
-  placement.isInMetres = (bytes[123] & 7) == 1;
-  placement.sformCode = int(integer(254, 2, swap));
-  std::array<Vec3, 3> columns;
-  for (int row = 0; row < 3; ++row)
-  {
-    for (int column = 0; column < 3; ++column)
-    {
-      const std::uint32_t bits = integer(280 + 16 * row + 4 * column, 4, swap);
-      float value = 0;
-      std::memcpy(&value, &bits, sizeof(value));
-      columns[column][row] = value;
-    }
-  }
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const Vec3 &a = columns[axis], &b = columns[(axis + 1) % 3];
-    const double sine = std::min(1.0, std::abs(dot(a, b)) / (norm(a) * norm(b)));
-    placement.skew = std::max(placement.skew, std::asin(sine) * 180 / 3.14159265358979323846);
-  }
-  return placement;
-}
-
-void requireImageData(const std::string& imageFile, std::uint64_t byteCount)
+void requireImageData(const std::string& imageFile, std::uint64_t byteCount, std::uint64_t valueCount)
 {
   const DataBlock block = findData(imageFile);
-  if (isNRRD(imageFile) && !block.compressed) return; // its reader counts raw and text data itself
+  if (isNRRD(imageFile) && !block.compressed && !block.isText) return; // its reader counts raw data itself
   std::ifstream stream(block.file.c_str(), std::ios::binary);
   if (!stream)
   {
@@ -232,9 +235,14 @@ void requireImageData(const std::string& imageFile, std::uint64_t byteCount)
   stream.seekg(0, std::ios::end);
   const std::uint64_t size = std::uint64_t(stream.tellg());
   const std::uint64_t expected = block.headerBytes + byteCount;
+  seekData(stream, block);
+  if (block.isText)
+  {
+    stream.ignore(std::streamsize(block.headerBytes));
+    return requireNumbers(stream, block, valueCount);
+  }
   if (block.compressed)
   {
-    stream.seekg(std::streamoff(block.offset));
     if (inflatedSize(stream, expected) >= expected) return requireCredibleCompression(block, size);
     throw InputError(block.file + ": the compressed voxels are truncated or damaged, expected " +
                      std::to_string(byteCount) + " bytes of them");

@@ -5,6 +5,7 @@
 #include "CanonicalGrid.h"
 #include "Errors.h"
 #include "ImageData.h"
+#include "ImageHeader.h"
 #include "Parallel.h"
 #include "SeparateProcess.h"
 #include "TextFile.h"
@@ -99,23 +100,35 @@ std::vector<itk::ImageIOBase::Pointer> imageFormats()
 
 const char* const formatNames = "NRRD, NIfTI, MetaImage or GIPL";
 
+constexpr double librarysSkew = 0.0057; ///< degrees: what ITK takes for perpendicular, a cosine of 1e-4
+
+/// Whether ITK refuses only the placement of a NIfTI file, for whose sform fileGrid() does without it: ITK finds the
+/// axes of small voxels, far origins and lengths in metres not perpendicular. By then it knows all else about the
+/// file.
+bool isPlacedWithoutLibrary(const std::optional<NiftiHeader>& nifti, const std::string& reason)
+{
+  return nifti && nifti->sformCode > 0 && nifti->skew < librarysSkew && arePerpendicular(nifti->sformColumns) &&
+         reason.find("orthonormal") != std::string::npos;
+}
+
 /// Explains what is wrong with a NIfTI header that the library refuses, and what the user can do. Empty for other files
 /// and other faults.
-std::string niftiAdvice(const std::string& file, const std::string& reason)
+std::string niftiAdvice(const std::optional<NiftiHeader>& nifti)
 {
-  const std::optional<NiftiPlacement> placement = readNiftiPlacement(file);
-  if (!placement) return {};
-  if (placement->isInMetres) return "coordinates in metres, expected mm or microns";
-  if (placement->sformCode == 0) return {};
-  if (placement->skew < 1e-5 && reason.find("orthonormal") != std::string::npos)
-    return "the image library finds the voxel axes of its sform not perpendicular, as happens to small voxels and far "
-           "origins; expected a qform as well";
-  if (placement->skew < 1e-5) return {};
+  if (!nifti || nifti->sformCode <= 0 || nifti->skew < librarysSkew) return {};
   return "the voxel axes of its sform are not perpendicular to each other (by " +
-         text::rounded(std::ceil(placement->skew * 1000 - 0.5) / 1000, 10) +
+         text::rounded(std::ceil(nifti->skew * 1000 - 0.5) / 1000, 10) +
          " degrees), as an affine registration leaves them; expected a grid without shear: resample the map, or give "
          "the header a qform, "
          "which counts where the sform has shear";
+}
+
+/// Analyze 7.5, which has NIfTI's extensions (.hdr, .img), says neither where its voxels lie nor which side is left.
+void refuseAnalyze(const std::string& file)
+{
+  using Kind = itk::NiftiImageIOEnums::NiftiFileEnum;
+  if (itk::NiftiImageIO::New()->DetermineFileType(file.c_str()) == Kind::Analyze75)
+    throw InputError(file + ": an Analyze 7.5 image, which does not tell left from right, expected NIfTI");
 }
 
 itk::ImageIOBase::Pointer openImage(const std::string& file)
@@ -123,6 +136,7 @@ itk::ImageIOBase::Pointer openImage(const std::string& file)
   text::requireReadableFile(file);
   requireCredibleDimensions(file);
   const Silence silence;
+  refuseAnalyze(file);
   for (const itk::ImageIOBase::Pointer& io : imageFormats())
   {
     try
@@ -134,7 +148,9 @@ itk::ImageIOBase::Pointer openImage(const std::string& file)
     }
     catch (const std::exception& error)
     {
-      const std::string advice = niftiAdvice(file, error.what());
+      const std::optional<NiftiHeader> nifti = readNiftiHeader(file);
+      if (isPlacedWithoutLibrary(nifti, error.what())) return io;
+      const std::string advice = niftiAdvice(nifti);
       if (!advice.empty()) throw InputError(file + ": " + advice);
       throw InputError(file + ": the image header cannot be read (" + reasonOf(error) + ")");
     }
@@ -192,85 +208,64 @@ std::array<int, 3> volumeSize(const itk::ImageIOBase& io, const std::string& fil
   return size;
 }
 
-/// Millimetres per unit of a NIfTI header's coordinates.
-double niftiUnit(const MetaData& metaData)
+/// The first voxel and the steps to the next one along each axis of the file, in LPS mm.
+struct Placement
 {
-  long units = 0;
-  const std::string* text = find(metaData, "xyzt_units");
-  if (!text || !text::parseInteger(*text, 0, 255, units)) return 1;
-  const long spaceUnits = units & 7;
-  return spaceUnits == 1 ? 1000 : spaceUnits == 3 ? 0.001 : 1;
-}
-
-/// Reads the sform of a NIfTI header in LPS mm; returns whether there is one with perpendicular axes. If sform and
-/// qform differ, ITK uses the qform unless the sform is that of the scanner; nearly all other programs, and this one,
-/// use the sform, in which atlases are aligned.
-bool readSform(const MetaData& metaData, Vec3& origin, std::array<Vec3, 3>& columns)
-{
-  const std::string* code = find(metaData, "sform_code");
-  if (!code || text::trimmed(*code) == "0") return false;
-  const char* const keys[3] = { "srow_x", "srow_y", "srow_z" };
-  for (int row = 0; row < 3; ++row)
-  {
-    const std::string* text = find(metaData, keys[row]);
-    const std::vector<std::string> words = text ? text::splitWords(*text) : std::vector<std::string>();
-    const double scale = (row < 2 ? -1 : 1) * niftiUnit(metaData); // NIfTI's world is RAS
-    double value[4];
-    if (words.size() != 4) return false;
-    for (int column = 0; column < 4; ++column)
-    {
-      if (!text::parseNumber(words[column], value[column])) return false;
-    }
-    for (int column = 0; column < 3; ++column) columns[column][row] = scale * value[column];
-    origin[row] = scale * value[3];
-  }
-  return arePerpendicular(columns);
-}
-
-/// The origin of a NIfTI header's qform in LPS mm, if there is a qform and its unit is not mm: ITK scales the spacing
-/// to mm but, in the version of Debian 12, not the origin.
-std::optional<Vec3> qformOriginInMm(const MetaData& metaData)
-{
-  const double unit = niftiUnit(metaData);
-  const std::string* code = find(metaData, "qform_code");
-  if (unit == 1 || !code || text::trimmed(*code) == "0") return {};
-  const std::array<const char*, 3> keys{ "qoffset_x", "qoffset_y", "qoffset_z" };
   Vec3 origin;
+  std::array<Vec3, 3> columns;
+};
+
+/// As the library has it, in the file's units.
+Placement librarysPlacement(const itk::ImageIOBase& io)
+{
+  Placement placement;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const std::string* text = find(metaData, keys[axis]);
-    if (!text || !text::parseNumber(text::trimmed(*text), origin[axis])) return {};
-    origin[axis] *= (axis < 2 ? -1 : 1) * unit;
+    const std::vector<double> direction = io.GetDirection(axis);
+    placement.columns[axis] = io.GetSpacing(axis) * Vec3{ direction[0], direction[1], direction[2] };
+    placement.origin[axis] = io.GetOrigin(axis);
   }
-  return origin;
+  return placement;
+}
+
+/// If sform and qform differ, ITK uses the qform unless the sform is that of the scanner; nearly all other programs,
+/// and this one, use the sform, in which atlases are aligned, unless its axes are not perpendicular. ITK scales the
+/// spacing to mm but, in the version of Debian 12, not the origin.
+Placement niftiPlacement(const NiftiHeader& nifti, const itk::ImageIOBase& io)
+{
+  if (nifti.sformCode > 0 && arePerpendicular(nifti.sformColumns)) return { nifti.sformOrigin, nifti.sformColumns };
+  Placement placement = librarysPlacement(io);
+  if (nifti.qformCode > 0) placement.origin = nifti.qformOrigin;
+  return placement;
+}
+
+Placement placementInMm(const itk::ImageIOBase& io, const std::optional<NiftiHeader>& nifti, const std::string& file)
+{
+  if (nifti) return niftiPlacement(*nifti, io);
+  Placement placement = librarysPlacement(io);
+  const double unit = millimetresPerUnit(file);
+  placement.origin = unit * placement.origin;
+  for (Vec3& column : placement.columns) column = unit * column;
+  return placement;
 }
 
 /// The grid in the order of the file; its axes may be left-handed.
-Grid fileGrid(const itk::ImageIOBase& io, const MetaData& niftiHeader, const std::string& file)
+Grid fileGrid(const itk::ImageIOBase& io, const std::optional<NiftiHeader>& nifti, const std::string& file)
 {
   Grid grid;
   grid.size = volumeSize(io, file);
-  std::array<Vec3, 3> columns;
-  if (!readSform(niftiHeader, grid.origin, columns))
-  {
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const std::vector<double> direction = io.GetDirection(axis);
-      columns[axis] = io.GetSpacing(axis) * Vec3{ direction[0], direction[1], direction[2] };
-      grid.origin[axis] = io.GetOrigin(axis);
-    }
-    grid.origin = qformOriginInMm(niftiHeader).value_or(grid.origin);
-  }
+  const Placement placement = placementInMm(io, nifti, file);
+  grid.origin = placement.origin;
   for (int axis = 0; axis < 3; ++axis)
   {
-    grid.spacing[axis] = norm(columns[axis]);
+    grid.spacing[axis] = norm(placement.columns[axis]);
     if (!std::isfinite(grid.origin[axis])) throw InputError(file + ": the origin is not finite");
     if (!(std::isfinite(grid.spacing[axis]) && grid.spacing[axis] > 0))
     {
       throw InputError(file + ": voxel spacing " + text::rounded(grid.spacing[axis], 10) + " along axis " +
                        std::to_string(axis) + ", expected more than 0 mm");
     }
-    grid.axes[axis] = columns[axis] / grid.spacing[axis];
+    grid.axes[axis] = placement.columns[axis] / grid.spacing[axis];
   }
   if (!arePerpendicular(grid.axes)) throw InputError(file + ": the voxel axes are not perpendicular to each other");
   grid.axes = orthonormalised(grid.axes);
@@ -288,17 +283,42 @@ MetaData readMetaData(const itk::ImageIOBase& io)
   return metaData;
 }
 
-/// Bytes of the file's data, for NIfTI those before the first voxel included. NIfTI voxels may be smaller in the file
-/// than in memory, where slope and intercept turn them into floats, so their size is taken from the header.
-std::uint64_t bytesOnDisk(const MetaData& niftiHeader, std::size_t voxelCount, std::size_t bytesInMemory)
+/// An integer type of NIfTI, by the standard's number.
+struct NiftiType
 {
-  const std::string* bits = find(niftiHeader, "bitpix");
-  const std::string* offset = find(niftiHeader, "vox_offset");
-  double bitsPerVoxel = 0;
-  double firstVoxel = 0;
-  if (!bits || !offset || !text::parseNumber(*bits, bitsPerVoxel) || !text::parseNumber(*offset, firstVoxel))
-    return bytesInMemory;
-  return std::uint64_t(double(voxelCount) * bitsPerVoxel / 8 + std::max(0.0, firstVoxel));
+  int number;
+  itk::IOComponentEnum type;
+  int bytes;
+};
+
+/// The type of the voxels in the file if it is one of integers, which slope and intercept turn into floats in memory.
+const NiftiType* niftiInteger(const NiftiHeader& nifti)
+{
+  using Type = itk::IOComponentEnum;
+  static const NiftiType types[] = { { 256, Type::CHAR, 1 },      { 2, Type::UCHAR, 1 },       { 4, Type::SHORT, 2 },
+                                     { 512, Type::USHORT, 2 },    { 8, Type::INT, 4 },         { 768, Type::UINT, 4 },
+                                     { 1024, Type::LONGLONG, 8 }, { 1280, Type::ULONGLONG, 8 } };
+  const auto* found = std::find_if(std::begin(types), std::end(types),
+                                   [&](const NiftiType& type) { return type.number == nifti.dataType; });
+  return found == std::end(types) ? nullptr : found;
+}
+
+/// A slope of 0 means that voxels are not scaled; ITK adds the intercept nevertheless.
+void takeUnscaledVoxels(const NiftiHeader& nifti, itk::ImageIOBase& io)
+{
+  auto* niftiIO = dynamic_cast<itk::NiftiImageIO*>(&io);
+  if (!niftiIO || (std::isfinite(nifti.slope) && std::abs(nifti.slope) > 0)) return;
+  niftiIO->SetRescaleIntercept(0);
+  if (const NiftiType* integer = niftiInteger(nifti)) niftiIO->SetComponentType(integer->type);
+}
+
+/// Bytes of the file's data, for NIfTI those before the first voxel included.
+std::uint64_t bytesOnDisk(const std::optional<NiftiHeader>& nifti, const Volume& volume, std::size_t bytesInMemory)
+{
+  const NiftiType* integer = nifti ? niftiInteger(*nifti) : nullptr;
+  const std::uint64_t valueCount = volume.grid.voxelCount() * std::uint64_t(volume.components);
+  const std::uint64_t voxels = integer ? valueCount * std::uint64_t(integer->bytes) : bytesInMemory;
+  return voxels + (nifti ? nifti->bytesBeforeVoxels : 0);
 }
 
 Volume readVolume(const std::string& file)
@@ -308,11 +328,10 @@ Volume readVolume(const std::string& file)
   Volume volume;
   volume.file = file;
   volume.metaData = readMetaData(*io);
-  // Files of other formats may contain entries of the NIfTI header that they were converted from, which must be
-  // ignored.
   const bool isNifti = dynamic_cast<const itk::NiftiImageIO*>(io.GetPointer()) != nullptr;
-  const MetaData niftiHeader = isNifti ? volume.metaData : MetaData();
-  static_cast<CanonicalGrid&>(volume) = canonicalGrid(fileGrid(*io, niftiHeader, file));
+  const std::optional<NiftiHeader> nifti = isNifti ? readNiftiHeader(file) : std::nullopt;
+  if (nifti) takeUnscaledVoxels(*nifti, *io);
+  static_cast<CanonicalGrid&>(volume) = canonicalGrid(fileGrid(*io, nifti, file));
   volume.components = int(io->GetNumberOfComponents());
   volume.type = io->GetComponentType();
 
@@ -321,10 +340,11 @@ Volume readVolume(const std::string& file)
   for (unsigned int axis = 0; axis < dimension; ++axis) region.SetSize(axis, io->GetDimensions(axis));
   io->SetIORegion(region);
   const Silence silence;
-  const std::size_t byteCount = volume.grid.voxelCount() * volume.components * io->GetComponentSize();
+  const std::size_t valueCount = volume.grid.voxelCount() * volume.components;
+  const std::size_t byteCount = valueCount * io->GetComponentSize();
   try
   {
-    requireImageData(file, bytesOnDisk(niftiHeader, volume.grid.voxelCount(), byteCount));
+    requireImageData(file, bytesOnDisk(nifti, volume, byteCount), valueCount);
     volume.data.reset(new char[byteCount]);
     io->Read(volume.data.get());
   }
@@ -539,7 +559,8 @@ void writeVolume(const Grid& grid, itk::IOComponentEnum type, const void* data, 
   try
   {
     io->Write(data);
-    requireImageData(file, grid.voxelCount() * io->GetComponentSize()); // the libraries do not report a full disk
+    // The libraries do not report a full disk.
+    requireImageData(file, grid.voxelCount() * io->GetComponentSize(), grid.voxelCount());
   }
   catch (const InputError&)
   {

@@ -18,8 +18,9 @@
 namespace surgicalmesher
 {
 
-/// Reads NRRD, .seg.nrrd, NIfTI, Analyze, MetaImage and GIPL. The axes are brought to LPS order (see TissueMap::grid).
-/// A NIfTI file is placed by its sform, or by its qform if it has no sform of perpendicular axes. Segmentations: names
+/// Reads NRRD, .seg.nrrd, NIfTI, MetaImage and GIPL. The axes are brought to LPS order (see TissueMap::grid). Lengths in
+/// cm, m or micrometres, by the header, become mm. A NIfTI file is placed by its sform, or by its qform if it has no
+/// sform of perpendicular axes. Segmentations: names
 /// and colours come from the header; several layers become one map, in which the later segment wins where two overlap,
 /// and labels are the header's values unless two layers share one: then 1, 2, 3 ... in the header's order. A segment's
 /// tag, as written by writeTissueMap(), marks null displacement. Floating-point values within 1e-4 of a label count as

@@ -143,7 +143,9 @@ struct Nifti
   std::array<float, 6> qform{}; ///< b, c, d of the quaternion, offset
   std::array<float, 12> srow{};
   float slope = 0;
-  char units = 2; // mm
+  float intercept = 0;
+  char units = 2;            // mm
+  const char* magic = "n+1"; ///< "ni1": the header of a pair
 
   std::string content(std::size_t voxelBytes) const
   {
@@ -157,16 +159,31 @@ struct Nifti
     put(80, pixdim);
     put(108, 352.f);
     put(112, slope);
+    put(116, intercept);
     put(123, units);
     put(252, qformCode);
     put(254, sformCode);
     put(256, qform);
     put(280, srow);
-    std::memcpy(&file[344], "n+1", 4);
+    std::memcpy(&file[344], magic, std::strlen(magic));
     for (std::size_t n = 0; n < voxelBytes; ++n) file += char(n % 3);
     return file;
   }
 };
+
+/// The header of a MetaImage of 2 x 2 x 2 voxels.
+std::string metaImage(const std::string& type, const std::string& more, const std::string& dataFile)
+{
+  return "ObjectType = Image\nNDims = 3\n" + more + "ElementSpacing = 1 1 1\nDimSize = 2 2 2\nElementType = " + type +
+         "\nElementDataFile = " + dataFile + "\n";
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to)
+{
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << text;
+  return text.replace(std::min(at, text.size()), from.size(), to);
+}
 
 class EveryFormat : public testing::TestWithParam<const char*>
 {
@@ -425,6 +442,53 @@ TEST(ReadTissueMap, ReadsNiftiInMicrometres)
   expectNear(readTissueMap(folder.file("map.nii")).grid.origin, inMm, 1e-9);
 }
 
+TEST(ReadTissueMap, PlacesNiftiByAllDigitsOfItsHeader)
+{
+  const TemporaryFolder folder;
+  Nifti nifti;
+  nifti.sformCode = 1;
+  nifti.srow = { -1, 0, 0, 123456.78f, 0, -1, 0, 0, 0, 0, 1, 98765.43f };
+  const auto origin = [&] { return readTissueMap(folder.write("map.nii", nifti.content(24))).grid.origin; };
+  expectNear(origin(), { double(-123456.78f), 0, double(98765.43f) }, 1e-9);
+
+  nifti.sformCode = 0;
+  nifti.qformCode = 1;
+  nifti.qform = { 0, 0, 1, 123456.78f, 0, 98765.43f }; // half a turn about S
+  expectNear(origin(), { double(-123456.78f), 0, double(98765.43f) }, 1e-9);
+}
+
+TEST(ReadTissueMap, ReadsNiftiPairs)
+{
+  const TemporaryFolder folder;
+  Nifti nifti;
+  nifti.sformCode = 1;
+  nifti.srow = { -1, 0, 0, 5, 0, -1, 0, 0, 0, 0, 1, 0 };
+  const std::string whole = nifti.content(24);
+  nifti.magic = "ni1";
+  std::string header = nifti.content(0);
+  std::memset(&header[108], 0, 4); // voxels begin with the other file
+  folder.write("map.hdr", header.substr(0, 348));
+  folder.write("map.img", whole.substr(352));
+  const TissueMap expected = readTissueMap(folder.write("map.nii", whole));
+  for (const char* name : { "map.hdr", "map.img" })
+  {
+    const TissueMap map = readTissueMap(folder.file(name));
+    EXPECT_EQ(map.labels, expected.labels) << name;
+    expectSameGrid(map.grid, expected.grid);
+  }
+}
+
+TEST(ReadTissueMap, RefusesAnalyze)
+{
+  const TemporaryFolder folder;
+  Nifti nifti;
+  nifti.magic = "";
+  const std::string header = folder.write("map.hdr", nifti.content(0).substr(0, 348));
+  const std::string image = folder.write("map.img", std::string(24, '\1'));
+  for (const std::string& file : { header, image })
+    expectInputError([&] { readTissueMap(file); }, file, "an Analyze 7.5 image, which does not tell left from right");
+}
+
 TEST(ReadTissueMap, IgnoresANiftiHeaderThatAnotherFormatCarriesOn)
 {
   const TemporaryFolder folder;
@@ -457,6 +521,126 @@ TEST(ReadTissueMap, ReadsScaledNifti)
   nifti.srow = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
   nifti.slope = 100;
   EXPECT_EQ(presentLabels(readTissueMap(folder.write("map.nii", nifti.content(24)))), (std::vector<Label>{ 100, 200 }));
+}
+
+TEST(ReadTissueMap, TakesNiftiOfSlopeZeroAsItIs)
+{
+  const TemporaryFolder folder;
+  Nifti nifti;
+  nifti.sformCode = 1;
+  nifti.srow = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 };
+  nifti.intercept = 3;
+  EXPECT_EQ(presentLabels(readTissueMap(folder.write("map.nii", nifti.content(24)))), (std::vector<Label>{ 1, 2 }));
+  nifti.slope = 1;
+  EXPECT_EQ(presentLabels(readTissueMap(folder.write("map.nii", nifti.content(24)))), (std::vector<Label>{ 3, 4, 5 }));
+}
+
+TEST(ReadTissueMap, ReadsMetaImagesOfTextWhole)
+{
+  const TemporaryFolder folder;
+  const std::string text = "0 1 2 3\n4 5 6 7";
+  for (const char* type : { "MET_UCHAR", "MET_INT", "MET_DOUBLE" })
+  {
+    for (const char* more : { "\n", "", " ", "\r\n" })
+    {
+      const std::string file = folder.write("map.mha", metaImage(type, "BinaryData = False\n", "LOCAL") + text + more);
+      EXPECT_EQ(readTissueMap(file).labels, (std::vector<Label>{ 0, 1, 2, 3, 4, 5, 6, 7 })) << type;
+    }
+  }
+  folder.write("map.txt", text);
+  EXPECT_EQ(
+    presentLabels(readTissueMap(folder.write("map.mhd", metaImage("MET_INT", "BinaryData = F\n", "map.txt")))).size(),
+    7u);
+}
+
+TEST(ReadTissueMap, RefusesTextThatIsNotOneNumberPerVoxel)
+{
+  const std::string meta = metaImage("MET_UCHAR", "BinaryData = False\n", "LOCAL");
+  const std::string nrrd = "NRRD0005\ntype: uint8\n" + cubeGeometry(2) + "encoding: text\n\n";
+  for (const auto& header : { std::pair("map.mha", meta), std::pair("map.nrrd", nrrd) })
+  {
+    const std::string expected = "expected 8 numbers, one per voxel";
+    expectFileRefused(header.first, header.second + "0 1 2 3\n4", "5 numbers, truncated, " + expected);
+    expectFileRefused(header.first, header.second + "0 1 2 3 4 5 6 7 8", "9 numbers, " + expected);
+    expectFileRefused(header.first, header.second + "0 1 x 3 4 5 6 7", "\"x\" among the voxels, " + expected);
+    expectFileRefused(header.first, header.second + "0 1 2x 3 4 5 6 7", "\"2x\" among the voxels, " + expected);
+    expectFileRefused(header.first, header.second + std::string(5000, '1'), "a word of 60 characters or more");
+  }
+}
+
+TEST(ReadTissueMap, ReadsNrrdInTextAndHexHoweverSpelled)
+{
+  const TemporaryFolder folder;
+  const std::vector<Label> expected{ 0, 1, 2, 3, 4, 5, 6, 7 };
+  const std::string header = "NRRD0005\ntype: uint8\n" + cubeGeometry(2);
+  const std::string commas = header + "encoding: ASCII\n\n0, 1, 2 ,3\n4 , 5 , 6 , 7\n";
+  EXPECT_EQ(readTissueMap(folder.write("commas.nrrd", commas)).labels, expected);
+  const std::string skips = header + "encoding: txt\nlineskip: 1\nbyte skip: 2\n\n9 9 9\n9 0 1 2 3 4 5 6 7\n";
+  EXPECT_EQ(readTissueMap(folder.write("skips.nrrd", skips)).labels, expected);
+  const std::string hex = header + "encoding: hex\n\n00010203\n04050607";
+  EXPECT_EQ(readTissueMap(folder.write("hex.nrrd", hex)).labels, expected);
+  expectFileRefused("hex.nrrd", hex.substr(0, hex.size() - 1), "truncated or damaged");
+}
+
+TEST(ReadTissueMap, FindsCompressedVoxelsHoweverTheHeaderIsSpelled)
+{
+  const TemporaryFolder folder;
+  const TissueMap map = noisyMap();
+  writeTissueMap(map, folder.file("map.nhdr"));
+  const std::string header = readBytes(folder.file("map.nhdr")), data = readBytes(folder.file("map.raw.gz"));
+  const std::string joined = replaced(header, "data file: map.raw.gz", "datafile: map.raw.gz");
+  EXPECT_EQ(readTissueMap(folder.write("joined.nhdr", joined)).labels, map.labels);
+  folder.write("line.gz", "a line to skip\n" + data);
+  for (const char* key : { "line skip: 1", "lineskip: 1" })
+  {
+    const std::string skipping = replaced(header, "data file: map.raw.gz", std::string(key) + "\ndatafile: line.gz");
+    EXPECT_EQ(readTissueMap(folder.write("line.nhdr", skipping)).labels, map.labels);
+  }
+  folder.write("line.gz", ("a line to skip\n" + data).substr(0, data.size()));
+  expectInputError([&] { readTissueMap(folder.file("line.nhdr")); }, folder.file("line.gz"), "truncated");
+
+  writeTissueMap(map, folder.file("map.mhd"));
+  const std::string meta = readBytes(folder.file("map.mhd"));
+  const std::string file = "ElementDataFile = map.zraw", yes = "CompressedData = True";
+  for (const std::string& content : { replaced(meta, file, "\n" + file), replaced(meta, yes, "CompressedData = T"),
+                                      replaced(meta, yes, "CompressedData = 1") })
+    EXPECT_EQ(readTissueMap(folder.write("other.mhd", content)).labels, map.labels) << content;
+}
+
+TEST(ReadTissueMap, ScalesNrrdAndMetaImageToMm)
+{
+  TissueMap map = noisyMap();
+  const TemporaryFolder folder;
+  const auto gridOf = [&](const std::string& unit)
+  {
+    const std::string units = "space units: \"" + unit + "\" \"" + unit + "\" \"" + unit + "\"\n";
+    const std::string content = nrrd("uint16", nrrdGeometry(map.grid), map.labels, units);
+    return readTissueMap(folder.write("map.nrrd", content)).grid;
+  };
+  for (const auto& [unit, length] :
+       { std::pair("mm", 1.), std::pair("cm", 10.), std::pair("m", 1000.), std::pair("um", 0.001),
+         std::pair("microns", 0.001), std::pair("\xC2\xB5m", 0.001), std::pair("Millimeters", 1.), std::pair("", 1.) })
+  {
+    Grid expected = map.grid;
+    expected.spacing = length * map.grid.spacing;
+    expected.origin = length * map.grid.origin;
+    expectSameGrid(gridOf(unit), expected);
+  }
+  const std::string cm = metaImage("MET_UCHAR", "DistanceUnits = cm\nOffset = 1 2 3\n", "LOCAL") + "12345678";
+  const Grid grid = readTissueMap(folder.write("map.mha", cm)).grid;
+  expectNear(grid.spacing, { 10, 10, 10 }, 1e-9);
+  expectNear(grid.origin, { 10, 20, 30 }, 1e-9);
+}
+
+TEST(ReadTissueMap, RefusesOtherUnits)
+{
+  const std::vector<std::uint8_t> ones(8, 1);
+  const std::string mixed = "space units: \"mm\" \"mm\" \"cm\"\n", inches = "space units: \"in\" \"in\" \"in\"\n";
+  expectFileRefused("map.nrrd", nrrd("uint8", cubeGeometry(2), ones, mixed),
+                    "space units is \"mm\" \"mm\" \"cm\", expected mm, cm, m or um, one for all axes");
+  expectFileRefused("map.nrrd", nrrd("uint8", cubeGeometry(2), ones, inches), "expected mm, cm, m or um");
+  expectFileRefused("map.mha", metaImage("MET_UCHAR", "DistanceUnits = inch\n", "LOCAL") + "12345678",
+                    "DistanceUnits is inch, expected mm, cm, m or um");
 }
 
 TEST(ReadTissueMap, LaysJhu189IntoItsAtlasSpace)
@@ -619,24 +803,48 @@ TEST(ReadTissueMap, FilesThatCanNotHoldWhatTheyPromiseAreAtFault)
   expectInputError([&] { requirePlausibleData(file, std::uint64_t(1) << 34); }, file, "truncated");
 }
 
-TEST(ReadTissueMap, TellsWhatHelpsWhereTheLibraryTakesAnglesForOblique)
+TEST(ReadTissueMap, PlacesSmallVoxelsWhoseAnglesTheLibraryTakesForOblique)
 {
   Nifti nifti;
   nifti.sformCode = 2;
   nifti.pixdim = { 0.05f, 0.05f, 0.05f };
   nifti.srow = { 0.04974147f,  -0.00182136f, 0.0047401f,   40,          0.00260684f, 0.04921251f,
                  -0.00844591f, -30,          -0.00435779f, 0.00864937f, 0.04905301f, 20 };
-  expectFileRefused("map.nii", nifti.content(24), "expected a qform as well");
+  const TemporaryFolder folder;
+  const TissueMap bySform = readTissueMap(folder.write("map.nii", nifti.content(24)));
+  expectNear(bySform.grid.spacing, { 0.05, 0.05, 0.05 }, 1e-6);
+  nifti.qformCode = 1; // which ITK reads, and fileGrid() does not
+  const TissueMap withQform = readTissueMap(folder.write("map.nii", nifti.content(24)));
+  EXPECT_EQ(bySform.labels, withQform.labels);
+  expectSameGrid(bySform.grid, withQform.grid);
 }
 
-TEST(Trial, B15_MetresAreNamed)
+TEST(ReadTissueMap, RefusesAnSformOfNoExtent)
+{
+  Nifti nifti;
+  nifti.sformCode = 1;
+  expectFileRefused("map.nii", nifti.content(24), "header");
+}
+
+TEST(ReadTissueMap, ReadsNiftiInMetresByEitherForm)
 {
   Nifti nifti;
   nifti.sformCode = 1;
   nifti.srow = { -0.001f, 0, 0, 0, 0, -0.001f, 0, 0, 0, 0, 0.001f, 3 };
   nifti.pixdim = { 0.001f, 0.001f, 0.001f };
   nifti.units = 1;
-  expectFileRefused("map.nii", nifti.content(24), "coordinates in metres, expected mm");
+  const TemporaryFolder folder;
+  const TissueMap bySform = readTissueMap(folder.write("map.nii", nifti.content(24)));
+  nifti.sformCode = 0;
+  nifti.qformCode = 1;
+  nifti.qform = { 0, 0, 1, 0, 0, 3 }; // RAS, half a turn about S
+  const TissueMap byQform = readTissueMap(folder.write("map.nii", nifti.content(24)));
+  for (const TissueMap* map : { &bySform, &byQform })
+  {
+    expectNear(map->grid.spacing, { 1, 1, 1 }, 1e-6);
+    expectNear(map->grid.origin, { 0, 0, 3000 }, 1e-6);
+    EXPECT_EQ(map->labels, bySform.labels);
+  }
 }
 
 // B1: what is null displacement goes through files as a mark, not as a name.
