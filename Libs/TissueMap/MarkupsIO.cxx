@@ -173,6 +173,7 @@ struct Columns
 {
   std::size_t x = 1; ///< y and z follow it
   std::size_t label = 0;
+  std::size_t count = 0; ///< 0: not named
 };
 
 Columns readColumns(const std::string& columns, const std::string& file)
@@ -184,7 +185,17 @@ Columns readColumns(const std::string& columns, const std::string& file)
     throw InputError(file + ": columns \"" + columns + "\", expected x,y,z among them");
   }
   const auto label = std::find(names.begin(), names.end(), "label");
-  return { std::size_t(x - names.begin()), std::size_t(label - names.begin()) };
+  return { std::size_t(x - names.begin()), std::size_t(label - names.begin()), names.size() };
+}
+
+/// Whether a row's point has a position. From version 5.2 on, Slicer writes two fields that the line of columns does
+/// not name, positionStatus and autoCreated; points without a position lie at 0, 0, 0 in the file.
+bool isPlaced(const std::vector<std::string>& fields, const Columns& columns)
+{
+  constexpr long defined = 2;
+  long status = defined;
+  return columns.count == 0 || fields.size() != columns.count + 2 ||
+         !text::parseInteger(fields[columns.count], 0, 9, status) || status == defined;
 }
 
 /// Version 3 files (label,x,y,z,sel,vis) and version 4 files (id,x,y,z,ow,...) both have x second and both default to
@@ -208,6 +219,7 @@ std::vector<Markup> readFcsv(const std::string& file)
       continue;
     }
     const std::vector<std::string> fields = text::splitFields(line);
+    if (!isPlaced(fields, layout)) continue;
     Vec3 p;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {

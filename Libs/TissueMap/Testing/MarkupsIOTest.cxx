@@ -96,6 +96,18 @@ TEST(Markups, LeavesOutPointsThatAreNotPlaced)
   EXPECT_EQ(readContent("a.mrk.json", document(markup("Fiducial", "\"LPS\"", points))), (Lists{ { { 1, 2, 3 } } }));
 }
 
+TEST(Markups, LeavesOutPointsOfFcsvThatAreNotPlaced)
+{
+  const std::string header = "# Markups fiducial file version = 5.2\n# CoordinateSystem = LPS\n"
+                             "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n";
+  const std::string placed = "1,1,2,3,0,0,0,1,1,1,0,F-1,,,2,0\n";
+  const std::string others = "2,0,0,0,0,0,0,1,1,1,0,F-2,,,0,0\n3,0,0,0,0,0,0,1,1,1,0,F-3,,,3,0\n";
+  EXPECT_EQ(readContent("a.fcsv", header + placed + others), (Lists{ { { 1, 2, 3 } } }));
+  expectRefused("a.fcsv", header + others, "no control point");
+  const std::string description = "1,1,2,3,0,0,0,1,1,1,0,F-1,a, b, c,\n"; // commas that version 4 did not quote
+  EXPECT_EQ(readContent("a.fcsv", header + description), (Lists{ { { 1, 2, 3 } } }));
+}
+
 TEST(Markups, RefusesFilesWithoutPoints)
 {
   expectRefused("a.mrk.json", document(""), "no control point");
