@@ -45,14 +45,15 @@ public:
     for (std::string& name : m_Names) name = text::lowerCase(name);
   }
 
-  /// The row's field in the first of the columns `names` that the table has and that is not empty in the row.
+  /// The row's field in the first of the columns `names` that the table has and that is neither empty in the row nor
+  /// BIDS' word for it.
   std::string field(const std::vector<std::string>& row, const std::vector<std::string>& names) const
   {
     for (const std::string& name : names)
     {
       const auto found = std::find(m_Names.begin(), m_Names.end(), name);
       const std::size_t at = std::size_t(found - m_Names.begin());
-      if (found != m_Names.end() && at < row.size() && !row[at].empty()) return row[at];
+      if (found != m_Names.end() && at < row.size() && !row[at].empty() && row[at] != "n/a") return row[at];
     }
     return {};
   }

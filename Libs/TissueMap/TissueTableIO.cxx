@@ -37,7 +37,7 @@ std::string joined(const std::vector<std::string>& words, std::size_t from, std:
 
 /// Parses a line of one of three forms, distinguished by the position of the numbers:
 ///   label R G B A visible mesh "name"   ITK-SNAP: colours to 255, A to 1
-///   label name R G B A                  Slicer: colours to 255
+///   label name R G B [A]                Slicer: colours to 255
 ///   label name                          atlases; a number after the name is dropped
 bool parseTissue(const std::vector<std::string>& words, Tissue& tissue)
 {
@@ -45,10 +45,11 @@ bool parseTissue(const std::vector<std::string>& words, Tissue& tissue)
   double index = 0;
   const std::size_t count = words.size();
   const bool isSnap = count == 8 && parseNumbers(words, 1, 6, 255, rgba);
-  const bool isSlicer = !isSnap && count >= 6 && parseNumbers(words, count - 4, 4, 255, rgba);
+  const bool hasAlpha = !isSnap && count >= 6 && parseNumbers(words, count - 4, 4, 255, rgba);
+  const bool isSlicer = hasAlpha || (!isSnap && count >= 5 && parseNumbers(words, count - 3, 3, 255, rgba));
   if (isSnap || isSlicer) tissue.color = { rgba[0] / 255, rgba[1] / 255, rgba[2] / 255 };
   if (isSnap) tissue.name = words.back();
-  else if (isSlicer) tissue.name = joined(words, 1, count - 4);
+  else if (isSlicer) tissue.name = joined(words, 1, count - (hasAlpha ? 4 : 3));
   else tissue.name = joined(words, 1, count > 2 && text::parseNumber(words.back(), index) ? count - 1 : count);
   return count >= 2;
 }

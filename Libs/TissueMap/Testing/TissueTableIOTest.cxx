@@ -33,6 +33,16 @@ TEST(TissueTable, ReadsSlicerColourTables)
   EXPECT_EQ(table.at(3011).name, "adenohypophysis");
 }
 
+TEST(TissueTable, ReadsColoursWithoutAlpha)
+{
+  const TissueTable table = readText("1 Brain 255 0 0\n2 Brain stem 0 51 0\n3 Ventricle_3 0 0 255 255\n");
+  EXPECT_EQ(table.at(1).name, "Brain");
+  EXPECT_EQ(table.at(1).color, (std::array<double, 3>{ 1, 0, 0 }));
+  EXPECT_EQ(table.at(2).name, "Brain stem");
+  EXPECT_EQ(table.at(2).color, (std::array<double, 3>{ 0, 0.2, 0 }));
+  EXPECT_EQ(table.at(3).name, "Ventricle 3");
+}
+
 TEST(TissueTable, ReadsItkSnapLabels)
 {
   const TissueTable table = readText("################\n# ITK-SnAP Label Description File\n"
@@ -108,6 +118,15 @@ TEST(Trial, 3a_BidsLookUpTables)
   EXPECT_EQ(table.at(1).name, "Gray Matter");
   EXPECT_EQ(table.at(1).color, (std::array<double, 3>{ 1, 0.2, 0 }));
   EXPECT_EQ(table.at(2).color, Tissue().color);
+}
+
+TEST(TissueTable, HasNoNameWhereBidsHasNone)
+{
+  const TemporaryFolder folder;
+  const TissueTable table =
+    readTissueTable(folder.write("a_dseg.tsv", "index\tname\tabbreviation\n1\tn/a\tGM\n2\tn/a\tn/a\n"));
+  EXPECT_EQ(table.at(1).name, "GM");
+  EXPECT_EQ(table.at(2).name, "");
 }
 
 TEST(Trial, 3a_FslAtlases)
