@@ -2,9 +2,11 @@
 #pragma once
 /// Members of JSON objects, for any of RapidJSON's writers.
 
+#include "PrintableText.h"
 #include "Vec3.h"
 
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -12,7 +14,8 @@ namespace surgicalmesher
 {
 
 /// Writes a bool, an integer, a floating-point number, a text, a point, or a range of such values. Points and ranges
-/// become arrays; NaN and infinity, which JSON does not have, become null.
+/// become arrays; NaN and infinity, which JSON does not have, become null. Text that is not UTF-8, as paths may be, is
+/// made printable.
 template <class Writer, class Value>
 void writeValue(Writer& json, const Value& value)
 {
@@ -26,7 +29,8 @@ void writeValue(Writer& json, const Value& value)
   else if constexpr (std::is_integral_v<Value>) json.Uint64(value);
   else if constexpr (std::is_convertible_v<const Value&, std::string_view>)
   {
-    const std::string_view text = value;
+    std::string text(std::string_view{ value });
+    if (!isUTF8(text)) text = printable(text);
     json.String(text.data(), static_cast<unsigned>(text.size()));
   }
   else if constexpr (std::is_same_v<Value, Vec3>)

@@ -19,3 +19,19 @@ TEST(JsonReport, HasNullForWhatIsNoNumber)
   EXPECT_EQ(jsonText(writeMembers, { 6, true }),
             "{\n    \"nan\": null,\n    \"values\": [1.5, null],\n    \"point\": [0.0, null, 2.0]\n}\n");
 }
+
+TEST(JsonReport, IsUTF8WhateverAPathIs)
+{
+  const auto writeMembers = [](JsonWriter& json)
+  {
+    writeMember(json, "latin",
+                std::string("sch\xE4"
+                            "del.nrrd"));
+    writeMember(json, "utf8",
+                std::string("sch\xC3\xA4"
+                            "del.nrrd"));
+  };
+  EXPECT_EQ(jsonText(writeMembers), "{\n    \"latin\": \"sch\\\\xe4del.nrrd\",\n"
+                                    "    \"utf8\": \"sch\xC3\xA4"
+                                    "del.nrrd\"\n}\n");
+}
