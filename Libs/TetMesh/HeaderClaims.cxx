@@ -89,9 +89,16 @@ std::vector<Claim> plyClaims(const std::string& text)
   return claims;
 }
 
+/// Whether an STL file is text. Binary ones may begin with "solid", too, but have bytes that no text has.
+bool isTextSTL(const std::string& text)
+{
+  const auto isControl = [](unsigned char c) { return c < ' ' && !std::isspace(c); };
+  return text.compare(0, 5, "solid") == 0 && std::none_of(text.begin(), text.end(), isControl);
+}
+
 std::vector<Claim> stlClaims(const std::string& text)
 {
-  if (text.size() < 84 || text.compare(0, 5, "solid") == 0) return {};
+  if (text.size() < 84 || isTextSTL(text)) return {};
   std::uint32_t count = 0;
   for (int n = 0; n < 4; ++n) count |= std::uint32_t(static_cast<unsigned char>(text[80 + n])) << (8 * n);
   return { { "triangles", double(count), 50 } };
