@@ -2,6 +2,7 @@
 #include "CurveFiles.h"
 
 #include "MeshIO.h"
+#include "Text.h"
 #include "TissueMapIO.h"
 
 #include <filesystem>
@@ -27,8 +28,8 @@ std::vector<Polyline> polylinesOfMarkups(const std::string& file)
 
 std::vector<Curve> readCurves(const std::string& file, double missingRadius)
 {
-  const std::filesystem::path path(file);
-  const std::string extension = path.extension().string(), name = path.filename().string();
+  const std::string extension = text::extensionOf(file);
+  const std::string name = std::filesystem::path(file).filename().string();
   const bool isVtk = extension == ".vtp" || extension == ".vtk";
   std::vector<Polyline> lines = isVtk ? readPolylines(file) : polylinesOfMarkups(file);
   std::vector<Curve> curves;

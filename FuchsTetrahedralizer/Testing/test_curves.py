@@ -118,6 +118,11 @@ class Curves(unittest.TestCase):
         if os.path.exists(path("mesh.xdmf")):
             self.assertTrue(os.path.exists(path("mesh_curves.xdmf")))
 
+    def test_extensions_may_be_in_capitals(self):
+        vessel = line("VESSEL.VTP", [(-7, 0, 1), (7, 0, 1)])
+        run = self.run_module("--curves", vessel, "--curveRadius", "0.5")
+        self.assertEqual(run.returncode, 0, run.stderr)
+
     def test_bytes_are_the_same_with_any_number_of_threads(self):
         vessel = line("vessel.vtp", [(-7, 0, 1), (0, 1, 0), (7, 0, 1)], [0.4, 0.8, 0.4])
         written = []
