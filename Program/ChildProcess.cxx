@@ -237,7 +237,7 @@ ChildOutcome runChild(const std::string& program, const std::vector<std::string>
   if (caughtSignal) kill(child, caughtSignal); // it came before the child was known
   out.closeWriting();
   errors.closeWriting();
-  const ChildOutcome outcome = outcomeOf(child, out, errors, eachLine);
+  ChildOutcome outcome = outcomeOf(child, out, errors, eachLine);
   if (caughtSignal) throw Interrupted{ caughtSignal };
   return outcome;
 }

@@ -241,7 +241,7 @@ std::vector<std::string> runAnew(std::vector<Stage>::const_iterator stage, std::
   const auto before = timesOf(stage->name, results);
   try
   {
-    const std::vector<std::string> files = runStage(*stage, programs, line, progress);
+    std::vector<std::string> files = runStage(*stage, programs, line, progress);
     std::vector<std::string> written = stage->outputs;
     written.insert(written.end(), files.begin(), files.end());
     removeEarlier(namesOf(stage, end), written, results, line);

@@ -83,7 +83,7 @@ std::string folderOf(const std::filesystem::path& program)
 std::string folderOfPrograms(const char* self)
 {
   std::error_code none;
-  const std::string running = folderOf("/proc/self/exe");
+  std::string running = folderOf("/proc/self/exe");
   if (std::filesystem::exists(std::filesystem::path(running) / "SurgicalPathScaleCLI", none)) return running;
   std::string path, error;
   vtksys::SystemTools::FindProgramPath(self, path, error);
