@@ -242,13 +242,19 @@ private:
     {
       if (field.empty()) continue;
       const std::int64_t id = idOf(field);
-      m_Entries.push_back({ ofNodes, set, id, id ? "" : field });
+      m_Entries.push_back({ ofNodes, spelled(ofNodes, set), id, id ? "" : spelled(ofNodes, field) });
     }
+  }
+
+  /// Returns the name of a set as it was first written, because upper and lower case are the same in Abaqus.
+  std::string spelled(bool ofNodes, const std::string& set)
+  {
+    return m_Spellings[ofNodes].try_emplace(upperCase(set), set).first->second;
   }
 
   void addToSet(bool ofNodes, const std::string& set, std::int64_t id)
   {
-    if (!set.empty()) m_Entries.push_back({ ofNodes, set, id, "" });
+    if (!set.empty()) m_Entries.push_back({ ofNodes, spelled(ofNodes, set), id, "" });
   }
 
   void finish()
@@ -285,6 +291,7 @@ private:
   std::vector<ElementShape> m_Shapes;
   std::vector<std::int64_t> m_NodesOf, m_Pending;
   std::vector<SetEntry> m_Entries;
+  std::map<std::string, std::string> m_Spellings[2]; ///< of element sets, of node sets, by name in upper case
   Keyword m_Keyword;
   ElementShape m_Shape = ElementShape::Hexahedron;
   std::size_t m_Line = 0;

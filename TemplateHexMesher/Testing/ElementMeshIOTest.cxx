@@ -65,6 +65,22 @@ void expectSameCells(const ElementMesh& a, const ElementMesh& b)
 
 } // namespace
 
+TEST(ElementMeshIO, NamesOfAbaqusSetsAreTheSameInUpperAndLowerCase)
+{
+  const TemporaryFolder folder;
+  const std::string more = "*NSET, NSET=BASE\n25\n*NSET, NSET=held\nBase, 24\n";
+  const ElementMeshFile content = readElementMesh(folder.write("a.inp", deck + more));
+  EXPECT_EQ(content.data->GetPointData()->GetArray("BASE"), nullptr);
+  for (const auto& [set, members] : { std::pair{ "base", 6 }, std::pair{ "held", 7 } }) // 11 to 15 and 25; and 24
+  {
+    vtkDataArray* isMember = content.data->GetPointData()->GetArray(set);
+    ASSERT_NE(isMember, nullptr) << set;
+    int count = 0;
+    for (vtkIdType p = 0; p < isMember->GetNumberOfTuples(); ++p) count += isMember->GetComponent(p, 0) != 0;
+    EXPECT_EQ(count, members) << set;
+  }
+}
+
 TEST(ElementMeshIO, ReadsAbaqusDecksWithTheirIdsAndSets)
 {
   const TemporaryFolder folder;
