@@ -153,6 +153,30 @@ TEST(Balloon, TwoThatMeetDoNotCrossAndShareOneInterface)
   EXPECT_NEAR((tissues.at(balloon).volume + tissues.at(balloon + 1).volume) / double(free), 1, 0.05);
 }
 
+TEST(Balloon, TwoThatMeetTakeNothingBeyondTheWall)
+{
+  const auto outside = [](const Vec3& p) { return std::min(norm(p - Vec3{ 6.5, 0, 0 }), norm(p + Vec3{ 6.5, 0, 0 })); };
+  const auto isInNeck = [](const Vec3& p) { return std::abs(p.x) < 6.5 && std::hypot(p.y, p.z) < 4; };
+  const TissueMap map = mapOf(36, [&](const Vec3& p) { return outside(p) >= 6 && outside(p) < 8 && !isInNeck(p); });
+  const Vec3 c = centreOf(map);
+  BalloonOptions options = uniform(2.4);
+  options.rigidity = 5.5;
+  const BalloonResult result =
+    grow(map, { { c + Vec3{ 6.5, 0, 0 }, balloon }, { c - Vec3{ 6.5, 0, 0 }, Label(balloon + 1) } }, options);
+  std::vector<bool> isFree;
+  for (const Label label : map.labels) isFree.push_back(label != wall);
+  const SurfaceComplex joined = withSharedInterfaces(result.surface, map.grid, isFree, 4.8, options.edgeLength);
+  for (const auto& [label, tissue] : checkSurface(joined))
+  {
+    EXPECT_EQ(tissue.euler, 2) << label;
+    for (const std::size_t voxel : enclosedVoxels(joined, label, map.grid))
+    {
+      const auto [i, j, k] = map.grid.voxelAt(voxel);
+      EXPECT_LT(outside(map.grid.position(i, j, k) - c), 8) << label;
+    }
+  }
+}
+
 TEST(Balloon, IsTheSameWithAnyNumberOfThreads)
 {
   const TissueMap map = mapOf(24, [](const Vec3& p) { return norm(p) > 9; });
