@@ -2,6 +2,7 @@
 // MultirateSolverCLI: replays recorded tools in a mesh of parent and children; writes forces, displacements and rates.
 
 #include "CommandLine.h"
+#include "ConstitutiveTags.h"
 #include "Errors.h"
 #include "FileSeries.h"
 #include "JsonReport.h"
@@ -12,7 +13,9 @@
 #include "VTKFiles.h"
 
 #include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
 #include <vtkPointData.h>
+#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
@@ -66,6 +69,27 @@ void requireParts(const CommandLine& line, const MeshFile& parent, const MeshFil
     throw InputError(line.text("childMesh") + ": all tetrahedra are the parent's (SubMesh), expected a child's");
 }
 
+/// The children's law is one for all their tetrahedra, whatever the table says, or a mesh that has nonlinear tetrahedra
+/// beside linear ones.
+void warnOfLaw(CommandLine& line, const MeshFile& child, const std::map<Label, TissueMaterial>& materials)
+{
+  if (line.text("law") == "linear") return;
+  const auto& tags = child.constitutive;
+  const bool isDivided = std::find(tags.begin(), tags.end(), kNonlinear) != tags.end();
+  std::size_t linear = 0;
+  for (std::size_t t = 0; t < child.mesh.labels.size(); ++t)
+  {
+    const auto row = materials.find(child.mesh.labels[t]);
+    const bool isLinearTissue = row != materials.end() && row->second.nonlinearLaw == MaterialLaw::LinearElastic;
+    const bool isTagged = isDivided && tags[t] == kLinear;
+    linear += isLinearTissue || isTagged ? 1 : 0;
+  }
+  if (linear > 0)
+    line.warning(
+      std::to_string(linear) + " tetrahedra of " + line.text("childMesh") +
+      " are linear by --materials or Constitutive, and neo-Hookean here by --law, which holds for all of them");
+}
+
 /// The file of a part, to be written again with displacements.
 class DisplacedPart
 {
@@ -73,6 +97,7 @@ public:
   explicit DisplacedPart(const std::string& file) : m_File(readVTKFile(file, { ".vtu", ".vtk" }))
   {
     m_Grid = vtkUnstructuredGrid::SafeDownCast(m_File.data);
+    if (m_File.ras) sayRAS();
     m_Displacement->SetName("Displacement");
     m_Displacement->SetNumberOfComponents(3);
     m_Displacement->SetNumberOfTuples(m_Grid->GetNumberOfPoints());
@@ -95,6 +120,15 @@ public:
   }
 
 private:
+  /// The title of a legacy file, which may say so, is not written again.
+  void sayRAS()
+  {
+    vtkNew<vtkStringArray> space;
+    space->SetName("SPACE");
+    space->InsertNextValue("RAS");
+    m_Grid->GetFieldData()->AddArray(space);
+  }
+
   VTKFile m_File;
   vtkUnstructuredGrid* m_Grid;
   vtkNew<vtkDoubleArray> m_Displacement;
@@ -216,7 +250,9 @@ void run(CommandLine& line)
   requireParts(line, parent, child);
   std::vector<ToolPath> tools;
   for (const std::string& file : line.texts("tool")) tools.push_back(readToolPath(file));
-  const CoupledMesh mesh = coupledMesh(parent, child, readMaterials(line, parent, child));
+  const std::map<Label, TissueMaterial> materials = readMaterials(line, parent, child);
+  warnOfLaw(line, child, materials);
+  const CoupledMesh mesh = coupledMesh(parent, child, materials);
   DisplacedPart displacedChild(line.text("childMesh"));
   const ReplayResult result = replay(
     mesh, tools, options,

@@ -6,11 +6,13 @@
 namespace surgicalmesher
 {
 
-Hold holdNear(const Part& part, const Vec3& tip, double radius, double reach, std::size_t most)
+Hold holdNear(const Part& part, const Eigen::VectorXd& displacement, const Vec3& tip, double radius, double reach,
+              std::size_t most)
 {
   std::vector<std::pair<double, std::int32_t>> byDistance;
-  for (std::size_t p = 0; p < part.points.size(); ++p)
-    if (part.body.unknowns[p] >= 0) byDistance.emplace_back(norm(part.body.mesh.points[p] - tip), std::int32_t(p));
+  for (std::int32_t p = 0; p < std::int32_t(part.points.size()); ++p)
+    if (part.body.unknowns[std::size_t(p)] >= 0)
+      byDistance.emplace_back(norm(displacedPoint(part, displacement, p) - tip), p);
   std::sort(byDistance.begin(), byDistance.end());
   Hold hold;
   for (const auto& [distance, point] : byDistance)
@@ -21,6 +23,12 @@ Hold holdNear(const Part& part, const Vec3& tip, double radius, double reach, st
   }
   std::sort(hold.begin(), hold.end());
   return hold;
+}
+
+Vec3 displacedPoint(const Part& part, const Eigen::VectorXd& displacement, std::int32_t point)
+{
+  const Eigen::Vector3d u = displacement.segment<3>(3 * part.body.unknowns[std::size_t(point)]);
+  return part.body.mesh.points[std::size_t(point)] + Vec3{ u[0], u[1], u[2] };
 }
 
 std::vector<std::int32_t> unknownsOf(const ElasticBody& body, const Hold& hold)

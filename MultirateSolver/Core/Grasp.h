@@ -12,9 +12,14 @@ namespace surgicalmesher
 /// The points held by a tool: free points of a part, ascending.
 using Hold = std::vector<std::int32_t>;
 
-/// Returns the free points of `part` within `radius` (mm) of `tip`, at most the `most` nearest ones. The nearest point
-/// is always held, unless it is farther than `reach`: then the result is empty.
-Hold holdNear(const Part& part, const Vec3& tip, double radius, double reach, std::size_t most);
+/// Returns the free points of `part` within `radius` (mm) of `tip`, at most the `most` nearest ones. Points are where
+/// `displacement` (mm, of all unknowns) has moved them. The nearest point is always held, unless it is farther than
+/// `reach`: then the result is empty.
+Hold holdNear(const Part& part, const Eigen::VectorXd& displacement, const Vec3& tip, double radius, double reach,
+              std::size_t most);
+
+/// Where a displacement (mm, of all unknowns) moves a free point.
+Vec3 displacedPoint(const Part& part, const Eigen::VectorXd& displacement, std::int32_t point);
 
 /// Ties each held point to the tool by a spring, which keeps a haptic device stable (virtual coupling: Colgate,
 /// Stanley, Brown, IROS 1995). Body and springs are in equilibrium.

@@ -5,6 +5,7 @@
 #include "Errors.h"
 #include "NeoHookeanChild.h"
 #include "Place.h"
+#include "Text.h"
 
 #include <algorithm>
 #include <array>
@@ -60,8 +61,14 @@ public:
     m_Displacement = m_NeoHookean ? m_NeoHookean->displacement() : m_Linear->atRest();
   }
 
-  const Part& part() const { return m_Child; }
   bool hasTool() const { return m_Tool != nullptr; }
+
+  /// As holdNear, in the child as it is now: at rest, when tools take hold.
+  Hold holdAt(const Vec3& tip, double radius, double reach, std::size_t most) const
+  {
+    return holdNear(m_Child, m_Displacement, tip, radius, reach, most);
+  }
+  Vec3 pointNow(std::int32_t point) const { return displacedPoint(m_Child, m_Displacement, point); }
 
   void take(const ToolPath& tool, Hold hold)
   {
@@ -77,25 +84,14 @@ public:
     result.seconds = seconds;
     result.child = m_Number;
     result.tip = tipAt(*m_Tool, seconds);
-    const Vec3 motion = result.tip - m_Tool->tips.front();
-    if (m_NeoHookean)
-    {
-      const Eigen::VectorXd pull =
-        m_Start + Eigen::Vector3d(motion.x, motion.y, motion.z).replicate(Eigen::Index(m_Hold.size()), 1);
-      result.iterations = m_NeoHookean->settle(m_Hold, pull, m_Options.toolStiffness, m_Options.tolerance).iterations;
-      m_Displacement = m_NeoHookean->displacement();
-      m_ToolForces = m_NeoHookean->springForces(m_Hold, pull, m_Options.toolStiffness);
-    }
-    else
-    {
-      m_ToolForces = m_Grasp->forces(*m_Linear, motion);
-      m_Displacement = m_Grasp->displacement(*m_Linear, m_ToolForces);
-    }
+    m_Motion = result.tip - m_Tool->tips.front();
+    result.iterations = balance();
     result.force = totalOf(m_ToolForces);
     return result;
   }
 
-  /// Adds the forces of the tools at other children to the load on the surroundings.
+  /// Adds the forces of the tools at other children to the load on the surroundings, and finds the child's equilibrium
+  /// with it, so that the next child is loaded by the forces of this equilibrium.
   void loadByOthers(const std::vector<Domain>& domains)
   {
     Eigen::VectorXd forces = m_AroundWeight;
@@ -110,7 +106,11 @@ public:
     m_Around->load(forces);
     m_Linear->setNortonForce(m_Around->norton().force);
     if (m_NeoHookean) m_NeoHookean->setNortonForce(m_Around->norton().force);
-    if (hasTool()) return;
+    if (hasTool())
+    {
+      balance();
+      return;
+    }
     if (m_NeoHookean) m_NeoHookean->settle(m_Options.tolerance);
     m_Displacement = m_NeoHookean ? m_NeoHookean->displacement() : m_Linear->atRest();
   }
@@ -136,6 +136,23 @@ public:
   }
 
 private:
+  /// Finds the equilibrium of the child with its tool; returns the iterations of Newton's method.
+  int balance()
+  {
+    if (!m_NeoHookean)
+    {
+      m_ToolForces = m_Grasp->forces(*m_Linear, m_Motion);
+      m_Displacement = m_Grasp->displacement(*m_Linear, m_ToolForces);
+      return 0;
+    }
+    const Eigen::VectorXd pull =
+      m_Start + Eigen::Vector3d(m_Motion.x, m_Motion.y, m_Motion.z).replicate(Eigen::Index(m_Hold.size()), 1);
+    const int iterations = m_NeoHookean->settle(m_Hold, pull, m_Options.toolStiffness, m_Options.tolerance).iterations;
+    m_Displacement = m_NeoHookean->displacement();
+    m_ToolForces = m_NeoHookean->springForces(m_Hold, pull, m_Options.toolStiffness);
+    return iterations;
+  }
+
   void addToolForces(const Part& around, Eigen::VectorXd& forces) const
   {
     const Interface shared = interfaceOf(m_Child, around);
@@ -176,6 +193,7 @@ private:
   const ToolPath* m_Tool = nullptr;
   Hold m_Hold;
   std::unique_ptr<Grasp> m_Grasp;
+  Vec3 m_Motion{ 0, 0, 0 }; ///< mm, of the tool since it took hold
   Eigen::VectorXd m_Start, m_Displacement, m_ToolForces;
 };
 
@@ -198,16 +216,27 @@ void takeHold(std::vector<Domain>& domains, const ToolPath& tool, std::size_t nu
   double least = options.reach;
   for (Domain& domain : domains)
   {
-    const Hold hold = holdNear(domain.part(), tip, 0, least, 1);
+    const Hold hold = domain.holdAt(tip, 0, least, 1);
     if (hold.empty()) continue;
-    least = norm(domain.part().body.mesh.points[std::size_t(hold.front())] - tip);
+    least = norm(domain.pointNow(hold.front()) - tip);
     nearest = &domain;
   }
   if (nearest == nullptr)
     throw InputError(name + " is not within " + text::rounded(options.reach) +
                      " mm of a child's free point, expected a path that begins at one");
   if (nearest->hasTool()) throw InputError(name + " is the second at one child, expected one tool each");
-  nearest->take(tool, holdNear(nearest->part(), tip, options.toolRadius, options.reach, kMostHeldPoints));
+  nearest->take(tool, nearest->holdAt(tip, options.toolRadius, options.reach, kMostHeldPoints));
+}
+
+/// Lets the children feel one another's tools. They are treated one after another, each with the newest forces of the
+/// others: this is block Gauss-Seidel, which converges from exchange to exchange for every elastic body; with the old
+/// forces of all others (block Jacobi), three tools need not. The first child comes after all others that have tools,
+/// and those without a tool come last, so that the displacements around the first child fit the newest forces.
+void exchange(std::vector<Domain>& domains)
+{
+  for (const bool hasTool : { true, false })
+    for (auto domain = domains.rbegin(); domain != domains.rend(); ++domain)
+      if (domain->hasTool() == hasTool) domain->loadByOthers(domains);
 }
 
 std::vector<Vec3> displacementsOf(const CoupledMesh& mesh, const std::vector<Domain>& domains)
@@ -234,12 +263,28 @@ std::array<double, 2> spanOf(const std::vector<ToolPath>& tools)
   return span;
 }
 
+/// Returns the number of steps after the first one.
+std::int64_t stepsIn(const std::array<double, 2>& span, double rate)
+{
+  constexpr double most = 1e7; // more are a mistake in the unit of time, and would not fit into memory
+  const double seconds = span[1] - span[0];
+  // Times far from zero have lost their last digits.
+  const double lost = 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(span[0]), std::abs(span[1]));
+  const double steps = std::floor((seconds + lost) * rate + 1e-6);
+  if (steps <= most) return std::int64_t(steps);
+  throw InputError("the tools move for " + text::rounded(seconds) + " s, which is " + text::rounded(steps) +
+                   " steps at " + text::rounded(rate) + " Hz, expected at most " + text::rounded(most) +
+                   "; are their times in seconds?");
+}
+
 } // namespace
 
 ReplayResult replay(const CoupledMesh& mesh, const std::vector<ToolPath>& tools, const ReplayOptions& options,
                     const FrameObserver& observer, const Progress& progress)
 {
   checkOptions(options);
+  const std::array<double, 2> span = spanOf(tools);
+  const std::int64_t steps = stepsIn(span, options.childRate);
   ReplayResult result;
   const Stopwatch preparation;
   std::vector<Domain> domains;
@@ -254,13 +299,9 @@ ReplayResult replay(const CoupledMesh& mesh, const std::vector<ToolPath>& tools,
   for (const Domain& domain : domains) result.sizes.children.push_back(domain.sizes());
 
   const auto stepsBetween = std::int64_t(std::round(options.childRate / options.parentRate));
-  const auto [first, last] = spanOf(tools);
-  // Times far from zero have lost their last digits.
-  const double lost = 4 * std::numeric_limits<double>::epsilon() * std::max(std::abs(first), std::abs(last));
-  const auto steps = std::int64_t(std::floor((last - first + lost) * options.childRate + 1e-6));
   for (std::int64_t k = 0; k <= steps; ++k)
   {
-    const double seconds = first + double(k) / options.childRate;
+    const double seconds = span[0] + double(k) / options.childRate;
     for (Domain& domain : domains)
     {
       if (!domain.hasTool()) continue;
@@ -272,10 +313,10 @@ ReplayResult replay(const CoupledMesh& mesh, const std::vector<ToolPath>& tools,
     }
     if (k % stepsBetween != 0 && k != steps) continue;
     report(progress, 0.5 + 0.5 * double(k) / double(std::max<std::int64_t>(1, steps)), "stepping");
-    const Stopwatch exchange;
-    for (Domain& domain : domains) domain.loadByOthers(domains);
+    const Stopwatch exchanging;
+    exchange(domains);
     result.displacements = displacementsOf(mesh, domains);
-    result.times.exchanges.push_back(exchange.seconds());
+    result.times.exchanges.push_back(exchanging.seconds());
     if (observer) observer(seconds, result.displacements);
   }
   return result;

@@ -21,9 +21,9 @@ struct ReplayOptions
   ChildLaw law = ChildLaw::Linear;
   double childRate = 500;     ///< steps per second
   double parentRate = 25;     ///< exchanges per second; childRate must be a multiple of it
-  double toolRadius = 2;      ///< mm: the tool holds the child's points within this distance of its first position
+  double toolRadius = 2;      ///< mm: the tool holds the points of the child at rest this near to its first position
   double toolStiffness = 0.1; ///< N/mm, of all springs of a tool together
-  double reach = 5;           ///< mm: largest distance of the nearest point from the tool's first position
+  double reach = 5;           ///< mm: largest distance of the nearest point at rest from the tool's first position
   /// N/mm^3, LPS. Default: a brain in cerebrospinal fluid, which it exceeds by 40 kg/m^3.
   Vec3 weight{ 0, 0, -4e-7 };
   double tolerance = 1e-6; ///< of the neo-Hookean child's equilibrium, relative to its largest force
@@ -69,8 +69,8 @@ struct ReplayResult
 using FrameObserver = std::function<void(double seconds, const std::vector<Vec3>& displacements)>;
 
 /// Replays the tools from the first time of any path to the last time of all. Throws InputError, with the number of the
-/// tool from 1, if a tool is out of reach of every child or is the second one at a child; as Surroundings does; and if
-/// memory does not suffice for the dense matrix of an interface. Throws UsageError for options out of range.
+/// tool from 1, if a tool is out of reach of every child or is the second one at a child; as Surroundings does; if there
+/// are more than ten million steps; and if memory does not suffice for the dense matrix of an interface. Throws UsageError for options out of range.
 ReplayResult replay(const CoupledMesh& mesh, const std::vector<ToolPath>& tools, const ReplayOptions& options,
                     const FrameObserver& observer = {}, const Progress& progress = {});
 

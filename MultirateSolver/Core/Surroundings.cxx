@@ -5,27 +5,45 @@
 
 namespace surgicalmesher
 {
-
-Surroundings::Surroundings(Part part, std::vector<std::int32_t> interface)
-  : m_Part(std::move(part)), m_Interface(std::move(interface)), m_Factor(linearStiffness(m_Part.body), m_Interface)
+namespace
 {
-  if (!m_Factor.factorize(linearStiffness(m_Part.body)))
-    throw InputError("the equations around a child are singular: a piece hangs on no held point, expected one body");
-  m_Norton.stiffness = m_Factor.condensed();
+
+double meanDiagonal(const SymmetricMatrix& matrix) { return matrix.rows() > 0 ? matrix.diagonal().mean() : 0; }
+
+SymmetricMatrix withSprings(SymmetricMatrix matrix, const std::vector<std::int32_t>& at, double spring)
+{
+  for (const std::int32_t u : at) matrix.coeffRef(u, u) += spring;
+  return matrix;
+}
+
+} // namespace
+
+// A piece beyond a child that goes right across the body hangs on the child alone: without the child it would float.
+// Springs at the interface hold it, and are subtracted from the stiffness that the child feels.
+Surroundings::Surroundings(Part part, std::vector<std::int32_t> interface)
+  : m_Part(std::move(part)), m_Interface(std::move(interface)), m_Spring(meanDiagonal(linearStiffness(m_Part.body))),
+    m_Factor(linearStiffness(m_Part.body), m_Interface)
+{
+  if (!m_Factor.factorize(withSprings(linearStiffness(m_Part.body), m_Interface, m_Spring)))
+    throw InputError(
+      "the equations around a child are singular: a piece hangs on nothing held and on no child, expected one body");
+  m_WithSprings = m_Factor.condensed();
+  m_Norton.stiffness = m_WithSprings;
+  m_Norton.stiffness.diagonal().array() -= m_Spring;
   load(Eigen::VectorXd::Zero(m_Part.body.size()));
 }
 
 void Surroundings::load(const Eigen::VectorXd& forces)
 {
   m_Forces = forces;
-  // Without the child, the displacement w of the interface satisfies S w = g.
-  m_Norton.force = m_Norton.stiffness * m_Factor.solve(forces).col(0)(m_Interface);
+  // Without the child, the displacement w of the interface on its springs k satisfies (S + k) w = g.
+  m_Norton.force = m_WithSprings * m_Factor.solve(forces).col(0)(m_Interface);
 }
 
 Eigen::VectorXd Surroundings::displacement(const Eigen::VectorXd& interface) const
 {
   Eigen::VectorXd forces = m_Forces;
-  forces(m_Interface) += m_Norton.stiffness * interface - m_Norton.force; // force of the child on the surroundings
+  forces(m_Interface) += m_WithSprings * interface - m_Norton.force; // of the child, and against the springs
   return m_Factor.solve(forces);
 }
 

@@ -22,7 +22,8 @@ struct NortonEquivalent
 class Surroundings
 {
 public:
-  /// `interface`: unknowns of `part`. Throws InputError if a component of the part has no held point.
+  /// `interface`: unknowns of `part`. Throws InputError if a component of the part has neither a held point nor
+  /// one of the interface.
   Surroundings(Part part, std::vector<std::int32_t> interface);
 
   /// Sets the forces on all unknowns, N, and updates the Norton force.
@@ -37,7 +38,9 @@ public:
 private:
   Part m_Part;
   std::vector<std::int32_t> m_Interface;
-  SparseCholesky m_Factor;
+  double m_Spring;               ///< N/mm, at each unknown of the interface
+  SparseCholesky m_Factor;       ///< with the springs
+  Eigen::MatrixXd m_WithSprings; ///< the stiffness of the Norton equivalent plus the springs
   NortonEquivalent m_Norton;
   Eigen::VectorXd m_Forces;
 };

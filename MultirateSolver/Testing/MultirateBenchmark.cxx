@@ -74,7 +74,7 @@ void printRates(const CoupledMesh& mesh, std::int32_t number)
               static_cast<long long>(linear->part().body.size()), interface.first.size(), condensing, factorizing);
   for (const std::size_t points : { 1, 7, 32 })
   {
-    const Hold hold = holdNear(linear->part(), middle, 1e9, 1e9, points);
+    const Hold hold = holdNear(linear->part(), linear->atRest(), middle, 1e9, 1e9, points);
     const Grasp grasp(*linear, hold, 0.1);
     const double step = medianMilliseconds([&] { grasp.displacement(*linear, grasp.forces(*linear, { 1, 0, 0 })); });
     std::printf("  tool at %2zu points: %.3f ms, %.0f Hz\n", hold.size(), step, 1e3 / step);
@@ -99,10 +99,10 @@ void printErrors(const CoupledMesh& mesh, const Vec3& tip, ChildLaw law)
     [&]
     {
       whole.solve({});
+      const auto distance = [&](std::size_t p) { return norm(mesh.whole.mesh.points[p] + whole.at(p) - tip); };
       std::int32_t held = 0;
       for (std::size_t p = 0; p < mesh.whole.mesh.points.size(); ++p)
-        if (norm(mesh.whole.mesh.points[p] - tip) < norm(mesh.whole.mesh.points[std::size_t(held)] - tip))
-          held = std::int32_t(p);
+        if (distance(p) < distance(std::size_t(held))) held = std::int32_t(p);
       const Vec3 start = whole.at(std::size_t(held));
       for (const double share : { 0.25, 0.5, 0.75, 1.0 })
         whole.solve({ { held, options.toolStiffness, start + share * motion } });

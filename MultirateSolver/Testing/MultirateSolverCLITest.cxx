@@ -53,10 +53,34 @@ TEST_F(MultirateSolverCLI, TheSameInputGivesTheSameBytes)
   EXPECT_EQ(readBytes(folder.file("f.csv")), readBytes(folder.file("g.csv")));
 }
 
+TEST_F(MultirateSolverCLI, WarnsWhereTheTableOrTheMeshSaysLinear)
+{
+  folder.write("linear.csv", "tissue,model,youngsModulus,poissonsRatio\n1,linear,3,0.45\n");
+  folder.write("other.csv", "tissue,model,youngsModulus,poissonsRatio\n1,neo-Hookean,3,0.45\n");
+  DividedBox box = dividedBox(1);
+  box.child.constitutive.assign(box.child.mesh.tetrahedra.size(), kLinear);
+  writeMesh(box.child, folder.file("linear.vtu"));
+  box.child.constitutive.front() = kNonlinear;
+  writeMesh(box.child, folder.file("tagged.vtu"));
+  const auto isWarnedOf = [&](const std::string& arguments)
+  {
+    EXPECT_EQ(run("--report r.json " + arguments + " c.vtu").status, 0) << arguments;
+    return readBytes(folder.file("r.json")).find("are linear by --materials or Constitutive") != std::string::npos;
+  };
+  EXPECT_TRUE(isWarnedOf("--law neo-Hookean --materials linear.csv parent.vtu child.vtu"));
+  EXPECT_TRUE(isWarnedOf("--law neo-Hookean parent.vtu tagged.vtu"));
+  EXPECT_FALSE(isWarnedOf("--law neo-Hookean --materials other.csv parent.vtu child.vtu"));
+  EXPECT_FALSE(isWarnedOf("--law neo-Hookean parent.vtu linear.vtu"));
+  EXPECT_FALSE(isWarnedOf("--materials linear.csv parent.vtu tagged.vtu"));
+}
+
 TEST_F(MultirateSolverCLI, RefusesBadInput)
 {
   folder.write("far.csv", "seconds,x,y,z\n0,600,8,8\n1,601,8,8\n");
   folder.write("one.csv", "seconds,x,y,z\n0,6,8,8\n");
+  folder.write("nanoseconds.csv", "seconds,x,y,z\n0,6,8,8\n1.7e18,7,8,8\n");
+  expectRefused("--tool nanoseconds.csv parent.vtu child.vtu c.vtu", 1,
+                "expected at most 1e+07; are their times in seconds?");
   folder.write("materials.csv", "tissue,youngsModulus,poissonsRatio\n9,1,0.4\n");
   expectRefused("--tool far.csv parent.vtu child.vtu c.vtu", 1, "tool 1 at (600, 8, 8) mm");
   expectRefused("--tool one.csv --motion m.pvd parent.vtu child.vtu c.vtu", 1, "one.csv: 1 rows, expected");

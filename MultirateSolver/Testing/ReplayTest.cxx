@@ -15,9 +15,9 @@ namespace
 
 const Vec3 kFirstTip{ 6, 6, 6 }, kSecondTip{ 26, 6, 6 }; ///< points inside the two children
 
-ToolPath tool(const Vec3& from, const Vec3& motion)
+ToolPath tool(const Vec3& from, const Vec3& motion, double end = 0.4)
 {
-  return { { 0, 0.1, 0.4 }, { from, from + motion, from + motion } };
+  return { { 0, 0.1, end }, { from, from + motion, from + motion } };
 }
 
 ReplayOptions options(ChildLaw law)
@@ -26,7 +26,7 @@ ReplayOptions options(ChildLaw law)
   result.law = law;
   result.childRate = 100;
   result.parentRate = 50;
-  result.toolRadius = 4.1;
+  result.toolRadius = 4.5; // of points 4 mm apart, moved a little by the weight
   result.toolStiffness = 0.02;
   result.tolerance = 1e-10;
   return result;
@@ -45,7 +45,7 @@ void addSprings(const CoupledMesh& mesh, const WholeSolution& atRest, const Vec3
 {
   std::vector<std::int32_t> held;
   for (std::size_t p = 0; p < mesh.whole.mesh.points.size(); ++p)
-    if (norm(mesh.whole.mesh.points[p] - tip) <= options.toolRadius) held.push_back(std::int32_t(p));
+    if (norm(mesh.whole.mesh.points[p] + atRest.at(p) - tip) <= options.toolRadius) held.push_back(std::int32_t(p));
   for (const std::int32_t p : held)
     springs.push_back({ p, options.toolStiffness / double(held.size()), motion + atRest.at(std::size_t(p)) });
 }
@@ -55,10 +55,9 @@ struct Pull
   Vec3 tip, motion;
 };
 
-/// How far two linear children, drawn at so, end from where they are in the whole mesh.
-double errorOfTwoChildren(const std::vector<Pull>& pulls)
+/// How far linear children, drawn at so, end from where they are in the whole mesh.
+double errorOfChildren(const DividedBox& box, const std::vector<Pull>& pulls, double end = 0.4)
 {
-  const DividedBox box = dividedBox(2);
   const CoupledMesh mesh = coupledMesh(box.parent, box.child, {});
   const ReplayOptions setting = options(ChildLaw::Linear);
   WholeSolution whole(mesh, setting.weight, 0);
@@ -67,7 +66,7 @@ double errorOfTwoChildren(const std::vector<Pull>& pulls)
   std::vector<PointSpring> springs;
   for (const auto& [tip, motion] : pulls)
   {
-    tools.push_back(tool(tip, motion));
+    tools.push_back(tool(tip, motion, end));
     addSprings(mesh, whole, tip, motion, setting, springs);
   }
   whole.solve(springs);
@@ -133,12 +132,42 @@ TEST(Replay, ANeoHookeanChildMovesAsInTheWholeMesh)
 
 TEST(Replay, TwoChildrenWithAToolEachMoveAsInTheWholeMesh)
 {
-  EXPECT_LT(errorOfTwoChildren({ { kSecondTip, { -3, 0, 1 } }, { kFirstTip, { 2, 1, -1 } } }), 1e-8);
+  EXPECT_LT(errorOfChildren(dividedBox(2), { { kSecondTip, { -3, 0, 1 } }, { kFirstTip, { 2, 1, -1 } } }), 1e-8);
 }
 
 TEST(Replay, AChildWithoutAToolFollowsTheOther)
 {
-  EXPECT_LT(errorOfTwoChildren({ { kFirstTip, { 2, 1, -1 } } }), 1e-8);
+  EXPECT_LT(errorOfChildren(dividedBox(2), { { kFirstTip, { 2, 1, -1 } } }), 1e-8);
+}
+
+TEST(Replay, ThreeToolsAtASlenderBodyMoveItAsInTheWholeMesh)
+{
+  const Vec3 first{ 2, 2, 38 }, second{ 14, 2, 38 }, third{ 2, 14, 38 }, motion{ 3, 0, 0 };
+  EXPECT_LT(errorOfChildren(dividedColumn(), { { first, motion }, { second, motion }, { third, motion } }, 2), 1e-6);
+}
+
+TEST(Replay, AToolTakesHoldOfPointsWhereTheyAreAtRest)
+{
+  const DividedBox box = dividedBox(1);
+  const CoupledMesh mesh = coupledMesh(box.parent, box.child, {});
+  ReplayOptions setting = options(ChildLaw::Linear);
+  setting.weight = { 4e-5, 0, 0 };
+  setting.toolRadius = 0.01;
+  setting.reach = 0.5;
+  WholeSolution whole(mesh, setting.weight, 0);
+  whole.solve({});
+  const Vec3 moved = whole.at(std::size_t(pointAt(mesh, kFirstTip))), tip = kFirstTip + moved, motion{ 0, 0, 1 };
+  ASSERT_GT(norm(moved), setting.reach);
+  std::vector<PointSpring> springs;
+  addSprings(mesh, whole, tip, motion, setting, springs);
+  ASSERT_EQ(springs.size(), 1u);
+  whole.solve(springs);
+  EXPECT_LT(whole.errorOf(replay(mesh, { tool(tip, motion) }, setting).displacements), 1e-8);
+}
+
+TEST(Replay, AChildMayGoRightAcrossTheBody)
+{
+  EXPECT_LT(errorOfChildren(dividedBar(), { { { 22, 2, 6 }, { 0, 2, 1 } } }), 1e-8);
 }
 
 TEST(Replay, WithoutAToolTheMeshHangsAtRest)
