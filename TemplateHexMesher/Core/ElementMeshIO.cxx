@@ -354,12 +354,7 @@ void writeElementMesh(const ElementMeshFile& content, const Points& points, cons
   requireWritable(content, templateFile, file);
   const std::string extension = extensionOf(file);
   if (extension == ".inp") return writeText(abaqusWithPoints(templateFile, points), file);
-  if (extension == ".node")
-  {
-    SolverMesh mesh = readAnsys(templateFile);
-    mesh.mesh.points = points;
-    return writeText(ansysNodesWithPoints(mesh), file);
-  }
+  if (extension == ".node") return writeText(ansysNodesWithPoints(templateFile, points), file);
   const auto data = vtkSmartPointer<vtkPointSet>::Take(content.data->NewInstance());
   data->ShallowCopy(content.data);
   data->SetPoints(vtkPointsOf(points));

@@ -164,13 +164,18 @@ private:
     bool ofNodes;
     std::string set;
     std::int64_t id = 0;
-    std::string otherSet; ///< name of an included set, in place of an id
+    std::string otherSet;  ///< name of an included set, in place of an id
+    std::int64_t last = 0; ///< if not 0, the entry is the ids that exist among id, id + step, ..., last
+    std::int64_t step = 1;
   };
 
   void beginBlock(const std::string& line)
   {
     requireWholeElement();
     m_Keyword = parseKeyword(line);
+    const std::string system = upperCase(m_Keyword["SYSTEM"]);
+    if (m_Keyword.name == "NODE" && !system.empty() && system != "R")
+      refuseLine(m_File, m_Line, line, "rectangular coordinates (SYSTEM=R)");
     if (m_Keyword.name != "ELEMENT") return;
     const std::string type = upperCase(m_Keyword["TYPE"]);
     const auto shape = shapeOfAbaqus(type);
@@ -183,6 +188,8 @@ private:
     const Fields fields = text::splitFields(line);
     if (m_Keyword.name == "NODE") readNode(line, fields);
     else if (m_Keyword.name == "ELEMENT") readElement(line, fields);
+    else if (m_Keyword.name == "SYSTEM")
+      refuseLine(m_File, m_Line, line, "nodes in the global system, without a *SYSTEM of their own");
     else if (m_Keyword.name == "ELSET" || m_Keyword.name == "NSET") readSet(line, fields);
   }
 
@@ -235,7 +242,7 @@ private:
       const std::int64_t first = idOf(fields[0]), last = fields.size() > 1 ? idOf(fields[1]) : 0;
       const std::int64_t step = fields.size() > 2 && !fields[2].empty() ? idOf(fields[2]) : 1;
       if (!first || !last || !step) refuseLine(m_File, m_Line, line, "first, last and step of a set");
-      for (std::int64_t id = first; id <= last; id += step) addToSet(ofNodes, set, id);
+      if (!set.empty()) m_Entries.push_back({ ofNodes, spelled(ofNodes, set), first, "", last, step });
       return;
     }
     for (const std::string& field : fields)
@@ -270,18 +277,37 @@ private:
     }
     for (const SetEntry& entry : m_Entries)
     {
-      auto& sets = entry.ofNodes ? m_Mesh.nodeSets : m_Mesh.elementSets;
-      std::vector<std::int32_t>& ids = sets[entry.set];
-      if (entry.otherSet.empty()) ids.push_back((entry.ofNodes ? m_Nodes : m_Elements).at(entry.id));
-      else if (entry.otherSet != entry.set && sets.count(entry.otherSet))
-      {
-        const std::vector<std::int32_t> other = sets[entry.otherSet];
-        ids.insert(ids.end(), other.begin(), other.end());
-      }
-      else throw InputError(m_File + ": set " + entry.set + " refers to " + entry.otherSet + ", which is not there");
+      const std::vector<std::int32_t> members = membersOf(entry);
+      std::vector<std::int32_t>& set = (entry.ofNodes ? m_Mesh.nodeSets : m_Mesh.elementSets)[entry.set];
+      set.insert(set.end(), members.begin(), members.end());
     }
     makeUnique(m_Mesh.nodeSets);
     makeUnique(m_Mesh.elementSets);
+  }
+
+  std::vector<std::int32_t> membersOf(const SetEntry& entry) const
+  {
+    if (entry.last != 0) return membersInRange(entry);
+    if (entry.otherSet.empty()) return { (entry.ofNodes ? m_Nodes : m_Elements).at(entry.id) };
+    const auto& sets = entry.ofNodes ? m_Mesh.nodeSets : m_Mesh.elementSets;
+    const auto other = sets.find(entry.otherSet);
+    if (entry.otherSet != entry.set && other != sets.end()) return other->second;
+    throw InputError(m_File + ": set " + entry.set + " refers to " + entry.otherSet + ", which is not there");
+  }
+
+  /// Goes through the ids that exist, since a range may have far more.
+  std::vector<std::int32_t> membersInRange(const SetEntry& entry) const
+  {
+    const std::vector<std::int64_t>& ids = entry.ofNodes ? m_Mesh.nodeIds : m_Mesh.elementIds;
+    std::vector<std::int32_t> members;
+    for (std::size_t i = 0; i < ids.size(); ++i)
+    {
+      if (ids[i] >= entry.id && ids[i] <= entry.last && (ids[i] - entry.id) % entry.step == 0)
+        members.push_back(std::int32_t(i));
+    }
+    if (!members.empty()) return members;
+    throw InputError(m_File + ": set " + entry.set + " has no member from " + std::to_string(entry.id) + " to " +
+                     std::to_string(entry.last) + ", expected ids that are there");
   }
 
   std::string m_File;
@@ -313,14 +339,36 @@ Fields columnsOf(const std::string& line, const std::vector<std::size_t>& widths
 
 bool isColumn(const std::string& field) { return field.find_first_of(" \t") == std::string::npos; }
 
+/// Whether a column that begins at `begin` would cut a word.
+bool cutsAt(const std::string& line, std::size_t begin)
+{
+  return line.size() > begin && line[begin - 1] != ' ' && line[begin] != ' ' && line[begin] != '-';
+}
+
+/// A node's id and coordinates, and what follows them in its line, such as rotation angles.
+struct NodeLine
+{
+  Fields fields;
+  std::string rest;
+};
+
+std::string afterWords(const std::string& line, int words)
+{
+  std::size_t end = 0;
+  for (int n = 0; n < words && end != std::string::npos; ++n)
+    end = line.find_first_of(" \t", line.find_first_not_of(" \t", end));
+  return end == std::string::npos ? std::string() : line.substr(end);
+}
+
 /// Splits a line by columns, unless they would cut a word or the line contains a tab.
-Fields nodeFields(const std::string& line)
+NodeLine nodeLineOf(const std::string& line)
 {
   const Fields columns = columnsOf(line, { 8, 20, 20, 20 });
-  const bool fits = line.find('\t') == std::string::npos && line.size() <= 68 && !columns[0].empty() &&
+  const bool fits = line.find('\t') == std::string::npos && !columns[0].empty() &&
                     std::all_of(columns.begin(), columns.end(), isColumn) && coordinatesOf(columns, 1);
-  const bool cuts = line.size() > 8 && line[7] != ' ' && line[8] != ' ' && line[8] != '-';
-  return fits && !cuts ? columns : text::splitWords(line);
+  const bool cuts = cutsAt(line, 8) || cutsAt(line, 28) || cutsAt(line, 48) || cutsAt(line, 68);
+  if (!fits || cuts) return { text::splitWords(line), afterWords(line, 4) };
+  return { columns, line.size() > 68 ? line.substr(68) : std::string() };
 }
 
 Fields elementFields(const std::string& line)
@@ -358,7 +406,7 @@ SolverMesh readAnsysMesh(const std::string& nodeFile, const std::string& element
   for (std::size_t i = 0; i < nodeLines.size(); ++i)
   {
     if (text::trimmed(nodeLines[i]).empty()) continue;
-    const Fields fields = nodeFields(nodeLines[i]);
+    const Fields fields = nodeLineOf(nodeLines[i]).fields;
     const std::int64_t id = idOf(fields[0]);
     const auto position = coordinatesOf(fields, 1);
     if (!id || !position) refuseLine(nodeFile, i, nodeLines[i], "a node's id and coordinates");
@@ -412,16 +460,19 @@ std::string abaqusWithPoints(const std::string& file, const Points& points)
   return result;
 }
 
-std::string ansysNodesWithPoints(const SolverMesh& mesh)
+std::string ansysNodesWithPoints(const std::string& nodeFile, const Points& points)
 {
   std::string result;
-  for (std::size_t i = 0; i < mesh.nodeIds.size(); ++i)
+  Eigen::Index next = 0;
+  for (const std::string& line : text::splitLines(text::readTextFile(nodeFile)))
   {
+    if (text::trimmed(line).empty()) continue;
+    const NodeLine node = nodeLineOf(line);
     char row[128];
-    const Eigen::Vector3d p = mesh.mesh.points.col(Eigen::Index(i));
-    std::snprintf(row, sizeof(row), "%8lld%20.12g%20.12g%20.12g\n", static_cast<long long>(mesh.nodeIds[i]), p.x(),
+    const Eigen::Vector3d p = points.col(next++);
+    std::snprintf(row, sizeof(row), "%8lld%20.12g%20.12g%20.12g", static_cast<long long>(idOf(node.fields[0])), p.x(),
                   p.y(), p.z());
-    result += row;
+    result += row + node.rest + "\n";
   }
   return result;
 }

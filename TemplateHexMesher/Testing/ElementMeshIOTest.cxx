@@ -134,6 +134,37 @@ TEST(ElementMeshIO, ChangesNothingButTheCoordinates)
   EXPECT_THROW(requireWritable(content, source, folder.file("b.stl")), UsageError);
 }
 
+TEST(ElementMeshIO, KeepsWhatFollowsTheCoordinatesOfAnAnsysNode)
+{
+  const TemporaryFolder folder;
+  const std::string blank(20, ' ');
+  const std::string source = folder.write(
+    "a.node", "       1" + blank + blank + blank + "        30.5        0\n" + // zeros omitted, then angles
+                "2 1 0 0 31.5 0 -2\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8\t0\t1\t1\t32.5\n");
+  folder.write("a.elem", "1 2 3 4 5 6 7 8 1 1 1 0 0 9\n");
+  const ElementMeshFile content = readElementMesh(source);
+  EXPECT_EQ(content.mesh.points.col(0).norm(), 0);
+  const Points moved = content.mesh.points.array() + 0.25;
+  writeElementMesh(content, moved, source, folder.file("b.node"));
+  const std::string text = readBytes(folder.file("b.node"));
+  for (const char* rest : { "0.25        30.5        0\n", " 0.25 31.5 0 -2\n", "1.25\t32.5\n" })
+    EXPECT_NE(text.find(rest), std::string::npos) << text;
+  folder.write("b.elem", readBytes(folder.file("a.elem")));
+  EXPECT_EQ(readElementMesh(folder.file("b.node")).mesh.points, moved);
+}
+
+TEST(ElementMeshIO, GeneratedSetsHaveTheIdsThatExist)
+{
+  const TemporaryFolder folder;
+  const ElementMeshFile content =
+    readElementMesh(folder.write("a.inp", std::string(deck) + "*NSET, NSET=odd, GENERATE\n13, 2000000001, 2\n"));
+  vtkDataArray* odd = content.data->GetPointData()->GetArray("odd");
+  ASSERT_NE(odd, nullptr);
+  int count = 0;
+  for (vtkIdType p = 0; p < odd->GetNumberOfTuples(); ++p) count += odd->GetComponent(p, 0) != 0;
+  EXPECT_EQ(count, 5); // 13, 15, 21, 23, 25
+}
+
 TEST(ElementMeshIO, KeepsThePointsOfAnObjInTheirOrder)
 {
   const TemporaryFolder folder;
@@ -172,6 +203,10 @@ TEST(ElementMeshIO, RefusesFilesAtFault)
   expectRefused("a.inp", "*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=S3\n1, 1, 1\n*ELSET, ELSET=a\n1\n",
                 "element 1 has 2 of its 3 nodes");
   expectRefused("a.inp", "*NODE\n1, 0, 0, 0\n", "no element");
+  expectRefused("a.inp", "*Node, System=c\n1, 0, 0, 0\n", "a.inp:1: \"*Node, System=c\", expected rectangular");
+  expectRefused("a.inp", "*SYSTEM\n1, 0, 0\n*NODE\n1, 0, 0, 0\n", "a.inp:2: \"1, 0, 0\", expected nodes in the global");
+  expectRefused("a.inp", "*NSET, NSET=a, GENERATE\n5, 2000000000\n*NODE\n1, 0, 0, 0\n*ELEMENT, TYPE=S3\n1, 1, 1, 1\n",
+                "set a has no member from 5 to 2000000000");
   expectRefused("a.inp", "", "no point");
   expectRefused("a.obj", "v 0 0\n", "three coordinates");
   expectRefused("a.obj", "v 0 0 0\nf 1 2 3\n", "points");
