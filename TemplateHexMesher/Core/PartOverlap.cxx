@@ -65,6 +65,21 @@ double shareInside(const Element& element, const Points& points, const InsideTes
   return all > 0 ? within / all : 0;
 }
 
+/// Whether a vertex or the centre of a triangle lies in an element. A thin part may lie between the samples of all
+/// elements.
+bool reachesInto(const TriangleSurface& part, const ElementMesh& mesh)
+{
+  const TriangleSurface outside{ mesh.points, trianglesOf(outerFaces(mesh.elements), mesh.points) };
+  const InsideTest inside(outside, "elements");
+  const auto centreIsInside = [&](const Triangle& t)
+  { return inside.contains((part.points.col(t[0]) + part.points.col(t[1]) + part.points.col(t[2])) / 3); };
+  for (Eigen::Index i = 0; i < part.points.cols(); ++i)
+  {
+    if (inside.contains(part.points.col(i))) return true;
+  }
+  return std::any_of(part.triangles.begin(), part.triangles.end(), centreIsInside);
+}
+
 /// Returns the share above which the elements' volume is closest to `volume`, half-way between the shares of two
 /// elements.
 double cutOffFor(double volume, const std::vector<double>& shares, const std::vector<double>& volumes)
@@ -130,7 +145,8 @@ Classification classified(const ElementMesh& mesh, const std::vector<Part>& part
   {
     const InsideTest inside(parts[p].surface, parts[p].file);
     parallelFor(count, [&](std::size_t e) { shares[p][e] = shareInside(mesh.elements[e], mesh.points, inside); });
-    if (std::all_of(shares[p].begin(), shares[p].end(), [](double share) { return share == 0; }))
+    const bool missed = std::all_of(shares[p].begin(), shares[p].end(), [](double share) { return share == 0; });
+    if (missed && !reachesInto(parts[p].surface, mesh))
       throw InputError(parts[p].file + ": outside all elements, expected a part of the tissue");
     PartMatch& match = result.matches[p];
     match.partVolume = volumeInside(parts[p].surface, inside);

@@ -38,7 +38,8 @@ struct Classification
 /// cut-off (in (0, 1)) the share exceeds. For a cut-off of 0, one is chosen so that the elements above it have the
 /// part's volume as closely as possible; the paper's cut-offs are 52, 50 and 45 % for fine to coarse meshes. Shares are
 /// computed from 216 points in each hexahedron, weighted by their volume. A part may end up without elements. Throws
-/// InputError with the part's file if its surface is not closed or lies outside all elements.
+/// InputError with the part's file if its surface is not closed or lies outside all elements, with its vertices and the
+/// centres of its triangles.
 Classification classified(const ElementMesh& mesh, const std::vector<Part>& parts, const std::vector<double>& cutOffs);
 
 } // namespace surgicalmesher

@@ -94,6 +94,20 @@ TEST(PartOverlap, AnElementOfTwoPartsGoesToTheOneThatHasMostOfIt)
   }
 }
 
+TEST(PartOverlap, APartBetweenAllSamplesEndsWithoutElements)
+{
+  ElementMesh sheet = slab(10, 8, 1); // 0.2 mm thick, where samples are 0.83 mm apart
+  sheet.points.topRows(2) *= 0.4;
+  for (Eigen::Index i = 0; i < sheet.points.cols(); ++i)
+    sheet.points(2, i) = 5 + (i < sheet.points.cols() / 2 ? -0.1 : 0.1);
+  ElementMesh flat = slab(10, 8, 2);
+  for (Eigen::Index i = 0; i < flat.points.cols(); ++i) flat.points(2, i) = 5. * double(i / (flat.points.cols() / 3));
+  const Part part{ "sheet", "sheet.vtp", outerSurface(sheet) };
+  const Classification classes = classified(flat, { part }, { 0 });
+  EXPECT_EQ(classes.matches[0].elements, 0u);
+  EXPECT_GT(classes.matches[0].partVolume, 0);
+}
+
 TEST(PartOverlap, APartElsewhereIsRefused)
 {
   EXPECT_THROW(classified(slab(), { ball({ 0, 0, 100 }, 5) }, { 0 }), InputError);
