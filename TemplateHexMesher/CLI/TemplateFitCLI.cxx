@@ -82,6 +82,14 @@ TriangleSurface readTarget(const CommandLine& line, double unit)
   return target;
 }
 
+/// Reads the material table for the tissues of the template.
+void readMaterials(CommandLine& line, SolverExports& exports, const ElementMeshFile& content, const std::string& file)
+{
+  if (exports.materialFile.empty()) return;
+  const SolidMesh solid = solidMeshOf(content, content.mesh.points, file);
+  readMaterials(line, exports, solid.tissues, { solid.labels.begin(), solid.labels.end() });
+}
+
 /// A mesh that is deformed along with the template, and the file beside the fitted mesh to which it is written.
 struct Carried
 {
@@ -245,7 +253,7 @@ void run(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
-  const SolverExports exports = readExports(line);
+  SolverExports exports = readExports(line);
   std::vector<Carried> carriedFiles = announceCarried(line);
   const Units units{ millimetresIn(line.text("templateUnit")), millimetresIn(line.text("targetUnit")) };
   const auto landmarks = readLandmarks(line, units);
@@ -255,6 +263,7 @@ void run(CommandLine& line)
   const ElementMeshFile content = readElementMesh(templateFile);
   requireRightSideOut(content.mesh, templateFile);
   requireWritable(content, templateFile, fittedName);
+  readMaterials(line, exports, content, templateFile);
   for (Carried& file : carriedFiles) file.content = readElementMesh(file.source);
   const ElementMesh mesh{ units.ofTemplate * content.mesh.points, content.mesh.elements };
   requireNear(landmarks[0], mesh.points, templateFile);

@@ -114,13 +114,25 @@ std::vector<double> readCutOffs(const CommandLine& line)
                    std::to_string(parts) + " --parts");
 }
 
-void addParts(const std::vector<Part>& parts, const std::vector<std::int32_t>& part, vtkUnstructuredGrid* grid)
+TissueTable tissuesOf(const std::vector<Part>& parts)
+{
+  TissueTable tissues{ { kFiller, { "filler" } } };
+  for (std::size_t p = 0; p < parts.size(); ++p) tissues[Label(kFiller + p + 1)].name = parts[p].name;
+  return tissues;
+}
+
+std::set<Label> labelsOf(const TissueTable& tissues)
+{
+  std::set<Label> labels;
+  for (const auto& [label, tissue] : tissues) labels.insert(label);
+  return labels;
+}
+
+void addLabels(const TissueTable& tissues, const std::vector<std::int32_t>& part, vtkUnstructuredGrid* grid)
 {
   vtkNew<vtkIntArray> labels;
   labels->SetName("TissueLabel");
-  TissueTable tissues{ { kFiller, { "filler" } } };
   std::set<Label> present;
-  for (std::size_t p = 0; p < parts.size(); ++p) tissues[Label(kFiller + p + 1)].name = parts[p].name;
   for (const std::int32_t p : part)
   {
     labels->InsertNextValue(kFiller + p);
@@ -224,11 +236,13 @@ void run(CommandLine& line)
   vtkSMPTools::Initialize(line.integer("threads"));
   const Progress progress = line.progress();
   report(progress, 0, "reading");
-  const SolverExports exports = readExports(line);
+  SolverExports exports = readExports(line);
   const HexOptions options = readOptions(line);
   const std::string envelopeFile = line.text("envelope"), sidesFile = line.text("sides");
   const std::vector<double> cutOffs = readCutOffs(line);
   const std::vector<Part> parts = readParts(line);
+  const TissueTable tissues = tissuesOf(parts);
+  readMaterials(line, exports, tissues, labelsOf(tissues));
   const Painted painted = readPainted(sidesFile);
   const Envelope envelope = withSides(readSurfaceOf(envelopeFile), painted.surface, painted.sides, sidesFile);
   const SlabParameterisation slab =
@@ -241,7 +255,7 @@ void run(CommandLine& line)
   const Distances distances = skinDistances(mesh, slab);
   report(progress, 0.95, "writing");
   const ElementMeshFile content = contentOf(mesh);
-  addParts(parts, classes.part, vtkUnstructuredGrid::SafeDownCast(content.data));
+  addLabels(tissues, classes.part, vtkUnstructuredGrid::SafeDownCast(content.data));
   writeElementMesh(content, mesh.mesh.points, envelopeFile, line.outputFile("mesh"));
   writeExports(line, exports, content, mesh.mesh.points, envelopeFile);
   tell(line, quality, distances);

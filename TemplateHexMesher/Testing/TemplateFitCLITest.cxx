@@ -4,7 +4,10 @@
 #include "ExecutableTest.h"
 #include "Slab.h"
 
+#include <vtkCellData.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
+#include <vtkPointSet.h>
 #include <vtkUnstructuredGrid.h>
 
 #include <sstream>
@@ -103,6 +106,21 @@ TEST_F(TemplateFitCLI, ExportsMillimetresAndTheSetsOfTheTemplate)
   const ElementMesh inMetres = readElementMesh(folder.file("s.inp")).mesh;
   EXPECT_LT((fitted.points - inMetres.points).colwise().norm().maxCoeff(), 1e-9);
   EXPECT_NE(readBytes(folder.file("s.inp")).find("*NSET, NSET=a\n"), std::string::npos);
+}
+
+TEST_F(TemplateFitCLI, WarnsOfTissuesThatTheMaterialsLeaveOut)
+{
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("TissueLabel");
+  const ElementMeshFile content = readElementMesh(folder.file("template.inp"));
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) labels->InsertNextValue(e % 2 == 0 ? 1 : 2);
+  content.data->GetCellData()->AddArray(labels);
+  writeElementMesh(content, mesh.points, "template.inp", folder.file("two.vtu"));
+  folder.write("materials.csv", "tissue, youngsModulus, poissonsRatio\n1, 6, 0.4\n");
+  const Outcome result =
+    run("--targetUnit m --landmarks a.fcsv,b.fcsv --materials materials.csv --export e.inp two.vtu target.inp f.vtu");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("materials.csv: no row for 1 of 2 tissues"), std::string::npos) << result.err;
 }
 
 TEST_F(TemplateFitCLI, RefusesLandmarksAtFault)

@@ -79,7 +79,7 @@ TEST_F(VolumetricHexCLI, WritesHexahedraWithTheirPartsAndTheReport)
 
 TEST_F(VolumetricHexCLI, ExportsTissuesLayersAndSides)
 {
-  folder.write("materials.csv", "tissue, youngsModulus, poissonsRatio\nbar, 6, 0.4\n");
+  folder.write("materials.csv", "tissue, youngsModulus, poissonsRatio\nfiller, 3, 0.45\nbar, 6, 0.4\n");
   expectDone(coarse + "--parts bar.vtk --materials materials.csv --export m.inp envelope.vtk sides.vtk m.vtu");
   const std::string deck = readBytes(folder.file("m.inp"));
   for (const char* expected :
@@ -91,6 +91,32 @@ TEST_F(VolumetricHexCLI, ExportsTissuesLayersAndSides)
   expectRefused(coarse + "--export n.xyz envelope.vtk sides.vtk n.vtu", 2, "n.xyz");
   expectRefused(coarse + "--parts bar.vtk --materials bar.vtk --export n.inp envelope.vtk sides.vtk n.vtu", 1,
                 "bar.vtk");
+}
+
+TEST_F(VolumetricHexCLI, WarnsOfTissuesThatTheMaterialsLeaveOut)
+{
+  folder.write("materials.csv", "tissue, youngsModulus, poissonsRatio\nbar, 6, 0.4\n");
+  const Outcome result =
+    run(coarse + "--parts bar.vtk --materials materials.csv --export m.inp envelope.vtk sides.vtk m.vtu");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("materials.csv: no row for 1 of 2 tissues"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("filler"), std::string::npos) << result.err;
+}
+
+TEST_F(VolumetricHexCLI, TakesMaterialsOfAPartThatEndsWithoutElements)
+{
+  TriangleSurface thin = bar();
+  thin.points *= 0.01;
+  thin.points.row(0).array() += 30; // beside the hole
+  folder.write("thin.vtk", textOf(thin));
+  folder.write("materials.csv", "tissue, youngsModulus, poissonsRatio\nfiller, 3, 0.45\nthin, 6, 0.4\n");
+  const Outcome result =
+    run(coarse + "--parts thin.vtk --materials materials.csv --export m.inp envelope.vtk sides.vtk m.vtu");
+  EXPECT_EQ(result.status, 0) << result.err;
+  EXPECT_NE(result.err.find("thin.vtk: no element is this part's"), std::string::npos) << result.err;
+  folder.write("odd.csv", "tissue, youngsModulus, poissonsRatio\nbone, 3, 0.45\n");
+  expectRefused(coarse + "--parts thin.vtk --materials odd.csv --export n.inp envelope.vtk sides.vtk n.vtu", 1,
+                "odd.csv:2: \"bone\" is neither a label nor the name of a tissue");
 }
 
 TEST_F(VolumetricHexCLI, ExportsMetresAndSetsOfNodes)
