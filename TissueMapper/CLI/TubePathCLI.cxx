@@ -196,6 +196,20 @@ void requireMemory(double needed, const std::string& imageFile)
                    " GB available, expected more, or a smaller --margin");
 }
 
+TubePath traceFiles(const CommandLine& line, const ScalarImage& image, const std::vector<Vec3>& places,
+                    const TubePathOptions& options, const Progress& progress)
+{
+  const std::vector<TubePath> blocked = readBlocked(line);
+  try
+  {
+    return traceTube(image, places, blocked, options, progress);
+  }
+  catch (const InputError& error)
+  {
+    throw InputError(line.text("points") + " in " + line.text("image") + ": " + error.what());
+  }
+}
+
 void run(CommandLine& line)
 {
   setThreadCount(line.integer("threads"));
@@ -205,11 +219,10 @@ void run(CommandLine& line)
   if (!line.text("addTo").empty() && line.outputFile("labelMap").empty())
     throw UsageError("--addTo goes nowhere without --labelMap");
   const std::vector<Vec3> places = readPlaces(line);
-  const std::vector<TubePath> blocked = readBlocked(line);
   const std::string imageFile = line.text("image");
   const ScalarImage image = readImage(imageFile);
   requireMemory(tubePathMemory(image.grid, places, options), imageFile);
-  const TubePath tube = traceTube(image, places, blocked, options, subProgress(progress, 0.1, 0.9));
+  const TubePath tube = traceFiles(line, image, places, options, subProgress(progress, 0.1, 0.9));
 
   Results results;
   results.label = Label(line.integer("label"));

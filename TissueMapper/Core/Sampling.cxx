@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "Sampling.h"
 
+#include "Errors.h"
+
 namespace surgicalmesher
 {
 
@@ -55,6 +57,14 @@ double interpolated(const Grid& grid, const std::vector<float>& values, const Ve
 }
 
 } // namespace
+
+void requireVoxels(const Grid& grid, int least, const std::string& purpose)
+{
+  const auto& size = grid.size;
+  if (*std::min_element(size.begin(), size.end()) >= least) return;
+  throw InputError(std::to_string(size[0]) + " x " + std::to_string(size[1]) + " x " + std::to_string(size[2]) +
+                   " voxels, expected " + std::to_string(least) + " or more along each axis " + purpose);
+}
 
 double linearValue(const Grid& grid, const std::vector<float>& values, const Vec3& p)
 {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace surgicalmesher
@@ -44,6 +45,9 @@ inline bool isInVolume(const Grid& grid, const Vec3& p)
   }
   return true;
 }
+
+/// Throws InputError unless the grid has at least `least` voxels along each axis; `purpose` says what they are for.
+void requireVoxels(const Grid& grid, int least, const std::string& purpose);
 
 /// Edge length (mm) of a cube with the volume of a voxel.
 inline double voxelLength(const Grid& grid) { return std::cbrt(grid.spacing.x * grid.spacing.y * grid.spacing.z); }

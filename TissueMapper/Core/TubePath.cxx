@@ -24,6 +24,7 @@ namespace
 {
 
 constexpr int radiusCount = 8;
+constexpr int leastVoxels = 4;      // along each axis, for ITK's recursive Gaussians
 constexpr float leastSpeed = 0.03f; // relative to the speed on the tube: lets the front cross gaps
 
 /// A box of voxels, from `low` to `high` inclusive.
@@ -32,6 +33,18 @@ struct Box
   std::array<int, 3> low;
   std::array<int, 3> high;
 };
+
+/// Widens the box to leastVoxels along every axis on which the grid has as many.
+void widen(const Grid& grid, Box& box)
+{
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const int size = std::min(leastVoxels, grid.size[axis]);
+    const int missing = std::max(0, size - (box.high[axis] - box.low[axis] + 1));
+    box.low[axis] = std::clamp(box.low[axis] - missing / 2, 0, grid.size[axis] - size);
+    box.high[axis] = std::max(box.high[axis], box.low[axis] + size - 1);
+  }
+}
 
 Box boxAround(const Grid& grid, const std::vector<Vec3>& places, double margin)
 {
@@ -48,6 +61,7 @@ Box boxAround(const Grid& grid, const std::vector<Vec3>& places, double margin)
       box.high[axis] = std::max(box.high[axis], int(std::clamp(std::ceil(index + reach), 0.0, last)));
     }
   }
+  widen(grid, box);
   return box;
 }
 
@@ -217,7 +231,7 @@ void requirePlaces(const ScalarImage& image, const std::vector<Vec3>& places)
   for (const Vec3& point : places)
   {
     if (!isInVolume(image.grid, image.grid.worldToGrid(point)))
-      throw InputError("point " + place(point) + " LPS lies outside the image");
+      throw InputError("point " + place(point) + " LPS lies outside the image, expected a place in it");
   }
 }
 
@@ -262,7 +276,7 @@ std::vector<Vec3> axisThrough(const Ridge& ridge, const std::vector<bool>& isBlo
     knots.push_back(snapped(grid, ridge.values, given, options.snapDistance));
     if (linearValue(grid, ridge.values, knots.back()) > 0) continue;
     throw InputError("point " + place(grid.gridToWorld(given)) + " LPS lies on no " + polarity +
-                     " tube of the radii sought");
+                     " tube of the radii sought, expected a place on one, or other radii");
   }
   std::vector<Vec3> path{ knots.front() };
   for (std::size_t n = 1; n < knots.size(); ++n)
@@ -313,6 +327,7 @@ TubePath traceTube(const ScalarImage& image, const std::vector<Vec3>& places, co
                    const TubePathOptions& options, const Progress& progress)
 {
   requirePlaces(image, places);
+  if (options.potential != Potential::Flux) requireVoxels(image.grid, leastVoxels, "to follow gradient or intensity");
   const ScalarImage crop = cropped(image, boxAround(image.grid, places, options.margin));
   const Grid& grid = crop.grid;
   const FluxField field = computeFlux(crop, tubeRadii(grid, options), subProgress(progress, 0, 0.6));

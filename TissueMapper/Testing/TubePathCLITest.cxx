@@ -115,11 +115,37 @@ TEST_F(TubePathCLI, ReadsItsOwnPathAsATubeToKeepOutOf)
                 "--block: every way from"); // the only tube is blocked
 }
 
+TEST_F(TubePathCLI, FollowsATubeWithinOneThickSlice)
+{
+  ScalarImage thick = image;
+  thick.grid = Grid();
+  thick.grid.size = { 40, 30, 12 };
+  thick.grid.spacing = { 0.7, 0.7, 6 };
+  thick.values.assign(thick.grid.voxelCount(), 0);
+  std::mt19937 random(5);
+  addNoise(thick, 0.01, random);
+  for (const int j : { 14, 15 })
+    for (int i = 0; i < 40; ++i) thick.values[thick.grid.index(i, j, 6)] += 1;
+  folder.write("thick.nrrd", nrrd("float", nrrdGeometry(thick.grid), thick.values));
+  folder.write("thick.fcsv", fcsv({ { 3, 10.2, 36 }, { 24, 10.2, 36 } }));
+  const std::string options = "--margin 5 --points thick.fcsv --potential ";
+  for (const char* potential : { "flux", "intensity", "gradient" })
+    expectDone(options + potential + " thick.nrrd p.mrk.json");
+  thick.grid.size[2] = 3;
+  thick.values.resize(thick.grid.voxelCount());
+  folder.write("three.nrrd", nrrd("float", nrrdGeometry(thick.grid), thick.values));
+  folder.write("thick.fcsv", fcsv({ { 3, 10.2, 6 }, { 24, 10.2, 6 } }));
+  expectRefused(options + "gradient three.nrrd p.mrk.json", 1, "three.nrrd: 40 x 30 x 3 voxels, expected 4 or more");
+}
+
 TEST_F(TubePathCLI, RefusesBadInputWithOneLineAndStatusOne)
 {
   folder.write("one.fcsv", fcsv({ scene.places[0] }));
   folder.write("same.fcsv", fcsv({ scene.places[0], scene.places[0] }));
   folder.write("outside.fcsv", fcsv({ scene.places[0], { 900, 0, 0 } }));
+  ScalarImage even = image;
+  std::fill(even.values.begin(), even.values.end(), 7.f);
+  folder.write("even.nrrd", nrrd("float", nrrdGeometry(even.grid), even.values));
   folder.write("text.nrrd", "not an image\n");
   ScalarImage hole = image;
   hole.values[100] = std::numeric_limits<float>::quiet_NaN();
@@ -133,7 +159,9 @@ TEST_F(TubePathCLI, RefusesBadInputWithOneLineAndStatusOne)
   expectRefused(points + "vector.nrrd p.mrk.json", 1, "vector.nrrd: ");
   expectRefused("--points one.fcsv image.nrrd p.mrk.json", 1, "one.fcsv: one point");
   expectRefused("--points same.fcsv image.nrrd p.mrk.json", 1, "same.fcsv: 2 points in one place");
-  expectRefused("--points outside.fcsv image.nrrd p.mrk.json", 1, "lies outside the image");
+  expectRefused("--points outside.fcsv image.nrrd p.mrk.json", 1,
+                "outside.fcsv in image.nrrd: point (900, 0, 0) mm LPS lies outside the image, expected");
+  expectRefused(points + "even.nrrd p.mrk.json", 1, "points.fcsv in even.nrrd: point ");
   expectRefused("--points missing.fcsv image.nrrd p.mrk.json", 1, "missing.fcsv: no such file");
   expectRefused(points + "--addTo missing.nrrd --labelMap out.nrrd image.nrrd p.mrk.json", 1, "missing.nrrd");
   expectRefused(points + "image.nrrd nowhere/p.mrk.json", 1, "nowhere");
