@@ -97,6 +97,7 @@ void writeReport(const std::string& file, const CommandLine& line, const std::ve
       writeMember(json, "trainingPoints", classes[c].points.size());
       writeMember(json, "voxels", count == voxels.end() ? std::size_t(0) : count->second);
       writeMember(json, "invalidated", found.invalidated[c]);
+      writeMember(json, "unreached", found.unreached[c]);
       json.EndObject();
     }
     json.EndArray();
@@ -152,7 +153,41 @@ HeadImages readImages(const CommandLine& line)
     channels.push_back(readImage(file));
     if (channels.size() == 1) requireMemory(channels[0], files.size(), file);
   }
-  return headImages(std::move(channels));
+  try
+  {
+    return headImages(std::move(channels));
+  }
+  catch (const InputError& error)
+  {
+    throw InputError(text::joined(files, ", ") + ": " + error.what());
+  }
+}
+
+Classification classifyFiles(const CommandLine& line, const std::vector<TissueClass>& classes,
+                             const ClassificationOptions& options, const Progress& progress)
+{
+  HeadImages images = readImages(line);
+  try
+  {
+    return classifyTissues(std::move(images), classes, options, progress);
+  }
+  catch (const InputError& error)
+  {
+    throw InputError(line.text("training") + " in " + line.text("image") + ": " + error.what());
+  }
+}
+
+void warnOfOddities(CommandLine& line, const std::vector<TissueClass>& classes, const Classification& found)
+{
+  const std::vector<Label> present = presentLabels(found.map);
+  for (std::size_t c = 0; c < classes.size(); ++c)
+  {
+    const TissueClass& tissue = classes[c];
+    if (!std::binary_search(present.begin(), present.end(), tissue.label)) line.warning(tissue.name + " has no voxel");
+    if (found.unreached[c] == 0) continue;
+    line.warning(std::to_string(found.unreached[c]) + " voxels of " + tissue.name +
+                 " are not reached from its training points, but no other class may take them");
+  }
 }
 
 void run(CommandLine& line)
@@ -170,7 +205,6 @@ void run(CommandLine& line)
   if (line.flag("noCompartments") && !line.outputNames("compartments").empty())
     throw UsageError("--compartments: none are found with --noCompartments");
   const std::vector<TissueClass> classes = readTissueClasses(line.text("training"), line.text("classes"));
-  HeadImages images = readImages(line);
   ClassificationOptions options;
   options.useCompartments = !line.flag("noCompartments");
   options.useContiguity = !line.flag("noContiguity");
@@ -178,7 +212,7 @@ void run(CommandLine& line)
   options.correctBias = line.flag("correctBias");
   options.denoise = line.flag("denoise");
   options.withProbabilities = !line.outputNames("probability").empty();
-  Classification found = classifyTissues(std::move(images), classes, options, subProgress(progress, 0.05, 0.95));
+  Classification found = classifyFiles(line, classes, options, subProgress(progress, 0.05, 0.95));
   report(progress, 0.95, "writing");
   colour(found.map.table);
   writeTissueMap(found.map, line.outputFile("labelMap"));
@@ -189,12 +223,8 @@ void run(CommandLine& line)
   if (!namesFile.empty()) writeTissueNames(found.map.table, namesFile);
   const std::string reportFile = line.outputFile("report");
   if (!reportFile.empty()) writeReport(reportFile, line, classes, found);
-  const std::vector<Label> present = presentLabels(found.map);
-  for (const TissueClass& tissue : classes)
-  {
-    if (!std::binary_search(present.begin(), present.end(), tissue.label)) line.warning(tissue.name + " has no voxel");
-  }
-  line.message(std::to_string(present.size()) + " tissues");
+  warnOfOddities(line, classes, found);
+  line.message(std::to_string(presentLabels(found.map).size()) + " tissues");
   report(progress, 1, "done");
 }
 

@@ -46,10 +46,12 @@ bool isSameGrid(const Grid& a, const Grid& b)
 template <typename Image>
 typename Image::Pointer shrunk(const typename Image::Pointer& image)
 {
-  constexpr unsigned factor = 4;
+  constexpr unsigned factor = 4, leastVoxels = 2; // N4's spline needs an extent along every axis
+  const auto size = image->GetLargestPossibleRegion().GetSize();
   const auto filter = itk::ShrinkImageFilter<Image, Image>::New();
   filter->SetInput(image);
-  filter->SetShrinkFactors(factor);
+  for (unsigned axis = 0; axis < 3; ++axis)
+    filter->SetShrinkFactor(axis, std::clamp(unsigned(size[axis]) / leastVoxels, 1u, factor));
   filter->Update();
   return filter->GetOutput();
 }

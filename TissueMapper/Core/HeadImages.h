@@ -26,8 +26,9 @@ struct HeadImages
 HeadImages headImages(std::vector<ScalarImage> channels);
 
 /// Removes the smooth brightness drift (bias field) from every MR channel by N4 (Tustison et al., IEEE Trans. Med.
-/// Imaging 29(6), 2010), estimated within the head on every fourth voxel along each axis. The result is the same for
-/// any number of threads.
+/// Imaging 29(6), 2010), estimated within the head on every fourth voxel along each axis, or closer along an axis of
+/// fewer than eight. Precondition: at least two voxels along each axis. The result is the same for any number of
+/// threads.
 void correctBias(HeadImages& images, const std::vector<bool>& head);
 
 /// Smooths noise within regions by vector-valued anisotropic diffusion (Whitaker and Xue, ICIP 2001). All channels are

@@ -63,9 +63,10 @@ void applyRow(const TextTableRow& row, TissueClass& tissue)
   tissue.admission = readAdmission(row, tissue.name);
   tissue.isContiguous = readContiguity(row);
   const std::string limit = row.fields[ColumnLimit];
-  if (limit.empty()) return;
-  if (!text::parseNumber(limit, tissue.limit) || tissue.limit < 0)
+  if (!limit.empty() && (!text::parseNumber(limit, tissue.limit) || tissue.limit < 0))
     row.fail("limit \"" + limit + "\", expected a distance in mm of at least 0");
+  if (tissue.admission == Admission::Bone && isBound(tissue))
+    row.fail("contiguity or a limit for bone, expected neither: bone is told by brightness alone");
 }
 
 std::vector<TissueClass>::iterator findClass(std::vector<TissueClass>& classes, const std::string& name)

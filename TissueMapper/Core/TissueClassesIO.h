@@ -19,8 +19,8 @@ std::vector<TissueClass> trainedClasses(const std::vector<Markup>& training, con
 /// Groups training points into classes and applies a table to them. `classesFile` (CSV; empty for none) has the columns
 /// `label`, `name`, `compartment` (intracranial, intraorbital, extracranial, bone, any), `contiguity` (yes, no) and
 /// `limit` (mm). `label` and `name` are required; an empty field of another column means its default. Throws InputError
-/// for points without a label, for fewer than two classes, and for a trained class that is missing from the table,
-/// listed twice, or given the label of another class.
+/// for points without a label, for fewer than two classes, for a trained class that is missing from the table, listed
+/// twice, or given the label of another class, and for contiguity or a limit of bone.
 std::vector<TissueClass> tissueClasses(const std::vector<Markup>& training, const std::string& source,
                                        const std::string& classesFile);
 

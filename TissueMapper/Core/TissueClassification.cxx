@@ -30,7 +30,8 @@ std::vector<TrainingValues> trainingValues(const HeadImages& images, const std::
     {
       const Vec3 p = grid.worldToGrid(point);
       if (!isInVolume(grid, p))
-        throw InputError("training point " + place(point) + " LPS of " + tissue.name + " lies outside the image");
+        throw InputError("training point " + place(point) + " LPS of " + tissue.name +
+                         " lies outside the image, expected a place in it");
       const std::array<int, 3> v = nearestVoxel(grid, p);
       training.back().emplace_back();
       for (const ScalarImage& channel : images.channels)
@@ -50,6 +51,9 @@ int boneClass(const std::vector<TissueClass>& classes)
     bone = int(c);
   }
   if (bone < 0) throw InputError("no class of bone among the training points, expected one named skull or bone");
+  // What contiguity took from bone, no compartment of soft tissue could be asked to take.
+  if (isBound(classes[bone]))
+    throw InputError("contiguity or a limit for " + classes[bone].name + ", expected neither");
   return bone;
 }
 
@@ -128,6 +132,15 @@ CompartmentSeeds seedsOf(const Grid& grid, const std::vector<TissueClass>& class
   return seeds;
 }
 
+/// Rejects images that are too thin for ITK's filters: recursive Gaussians, which find compartments and the head in a
+/// CT, and N4.
+void requireSize(const HeadImages& images, const ClassificationOptions& options)
+{
+  if (options.useCompartments || images.ct >= 0)
+    requireVoxels(images.grid(), 4, images.ct >= 0 ? "in a CT" : "to find compartments");
+  if (options.correctBias) requireVoxels(images.grid(), 2, "to correct bias");
+}
+
 std::vector<Compartment> withoutCompartments(const HeadSigns& signs)
 {
   std::vector<Compartment> compartments;
@@ -153,9 +166,6 @@ const BrightnessModel& modelOf(const Models& models, Compartment compartment)
 {
   return models[std::size_t(compartment) - std::size_t(Compartment::Intracranial)];
 }
-
-/// Whether contiguity or a limit holds for a class.
-bool isBound(const TissueClass& tissue) { return tissue.isContiguous || tissue.limit > 0; }
 
 /// Returns the voxels that contiguity and limit leave to a class: those that a front from its training points reaches
 /// through its voxels. A front starts at each training point, whatever the class of the voxel there.
@@ -202,7 +212,8 @@ private:
 };
 
 /// Reassigns voxels that contiguity or a limit takes from a class to the next class in brightness and proximity, until
-/// every class reaches all its voxels. A voxel that all classes have been refused keeps its last class.
+/// every class reaches all its voxels. A voxel that all classes of its compartment have been refused keeps its last
+/// class, as every voxel of the head has one.
 void enforceContiguity(const HeadImages& images, const std::vector<TissueClass>& classes, const Models& models,
                        const std::optional<Proximity>& proximity, std::vector<int>& classOf, Classification& result)
 {
@@ -230,6 +241,20 @@ void enforceContiguity(const HeadImages& images, const std::vector<TissueClass>&
       }
     }
   }
+}
+
+/// Returns, by class, the number of voxels that it has beyond its contiguity and limit.
+std::vector<std::size_t> unreachedVoxels(const Grid& grid, const std::vector<TissueClass>& classes,
+                                         const std::vector<int>& classOf)
+{
+  std::vector<std::size_t> counts(classes.size(), 0);
+  for (std::size_t c = 0; c < classes.size(); ++c)
+  {
+    if (!isBound(classes[c])) continue;
+    const std::vector<bool> reached = reachedByClass(grid, classes[c], classOf, int(c));
+    for (std::size_t n = 0; n < classOf.size(); ++n) counts[c] += classOf[n] == int(c) && !reached[n];
+  }
+  return counts;
 }
 
 void addProbabilities(const HeadImages& images, const std::vector<int>& classOf, const Models& models, int bone,
@@ -287,6 +312,7 @@ Classification classifyTissues(HeadImages images, const std::vector<TissueClass>
                                const ClassificationOptions& options, const Progress& progress)
 {
   if (classes.size() < 2) throw InputError("one class is trained, expected two or more");
+  requireSize(images, options);
   std::vector<TrainingValues> training = trainingValues(images, classes);
   const int bone = boneClass(classes);
   const auto contrastIn = [&](std::size_t channel) { return boneContrast(images, training, bone, classes, channel); };
@@ -306,6 +332,7 @@ Classification classifyTissues(HeadImages images, const std::vector<TissueClass>
   Classification result;
   result.boneThreshold = corrected.threshold;
   result.invalidated.assign(classes.size(), 0);
+  result.unreached.assign(classes.size(), 0);
   result.compartments = options.useCompartments ? findCompartments(images, signs, seedsOf(images.grid(), classes),
                                                                    subProgress(progress, 0.2, 0.9))
                                                 : withoutCompartments(signs);
@@ -322,6 +349,7 @@ Classification classifyTissues(HeadImages images, const std::vector<TissueClass>
     std::optional<Proximity> proximity;
     if (options.useProximity) proximity.emplace(images.grid(), classes, classOf);
     enforceContiguity(images, classes, models, proximity, classOf, result);
+    result.unreached = unreachedVoxels(images.grid(), classes, classOf);
   }
   if (options.withProbabilities) addProbabilities(images, classOf, models, bone, result);
   result.map.grid = images.grid();

@@ -32,6 +32,9 @@ struct TissueClass
   std::vector<Vec3> points;  ///< training points, world frame
 };
 
+/// Whether contiguity or a limit holds for a class.
+inline bool isBound(const TissueClass& tissue) { return tissue.isContiguous || tissue.limit > 0; }
+
 /// The paper's constraints, each of which can be switched off.
 struct ClassificationOptions
 {
@@ -54,6 +57,8 @@ struct Classification
   std::vector<Compartment> compartments;
   float boneThreshold = 0;
   std::vector<std::size_t> invalidated; ///< by class: voxels taken from the class by contiguity or limit
+  /// By class: voxels that contiguity or limit forbid the class, and that it keeps as no other class may take them.
+  std::vector<std::size_t> unreached;
   /// By class and voxel, if asked for: probability by brightness among the classes that the voxel's compartment admits.
   std::vector<std::vector<float>> probabilities;
 };
@@ -63,9 +68,10 @@ TissueTable compartmentTable();
 
 /// Classifies every voxel of the head. Bone is detected in the CT, or, without a CT, in the first image, an MR image in
 /// which bone is dark. Throws InputError for fewer than two classes; a class without points; a point outside the image;
-/// no class or several classes of bone; bone that is not darker (in a CT: denser) than the rest; compartments without
-/// training points on both sides of the skull; and a compartment that admits no class. The result is bitwise the same
-/// for any number of threads.
+/// no class or several classes of bone; bone with contiguity or a limit; bone that is not darker (in a CT: denser) than
+/// the rest; compartments without training points on both sides of the skull; a compartment that admits no class; and
+/// images with too few voxels along an axis for the filters asked for. The result is bitwise the same for any number of
+/// threads.
 Classification classifyTissues(HeadImages images, const std::vector<TissueClass>& classes,
                                const ClassificationOptions& options, const Progress& progress = {});
 

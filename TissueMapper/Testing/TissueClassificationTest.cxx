@@ -45,6 +45,19 @@ std::vector<std::size_t> voxelsOf(const Grid& grid, const std::vector<Vec3>& poi
   return voxels;
 }
 
+/// Voxels of a class that a front from its training points does not reach through the class within its limit.
+std::size_t unreachedOf(const TissueMap& found, const TissueClass& tissue)
+{
+  std::vector<bool> isOpen;
+  for (const Label label : found.labels) isOpen.push_back(label == tissue.label);
+  const std::vector<std::size_t> seeds = voxelsOf(found.grid, tissue.points);
+  for (const std::size_t n : seeds) isOpen[n] = true;
+  const std::vector<bool> reached = reachedFrom(found.grid, seeds, isOpen, tissue.limit);
+  std::size_t count = 0;
+  for (std::size_t n = 0; n < reached.size(); ++n) count += found.labels[n] == tissue.label && !reached[n];
+  return count;
+}
+
 /// Paints the voxels nearer to `centre` than `radius`.
 void paintBall(ScalarImage& image, const Vec3& centre, double radius, float value)
 {
@@ -214,19 +227,31 @@ TEST(TissueClassification, WhatOneClassLosesNoOtherHasWhereItIsNotReached)
   std::vector<TissueClass> classes = trainingOf(head.truth, 20);
   for (const std::size_t c : { 0, 2, 3, 5 }) classes[c].isContiguous = true;
   const Classification found = classifyTissues(headImages({ head.image }), classes, {});
-  std::vector<int> classOf;
-  for (const Label label : found.map.labels) classOf.push_back(int(label) - 1);
-  for (const int c : { 0, 2, 3, 5 })
+  for (const std::size_t c : { 0, 2, 3, 5 })
   {
-    EXPECT_GT(found.invalidated[std::size_t(c)], 0u) << classes[std::size_t(c)].name;
-    std::vector<bool> isOpen;
-    for (const int other : classOf) isOpen.push_back(other == c);
-    const std::vector<std::size_t> seeds = voxelsOf(head.truth.grid, classes[std::size_t(c)].points);
-    for (const std::size_t n : seeds) isOpen[n] = true;
-    const std::vector<bool> reached = reachedFrom(head.truth.grid, seeds, isOpen, 0);
-    for (std::size_t n = 0; n < classOf.size(); ++n)
-      ASSERT_TRUE(classOf[n] != c || reached[n]) << classes[std::size_t(c)].name;
+    EXPECT_GT(found.invalidated[c], 0u) << classes[c].name;
+    EXPECT_EQ(unreachedOf(found.map, classes[c]), 0u) << classes[c].name;
+    EXPECT_EQ(found.unreached[c], 0u) << classes[c].name;
   }
+}
+
+TEST(TissueClassification, CountsWhatAllClassesHaveBeenRefused)
+{
+  const HeadPhantom head = headPhantom(14);
+  std::vector<TissueClass> classes = trainingOf(head.truth, 20);
+  for (std::size_t c = 3; c < 6; ++c)
+  {
+    classes[c].isContiguous = true; // all that lie outside the skull
+    classes[c].limit = 10;
+  }
+  const Classification found = classifyTissues(headImages({ head.image }), classes, {});
+  std::size_t sum = 0;
+  for (std::size_t c = 3; c < 6; ++c)
+  {
+    EXPECT_EQ(found.unreached[c], unreachedOf(found.map, classes[c])) << classes[c].name;
+    sum += found.unreached[c];
+  }
+  EXPECT_GT(sum, 0u);
 }
 
 TEST(TissueClassification, SeveralImagesPartMoreThanOne)
@@ -304,6 +329,9 @@ TEST(TissueClassification, RefusesWhatItCanNotTellApart)
   expectRefused(changed);
   changed = classes;
   changed[5].admission = Admission::Bone; // two
+  expectRefused(changed);
+  changed = classes;
+  changed[6].isContiguous = true; // no other class could take what is not reached
   expectRefused(changed);
   expectRefused({ classes[0], classes[1], classes[6] }); // nothing outside
   changed = classes;

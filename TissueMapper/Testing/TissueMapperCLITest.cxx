@@ -33,6 +33,23 @@ protected:
     return text.str();
   }
 
+  /// Writes the middle slices of the head, and training points in them.
+  void writeSlices(int count) const
+  {
+    HeadPhantom slices = head;
+    Grid& grid = slices.truth.grid;
+    const int first = (grid.size[2] - count) / 2;
+    const std::size_t layer = std::size_t(grid.size[0]) * grid.size[1];
+    const std::ptrdiff_t begin = std::ptrdiff_t(first * layer), end = begin + std::ptrdiff_t(count * layer);
+    slices.truth.labels.assign(head.truth.labels.begin() + begin, head.truth.labels.begin() + end);
+    slices.image.values.assign(head.image.values.begin() + begin, head.image.values.begin() + end);
+    grid.size[2] = count;
+    grid.origin.z += first;
+    slices.image.grid = grid;
+    writeImage(slices.image, folder.file("slices.nrrd"));
+    folder.write("slices.fcsv", fcsv(trainingOf(slices.truth, 15)));
+  }
+
   HeadPhantom head;
 };
 
@@ -115,11 +132,62 @@ TEST_F(TissueMapperCLI, NumbersClassesAsTheTableSays)
   EXPECT_EQ(readBytes(folder.file("a.nrrd")), readBytes(folder.file("b.nrrd")));
 }
 
+TEST_F(TissueMapperCLI, SaysWhatIsNotContiguousBecauseNoOtherClassTakesIt)
+{
+  folder.write("near.csv", "label,name,contiguity,limit\n1,CSF,,\n2,grey matter,,\n3,white matter,,\n4,fat,,4\n"
+                           "5,muscle,yes,4\n6,skin,,4\n7,skull,no,0\n");
+  const Outcome outcome = run("--quiet --training points.fcsv --classes near.csv --report r.json t1.nrrd map.nrrd");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find(" are not reached from its training points"), std::string::npos) << outcome.err;
+  rapidjson::Document report;
+  report.Parse(readBytes(folder.file("r.json")).c_str());
+  std::size_t unreached = 0;
+  for (unsigned c = 3; c < 6; ++c) unreached += report["classes"][c]["unreached"].GetUint64();
+  EXPECT_GT(unreached, 0u);
+  EXPECT_EQ(report["classes"][1]["unreached"].GetUint64(), 0u) << "a class without contiguity or limit";
+}
+
+TEST_F(TissueMapperCLI, TakesAFewSlices)
+{
+  writeSlices(4);
+  expectDone("--training slices.fcsv --correctBias slices.nrrd map.nrrd");
+  for (const int count : { 2, 3, 5 })
+  {
+    writeSlices(count);
+    expectDone("--training slices.fcsv --noCompartments --correctBias slices.nrrd map.nrrd");
+  }
+}
+
+TEST_F(TissueMapperCLI, RefusesTooFewSlices)
+{
+  writeSlices(3);
+  expectRefused("--training slices.fcsv slices.nrrd map.nrrd", 1,
+                "slices.nrrd: 67 x 66 x 3 voxels, expected 4 or more");
+  writeSlices(1);
+  expectRefused("--training slices.fcsv --noCompartments --correctBias slices.nrrd map.nrrd", 1,
+                "slices.nrrd: 67 x 66 x 1 voxels, expected 2 or more");
+  expectDone("--training slices.fcsv --noCompartments slices.nrrd map.nrrd");
+}
+
+TEST_F(TissueMapperCLI, RefusesContiguityAndLimitOfBone)
+{
+  const std::string soft = "label,name,contiguity,limit\n1,CSF,,\n2,grey matter,,\n3,white matter,,\n4,fat,,\n"
+                           "5,muscle,,\n6,skin,,\n";
+  folder.write("contiguous.csv", soft + "7,skull,yes,\n");
+  folder.write("limited.csv", soft + "7,skull,,20\n");
+  for (const std::string table : { "contiguous.csv", "limited.csv" })
+    expectRefused("--training points.fcsv --classes " + table + " t1.nrrd map.nrrd", 1, table + ":8: ");
+}
+
 TEST_F(TissueMapperCLI, RefusesBadInputWithOneLine)
 {
   folder.write("unnamed.fcsv", "# columns = label,x,y,z\n,0,0,0\n");
   folder.write("one.fcsv", "# columns = label,x,y,z\nskull,0,0,22\nskull,0,0,23\n");
-  folder.write("outside.fcsv", "# columns = label,x,y,z\nskull,0,0,22\nskin,0,0,900\n");
+  folder.write("outside.fcsv", "# columns = label,x,y,z\nskull,0,0,22\nskin,1,2,900\n");
+  folder.write("bones.fcsv", fcsv(trainingOf(head.truth, 2)) + "jawbone,0,0,22\n");
+  std::vector<TissueClass> swapped = trainingOf(head.truth, 5);
+  std::swap(swapped[3].points, swapped[6].points); // bone as bright as fat
+  folder.write("swapped.fcsv", fcsv(swapped));
   folder.write("absent.csv", "label,name\n1,tumour\n");
   folder.write("some.csv", "label,name\n1,CSF\n");
   folder.write("word.csv", "label,name,compartment\n1,CSF,brain\n");
@@ -132,11 +200,16 @@ TEST_F(TissueMapperCLI, RefusesBadInputWithOneLine)
   undefined.values[1000] = std::numeric_limits<float>::quiet_NaN();
   writeImage(shifted, folder.file("shifted.nrrd"));
   writeImage(undefined, folder.file("nan.nrrd"));
-  expectRefused(training + "--channel shifted.nrrd t1.nrrd map.nrrd", 1, "image 2 lies on another grid");
+  expectRefused(training + "--channel shifted.nrrd t1.nrrd map.nrrd", 1,
+                "t1.nrrd, shifted.nrrd: image 2 lies on another grid");
   expectRefused(training + "nan.nrrd map.nrrd", 1, "nan.nrrd");
   expectRefused("--training unnamed.fcsv t1.nrrd map.nrrd", 1, "without a label");
   expectRefused("--training one.fcsv t1.nrrd map.nrrd", 1, "one class, skull, is trained");
-  expectRefused("--training outside.fcsv t1.nrrd map.nrrd", 1, "lies outside the image");
+  expectRefused(
+    "--training outside.fcsv t1.nrrd map.nrrd", 1,
+    "outside.fcsv in t1.nrrd: training point (-1, -2, 900) mm LPS of skin lies outside the image, expected");
+  expectRefused("--training bones.fcsv t1.nrrd map.nrrd", 1, "bones.fcsv in t1.nrrd: two classes of bone");
+  expectRefused("--training swapped.fcsv t1.nrrd map.nrrd", 1, "swapped.fcsv in t1.nrrd: training points of skull");
   expectRefused(training + "--classes absent.csv t1.nrrd map.nrrd", 1, "absent.csv:2: class tumour");
   expectRefused(training + "--classes some.csv t1.nrrd map.nrrd", 1, "trained, but not in the table");
   expectRefused(training + "--classes word.csv t1.nrrd map.nrrd", 1, "word.csv:2: compartment");
