@@ -47,9 +47,9 @@ struct TubePath
 
 /// Traces a tube through `places` (world, mm), two or more in the order of the tube. The path enters no tube in
 /// `blocked`. Throws InputError for places outside the image, places that coincide along the tube, a place where no
-/// tube is found, if blocked tubes leave no way from one place to the next, and for fewer than four voxels along an axis
-/// unless the potential is Flux; UsageError if the smallest radius is above the largest. The result is bitwise the same
-/// for any number of threads.
+/// tube is found, if blocked tubes leave no way from one place to the next, and, unless the potential is Flux, for an
+/// image of fewer than four voxels along an axis; UsageError if the smallest radius is above the largest. The result is
+/// bitwise the same for any number of threads.
 TubePath traceTube(const ScalarImage& image, const std::vector<Vec3>& places, const std::vector<TubePath>& blocked,
                    const TubePathOptions& options, const Progress& progress = {});
 
