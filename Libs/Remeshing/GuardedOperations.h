@@ -180,8 +180,8 @@ public:
   // --- relabelling (Relabel.cxx)
   static constexpr double anyShare = std::numeric_limits<double>::infinity();
 
-  /// Changes the label of t to `label` if that lies beyond one of the faces of t and both labels keep their topology and
-  /// their manifold boundary: t is a simple point of both. With `mostLeft`, only if no more than that share of the
+  /// Changes the label of t to `label` if that lies beyond one of the faces of t and both labels keep their topology
+  /// and their manifold boundary: t is a simple point of both. With `mostLeft`, only if no more than that share of the
   /// squared distances between interface and samples, both ways, remains (Envelope::comesNearer).
   bool relabel(std::int32_t t, Label label, double minimumQuality, double mostLeft = anyShare);
 

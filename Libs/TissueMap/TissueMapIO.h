@@ -18,16 +18,15 @@
 namespace surgicalmesher
 {
 
-/// Reads NRRD, .seg.nrrd, NIfTI, MetaImage and GIPL. The axes are brought to LPS order (see TissueMap::grid). Lengths in
-/// cm, m or micrometres, by the header, become mm. A NIfTI file is placed by its sform, or by its qform if it has no
-/// sform of perpendicular axes. Segmentations: names
-/// and colours come from the header; several layers become one map, in which the later segment wins where two overlap,
-/// and labels are the header's values unless two layers share one: then 1, 2, 3 ... in the header's order. A segment's
-/// tag, as written by writeTissueMap(), marks null displacement. Floating-point values within 1e-4 of a label count as
-/// that label, since resampling and arithmetic produce such values. Refused: missing file, directory, truncated data,
-/// more than three dimensions (a fourth of size 1 is dropped), several components, non-integers, negative labels,
-/// labels over 65535, no voxel but background, more than 2^31 voxels, spacing that is not positive, axes that are not
-/// finite and perpendicular.
+/// Reads NRRD, .seg.nrrd, NIfTI, MetaImage and GIPL. The axes are brought to LPS order (see TissueMap::grid). Lengths
+/// in cm, m or micrometres, by the header, become mm. A NIfTI file is placed by its sform, or by its qform if it has no
+/// sform of perpendicular axes. Segmentations: names and colours come from the header; several layers become one map,
+/// in which the later segment wins where two overlap, and labels are the header's values unless two layers share one:
+/// then 1, 2, 3 ... in the header's order. A segment's tag, as written by writeTissueMap(), marks null displacement.
+/// Floating-point values within 1e-4 of a label count as that label, since resampling and arithmetic produce such
+/// values. Refused: missing file, directory, truncated data, more than three dimensions (a fourth of size 1 is
+/// dropped), several components, non-integers, negative labels, labels over 65535, no voxel but background, more than
+/// 2^31 voxels, spacing that is not positive, axes that are not finite and perpendicular.
 TissueMap readTissueMap(const std::string& file);
 
 /// Writes a compressed NRRD, or the format of the extension, in the frame of map.grid. An NRRD contains map.table in

@@ -69,8 +69,8 @@ struct ReplayResult
 using FrameObserver = std::function<void(double seconds, const std::vector<Vec3>& displacements)>;
 
 /// Replays the tools from the first time of any path to the last time of all. Throws InputError, with the number of the
-/// tool from 1, if a tool is out of reach of every child or is the second one at a child; as Surroundings does; if there
-/// are more than ten million steps; and if memory does not suffice for the dense matrix of an interface. Throws
+/// tool from 1, if a tool is out of reach of every child or is the second one at a child; as Surroundings does; if
+/// there are more than ten million steps; and if memory does not suffice for the dense matrix of an interface. Throws
 /// UsageError for options out of range.
 ReplayResult replay(const CoupledMesh& mesh, const std::vector<ToolPath>& tools, const ReplayOptions& options,
                     const FrameObserver& observer = {}, const Progress& progress = {});

@@ -21,7 +21,8 @@ struct SolverMesh
 
 /// Reads an Abaqus input deck. Throws InputError for an element type other than C3D4, C3D6, C3D8, S3 and S4 and their
 /// variants (C3D8R, ...), a repeated id, a missing node, or nodes in a system of coordinates other than the global
-/// rectangular one. A generated set has those of its ids that exist. Keywords that do not describe the mesh are ignored.
+/// rectangular one. A generated set has those of its ids that exist. Keywords that do not describe the mesh are
+/// ignored.
 SolverMesh readAbaqusMesh(const std::string& file);
 
 /// Reads Ansys node and element lists. A line of `nodeFile` has an id and three coordinates, either in columns of 8,

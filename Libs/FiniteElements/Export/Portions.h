@@ -14,8 +14,8 @@ struct Portion
   std::vector<std::int32_t> elements; ///< of the model; of shells, indices into their cells
 };
 
-/// Returns one portion per shape in the set or shell; if there are several shapes, the name is that of the set followed by the
-/// shape.
+/// Returns one portion per shape in the set or shell; if there are several shapes, the name is that of the set followed
+/// by the shape.
 std::vector<Portion> portionsOf(const FiniteElementModel& model, const ElementSet& set);
 std::vector<Portion> portionsOf(const Shell& shell);
 
