@@ -15,14 +15,17 @@ namespace
 {
 
 /// What follows `data file:` or `ElementDataFile =`. The stream then stands behind that line. Empty if there is no such
-/// line before the header's end.
-std::string dataField(std::istream& stream, char separator, const std::vector<std::string>& keys)
+/// line before the header's end, which an empty line is in NRRD alone.
+std::string dataField(std::istream& stream, bool isNRRD)
 {
-  for (std::string line; std::getline(stream, line) && !text::trimmed(line).empty();)
+  for (std::string line; std::getline(stream, line);)
   {
-    const std::size_t at = line.find(separator);
+    line = text::trimmed(line);
+    if (isNRRD && line.empty()) break;
+    const std::size_t at = line.find_first_of(isNRRD ? ":" : "=:");
+    if (at == std::string::npos) continue;
     const std::string key = text::lowerCase(text::trimmed(line.substr(0, at)));
-    if (at != std::string::npos && std::find(keys.begin(), keys.end(), key) != keys.end())
+    if (isNRRD ? key == "data file" || key == "datafile" : key == "elementdatafile")
       return text::trimmed(line.substr(at + 1));
   }
   return {};
@@ -88,8 +91,7 @@ std::vector<std::string> dataFilesOf(const std::string& header)
   const bool isNRRD = extension == ".nrrd" || extension == ".nhdr";
   if (!isNRRD && extension != ".mha" && extension != ".mhd") return {};
   std::ifstream stream(header, std::ios::binary);
-  const std::string field =
-    isNRRD ? dataField(stream, ':', { "data file", "datafile" }) : dataField(stream, '=', { "elementdatafile" });
+  const std::string field = dataField(stream, isNRRD);
   const std::filesystem::path folder = std::filesystem::path(header).parent_path();
   std::vector<std::string> files;
   for (const std::string& name : namesIn(stream, field)) files.push_back((folder / name).lexically_normal().string());

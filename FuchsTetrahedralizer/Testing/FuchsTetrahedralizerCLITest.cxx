@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ExecutableTest.h"
 #include "FaceAdjacency.h"
+#include "MeshChecks.h"
 #include "MeshIO.h"
+#include "MeshQuality.h"
 #include "Shapes.h"
 
 #include <filesystem>
@@ -277,6 +279,34 @@ TEST_F(FuchsTetrahedralizerCLI, Trial_B15_AMeshThatIsHeldStillIsSaid)
   EXPECT_NE(result.err.find("warning: target (1e+03, 0, 0) mm LPS lies outside the surface"), std::string::npos)
     << result.err;
   EXPECT_NE(result.err.find("warning: every tetrahedron is null displacement"), std::string::npos) << result.err;
+}
+
+TEST_F(FuchsTetrahedralizerCLI, SaysThatASurfaceWasMadeForOtherLengths)
+{
+  SurfaceFile ball;
+  ball.surface = sphere({ 0, 0, 0 }, 10, 3, 5);
+  ball.targetEdgeLength.assign(ball.surface.points.size(), 2);
+  writeSurface(ball, folder.file("made.vtp"));
+  expectDone("--edgeLength 3 made.vtp m.vtu");
+  expectDone("--edgeLength 5 ball.vtp m.vtu"); // which does not say what it was made for
+  const Outcome result = run("--edgeLength 5 made.vtp m.vtu");
+  EXPECT_EQ(result.status, 0);
+  EXPECT_NE(result.err.find("made for edges 0.4 times as long"), std::string::npos) << result.err;
+}
+
+// It moved by shares of L: by as much as it is large, where that is ten times as long.
+TEST_F(FuchsTetrahedralizerCLI, ATissueMuchSmallerThanLKeepsItsVolume)
+{
+  SurfaceFile small;
+  small.surface = sphere({ 0, 0, 0 }, 3, 0, 5);
+  small.boundaryDistance.assign(small.surface.points.size(), 0); // as of a map: no edge is watched
+  writeSurface(small, folder.file("small.vtp"));
+  const double volume = checkSurface(small.surface).at(5).volume;
+  for (const char* length : { "6", "12", "30" })
+  {
+    expectDone(std::string("--edgeLength ") + length + " small.vtp m.vtu");
+    EXPECT_NEAR(tissueVolumes(readMesh(folder.file("m.vtu")).mesh).at(5), volume, 0.06 * volume) << length;
+  }
 }
 
 // Columns were named in lower case, and kinds of files that are read were left out.

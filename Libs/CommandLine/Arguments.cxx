@@ -67,7 +67,8 @@ std::vector<std::string> splitFiles(const std::string& value)
 /// file, and also if a part of it cannot be meant as an output, for lack of an extension.
 std::vector<std::string> filesIn(const Parameter& parameter, const std::string& value)
 {
-  if (std::filesystem::exists(value)) return { value };
+  std::error_code error; // a list may be longer than a name
+  if (std::filesystem::exists(value, error)) return { value };
   std::vector<std::string> parts = splitFiles(value);
   const bool needsExtension = parameter.output && !parameter.extensions.empty();
   const auto isHalfAName = [](const std::string& part) { return !part.empty() && text::extensionOf(part).empty(); };

@@ -129,6 +129,7 @@ Replaced aboutToReplace(const std::string& path)
   const std::string second = (place.parent_path() / temporaryName("earlier." + place.filename().string())).string();
   removeOnSignal(second);
   std::error_code error;
+  fs::remove(second, error); // of a killed process with the same number
   fs::create_hard_link(path, second, error);
   return { path, error ? std::string() : second };
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 
 namespace surgicalmesher
 {
@@ -131,7 +132,8 @@ private:
   void cutCurve(std::size_t c)
   {
     std::vector<Cut>& cuts = m_Cuts[c];
-    std::sort(cuts.begin(), cuts.end(), [](const Cut& a, const Cut& b) { return a.s < b.s; });
+    std::sort(cuts.begin(), cuts.end(),
+              [](const Cut& a, const Cut& b) { return std::tie(a.s, a.node) < std::tie(b.s, b.node); });
     for (std::size_t n = 1; n < cuts.size(); ++n)
     {
       if (!(cuts[n].s > cuts[n - 1].s)) continue;

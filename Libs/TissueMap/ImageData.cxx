@@ -8,6 +8,7 @@
 #include <itk_zlib.h>
 #include <itksys/SystemTools.hxx>
 
+#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <limits>
@@ -202,6 +203,13 @@ void requireCredibleCompression(const DataBlock& block, std::uint64_t fileSize)
                    "\", expected no more than the file's " + std::to_string(fileSize) + " bytes");
 }
 
+/// Whether voxels are in a list of files, or in those that a pattern with numbers stands for.
+bool namesSeveralFiles(const DataBlock& block)
+{
+  const std::string name = std::filesystem::path(block.file).filename().string();
+  return name.compare(0, 4, "LIST") == 0 || name.find('%') != std::string::npos;
+}
+
 } // namespace
 
 void requireCredibleDimensions(const std::string& imageFile)
@@ -226,7 +234,8 @@ void requireCredibleDimensions(const std::string& imageFile)
 void requireImageData(const std::string& imageFile, std::uint64_t byteCount, std::uint64_t valueCount)
 {
   const DataBlock block = findData(imageFile);
-  if (isNRRD(imageFile) && !block.compressed && !block.isText) return; // its reader counts raw data itself
+  if (isNRRD(imageFile) && !block.compressed && (!block.isText || namesSeveralFiles(block)))
+    return; // its reader counts raw data itself
   std::ifstream stream(block.file.c_str(), std::ios::binary);
   if (!stream)
   {

@@ -27,8 +27,7 @@ Surroundings::Surroundings(Part part, std::vector<std::int32_t> interface)
   if (!m_Factor.factorize(withSprings(linearStiffness(m_Part.body), m_Interface, m_Spring)))
     throw InputError(
       "the equations around a child are singular: a piece hangs on nothing held and on no child, expected one body");
-  m_WithSprings = m_Factor.condensed();
-  m_Norton.stiffness = m_WithSprings;
+  m_Norton.stiffness = m_Factor.condensed();
   m_Norton.stiffness.diagonal().array() -= m_Spring;
   load(Eigen::VectorXd::Zero(m_Part.body.size()));
 }
@@ -37,13 +36,15 @@ void Surroundings::load(const Eigen::VectorXd& forces)
 {
   m_Forces = forces;
   // Without the child, the displacement w of the interface on its springs k satisfies (S + k) w = g.
-  m_Norton.force = m_WithSprings * m_Factor.solve(forces).col(0)(m_Interface);
+  const Eigen::VectorXd w = m_Factor.solve(forces).col(0)(m_Interface);
+  m_Norton.force = m_Norton.stiffness * w + m_Spring * w;
 }
 
 Eigen::VectorXd Surroundings::displacement(const Eigen::VectorXd& interface) const
 {
   Eigen::VectorXd forces = m_Forces;
-  forces(m_Interface) += m_WithSprings * interface - m_Norton.force; // of the child, and against the springs
+  // Of the child, and against the springs.
+  forces(m_Interface) += m_Norton.stiffness * interface + m_Spring * interface - m_Norton.force;
   return m_Factor.solve(forces);
 }
 

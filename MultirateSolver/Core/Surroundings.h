@@ -38,9 +38,8 @@ public:
 private:
   Part m_Part;
   std::vector<std::int32_t> m_Interface;
-  double m_Spring;               ///< N/mm, at each unknown of the interface
-  SparseCholesky m_Factor;       ///< with the springs
-  Eigen::MatrixXd m_WithSprings; ///< the stiffness of the Norton equivalent plus the springs
+  double m_Spring;         ///< N/mm, at each unknown of the interface
+  SparseCholesky m_Factor; ///< with the springs
   NortonEquivalent m_Norton;
   Eigen::VectorXd m_Forces;
 };

@@ -54,6 +54,7 @@ TEST_F(RunRecordTest, dataOfAHeaderAreWhatItNames)
             (Files{ path("in/s4"), path("in/s2"), path("in/s0") }));
   EXPECT_EQ(dataFilesOf(file("in/a.nrrd", nrrd + "\ndata file: not.a.field\n")), Files{});
   EXPECT_EQ(dataFilesOf(file("in/a.mhd", "NDims = 3\nElementDataFile = data/v.raw\n")), Files{ path("in/data/v.raw") });
+  EXPECT_EQ(dataFilesOf(file("in/a.mhd", "NDims = 3\n\nElementDataFile: v.raw\n")), Files{ path("in/v.raw") });
   EXPECT_EQ(dataFilesOf(file("in/a.mha", "NDims = 3\nElementDataFile = LOCAL\nElementDataFile = x\n")), Files{});
   EXPECT_EQ(dataFilesOf(file("in/a.nii", "data file: x\n")), Files{});
   EXPECT_EQ(dataFilesOf(path("in/none.nhdr")), Files{});
